@@ -1,0 +1,117 @@
+"""Rotors that strike: does a rotor on magnetic bearings that touches its touchdown bearing come back?
+
+The public names are loaded when they are first used, so ``import carom`` stays light. Each name lives in the module
+that :data:`_HOMES` gives; everything listed there can be had as an attribute of the package:
+
+>>> import carom as cm
+>>> machine = cm.Machine.load("examples/keogh-cole.toml")
+>>> orbits = cm.single_impact_orbits(cm.jeffcott(machine.parameters))
+
+The functions :func:`equilibria` and :func:`study` carry the name of the module they live in. The attribute of the
+package is always the function; the module is at hand as ``sys.modules["carom.equilibria"]`` and in
+``from carom.equilibria import ...``.
+"""
+
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from carom import plots as plots
+    from carom.equilibria import Equilibrium as Equilibrium
+    from carom.equilibria import equilibria as equilibria
+    from carom.maps import Section as Section
+    from carom.maps import impact_map as impact_map
+    from carom.orbits import Orbit as Orbit
+    from carom.orbits import OrbitSet as OrbitSet
+    from carom.orbits import period_condition as period_condition
+    from carom.orbits import single_impact_orbits as single_impact_orbits
+    from carom.outcome import CaromError as CaromError
+    from carom.outcome import InputError as InputError
+    from carom.outcome import Outcome as Outcome
+    from carom.parameters import Case as Case
+    from carom.parameters import Machine as Machine
+    from carom.parameters import Parameters as Parameters
+    from carom.parameters import Scales as Scales
+    from carom.parameters import Zones as Zones
+    from carom.parameters import load_case as load_case
+    from carom.rotors import Rotor as Rotor
+    from carom.rotors import jeffcott as jeffcott
+    from carom.stability import multipliers as multipliers
+    from carom.study import study as study
+    from carom.trajectories import State as State
+    from carom.trajectories import Trajectory as Trajectory
+    from carom.trajectories import kick as kick
+    from carom.trajectories import simulate as simulate
+
+    __version__: str
+
+_HOMES = {
+    "CaromError": "outcome",
+    "Case": "parameters",
+    "Equilibrium": "equilibria",
+    "InputError": "outcome",
+    "Machine": "parameters",
+    "Orbit": "orbits",
+    "OrbitSet": "orbits",
+    "Outcome": "outcome",
+    "Parameters": "parameters",
+    "Rotor": "rotors",
+    "Scales": "parameters",
+    "Section": "maps",
+    "State": "trajectories",
+    "Trajectory": "trajectories",
+    "Zones": "parameters",
+    "equilibria": "equilibria",
+    "impact_map": "maps",
+    "jeffcott": "rotors",
+    "kick": "trajectories",
+    "load_case": "parameters",
+    "multipliers": "stability",
+    "period_condition": "orbits",
+    "simulate": "trajectories",
+    "single_impact_orbits": "orbits",
+    "study": "study",
+}
+_SUBPACKAGES = ("plots",)
+
+__all__ = ["__version__", *_HOMES, *_SUBPACKAGES]
+
+
+class _Package(ModuleType):
+    """The package, whose public functions are not hidden by submodules of the same name.
+
+    Once a submodule is loaded, the import system binds it to an attribute of its package. Where a public name and its
+    home are called alike, the public name is bound instead, whoever imports the submodule and whenever.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if _HOMES.get(name) == name and isinstance(value, ModuleType):
+            value = getattr(value, name)
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name on first use (PEP 562) and keep it."""
+    value: Any
+    if name in _HOMES:
+        value = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    elif name in _SUBPACKAGES:
+        value = import_module(f"{__name__}.{name}")
+    elif name == "__version__":
+        from importlib.metadata import version
+
+        value = version(__name__)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """List the public names, loaded or not."""
+    return sorted({*globals(), *__all__})
