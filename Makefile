@@ -1,0 +1,68 @@
+# Everything runs in .venv, which holds the versions locked in requirements/ and is made when it is first needed.
+# `make help` lists the targets.
+
+BIN  := .venv/bin
+RUN  := .venv/run.stamp
+TEST := .venv/test.stamp
+
+# More arguments for pytest, as in: make test ARGS="-k grazing"
+ARGS :=
+
+PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help demo test check lint types layers format coverage bench lock clean distclean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1	\2/p' Makefile | awk -F '\t' '{ printf "make %-10s %s\n", $$1, $$2 }'
+
+demo: $(RUN) ## study the machine of examples/keogh-cole.toml
+	$(BIN)/carom study examples/keogh-cole.toml --out demo-output
+	@echo "Report: $(CURDIR)/demo-output/report.html"
+
+test: $(TEST) ## run the tests
+	$(PYTEST) $(ARGS)
+
+check: lint types layers ## check style, types and layers
+
+lint: $(TEST) ## check style and formatting
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+
+types: $(TEST) ## check types
+	$(BIN)/mypy
+
+layers: $(TEST) ## check that modules import only from the layers below them
+	$(BIN)/lint-imports
+
+format: $(TEST) ## format the code and mend what can be mended
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+coverage: $(TEST) ## run the tests with the compiler off and report what they cover
+	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not jit_only" --cov --cov-report=term-missing:skip-covered $(ARGS)
+
+bench: $(TEST) ## time carom beside its peers
+	$(BIN)/pytest -p benchmark --benchmark-only benchmarks $(ARGS)
+
+lock: ## lock the dependencies anew; ARGS=--upgrade takes the newest
+	tools/lock $(ARGS)
+
+clean: ## remove products and caches
+	rm -rf build dist demo-output htmlcov .coverage .coverage.* .benchmarks .hypothesis
+	rm -rf .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find src tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+
+distclean: clean ## remove the environment as well
+	rm -rf .venv
+
+# Stamps: an environment is made anew when its lock file, or how it is made, changes.
+$(RUN): requirements/run.txt pyproject.toml tools/environment
+	tools/environment requirements/run.txt
+	@touch $@
+
+# requirements/test.txt holds all of requirements/run.txt.
+$(TEST): requirements/test.txt pyproject.toml tools/environment
+	tools/environment requirements/test.txt
+	@touch $(RUN) $@
