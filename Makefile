@@ -52,7 +52,7 @@ lock: ## lock the dependencies anew; ARGS=--upgrade takes the newest
 clean: ## remove products and caches
 	rm -rf build dist demo-output htmlcov .coverage .coverage.* .benchmarks .hypothesis
 	rm -rf .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
-	find src tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+	find . -path ./.venv -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 
 distclean: clean ## remove the environment as well
 	rm -rf .venv
