@@ -1,0 +1,169 @@
+"""What a kernel may see, and the one decorator that says how kernels compile."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import TypeVar
+
+import numba
+import numpy as np
+from numba.core import config
+from platformdirs import user_cache_path
+
+__all__ = ["DEGREE", "kernel", "rotor_record", "table_record", "workspace"]
+
+Kernel = TypeVar("Kernel", bound=Callable[..., object])
+
+DEGREE = 8
+"""Degree of the Bernstein polynomials that stand for ``|y|² − 1`` on a block of flight."""
+
+
+def rotor_record(
+    *,
+    exponents: np.ndarray,
+    driven: np.ndarray,
+    offsets: np.ndarray,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    friction: np.ndarray,
+    restitution: np.ndarray,
+    drive: np.ndarray,
+) -> np.record:
+    """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
+
+    The displacement at plane ``p``, in units of that plane's clearance, is
+    ``y_p(t) = offsets[p] + Σ_k rows[p, k] c_k(t)``, where the amplitudes obey ``ċ_k = λ_k c_k`` for a free-standing mode
+    and ``ċ_k = λ_k c_k + c_{k−1}`` for a driven one.  A driven mode and the one before it form a pair, which stays well
+    conditioned when their exponents meet (critical damping).  Forcing with an exponent of its own (gravity seen in the
+    co-rotating frame, say) is a mode whose ``columns`` are zero.
+
+    Parameters
+    ----------
+    exponents : ndarray of complex, shape (N,)
+        ``λ_k`` in units of the shaft speed.
+    driven : ndarray of bool, shape (N,)
+        Whether mode ``k`` is driven by mode ``k − 1``; then ``Re λ_k ≥ Re λ_{k−1}`` and ``k − 1`` is not driven itself.
+    offsets : ndarray of complex, shape (P,)
+        Constant displacement of the planes.
+    rows : ndarray of complex, shape (P, N)
+        Displacement at the planes per amplitude.
+    columns : ndarray of complex, shape (N, P)
+        Change of the amplitudes per unit change of velocity that an impulse makes at a plane.
+    friction, restitution : ndarray, shape (P,)
+        Coulomb friction coefficient and coefficient of restitution of the planes.
+    drive : ndarray, shape (P,)
+        Slip velocity of a rotor at rest in this frame, in clearances per unit time.
+
+    Returns
+    -------
+    numpy.record
+        The arguments and what follows from them: ``gaps`` and ``inverse_gaps`` (``λ_k − λ_{k−1}`` of the pairs),
+        ``rate_rows`` and ``acceleration_rows`` (velocity and acceleration at the planes per amplitude), ``weights``
+        (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile time: kernels run six
+        times as fast as on a tuple of arrays.
+    """
+    modes = len(exponents)
+    generator = np.diag(exponents)
+    gaps = np.zeros(modes, np.complex128)
+    for k in np.flatnonzero(driven):
+        generator[k, k - 1] = 1.0
+        gaps[k] = exponents[k] - exponents[k - 1]
+    inverse_gaps = np.zeros(modes, np.complex128)
+    np.divide(1.0, gaps, out=inverse_gaps, where=gaps != 0)
+    return _record(
+        exponents=exponents,
+        driven=np.asarray(driven, np.int8),
+        gaps=gaps,
+        inverse_gaps=inverse_gaps,
+        offsets=offsets,
+        rows=rows,
+        rate_rows=rows @ generator,
+        acceleration_rows=rows @ generator @ generator,
+        columns=columns,
+        weights=(np.abs(rows) ** 2).sum(axis=1),
+        friction=friction,
+        restitution=restitution,
+        drive=drive,
+    )
+
+
+def table_record(duration: float, coefficients: np.ndarray, errors: np.ndarray, bounds: np.ndarray) -> np.record:
+    """Constants of a block of flight that depend on the exponents alone; see :mod:`carom.core.table`.
+
+    Parameters
+    ----------
+    duration : float
+        Length of a block.
+    coefficients : ndarray, shape (Q, DEGREE), Q = 2N + N²
+        Bernstein coefficients 1 … DEGREE of the products of basis functions.
+    errors : ndarray, shape (Q,)
+        Bound of the approximation error at the end of the block, per row of ``coefficients``.
+    bounds : ndarray, shape (3, N)
+        Largest modulus on the block of the first three derivatives of the basis functions.
+    """
+    return _record(duration=np.asarray(duration), coefficients=coefficients, errors=errors, bounds=bounds)
+
+
+def workspace(modes: int) -> np.record:
+    """Scratch arrays of a kernel call for that many modes; they carry nothing from one call to the next."""
+    vectors = ("current", "arrival", "nearest", "increments", "amplitudes")
+    return _record(
+        **{name: np.zeros(modes, np.complex128) for name in vectors},
+        products=np.zeros(2 * modes + modes**2),
+        polynomial=np.zeros(DEGREE),
+    )
+
+
+def _record(**fields: np.ndarray) -> np.record:
+    layout = [(name, values.dtype, values.shape) for name, values in fields.items()]
+    table = np.zeros(1, np.dtype(layout, align=True)).view(np.recarray)
+    for name, values in fields.items():
+        table[name][0] = values
+    record: np.record = table[0]
+    return record
+
+
+def kernel(function: Kernel) -> Kernel:
+    """Compile a kernel: no Python objects, IEEE arithmetic, kept in a disk cache.
+
+    Numba's own cache does not notice an edit in a callee of another file, so the cache directory is keyed by a hash of
+    all of ``core/``.  Where no cache directory can be written the kernel is compiled anew in each process.
+    """
+    options = {"nopython": True, "error_model": "numpy", "fastmath": {"contract"}}
+    directory = _cache_directory()
+    if directory is None:
+        return numba.jit(**options)(function)
+    configured = config.CACHE_DIR
+    config.CACHE_DIR = str(directory)
+    try:
+        return numba.jit(cache=True, **options)(function)
+    finally:
+        config.CACHE_DIR = configured
+
+
+@cache
+def _cache_directory() -> Path | None:
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(source.read_bytes())
+    roots = [user_cache_path("carom"), Path(tempfile.gettempdir()) / f"carom-{_user()}"]
+    if chosen := os.environ.get("CAROM_CACHE_DIR") or config.CACHE_DIR:
+        roots.insert(0, Path(chosen))
+    for root in roots:
+        directory = root / "kernels" / digest.hexdigest()[:16]
+        try:
+            directory.mkdir(parents=True, exist_ok=True, mode=0o700)
+            with tempfile.TemporaryFile(dir=directory):
+                return directory
+        except OSError:
+            continue
+    return None
+
+
+def _user() -> str:
+    return str(os.getuid()) if hasattr(os, "getuid") else os.environ.get("USERNAME", "user")

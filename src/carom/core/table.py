@@ -1,0 +1,129 @@
+"""Constants of a block of flight: what the certified crossing search needs and only the exponents decide.
+
+On a block, a flight that starts at ``y₀`` moves as ``y(τ) = y₀ + Σ_k α_k ψ_k(τ)`` with basis functions that vanish at
+``τ = 0``: ``e^{λτ} − 1`` for a free-standing or driven mode and the divided difference ``φ`` (see
+:mod:`carom.core.flow`) in place of a driving one.  Then
+
+    |y|² − 1 = |y₀|² − 1 + Σ_k 2 Re(ȳ₀ α_k ψ_k) + Σ_k |α_k|² |ψ_k|² + Σ_{j<k} 2 Re(α_j ᾱ_k ψ_j ψ̄_k)
+
+is linear in ``2N + N²`` real products, and so are its Bernstein coefficients: one fixed matrix, made here.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from math import comb
+
+import numpy as np
+
+from carom.core.layout import DEGREE, table_record
+
+__all__ = ["flight_table"]
+
+LONGEST_BLOCK = 3.0
+LARGEST_PHASE = 5.3
+"""Largest ``|λ|`` times the length of a block.  Measured: docs/decisions/002."""
+SAMPLES = 48
+"""Chebyshev points at which the basis is sampled.
+
+With ``|λ|T ≤ 5.3`` the sampled functions are entire of exponential type at most 10.6 per block, so their Chebyshev
+coefficients of order 48 and above are below 1e-30 and the computed tail is the whole tail.
+"""
+
+
+def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
+    """Table of a rotor with these exponents.
+
+    Parameters
+    ----------
+    exponents : ndarray of complex, shape (N,)
+    driven : ndarray of bool, shape (N,)
+
+    Returns
+    -------
+    numpy.record
+        See :func:`~carom.core.layout.table_record`.
+    """
+    fastest = np.abs(exponents).max()
+    duration = min(LONGEST_BLOCK, LARGEST_PHASE / fastest) if fastest > 0 else LONGEST_BLOCK
+    coarse = _chebyshev_points(DEGREE)
+    fine = _chebyshev_points(SAMPLES)
+    at_nodes = _rows(exponents, driven, coarse * duration) * duration
+    coefficients = at_nodes @ _bernstein_from_nodes().T * (np.arange(1, DEGREE + 1) / DEGREE)
+    series = np.abs(_rows(exponents, driven, fine * duration) @ _chebyshev_transform().T) * duration
+    # Interpolation in DEGREE Chebyshev points errs by at most twice the tail of the series; the second term covers
+    # the rounding of the coefficients themselves.
+    errors = 2.0 * series[:, DEGREE:].sum(axis=1) + 1e-14 * series.sum(axis=1)
+    return table_record(duration, coefficients, errors, _derivative_bounds(exponents, driven, duration))
+
+
+def _rows(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Real factors of the products in ``(|y|² − |y₀|²)/τ``, shape (2N + N², len(times))."""
+    basis = _basis(exponents, driven, times)
+    rows = []
+    for values in basis:
+        rows += [2.0 * values.real / times, -2.0 * values.imag / times]
+    for j, values in enumerate(basis):
+        rows.append(np.abs(values) ** 2 / times)
+        for other in basis[j + 1 :]:
+            product = values * other.conj()
+            rows += [2.0 * product.real / times, -2.0 * product.imag / times]
+    return np.array(rows)
+
+
+def _basis(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> list[np.ndarray]:
+    basis = []
+    for k, exponent in enumerate(exponents):
+        if k + 1 < len(exponents) and driven[k + 1]:
+            gap = exponents[k + 1] - exponent
+            response = times if gap == 0 else -_expm1(-gap * times) / gap
+            basis.append(np.exp(exponents[k + 1] * times) * response)
+        else:
+            basis.append(_expm1(exponent * times))
+    return basis
+
+
+def _expm1(z: np.ndarray) -> np.ndarray:
+    sine = np.sin(0.5 * z.imag)
+    growth = np.expm1(z.real)
+    return growth - 2.0 * sine**2 * (1.0 + growth) + 2j * (1.0 + growth) * sine * np.cos(0.5 * z.imag)
+
+
+def _derivative_bounds(exponents: np.ndarray, driven: np.ndarray, duration: float) -> np.ndarray:
+    """``|ψ⁽ⁿ⁾| ≤ |λ|ⁿ g`` for an exponential and ``(T|λ|ⁿ + n|λ|ⁿ⁻¹) g`` for ``φ = t ∫₀¹ e^{λ_s t} ds``.
+
+    ``g`` is the growth of the fastest growing exponential over the block and ``λ_s`` runs between the pair's exponents.
+    """
+    bounds = np.empty((3, len(exponents)))
+    for k, exponent in enumerate(exponents):
+        drives = k + 1 < len(exponents) and driven[k + 1]
+        pair = [exponent, exponents[k + 1]] if drives else [exponent]
+        largest = max(abs(value) for value in pair)
+        growth = np.exp(max(0.0, *(value.real * duration for value in pair)))
+        for n in (1, 2, 3):
+            polynomial = duration * largest**n + n * largest ** (n - 1) if drives else largest**n
+            bounds[n - 1, k] = polynomial * growth
+    return bounds
+
+
+@cache
+def _chebyshev_points(count: int) -> np.ndarray:
+    return 0.5 - 0.5 * np.cos(np.pi * (np.arange(count) + 0.5) / count)
+
+
+@cache
+def _bernstein_from_nodes() -> np.ndarray:
+    """Matrix from values at DEGREE Chebyshev points to Bernstein coefficients of degree DEGREE − 1."""
+    x = _chebyshev_points(DEGREE)[:, None]
+    j = np.arange(DEGREE)
+    binomials = np.array([comb(DEGREE - 1, i) for i in j])
+    return np.linalg.inv(binomials * x**j * (1.0 - x) ** (DEGREE - 1 - j))
+
+
+@cache
+def _chebyshev_transform() -> np.ndarray:
+    order = np.arange(SAMPLES)[:, None]
+    angles = np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES
+    transform = np.cos(order * (np.pi - angles)) * 2.0 / SAMPLES
+    transform[0] *= 0.5
+    return transform

@@ -1,0 +1,115 @@
+"""Rotors: from parameters to the arrays that the kernels see."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom.core.layout import rotor_record
+from carom.core.table import flight_table
+from carom.parameters import Parameters, Scales
+
+if TYPE_CHECKING:
+    from carom.parameters import Machine
+
+__all__ = ["Rotor", "jeffcott"]
+
+
+@dataclass(frozen=True, eq=False)
+class Rotor:
+    """A linear rotor inside a circular clearance, ready for the kernels.
+
+    Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.
+
+    Attributes
+    ----------
+    arrays : numpy.record
+        Modes, contact plane and contact law (:func:`~carom.core.layout.rotor_record`).
+    table : numpy.record
+        Constants of the certified crossing search (:func:`~carom.core.layout.table_record`).
+    parameters : Parameters
+        The dimensionless parameters it was made from.
+    """
+
+    arrays: np.record
+    table: np.record
+    parameters: Parameters
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that turn results into SI units, if known."""
+        return self.parameters.scales
+
+    @property
+    def equilibrium(self) -> complex:
+        """Contact-free equilibrium position ``U*``; it may lie outside the clearance."""
+        return complex(self.arrays.offsets[0])
+
+    @property
+    def eigenvalues(self) -> np.ndarray:
+        """Exponents ``λ`` of free flight, shape (2,)."""
+        return self.arrays.exponents
+
+    def amplitudes(self, position: complex, velocity: complex) -> np.ndarray:
+        """Mode amplitudes of a state.
+
+        Parameters
+        ----------
+        position, velocity : complex
+            ``U`` and ``U̇`` in the co-rotating frame.
+
+        Returns
+        -------
+        ndarray of complex, shape (2,)
+            The driving amplitude ``b = U̇ − λ₊(U − U*)``, which decays with ``λ₋``, and the driven ``a = U − U*``.
+        """
+        shift = position - self.equilibrium
+        return np.array([velocity - self.arrays.exponents[1] * shift, shift], np.complex128)
+
+    def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Position and velocity of mode amplitudes, shape (..., 2), each of shape (...)."""
+        position = amplitudes @ self.arrays.rows[0] + self.arrays.offsets[0]
+        return position, amplitudes @ self.arrays.rate_rows[0]
+
+
+def jeffcott(machine: Parameters | Machine) -> Rotor:
+    """Rigid rotor on a linear isotropic bearing inside a circular clearance (Föppl–Jeffcott rotor).
+
+    In the co-rotating frame ``Ü + (γ + 2i)U̇ + (ω² − 1 + iγ)U = ρe^{iφ}`` [1]_ (2.13), with the exponents
+    ``λ± = (−γ − 2i ± √(γ² − 4ω²))/2``.  The two modes are a pair (see :func:`~carom.core.layout.rotor_record`), so any
+    damping is treated alike: underdamped, critical and overdamped.
+
+    Parameters
+    ----------
+    machine : Parameters or Machine
+
+    Returns
+    -------
+    Rotor
+
+    References
+    ----------
+    .. [1] Mora, Budd, Glendinning, Keogh, "Non-smooth Hopf-type bifurcations arising from impact–friction contact
+       events in rotating machinery", Proc. R. Soc. A 470 (2014).
+    """
+    parameters = machine if isinstance(machine, Parameters) else machine.parameters
+    gamma, omega = parameters.gamma, parameters.omega
+    # (γ − 2ω)(γ + 2ω) keeps the split of the exponents accurate near critical damping.
+    split = cmath.sqrt(complex((gamma - 2.0 * omega) * (gamma + 2.0 * omega)))
+    fast, slow = 0.5 * (-gamma - 2j - split), 0.5 * (-gamma - 2j + split)
+    exponents = np.array([fast, slow])
+    stiffness = complex(omega**2 - 1.0, gamma)
+    arrays = rotor_record(
+        exponents=exponents,
+        driven=np.array([False, True]),
+        offsets=np.array([cmath.rect(parameters.rho, parameters.phi) / stiffness]),
+        rows=np.array([[0.0, 1.0]], np.complex128),
+        columns=np.array([[1.0], [0.0]], np.complex128),
+        friction=np.array([parameters.mu]),
+        restitution=np.array([parameters.d]),
+        drive=np.array([parameters.radius_ratio + 1.0]),
+    )
+    return Rotor(arrays, flight_table(arrays.exponents, arrays.driven), parameters)
