@@ -1,0 +1,32 @@
+"""Parameters of a rotor: SI units and text at the door, dimensionless numbers behind it.
+
+========================  =================================================================
+``fields``                names, symbols, units and ranges of all numbers
+``quantities``            text with units -> float in SI units
+``toml_reader``           file -> raw tables
+``scaling``               :class:`Scales`, :class:`Parameters`
+``machine``               :class:`Machine` and the way to its parameters and back
+``machine_file``          :func:`load_case`: file and settings -> :class:`Case`
+========================  =================================================================
+"""
+
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Field, unknown_name
+from carom.parameters.machine import Machine
+from carom.parameters.machine_file import Case, Zones, load_case
+from carom.parameters.quantities import read_quantity
+from carom.parameters.scaling import Parameters, Scales
+
+__all__ = [
+    "DIMENSIONLESS_FIELDS",
+    "MACHINE_FIELDS",
+    "PHYSICAL_PARTNER",
+    "Case",
+    "Field",
+    "Machine",
+    "Parameters",
+    "Scales",
+    "Zones",
+    "load_case",
+    "read_quantity",
+    "unknown_name",
+]

@@ -1,0 +1,193 @@
+"""The numbers that describe a machine: their names, symbols, units and the ranges carom can treat.
+
+Tables, error messages and the command line all read these entries, so a name or a limit is written once.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from carom.outcome import InputError
+
+__all__ = ["DIMENSIONLESS_FIELDS", "MACHINE_FIELDS", "PHYSICAL_PARTNER", "Field", "shown", "unknown_name"]
+
+_LONGEST_SHOWN = 160
+
+
+@dataclass(frozen=True)
+class Field:
+    """One number of a machine: what it is called, its SI unit and its range.
+
+    Parameters
+    ----------
+    name : str
+        Name in a machine file, on the command line and in Python.
+    symbol : str
+        Symbol of the source paper, for tables and figures.
+    words : str
+        What it is, in words.
+    kind : str
+        Kind of quantity, with its article ("a mass"), for error messages.
+    unit : str
+        SI unit; empty for a pure number.
+    lowest, highest : float
+        Range of the number in that unit, both ends allowed.
+    example : str
+        A value as a user would write it in a machine file.
+    zero : bool
+        Zero is allowed too although it lies outside the range.
+    formula : str
+        Definition of a dimensionless number by physical ones.
+    """
+
+    name: str
+    symbol: str
+    words: str
+    kind: str
+    unit: str
+    lowest: float
+    highest: float
+    example: str
+    zero: bool = False
+    formula: str = ""
+
+    @property
+    def allowed(self) -> str:
+        """What a user may write here, as the end of an error message."""
+        limits = f"{self.lowest:g} to {self.highest:g}"
+        if self.zero:
+            limits = f">= 0 (0, or {limits})"
+        elif self.lowest > 0:
+            limits = f"> 0 ({limits})"
+        unit = f" in {self.unit}" if self.unit else ""
+        return f"must be {self.kind}{unit}, {limits}, such as {self.example}"
+
+    def contains(self, number: float) -> bool:
+        """Whether a number in the field's SI unit is allowed; never true of NaN."""
+        return (self.zero and number == 0.0) or self.lowest <= number <= self.highest
+
+    def error(self, given: object, reason: str = "") -> InputError:
+        """Error for a value that cannot be used; `reason` says what is wrong with it beyond its range."""
+        return InputError(self.name, shown(given), f"{self.allowed}; {reason}" if reason else self.allowed)
+
+    def check(self, number: float, given: object) -> float:
+        """Return `number` if it is finite and in range.
+
+        Parameters
+        ----------
+        number : float
+            Value in the field's SI unit.
+        given : object
+            What the user wrote, for the message.
+
+        Returns
+        -------
+        float
+            The same number; a negative zero becomes zero.
+
+        Raises
+        ------
+        InputError
+            If the number is NaN, infinite or out of range.
+        """
+        if not math.isfinite(number):
+            raise self.error(given, "this is not a finite number")
+        if not self.contains(number):
+            raise self.error(given, "this is too close to 0" if self.zero and 0 < number < self.lowest else "")
+        return number + 0.0
+
+
+def _by_name(*fields: Field) -> dict[str, Field]:
+    return {field.name: field for field in fields}
+
+
+def _pure(name: str, symbol: str, words: str, lowest: float, highest: float, example: str, formula: str = "") -> Field:
+    return Field(name, symbol, words, "a number", "", lowest, highest, example, formula=formula)
+
+
+# Ranges: far wider than any machine from a micro-turbine to a hydro generator, and narrow enough that every
+# product the scaling needs (mass * speed**2 and the like) stays a normal double with all its digits.
+MACHINE_FIELDS: Mapping[str, Field] = _by_name(
+    Field("mass", "m", "rotor mass", "a mass", "kg", 1e-9, 1e9, '"50 kg"'),
+    Field("damping", "c", "damping of the levitation", "a damping", "N s/m", 1e-30, 1e30, '"1400 N s/m"', zero=True),
+    Field("stiffness", "k", "stiffness of the levitation", "a stiffness", "N/m", 1e-30, 1e30, '"9.8e5 N/m"'),
+    Field("eccentricity", "e_c", "eccentricity of the unbalance", "a length", "m", 1e-30, 1e6, '"0.3 mm"', zero=True),
+    Field("clearance", "c_r", "radius of the clearance circle", "a length", "m", 1e-9, 1e3, '"0.7 mm"'),
+    Field("rotor_radius", "R", "rotor radius at the contact", "a length", "m", 1e-9, 1e6, '"40 mm"'),
+    Field("speed", "Ω", "rotational speed", "an angular speed", "rad/s", 1e-6, 1e6, '"1759 rpm"'),
+    # Beyond a million radians the spacing of doubles becomes visible in the angle: a slip of the pen, not a phase.
+    Field("unbalance_phase", "φ", "phase of the unbalance", "an angle", "rad", -1e6, 1e6, '"12 deg"'),
+    _pure("friction", "μ", "coefficient of friction", 0.0, 10.0, "0.15"),
+    _pure("restitution", "d", "coefficient of restitution", 0.0, 1.0, "0.95"),
+)
+"""Entries of a ``[machine]`` table, in SI units."""
+
+# Ranges: exponents and forcing of order 1e3 per 1/Ω still leave the flight kernel many digits; a rotor outside
+# them does not bounce on the time scale of its rotation, which is what the equations are scaled for.
+DIMENSIONLESS_FIELDS: Mapping[str, Field] = _by_name(
+    _pure("gamma", "γ", "scaled damping", -1e3, 1e3, "0.1", "damping/(mass speed)"),
+    _pure("omega", "ω", "natural frequency over speed", 1e-3, 1e3, "0.76", "sqrt(stiffness/(mass speed^2))"),
+    _pure("rho", "ρ", "eccentricity over clearance", 0.0, 1e3, "0.43", "eccentricity/clearance"),
+    Field("phi", "φ", "phase of the unbalance", "an angle", "rad", -1e6, 1e6, "0.21", formula="unbalance_phase"),
+    _pure("mu", "μ", "coefficient of friction", 0.0, 10.0, "0.15", "friction"),
+    _pure("d", "d", "coefficient of restitution", 0.0, 1.0, "0.95", "restitution"),
+    _pure("radius_ratio", "R/c_r", "rotor radius over clearance", 1e-3, 1e9, "57.1", "rotor_radius/clearance"),
+)
+"""Entries of a ``[dimensionless]`` table; (2.12) of the source paper defines the first three."""
+
+PHYSICAL_PARTNER: Mapping[str, str] = {
+    "gamma": "damping",
+    "omega": "stiffness",
+    "rho": "eccentricity",
+    "phi": "unbalance_phase",
+    "mu": "friction",
+    "d": "restitution",
+    "radius_ratio": "rotor_radius",
+}
+"""The field of a machine that follows each dimensionless number while mass, speed and clearance stay."""
+
+_PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
+
+
+def shown(given: object) -> str:
+    """Return a value as an error message prints it: on one line, without control characters, never empty."""
+    if isinstance(given, bool):
+        return str(given).lower()
+    try:
+        text = str(given)
+    except ValueError:  # an integer of more digits than Python is willing to print
+        return "a number of thousands of digits"
+    text = text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 1] + "…"
+    return text if text.isprintable() and text.strip() else ascii(text)
+
+
+def unknown_name(name: str, given: object, known: Mapping[str, object], where: str) -> InputError:
+    """Error for a name that does not exist, with the nearest name that does.
+
+    Parameters
+    ----------
+    name : str
+        The name the user wrote.
+    given : object
+        The value that came with it.
+    known : mapping
+        The names allowed there; the symbol or the partner (``gamma`` for ``damping``) of a name is recognised too.
+    where : str
+        Where the name stood, for example ``"[machine]"``.
+
+    Returns
+    -------
+    InputError
+        To be raised by the caller.
+    """
+    symbols = {field.symbol: key for key, field in known.items() if isinstance(field, Field)}
+    lookup = {key.lower(): key for key in known}
+    wanted = name.strip().lower().replace("-", "_").replace(" ", "_")
+    near = difflib.get_close_matches(wanted, lookup, n=1, cutoff=0.6)
+    partner = _PARTNERS.get(wanted)
+    best = symbols.get(name) or (partner if partner in known else lookup[near[0]] if near else None)
+    advice = f"did you mean {best}? " if best else ""
+    return InputError(shown(name), shown(given), f"unknown name in {where}; {advice}allowed: {', '.join(known)}")

@@ -1,0 +1,288 @@
+"""The machine in SI units, and its way to the dimensionless parameters and back."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Context, Decimal, localcontext
+from typing import Any, Self
+
+import pydantic
+
+from carom.outcome import InputError
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, shown, unknown_name
+from carom.parameters.quantities import read_quantity
+from carom.parameters.scaling import Parameters, Scales
+from carom.parameters.toml_reader import read_machine_tables
+
+__all__ = ["Machine", "check_names"]
+
+
+class Machine(pydantic.BaseModel):
+    """A rotor, its levitation and its touchdown bearing, in SI units.
+
+    Every value is a number in the SI unit below, or text with a unit such as ``"1759 rpm"`` or ``"0.3 mm"``; the
+    ranges are those of :data:`carom.parameters.fields.MACHINE_FIELDS`. Instances are immutable and hashable.
+
+    Parameters
+    ----------
+    mass : float or str
+        Rotor mass m, kg.
+    damping : float or str
+        Damping c of the levitation, N s/m; not negative.
+    stiffness : float or str
+        Stiffness k of the levitation, N/m.
+    eccentricity : float or str
+        Distance e_c of the mass centre from the geometric centre, m.
+    clearance : float or str
+        Radius c_r of the circle in which the rotor centre is free to move, m.
+    rotor_radius : float or str
+        Radius R of the rotor where it touches, m.
+    speed : float or str
+        Rotational speed Ω, rad/s; text in rpm, rev/s, rad/s or deg/s.
+    unbalance_phase : float or str
+        Phase φ of the unbalance, rad.
+    friction : float or str
+        Coefficient μ of friction between rotor and touchdown bearing.
+    restitution : float or str
+        Coefficient d of restitution of the impacts, 0 to 1.
+
+    Raises
+    ------
+    InputError
+        If a field is missing, unknown, of another dimension, out of range, or if the machine as a whole has a
+        dimensionless parameter out of range.
+    """
+
+    model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
+
+    mass: float
+    damping: float
+    stiffness: float
+    eccentricity: float
+    clearance: float
+    rotor_radius: float
+    speed: float
+    unbalance_phase: float
+    friction: float
+    restitution: float
+
+    def __init__(self, /, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except pydantic.ValidationError as problem:
+            raise _input_error(problem, values) from None
+
+    @pydantic.field_validator("*", mode="before")
+    @classmethod
+    def _read(cls, given: object, info: pydantic.ValidationInfo) -> float:
+        return read_quantity(MACHINE_FIELDS[str(info.field_name)], given)
+
+    @pydantic.model_validator(mode="after")
+    def _check_parameters(self) -> Self:
+        for name, link in _LINKS.items():
+            field, number = DIMENSIONLESS_FIELDS[name], link.forward(getattr(self, link.physical), self.scales)
+            if not field.contains(number):
+                limits = f"{field.lowest:g} to {field.highest:g}"
+                allowed = f"must make {name} = {field.formula} lie within {limits}; here it is {number:g}"
+                raise InputError(link.physical, getattr(self, link.physical), allowed)
+        return self
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Machine:
+        """Read the ``[machine]`` table of a TOML file.
+
+        Parameters
+        ----------
+        path : path
+            The machine file.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read, is not TOML, holds no ``[machine]`` table, or a value is not allowed.
+        """
+        tables = read_machine_tables(path)
+        if tables.kind != "machine":
+            remedy = "must hold a [machine] table; a [dimensionless] one has no mass, clearance and speed"
+            raise InputError("machine file", shown(path), remedy)
+        return cls(**tables.values)
+
+    @classmethod
+    def from_parameters(cls, parameters: Parameters, scales: Scales | None = None) -> Machine:
+        """Return the machine that has the given dimensionless parameters.
+
+        Parameters
+        ----------
+        parameters : Parameters
+            The dimensionless numbers.
+        scales : Scales, optional
+            Mass, clearance and speed; those of `parameters` if left out.
+
+        Returns
+        -------
+        Machine
+            A machine whose own parameters equal the given ones in every bit where doubles allow that, and to one
+            unit in the last place otherwise. Of several such machines the one with the shortest decimal numbers:
+            a machine given by up to 15 significant digits comes back as it was.
+
+        Raises
+        ------
+        InputError
+            If there are no scales, or a physical value (a negative damping, say) is not allowed.
+        """
+        scales = scales or parameters.scales
+        if scales is None:
+            raise InputError("scales", None, "these parameters have none: give mass, clearance and speed")
+        values = {link.physical: link.solve(getattr(parameters, name), scales) for name, link in _LINKS.items()}
+        return cls(**values, mass=scales.mass, clearance=scales.clearance, speed=scales.speed)
+
+    @property
+    def scales(self) -> Scales:
+        """Mass, clearance and speed as units of everything else."""
+        return Scales(self.mass, self.clearance, self.speed)
+
+    @property
+    def parameters(self) -> Parameters:
+        """Dimensionless parameters of this machine, with its scales; (2.12) of the source paper."""
+        scales = self.scales
+        numbers = {name: link.forward(getattr(self, link.physical), scales) for name, link in _LINKS.items()}
+        return Parameters(**numbers, scales=scales)
+
+    def replace(self, /, **changes: Any) -> Machine:
+        """Return a copy with other values, physical or dimensionless.
+
+        Parameters
+        ----------
+        **changes
+            New values by the names of machine fields or of dimensionless parameters. Physical ones are set first;
+            a dimensionless one then keeps mass, speed and clearance and sets its partner (``gamma`` sets
+            ``damping``, ``omega`` ``stiffness``, ``rho`` ``eccentricity``, ...), as near as a double allows.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown, a value not allowed, or a field is set in two ways.
+        """
+        check_names(changes)
+        fields = {**self.model_dump(), **{name: changes[name] for name in changes if name in MACHINE_FIELDS}}
+        machine = Machine(**fields)
+        given = {name: changes[name] for name in changes if name in DIMENSIONLESS_FIELDS}
+        solved = {}
+        for name, value in given.items():
+            number = read_quantity(DIMENSIONLESS_FIELDS[name], value)
+            solved[PHYSICAL_PARTNER[name]] = _LINKS[name].solve(number, machine.scales)
+        try:
+            return Machine(**{**machine.model_dump(), **solved})
+        except InputError as problem:
+            for name, value in given.items():
+                if PHYSICAL_PARTNER[name] == problem.field:
+                    advice = f"sets {problem.field} to {problem.value}, which {problem.allowed}"
+                    raise InputError(name, shown(value), advice) from None
+            raise
+
+    def to_toml(self) -> str:
+        """Return the text of a machine file that :meth:`load` reads back to an equal machine."""
+        lines = ["[machine]"]
+        for name, field in MACHINE_FIELDS.items():
+            number = repr(getattr(self, name))
+            value = f'"{number} {field.unit}"' if field.unit else number
+            lines.append(f"{name} = {value}  # {field.symbol}: {field.words}")
+        return "\n".join(lines) + "\n"
+
+
+def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
+    """Check that names are machine fields or dimensionless parameters, and that no two set the same thing.
+
+    Parameters
+    ----------
+    changes : iterable or mapping
+        The names; of a mapping the values appear in the message.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or both ``damping`` and ``gamma`` (say) are there.
+    """
+    values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
+    known = {**MACHINE_FIELDS, **DIMENSIONLESS_FIELDS}
+    for name, value in values.items():
+        if name not in known:
+            raise unknown_name(name, value, known, "a machine or its parameters")
+        partner = PHYSICAL_PARTNER.get(name)
+        if partner in values:
+            raise InputError(name, shown(value), f"sets {partner}, which is set too; give one of the two")
+
+
+@dataclass(frozen=True)
+class _Link:
+    """How a field of the machine and a dimensionless number follow from each other."""
+
+    physical: str
+    forward: Callable[[float, Scales], float]
+    inverse: Callable[[Decimal, Scales], Decimal]
+
+    def solve(self, number: float, scales: Scales) -> float:
+        """Return the physical value, in SI units, that gives the dimensionless number.
+
+        Shortest decimals first: rounding to 15 digits finds the value a person wrote. The forward map rounds at most
+        three times, so every double it sends to `number` lies within four units in the last place of the exact one.
+        """
+        with localcontext(Context(prec=60)):
+            exact = self.inverse(Decimal(number), scales)
+            candidates = [float(f"{exact:.{digits - 1}e}") for digits in (15, 16, 17)]
+        nearest = below = above = float(exact)
+        candidates.append(nearest)
+        for _ in range(4):
+            below, above = math.nextafter(below, -math.inf), math.nextafter(above, math.inf)
+            candidates += [below, above]
+        candidates = [value for value in candidates if value >= 0 or exact < 0]
+        return min(candidates, key=lambda value: abs(self.forward(value, scales) - number))
+
+
+def _copy(physical: str) -> _Link:
+    return _Link(physical, lambda value, scales: value, lambda number, scales: number)
+
+
+_LINKS: Mapping[str, _Link] = {
+    "gamma": _Link(
+        "damping",
+        lambda value, scales: value / scales.damping,
+        lambda number, scales: number * Decimal(scales.damping),
+    ),
+    "omega": _Link(
+        "stiffness",
+        lambda value, scales: math.sqrt(value / scales.stiffness),
+        lambda number, scales: number * number * Decimal(scales.stiffness),
+    ),
+    "rho": _Link(
+        "eccentricity",
+        lambda value, scales: value / scales.clearance,
+        lambda number, scales: number * Decimal(scales.clearance),
+    ),
+    "phi": _copy("unbalance_phase"),
+    "mu": _copy("friction"),
+    "d": _copy("restitution"),
+    "radius_ratio": _Link(
+        "rotor_radius",
+        lambda value, scales: value / scales.clearance,
+        lambda number, scales: number * Decimal(scales.clearance),
+    ),
+}
+
+
+def _input_error(problem: pydantic.ValidationError, values: Mapping[str, Any]) -> InputError:
+    """Return the one error to show: an unknown name first, since it is mostly the missing one misspelt."""
+    errors = sorted(problem.errors(), key=lambda error: error["type"] != "extra_forbidden")
+    first = errors[0]
+    name = str(first["loc"][0]) if first["loc"] else ""
+    if first["type"] == "extra_forbidden":
+        return unknown_name(name, values[name], MACHINE_FIELDS, "[machine]")
+    if first["type"] == "missing":
+        return InputError(name, None, f"missing in [machine]; {MACHINE_FIELDS[name].allowed}")
+    cause = first.get("ctx", {}).get("error")
+    if isinstance(cause, InputError):  # as the user wrote the value, units and all
+        return InputError(cause.field, shown(values[cause.field]), cause.allowed)
+    return MACHINE_FIELDS[name].error(values[name], first["msg"])

@@ -1,0 +1,196 @@
+"""From a machine file, and settings on the command line, to the case to study."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from numbers import Real
+from pathlib import Path
+from typing import Any
+
+from carom.outcome import InputError
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, shown, unknown_name
+from carom.parameters.machine import Machine, check_names
+from carom.parameters.quantities import read_quantity
+from carom.parameters.scaling import Parameters
+from carom.parameters.toml_reader import MachineTables, read_machine_tables
+
+__all__ = ["Case", "Zones", "load_case"]
+
+_SETTING = "--set"
+
+
+@dataclass(frozen=True)
+class Zones:
+    """Zones of the vibration amplitude of a rotor on magnetic bearings.
+
+    Parameters
+    ----------
+    limits : tuple of float
+        Largest radius, in units of the clearance, in zone A, B and C; above the last one lies zone D. The default
+        are the limits of ISO 14839-2:2004 for the displacement of a rotor on active magnetic bearings.
+
+    Raises
+    ------
+    InputError
+        If the limits are not three numbers that increase from above 0 to at most 1.
+    """
+
+    limits: tuple[float, float, float] = (0.3, 0.4, 0.5)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "limits", _read_limits(self.limits))
+
+    @property
+    def labels(self) -> tuple[str, str, str, str]:
+        """Names of the zones, from the smallest amplitude to the largest."""
+        return ("A", "B", "C", "D")
+
+    def zone(self, radius: float) -> str:
+        """Return the zone of an amplitude.
+
+        Parameters
+        ----------
+        radius : float
+            Largest distance of the rotor centre from the centre of the bearing, in units of the clearance. A radius
+            equal to a limit belongs to the zone below it.
+
+        Returns
+        -------
+        str
+            One of `labels`.
+
+        Raises
+        ------
+        InputError
+            If the radius is negative or not a number.
+        """
+        if not radius >= 0:
+            raise InputError("radius", shown(radius), "must be >= 0, in units of the clearance")
+        return self.labels[sum(radius > limit for limit in self.limits)]
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a command works on: the content of a machine file after all settings.
+
+    Parameters
+    ----------
+    name : str
+        Name of the file without folder and suffix.
+    parameters : Parameters
+        Dimensionless parameters, with scales if the file describes a machine. A dimensionless number that was set is
+        here in every bit.
+    machine : Machine or None
+        The machine, as near to `parameters` as doubles allow; None for a dimensionless file.
+    zones : Zones
+        Limits of the amplitude zones.
+    """
+
+    name: str
+    parameters: Parameters
+    machine: Machine | None
+    zones: Zones
+
+
+def load_case(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
+    """Read a machine file and apply settings to it.
+
+    Parameters
+    ----------
+    path : path
+        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``.
+    settings : iterable of str
+        Texts ``"name=value"`` as in ``--set``, the name that of a machine field or of a dimensionless parameter.
+        Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
+        changes its partner: ``gamma`` the damping, ``omega`` the stiffness, ``rho`` the eccentricity, ``phi`` the
+        unbalance phase, ``mu`` the friction, ``d`` the restitution, ``radius_ratio`` the rotor radius.
+
+    Returns
+    -------
+    Case
+        Name, parameters, machine and zones.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used, or a setting has no value, an unknown name, a value that is not allowed, sets
+        what another one sets, or sets a physical value of a file that has no scales.
+
+    Examples
+    --------
+    >>> case = load_case("examples/keogh-cole.toml", ["speed=1500 rpm", "gamma=0.1"])
+    >>> case.parameters.gamma
+    0.1
+    """
+    tables = read_machine_tables(path)
+    zones = _read_zones(tables.zones)
+    texts = _split(settings)
+    dimensionless = {name: text for name, text in texts.items() if name in DIMENSIONLESS_FIELDS}
+    physical = {name: text for name, text in texts.items() if name in MACHINE_FIELDS}
+    numbers = {name: read_quantity(DIMENSIONLESS_FIELDS[name], text, bare=True) for name, text in dimensionless.items()}
+    name = Path(path).stem
+    if tables.kind == "dimensionless":
+        _refuse_physical(physical)
+        return Case(name, _read_dimensionless(tables).replace(**numbers), None, zones)
+    machine = Machine(**tables.values)
+    physical_numbers = {name: read_quantity(MACHINE_FIELDS[name], text, bare=True) for name, text in physical.items()}
+    machine = machine.replace(**physical_numbers, **numbers)
+    return Case(name, machine.parameters.replace(**numbers), machine, zones)
+
+
+def _split(settings: Iterable[str]) -> dict[str, str]:
+    """Names and texts of the settings, checked for everything but the values."""
+    texts: dict[str, str] = {}
+    for setting in settings:
+        name, equals, text = (part.strip() for part in str(setting).partition("="))
+        if not equals or not name:
+            raise InputError(_SETTING, shown(setting), "must be name=value, such as gamma=0.1 or damping=2000 N s/m")
+        if name in texts:
+            raise InputError(name, shown(text), f"is set twice by {_SETTING}; give it once")
+        texts[name] = text
+    check_names(texts)
+    return texts
+
+
+def _refuse_physical(physical: Mapping[str, str]) -> None:
+    partners = {partner: name for name, partner in PHYSICAL_PARTNER.items()}
+    for name, text in physical.items():
+        advice = f"set {partners[name]} instead" if name in partners else "use a file with a [machine] table"
+        raise InputError(
+            name,
+            shown(text),
+            f"cannot be set: the file is dimensionless and has no mass, clearance and speed; {advice}",
+        )
+
+
+def _read_dimensionless(tables: MachineTables) -> Parameters:
+    for name, value in tables.values.items():
+        if name not in DIMENSIONLESS_FIELDS:
+            raise unknown_name(name, value, DIMENSIONLESS_FIELDS, "[dimensionless]")
+    for name, field in DIMENSIONLESS_FIELDS.items():
+        if name not in tables.values:
+            raise InputError(name, None, f"missing in [dimensionless]; {field.allowed}")
+    numbers = {name: read_quantity(field, tables.values[name]) for name, field in DIMENSIONLESS_FIELDS.items()}
+    return Parameters(**numbers, scales=None)
+
+
+def _read_zones(table: Mapping[str, Any]) -> Zones:
+    for name, value in table.items():
+        if name != "limits":
+            raise unknown_name(name, value, {"limits": None}, "[zones]")
+    return Zones(**table)
+
+
+def _read_limits(limits: object) -> tuple[float, float, float]:
+    allowed = "must be three numbers that increase from above 0 to at most 1 (the clearance), such as [0.3, 0.4, 0.5]"
+    error = InputError("limits", shown(limits), f"{allowed}, in [zones]")
+    if not isinstance(limits, list | tuple) or len(limits) != 3:
+        raise error
+    if any(isinstance(limit, bool) or not isinstance(limit, Real) for limit in limits):
+        raise error
+    first, second, third = limits
+    if not 0 < first < second < third <= 1:  # false for NaN too
+        raise error
+    return (float(first), float(second), float(third))

@@ -1,0 +1,134 @@
+"""Numbers at the door: text with units becomes a float in SI units, and nothing behind this door knows units."""
+
+from __future__ import annotations
+
+import decimal
+import math
+import re
+from decimal import Decimal
+from functools import cache
+from numbers import Real
+from tokenize import TokenError
+from typing import Any
+
+from carom.parameters.fields import Field
+
+__all__ = ["read_quantity"]
+
+_TEXT = re.compile(
+    r"(?P<number>[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity)\b))\s*(?P<unit>.*)",
+    re.DOTALL,
+)
+# Names, products, quotients and one-digit powers only: pint does arithmetic, and "m**9**9**9" would never end.
+_UNIT = re.compile(
+    r"(?:[A-Za-z°%µμ_ ()*/·⋅]|1(?![0-9])|(?:\^|\*\*) *[+-]?[0-9](?!(?: *(?:\^|\*\*))|[0-9])|⁻?[¹²³⁴](?![¹²³⁴]))*"
+)
+_LONGEST_UNIT = 60
+_DIGITS = decimal.Context(prec=40)
+# What pint lets through besides its own errors, which derive from some of these.
+_PARSER_ERRORS = (
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    LookupError,
+    RecursionError,
+    SyntaxError,
+    TokenError,
+    TypeError,
+    ValueError,
+)
+
+
+def read_quantity(field: Field, given: object, *, bare: bool = False) -> float:
+    """Read a number, or text with a unit, as a float in the SI unit of a field.
+
+    The decimal text is converted exactly and rounded once, so that ``"0.7 mm"`` and ``0.0007`` are the same double.
+
+    Parameters
+    ----------
+    field : Field
+        What is read: its unit and its range.
+    given : object
+        A real number in the SI unit, or text such as ``"1759 rpm"``.
+    bare : bool
+        Accept text without a unit as a number in the SI unit (on the command line everything is text).
+
+    Returns
+    -------
+    float
+        Finite, in the SI unit of `field`, within its range.
+
+    Raises
+    ------
+    InputError
+        If `given` is anything else, of another dimension, not finite or out of range.
+    """
+    if isinstance(given, str):
+        number = _from_text(field, given, bare)
+    elif isinstance(given, Real) and not isinstance(given, bool):
+        try:
+            number = float(given)
+        except OverflowError:
+            number = float("inf")
+    else:
+        raise field.error(given, "this is not a number")
+    return field.check(number, given)
+
+
+def _from_text(field: Field, text: str, bare: bool) -> float:
+    match = _TEXT.fullmatch(text.strip())
+    if not match:
+        raise field.error(text, "this does not start with a number" if text.strip() else "this is empty")
+    number, unit = float(match["number"]), match["unit"].strip()
+    if not unit:
+        if field.unit and not bare:
+            raise field.error(text, f"a number in quotes needs its unit, or write it without quotes in {field.unit}")
+        return number
+    with decimal.localcontext(_DIGITS):
+        factor = _factor(field, unit, text)
+        if number == 0 or not math.isfinite(number):  # also decimals too long for Decimal, such as 1e-999999999999
+            return number
+        return float(Decimal(match["number"]) * factor)
+
+
+def _factor(field: Field, unit: str, text: str) -> Decimal:
+    """How many SI units of the field one `unit` is."""
+    try:
+        if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
+            raise ValueError(unit)
+        scale, roots = _roots(unit)
+        field_scale, field_roots = _roots(field.unit)
+    except _PARSER_ERRORS:
+        raise field.error(text, f"{unit!r} is not a unit that can be used here") from None
+    if roots == field_roots:
+        return scale / field_scale
+    if field.unit == "rad/s" and roots == _roots("1/s")[1]:
+        raise field.error(text, f"{unit!r} leaves open whether turns or radians are counted: write rpm, rev/s or rad/s")
+    kind = field.kind.split(" ", 1)[1]
+    raise field.error(text, f"{unit!r} is not a unit of {kind}" if field.unit else f"this number has no unit {unit!r}")
+
+
+@cache
+def _roots(unit: str) -> tuple[Decimal, Any]:
+    """Factor and root unit (of pint, where radians are kept apart from pure numbers) of a unit.
+
+    Raises one of `_PARSER_ERRORS` for text that is no unit, or a unit with an offset or a logarithm.
+    """
+    registry = _registry()
+    units = registry.parse_units(unit)
+    if registry.Quantity(Decimal(0), units).to_root_units().magnitude != 0:
+        raise ValueError(unit)
+    scale, roots = registry.get_root_units(units)
+    return Decimal(scale), roots
+
+
+@cache
+def _registry() -> Any:
+    import pint  # loaded only when a value carries a unit: it takes longer than all the rest of this layer
+
+    registry: Any = pint.UnitRegistry(non_int_type=Decimal)
+    # What engineers write and pint does not know.
+    registry.define("rev = revolution")
+    registry.define("@alias rpm = RPM")
+    registry.define("Ns = newton * second")
+    return registry

@@ -1,0 +1,168 @@
+"""Scales and dimensionless parameters of a rotor inside a clearance."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from carom.outcome import InputError
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, shown, unknown_name
+from carom.parameters.quantities import read_quantity
+
+__all__ = ["Parameters", "Scales"]
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The units in which the equations are written: rotor mass, clearance and rotational speed.
+
+    Parameters
+    ----------
+    mass : float
+        Rotor mass m, kg.
+    clearance : float
+        Radius c_r of the clearance circle, m.
+    speed : float
+        Rotational speed Ω, rad/s.
+
+    Raises
+    ------
+    InputError
+        If one of them is not a positive number within the range of the machine field of the same name.
+
+    Notes
+    -----
+    Multiply a dimensionless result by the property of its kind to get SI units: position by `length`, time by
+    `time`, impulse by `impulse`, ... (scaling of the source paper, section 2).
+    """
+
+    mass: float
+    clearance: float
+    speed: float
+
+    def __post_init__(self) -> None:
+        for name in ("mass", "clearance", "speed"):
+            object.__setattr__(self, name, _number(MACHINE_FIELDS, name, getattr(self, name)))
+
+    @property
+    def length(self) -> float:
+        """Unit of length: c_r, m."""
+        return self.clearance
+
+    @property
+    def time(self) -> float:
+        """Unit of time: 1/Ω, s."""
+        return 1.0 / self.speed
+
+    @property
+    def velocity(self) -> float:
+        """Unit of velocity: c_r Ω, m/s."""
+        return self.clearance * self.speed
+
+    @property
+    def acceleration(self) -> float:
+        """Unit of acceleration: c_r Ω², m/s²."""
+        return self.clearance * (self.speed * self.speed)
+
+    @property
+    def force(self) -> float:
+        """Unit of force: m c_r Ω², N."""
+        return self.mass * self.acceleration
+
+    @property
+    def impulse(self) -> float:
+        """Unit of impulse: m c_r Ω, N s."""
+        return self.mass * self.velocity
+
+    @property
+    def energy(self) -> float:
+        """Unit of energy: m c_r² Ω², J."""
+        return self.force * self.clearance
+
+    @property
+    def damping(self) -> float:
+        """Unit of damping: m Ω, N s/m; the damping of a machine is gamma of these."""
+        return self.mass * self.speed
+
+    @property
+    def stiffness(self) -> float:
+        """Unit of stiffness: m Ω², N/m; the stiffness of a machine is omega² of these."""
+        return self.mass * (self.speed * self.speed)
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """Dimensionless parameters of a rotor inside a clearance, in the co-rotating frame.
+
+    Parameters
+    ----------
+    gamma : float
+        Scaled damping c/(m Ω), equation (2.12) of the source paper. Negative values are allowed: a branch of
+        orbits may be followed there.
+    omega : float
+        Natural over rotational frequency, sqrt(k/(m Ω²)), (2.12); positive.
+    rho : float
+        Eccentricity over clearance e_c/c_r, (2.12); not negative.
+    phi : float
+        Phase of the unbalance, rad.
+    mu : float
+        Coefficient of friction; not negative.
+    d : float
+        Coefficient of restitution, 0 to 1.
+    radius_ratio : float
+        Rotor radius over clearance R/c_r; positive.
+    scales : Scales, optional
+        What turns results into SI units.
+
+    Raises
+    ------
+    InputError
+        If a number is not finite or outside the range of its entry in :data:`carom.parameters.fields.DIMENSIONLESS_FIELDS`.
+    """
+
+    gamma: float
+    omega: float
+    rho: float
+    phi: float
+    mu: float
+    d: float
+    radius_ratio: float
+    scales: Scales | None = None
+
+    def __post_init__(self) -> None:
+        for name in DIMENSIONLESS_FIELDS:
+            object.__setattr__(self, name, _number(DIMENSIONLESS_FIELDS, name, getattr(self, name)))
+        if not isinstance(self.scales, Scales | None):
+            raise InputError("scales", shown(self.scales), "must be a carom.Scales, or None")
+
+    def replace(self, /, **changes: Any) -> Parameters:
+        """Return a copy with other values.
+
+        Parameters
+        ----------
+        **changes
+            Numbers by their names, or ``scales``.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown or a value not allowed.
+        """
+        known = {**DIMENSIONLESS_FIELDS, "scales": None}
+        for name, value in changes.items():
+            if name not in known:
+                raise unknown_name(name, value, known, "Parameters")
+        return dataclasses.replace(self, **changes)
+
+    def as_dict(self) -> dict[str, float]:
+        """Return the seven numbers by name, without the scales."""
+        return {name: getattr(self, name) for name in DIMENSIONLESS_FIELDS}
+
+
+def _number(fields: Mapping[str, Field], name: str, given: object) -> float:
+    """Check a number of the library's own interface: units are read at the door, not here."""
+    if isinstance(given, str):
+        raise fields[name].error(given, "this is text, not a number")
+    return read_quantity(fields[name], given)
