@@ -1,4 +1,4 @@
-"""Rotors that strike: does a rotor on magnetic bearings that touches its touchdown bearing come back?
+"""Rotors that strike the wall of their clearance, and whether they come back.
 
 The public names are loaded when they are first used, so ``import carom`` stays light. Each name lives in the module
 that :data:`_HOMES` gives; everything listed there can be had as an attribute of the package:
@@ -76,7 +76,7 @@ _HOMES = {
 }
 _SUBPACKAGES = ("plots",)
 
-__all__ = ["__version__", *_HOMES, *_SUBPACKAGES]
+__all__ = ["__version__", *_HOMES, *_SUBPACKAGES]  # noqa: PLE0604  (all of them are strings)
 
 
 class _Package(ModuleType):
