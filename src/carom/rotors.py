@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.core.flow import fly_all
 from carom.core.layout import rotor_record
 from carom.core.table import flight_table
 from carom.parameters import Parameters, Scales
@@ -53,6 +54,12 @@ class Rotor:
         """Exponents ``λ`` of free flight, shape (2,)."""
         return self.arrays.exponents
 
+    @property
+    def generator(self) -> np.ndarray:
+        """Matrix ``M`` of free flight ``ċ = M c``, shape (2, 2)."""
+        exponents, driven = self.arrays.exponents, self.arrays.driven
+        return np.diag(exponents) + np.diag(driven[1:].astype(complex), -1)
+
     def amplitudes(self, position: complex, velocity: complex) -> np.ndarray:
         """Mode amplitudes of a state.
 
@@ -66,13 +73,33 @@ class Rotor:
         ndarray of complex, shape (2,)
             The driving amplitude ``b = U̇ − λ₊(U − U*)``, which decays with ``λ₋``, and the driven ``a = U − U*``.
         """
-        shift = position - self.equilibrium
-        return np.array([velocity - self.arrays.exponents[1] * shift, shift], np.complex128)
+        return self.amplitude_change(position - self.equilibrium, velocity)
+
+    def amplitude_change(self, position_change: complex, velocity_change: complex) -> np.ndarray:
+        """Change of the mode amplitudes, shape (2,), that goes with a small or large change of state."""
+        return np.array([velocity_change - self.arrays.exponents[1] * position_change, position_change], complex)
 
     def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Position and velocity of mode amplitudes, shape (..., 2), each of shape (...)."""
         position = amplitudes @ self.arrays.rows[0] + self.arrays.offsets[0]
         return position, amplitudes @ self.arrays.rate_rows[0]
+
+    def fly(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
+        """Mode amplitudes after free flights.
+
+        Parameters
+        ----------
+        amplitudes : ndarray of complex, shape (..., N)
+        times : array_like, shape (...)
+
+        Returns
+        -------
+        ndarray of complex, shape (..., N)
+        """
+        times = np.asarray(times, float)
+        starts = np.broadcast_to(amplitudes, (*times.shape, amplitudes.shape[-1]))
+        flown: np.ndarray = fly_all(self.arrays, starts.reshape(-1, starts.shape[-1]), times.ravel())
+        return flown.reshape(starts.shape)
 
 
 def jeffcott(machine: Parameters | Machine) -> Rotor:

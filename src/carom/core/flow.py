@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from carom.core.layout import kernel
 
 __all__ = [
@@ -15,6 +17,7 @@ __all__ = [
     "complex_expm1",
     "displacement",
     "flight_increments",
+    "fly_all",
     "nudge",
     "squared_modulus",
     "velocity",
@@ -33,9 +36,7 @@ def complex_expm1(z):
     growth = math.expm1(z.real)
     sine = math.sin(0.5 * z.imag)
     cosine_less_one = -2.0 * sine * sine
-    return complex(
-        growth + cosine_less_one * (1.0 + growth), 2.0 * (1.0 + growth) * sine * math.cos(0.5 * z.imag)
-    )
+    return complex(growth + cosine_less_one * (1.0 + growth), 2.0 * (1.0 + growth) * sine * math.cos(0.5 * z.imag))
 
 
 @kernel
@@ -59,6 +60,17 @@ def flight_increments(rotor, amplitudes, time, increments):
                 response = complex(time, 0.0)
             increments[k] += amplitudes[k - 1] * (1.0 + growth) * response
             increments[k - 1] = amplitudes[k - 1] * (growth + lag + growth * lag)
+
+
+@kernel
+def fly_all(rotor, amplitudes, times):
+    """Amplitudes (M, N) after flights of given times (M,), each from its own amplitudes (M, N)."""
+    flown = np.empty_like(amplitudes)
+    for i in range(times.shape[0]):
+        flight_increments(rotor, amplitudes[i], times[i], flown[i])
+        for k in range(amplitudes.shape[1]):
+            flown[i, k] += amplitudes[i, k]
+    return flown
 
 
 @kernel

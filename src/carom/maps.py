@@ -1,0 +1,185 @@
+"""Return maps of impacting motion and their derivatives."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.core.advance import advance
+from carom.core.impact import strike
+from carom.core.layout import workspace
+from carom.core.variation import carry_through_impact, carry_to_wall, shift
+from carom.outcome import Outcome
+from carom.rotors import Rotor
+from carom.trajectories import State, Trajectory, simulate
+
+__all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "section_jacobian", "stroboscopic_map"]
+
+
+@dataclass(frozen=True)
+class Section:
+    """A state on the wall just before an impact, in the co-rotating frame.
+
+    Attributes
+    ----------
+    angle : float
+        ``θ`` in rad.
+    radial_speed, angular_speed : float
+        ``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω``.
+    """
+
+    angle: float
+    radial_speed: float
+    angular_speed: float
+
+    @classmethod
+    def from_state(cls, position: complex, velocity: complex) -> Section:
+        """Read a state on the wall in polar coordinates."""
+        normal = position / abs(position)
+        local = normal.conjugate() * velocity
+        return cls(cmath.phase(position), local.real, local.imag / abs(position))
+
+    @property
+    def state(self) -> State:
+        """The same state as ``U`` and ``U̇``."""
+        position = cmath.rect(1.0, self.angle)
+        return State(position, complex(self.radial_speed, self.angular_speed) * position)
+
+
+@dataclass(frozen=True, eq=False)
+class ImpactMap:
+    """One application of the impact map ``P_I``: from just before an impact to just before the next.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        ``CONTACT`` if there is a next impact; otherwise why there is none, and ``image`` and ``jacobian`` are ``None``.
+    image : Section or None
+    duration : float
+        Time of flight in ``1/Ω``.
+    jacobian : ndarray or None, shape (3, 3)
+        Derivative of ``(θ, ṙ, θ̇)`` after with respect to before, with the saltation term of the time of impact.
+    """
+
+    outcome: Outcome
+    image: Section | None
+    duration: float
+    jacobian: np.ndarray | None
+
+
+@dataclass(frozen=True, eq=False)
+class StroboscopicMap:
+    """The motion over a fixed time.
+
+    Attributes
+    ----------
+    trajectory : Trajectory
+    jacobian : ndarray, shape (4, 4)
+        Derivative of ``(Re U, Im U, Re U̇, Im U̇)`` at the end with respect to the start, saltation included.
+    """
+
+    trajectory: Trajectory
+    jacobian: np.ndarray
+
+
+def impact_map(rotor: Rotor, section: Section, longest_flight: float = 1000.0) -> ImpactMap:
+    """Impact map ``P_I`` of the source paper (section 3a), with its derivative.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    section : Section
+        State just before an impact; ``radial_speed`` above zero.
+    longest_flight : float
+        Time in ``1/Ω`` after which a flight counts as never returning.
+
+    Returns
+    -------
+    ImpactMap
+    """
+    state = section.state
+    amplitudes = rotor.amplitudes(state.position, state.velocity)
+    before = np.empty((2, len(amplitudes)), complex)
+    log = np.empty(2), np.empty(2, np.int64), before, np.empty_like(before)
+    code, time, count, _ = advance(
+        rotor.arrays, rotor.table, amplitudes, longest_flight, 0, *log, workspace(len(amplitudes))
+    )
+    if count < 2:
+        outcome = Outcome.CLEAR if code == Outcome.TIME_REACHED else Outcome(code)
+        return ImpactMap(outcome, None, time, None)
+    position, velocity = rotor.state(before[1])
+    image = Section.from_state(complex(position), complex(velocity))
+    return ImpactMap(Outcome.CONTACT, image, time, section_jacobian(rotor, section, time))
+
+
+def section_jacobian(rotor: Rotor, section: Section, duration: float) -> np.ndarray:
+    """Derivative of the impact map along a flight of known duration.
+
+    The flight need not stay inside the wall, so it serves virtual orbits too.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    section : Section
+        State just before the impact that starts the flight.
+    duration : float
+        Time to the next impact in ``1/Ω``.
+
+    Returns
+    -------
+    ndarray, shape (3, 3)
+        Over ``(θ, ṙ, θ̇)``.
+    """
+    position, velocity = section.state.position, section.state.velocity
+    directions = np.array(
+        [
+            rotor.amplitude_change(1j * position, 1j * velocity),
+            rotor.amplitude_change(0.0, position),
+            rotor.amplitude_change(0.0, 1j * position),
+        ]
+    )
+    arrays = rotor.arrays
+    change, _ = strike(position, velocity, arrays.friction[0], arrays.restitution[0], arrays.drive[0])
+    before = rotor.amplitudes(position, velocity)
+    carry_through_impact(arrays, 0, before, directions)
+    after = before + arrays.columns[:, 0] * change
+    arrival = rotor.fly(after, np.asarray(duration))
+    carry_to_wall(arrays, 0, duration, arrival, directions, np.empty(3), workspace(len(arrival)))
+    end_position, end_velocity = (complex(part) for part in rotor.state(arrival))
+    normal = end_position / abs(end_position)
+    local = normal.conjugate() * end_velocity
+    turn = (normal.conjugate() * (directions @ arrays.rows[0])).imag
+    swing = normal.conjugate() * (directions @ arrays.rate_rows[0])
+    return np.array([turn, swing.real + turn * local.imag, swing.imag - turn * local.real])
+
+
+def stroboscopic_map(rotor: Rotor, state: State, period: float) -> StroboscopicMap:
+    """State after a fixed time and its derivative, through any number of impacts.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    state : State
+        Start inside the wall.
+    period : float
+        In ``1/Ω``.
+
+    Returns
+    -------
+    StroboscopicMap
+        Its derivative is meaningless if the trajectory ends in ``CHATTER`` or ``GRAZING``.
+    """
+    trajectory = simulate(rotor, state, period)
+    units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
+    directions = np.array([rotor.amplitude_change(*unit) for unit in units])
+    delays, work = np.empty(4), workspace(directions.shape[1])
+    durations = np.diff(np.append(trajectory.flight_starts, trajectory.time))
+    for flight, arrival in enumerate(trajectory.arrivals):
+        carry_to_wall(rotor.arrays, 0, durations[flight], arrival, directions, delays, work)
+        carry_through_impact(rotor.arrays, 0, arrival, directions)
+        shift(rotor.arrays, trajectory.flight_amplitudes[flight + 1], directions, -delays)
+    directions = rotor.fly(directions, np.full(4, durations[-1]))
+    position, velocity = directions @ rotor.arrays.rows[0], directions @ rotor.arrays.rate_rows[0]
+    return StroboscopicMap(trajectory, np.array([position.real, position.imag, velocity.real, velocity.imag]))

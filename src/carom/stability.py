@@ -1,0 +1,58 @@
+"""Stability of periodic orbits from the derivative of a return map."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+__all__ = ["Multipliers", "multipliers"]
+
+
+@dataclass(frozen=True, eq=False)
+class Multipliers:
+    """Floquet multipliers of a periodic orbit on a section: the non-trivial ones.
+
+    Attributes
+    ----------
+    values : ndarray of complex, shape (n,)
+        Largest modulus first; of a conjugate pair the one with positive imaginary part first.
+    """
+
+    values: np.ndarray
+
+    @property
+    def spectral_radius(self) -> float:
+        """Largest modulus."""
+        return float(np.abs(self.values).max())
+
+    @property
+    def stable(self) -> bool:
+        """Whether all multipliers lie inside the unit circle."""
+        return self.spectral_radius < 1.0
+
+    @property
+    def instability(self) -> str:
+        """How small disturbances grow: ``""`` if they do not, else in words."""
+        if self.stable:
+            return ""
+        leader = self.values[0]
+        if abs(leader.imag) > 1e-9 * abs(leader):
+            return "in a growing oscillation from impact to impact"
+        return "steadily to one side" if leader.real > 0 else "in alternation from impact to impact"
+
+
+def multipliers(jacobian: np.ndarray) -> Multipliers:
+    """Eigenvalues of the derivative of a return map.
+
+    Parameters
+    ----------
+    jacobian : ndarray, shape (n, n)
+
+    Returns
+    -------
+    Multipliers
+    """
+    values = np.linalg.eigvals(jacobian).astype(complex)
+    order = np.lexsort((-values.imag, -np.round(np.abs(values), 12)))
+    return Multipliers(values[order])
