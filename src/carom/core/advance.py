@@ -52,7 +52,7 @@ def advance(rotor, table, amplitudes, until, plane, times, planes, before, after
     impacts = 0
     if plane >= 0:
         outcome = _wall_state(rotor, plane, amplitudes)
-        if outcome == CHATTER or outcome == GRAZING:
+        if outcome in (CHATTER, GRAZING):
             return outcome, time, impacts, plane
         if outcome == CONTACT:
             times[0], planes[0] = time, plane
