@@ -82,12 +82,13 @@ class Machine(pydantic.BaseModel):
 
     @pydantic.model_validator(mode="after")
     def _check_parameters(self) -> Self:
-        for name, link in _LINKS.items():
-            field, number = DIMENSIONLESS_FIELDS[name], link.forward(getattr(self, link.physical), self.scales)
-            if not field.contains(number):
-                limits = f"{field.lowest:g} to {field.highest:g}"
-                allowed = f"must make {name} = {field.formula} lie within {limits}; here it is {number:g}"
-                raise InputError(link.physical, getattr(self, link.physical), allowed)
+        try:
+            self.parameters  # noqa: B018
+        except InputError as problem:
+            physical = PHYSICAL_PARTNER[problem.field]
+            definition = f"{problem.field} = {DIMENSIONLESS_FIELDS[problem.field].formula}"
+            allowed = f"gives {definition} = {problem.value}, which {problem.allowed}"
+            raise InputError(physical, getattr(self, physical), allowed) from None
         return self
 
     @classmethod

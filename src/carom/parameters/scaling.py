@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -12,6 +13,10 @@ from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field,
 from carom.parameters.quantities import read_quantity
 
 __all__ = ["Parameters", "Scales"]
+
+# Smallest |omega² - 1 + i gamma|, by which the unbalance is divided to get the contact-free equilibrium: below it
+# the equilibrium lies so far out that nothing is left of the position inside the clearance.
+_RESONANCE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -119,7 +124,9 @@ class Parameters:
     Raises
     ------
     InputError
-        If a number is not finite or outside the range of its entry in :data:`carom.parameters.fields.DIMENSIONLESS_FIELDS`.
+        If a number is not finite or outside the range of its entry in
+        :data:`carom.parameters.fields.DIMENSIONLESS_FIELDS`, or ``gamma = 0`` and ``omega = 1``: a rotor in undamped
+        resonance has no equilibrium.
     """
 
     gamma: float
@@ -134,6 +141,9 @@ class Parameters:
     def __post_init__(self) -> None:
         for name in DIMENSIONLESS_FIELDS:
             object.__setattr__(self, name, _number(DIMENSIONLESS_FIELDS, name, getattr(self, name)))
+        if math.hypot(self.omega * self.omega - 1.0, self.gamma) < _RESONANCE:
+            allowed = f"must differ from 0 by {_RESONANCE:g} or more where omega = 1 (undamped resonance)"
+            raise InputError("gamma", self.gamma, allowed)
         if not isinstance(self.scales, Scales | None):
             raise InputError("scales", shown(self.scales), "must be a carom.Scales, or None")
 

@@ -109,7 +109,7 @@ def _parse(name: str, text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise InputError(_WHAT, shown(name), f"{_REMEDY}; it is nested too deeply") from None
+        raise InputError(_WHAT, shown(name), "must be valid TOML; it is nested too deeply") from None
     except ValueError as problem:
         advice = str(problem)
         if advice.startswith("Cannot overwrite a value"):

@@ -1,0 +1,312 @@
+"""The machine: its fields, its dimensionless parameters and the way back."""
+
+import math
+import pickle
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from carom.outcome import CaromError, InputError
+from carom.parameters import (
+    DIMENSIONLESS_FIELDS,
+    MACHINE_FIELDS,
+    PHYSICAL_PARTNER,
+    Machine,
+    Parameters,
+    Scales,
+    read_quantity,
+)
+
+SI = {
+    "mass": 50,
+    "damping": 1400,
+    "stiffness": 9.8e5,
+    "eccentricity": 0.3e-3,
+    "clearance": 0.7e-3,
+    "rotor_radius": 0.04,
+    "speed": 184.2,
+    "unbalance_phase": 0.21,
+    "friction": 0.15,
+    "restitution": 0.95,
+}
+ALLOWED = {
+    "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
+    "damping": "must be a damping in N s/m, >= 0 (0, or 1e-30 to 1e+30)",
+    "stiffness": "must be a stiffness in N/m, > 0 (1e-30 to 1e+30)",
+    "eccentricity": "must be a length in m, >= 0 (0, or 1e-30 to 1e+06)",
+    "clearance": "must be a length in m, > 0 (1e-09 to 1000)",
+    "rotor_radius": "must be a length in m, > 0 (1e-09 to 1e+06)",
+    "speed": "must be an angular speed in rad/s, > 0 (1e-06 to 1e+06)",
+    "unbalance_phase": "must be an angle in rad, -1e+06 to 1e+06",
+    "friction": "must be a number, 0 to 10",
+    "restitution": "must be a number, 0 to 1",
+}
+POSITIVE = ("mass", "stiffness", "clearance", "rotor_radius", "speed")
+NOT_NEGATIVE = ("damping", "eccentricity", "friction", "restitution")
+NUMBERS = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
+
+
+def error_of(call):
+    """The input error a call raises; its message is one line."""
+    with pytest.raises(InputError) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+def ulps(number, other):
+    return abs(number - other) / math.ulp(min(abs(number), abs(other)))
+
+
+@st.composite
+def decimals(draw, lowest, highest, digits=15):
+    """Doubles that a person writes with at most so many significant digits, log-uniform in size."""
+    number = 10 ** draw(st.floats(math.log10(lowest), math.log10(highest)))
+    return float(f"{number:.{draw(st.integers(0, digits - 1))}e}")
+
+
+@st.composite
+def machines(draw, digits=15):
+    """Values of a machine, each of at most so many digits, within the ranges of the dimensionless numbers."""
+
+    def some(lowest, highest):
+        return draw(decimals(lowest, highest, digits))
+
+    mass, clearance, speed = some(1e-3, 1e5), some(1e-6, 1e-1), some(1e-1, 1e4)
+    damping, stiffness = mass * speed, mass * speed**2
+    values = {"mass": mass, "clearance": clearance, "speed": speed}
+    values["damping"] = draw(st.sampled_from([0.0, some(1e-3 * damping, 1e2 * damping)]))
+    values["stiffness"] = some(1e-4 * stiffness, 1e4 * stiffness)
+    values["eccentricity"] = draw(st.sampled_from([0.0, some(1e-3 * clearance, 1e2 * clearance)]))
+    values["rotor_radius"] = some(1e-1 * clearance, 1e6 * clearance)
+    values["unbalance_phase"] = draw(st.floats(-10, 10))
+    values["friction"] = draw(st.floats(0, 10))
+    values["restitution"] = draw(st.floats(0, 1))
+    assume(values["damping"] > 0 or abs(values["stiffness"] / stiffness - 1) > 1e-6)  # not in undamped resonance
+    return Machine(**values)
+
+
+# ------------------------------------------------------------------------------------------ fields
+
+
+def test_every_field_of_the_models_is_described():
+    assert list(Machine.model_fields) == list(MACHINE_FIELDS) == list(SI) == list(ALLOWED)
+    assert list(Parameters(**NUMBERS).as_dict()) == list(DIMENSIONLESS_FIELDS) == list(PHYSICAL_PARTNER)
+    assert set(PHYSICAL_PARTNER.values()) | {"mass", "clearance", "speed"} == set(MACHINE_FIELDS)
+
+
+def test_the_machine_of_keogh_and_cole_has_the_printed_parameters():
+    parameters = Machine(**SI).parameters
+
+    assert parameters.gamma == pytest.approx(0.152, abs=5e-4)
+    assert parameters.omega == pytest.approx(0.76, abs=5e-3)
+    assert parameters.rho == 3 / 7
+    assert parameters.radius_ratio == pytest.approx(57.143, abs=5e-4)
+    assert (parameters.phi, parameters.mu, parameters.d) == (0.21, 0.15, 0.95)
+    assert parameters.omega**2 == pytest.approx(9.8e5 / (50 * 184.2**2), rel=1e-15)
+    assert parameters.scales == Scales(50, 0.7e-3, 184.2)
+
+
+@pytest.mark.parametrize("field", SI)
+def test_a_missing_field_is_named(field):
+    error = error_of(lambda: Machine(**{name: value for name, value in SI.items() if name != field}))
+
+    assert error.field == field
+    assert error.allowed.startswith(f"missing in [machine]; {ALLOWED[field]}")
+
+
+@pytest.mark.parametrize("field", SI)
+def test_a_misspelt_field_is_named_with_the_right_name(field):
+    values = {name if name != field else name[:-1]: value for name, value in SI.items()}
+
+    error = error_of(lambda: Machine(**values))
+
+    assert str(error).startswith(f"{field[:-1]} = {SI[field]}: unknown name in [machine]; did you mean {field}?")
+
+
+@pytest.mark.parametrize("field", SI)
+@pytest.mark.parametrize(
+    ("value", "as_shown"),
+    [
+        *[(math.nan, "nan"), (math.inf, "inf"), (-math.inf, "-inf"), ("nan", "nan"), ("-inf", "-inf")],
+        *[(1e300, "1e+300"), (-1e300, "-1e+300"), pytest.param(10**400, "1000000", id="googol")],
+        *[(True, "true"), (False, "false"), ("", "''"), ("  ", "'"), ("many", "many"), ("1e999 m", "1e999 m")],
+        *[([1.0], "[1.0]"), ({"value": 1}, "{'value': 1}"), (None, "None"), (1j, "1j"), (b"1", "b'1'")],
+    ],
+)
+def test_nonsense_is_refused_in_every_field(field, value, as_shown):
+    error = error_of(lambda: Machine(**{**SI, field: value}))
+
+    assert str(error).startswith(f"{field} = {as_shown}")
+    assert error.allowed.startswith(ALLOWED[field])
+
+
+def test_a_number_of_thousands_of_digits_is_not_printed():
+    error = error_of(lambda: Machine(**{**SI, "mass": 10**5000}))
+
+    assert str(error).startswith(f"mass = a number of thousands of digits: {ALLOWED['mass']}")
+
+
+@pytest.mark.parametrize("field", POSITIVE)
+@pytest.mark.parametrize("value", [0, -0.0, -1, -1e-3, 1e-200])
+def test_positive_fields_are_positive(field, value):
+    error = error_of(lambda: Machine(**{**SI, field: value}))
+
+    assert str(error).startswith(f"{field} = {value}: {ALLOWED[field]}")
+
+
+@pytest.mark.parametrize("field", NOT_NEGATIVE)
+def test_other_fields_may_be_zero_and_not_negative(field):
+    error = error_of(lambda: Machine(**{**SI, field: -1e-3}))
+
+    assert str(error).startswith(f"{field} = -0.001: {ALLOWED[field]}")
+    assert getattr(Machine(**{**SI, field: -0.0}), field) == 0.0
+
+
+def test_the_phase_may_have_either_sign():
+    assert Machine(**{**SI, "unbalance_phase": -3}).unbalance_phase == -3.0
+
+
+@pytest.mark.parametrize(("field", "value"), [("damping", "1e-40 N s/m"), ("eccentricity", 1e-40)])
+def test_a_value_too_close_to_zero_says_so(field, value):
+    assert error_of(lambda: Machine(**{**SI, field: value})).allowed.endswith("this is too close to 0")
+
+
+def test_restitution_above_one_is_refused():
+    assert str(error_of(lambda: Machine(**{**SI, "restitution": 1.01}))).startswith(
+        "restitution = 1.01: must be a number, 0 to 1"
+    )
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "number"),
+    [
+        ("damping", "1e9 N s/m", "gamma"),
+        ("stiffness", "1e20 N/m", "omega"),
+        ("stiffness", "1e-20 N/m", "omega"),
+        ("eccentricity", "5 m", "rho"),
+        ("rotor_radius", "1e-8 m", "radius_ratio"),
+    ],
+)
+def test_a_machine_out_of_proportion_names_field_and_dimensionless_number(field, text, number):
+    error = error_of(lambda: Machine(**{**SI, field: text}))
+
+    assert str(error).startswith(f"{field} = {text}: gives {number} = ")
+    assert DIMENSIONLESS_FIELDS[number].allowed in error.allowed
+
+
+def test_input_errors_are_carom_errors_and_value_errors():
+    error = error_of(lambda: Machine(**{**SI, "mass": "-3 kg"}))
+
+    assert isinstance(error, CaromError)
+    assert isinstance(error, ValueError)
+    assert (error.field, error.value) == ("mass", "-3 kg")
+
+
+def test_a_machine_is_a_value():
+    machine = Machine(**SI)
+
+    assert machine == Machine(**{**SI, "mass": "50 kg"})
+    assert hash(machine) == hash(Machine(**SI))
+    assert pickle.loads(pickle.dumps(machine)) == machine
+    with pytest.raises(ValueError, match="frozen"):
+        machine.mass = 3.0
+
+
+# ------------------------------------------------------------------------------------------ round trip
+
+
+@given(machines())
+def test_a_machine_of_fifteen_digits_comes_back_in_every_bit(machine):
+    assert Machine.from_parameters(machine.parameters) == machine
+
+
+@given(machines(digits=17))
+def test_parameters_of_a_machine_come_back_in_every_bit(machine):
+    parameters = machine.parameters
+
+    assert Machine.from_parameters(parameters).parameters == parameters
+
+
+@given(
+    scales=st.builds(Scales, decimals(1e-3, 1e5, 17), decimals(1e-6, 1e-1, 17), decimals(1e-1, 1e4, 17)),
+    gamma=st.floats(1e-3, 10),
+    omega=st.floats(1e-2, 10),
+    rho=st.floats(1e-3, 10),
+    radius_ratio=st.floats(0.1, 1e4),
+)
+def test_parameters_come_back_as_near_as_doubles_allow(scales, gamma, omega, rho, radius_ratio):
+    parameters = Parameters(gamma, omega, rho, 0.21, 0.15, 0.95, radius_ratio, scales)
+
+    machine = Machine.from_parameters(parameters)
+
+    back = machine.parameters
+    assert (back.phi, back.mu, back.d, back.scales) == (0.21, 0.15, 0.95, scales)
+    for name in ("gamma", "omega", "rho", "radius_ratio"):
+        wanted, got = getattr(parameters, name), getattr(back, name)
+        assert ulps(wanted, got) <= 1
+        if wanted != got:  # then no double near it does better
+            value = getattr(machine, PHYSICAL_PARTNER[name])
+            for steps in range(-20, 21):
+                near = value + steps * math.ulp(value)
+                changed = Machine(**{**machine.model_dump(), PHYSICAL_PARTNER[name]: near})
+                assert getattr(changed.parameters, name) != wanted
+
+
+def test_scales_may_be_given_apart():
+    scales = Scales(50, 0.7e-3, 184.2)
+
+    machine = Machine.from_parameters(Parameters(**NUMBERS), scales)
+
+    assert machine.damping == pytest.approx(921, rel=1e-15)
+    assert error_of(lambda: Machine.from_parameters(Parameters(**NUMBERS))).field == "scales"
+
+
+def test_negative_damping_is_no_machine():
+    parameters = Machine(**SI).parameters.replace(gamma=-0.1)
+
+    assert str(error_of(lambda: Machine.from_parameters(parameters))).startswith("damping = -921.0: must be a damping")
+
+
+# ------------------------------------------------------------------------------------------ replace
+
+
+@pytest.mark.parametrize(("name", "number"), list({**NUMBERS, "gamma": 0.3, "omega": 1.7, "rho": 0.0}.items()))
+def test_a_dimensionless_change_moves_its_partner_alone(name, number):
+    machine = Machine(**{**SI, "stiffness": "5600 lbf/in", "rotor_radius": "1.57 inch"})
+
+    changed = machine.replace(**{name: number})
+
+    partner = PHYSICAL_PARTNER[name]
+    assert {**changed.model_dump(), partner: 0} == {**machine.model_dump(), partner: 0}
+    assert ulps(getattr(changed.parameters, name) or 1.0, number or 1.0) <= 1
+
+
+def test_physical_changes_come_first():
+    machine = Machine(**SI).replace(gamma=0.1, speed="1500 rpm", mass=40)
+
+    assert machine.speed == read_quantity(MACHINE_FIELDS["speed"], "1500 rpm")
+    assert machine.mass == 40
+    assert machine.damping == pytest.approx(0.1 * 40 * 1500 * math.pi / 30, rel=1e-15)
+    assert machine.stiffness == 9.8e5
+
+
+@pytest.mark.parametrize(
+    ("changes", "start"),
+    [
+        ({"gamma": -0.1}, "gamma = -0.1: sets damping to -921.0, which must be a damping in N s/m, >= 0"),
+        ({"gamma": 0.1, "damping": 3}, "gamma = 0.1: sets damping, which is set too"),
+        ({"gamma": 2000}, "gamma = 2000: must be a number, -1000 to 1000"),
+        ({"omega": 1, "gamma": 0}, "gamma = 0: sets damping to 0.0, which gives gamma"),
+        ({"damping": 0, "omega": 1}, "damping = 0.0: gives gamma"),
+        ({"omega": 0}, "omega = 0: must be a number, > 0"),
+        ({"gama": 1}, "gama = 1: unknown name in a machine or its parameters; did you mean gamma?"),
+        ({"mass": "3 m"}, "mass = 3 m: must be a mass in kg"),
+        ({"damping": "1e9 N s/m"}, "damping = 1e9 N s/m: gives gamma"),
+    ],
+)
+def test_a_change_that_cannot_be_made_is_named(changes, start):
+    machine = Machine(**SI)
+
+    assert str(error_of(lambda: machine.replace(**changes))).startswith(start)

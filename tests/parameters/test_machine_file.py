@@ -1,0 +1,384 @@
+"""Machine files, settings, cases and zones."""
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from carom.outcome import InputError
+from carom.parameters import Case, Machine, Scales, Zones, load_case
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+REAL = EXAMPLES / "keogh-cole.toml"
+PAPER = EXAMPLES / "source-paper.toml"
+ENTRIES = {
+    "mass": '"50 kg"',
+    "damping": '"1400 N s/m"',
+    "stiffness": '"9.8e5 N/m"',
+    "eccentricity": '"0.3 mm"',
+    "clearance": '"0.7 mm"',
+    "rotor_radius": '"40 mm"',
+    "speed": '"184.2 rad/s"',
+    "unbalance_phase": '"0.21 rad"',
+    "friction": "0.15",
+    "restitution": "0.95",
+}
+NUMBERS = {
+    "gamma": "0.1",
+    "omega": "0.76",
+    "rho": "0.42857142857142855",
+    "phi": "0.21",
+    "mu": "0.15",
+    "d": "0.95",
+    "radius_ratio": "57.142857142857146",
+}
+WRONG_UNIT = {
+    "mass": "3 m",
+    "damping": "3 N/m",
+    "stiffness": "3 N s/m",
+    "eccentricity": "3 kg",
+    "clearance": "3 s",
+    "rotor_radius": "3 rad",
+    "speed": "3 m/s",
+    "unbalance_phase": "3 m",
+    "friction": "3 N",
+    "restitution": "0.9 m/s",
+}
+
+
+def text_of(table, entries):
+    return f"[{table}]\n" + "".join(f"{name} = {value}\n" for name, value in entries.items())
+
+
+@pytest.fixture
+def write(tmp_path):
+    """Write the content of a machine file and return its path."""
+
+    def write(content):
+        path = tmp_path / "rotor.toml"
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return write
+
+
+def error_of(path, *settings):
+    """The input error of loading; its message is one line and names its parts."""
+    with pytest.raises(InputError) as caught:
+        load_case(path, settings)
+    error = caught.value
+    assert "\n" not in str(error)
+    assert str(error).startswith(f"{error.field} = ")
+    return error
+
+
+# ------------------------------------------------------------------------------------------ examples
+
+
+def test_the_real_machine_is_the_one_of_keogh_and_cole():
+    case = load_case(REAL)
+
+    assert case.name == "keogh-cole"
+    assert case.machine == Machine(
+        mass=50,
+        damping=1400,
+        stiffness=9.8e5,
+        eccentricity=0.3e-3,
+        clearance=0.7e-3,
+        rotor_radius=40e-3,
+        speed=184.2,
+        unbalance_phase=0.21,
+        friction=0.15,
+        restitution=0.95,
+    )
+    assert case.machine == Machine.load(REAL) == Machine.load(str(REAL))
+    assert case.parameters == case.machine.parameters
+    assert case.parameters.scales == Scales(50, 0.7e-3, 184.2)
+    assert case.zones == Zones()
+
+
+def test_the_paper_case_is_dimensionless():
+    case = load_case(PAPER)
+
+    numbers = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
+    assert case.parameters.as_dict() == numbers
+    assert case.parameters.scales is None
+    assert case.machine is None
+
+
+def test_every_entry_of_the_example_is_explained():
+    lines = REAL.read_text(encoding="utf-8").splitlines()
+
+    for name in ENTRIES:
+        (line,) = [line for line in lines if line.startswith(f"{name} ")]
+        assert "#" in line
+
+
+# ------------------------------------------------------------------------------------------ round trip of files
+
+
+@given(
+    damping=st.one_of(st.just(0.0), st.floats(1e-6, 1e5)),
+    stiffness=st.floats(1e2, 1e9),
+    eccentricity=st.one_of(st.just(0.0), st.floats(1e-12, 1e-2)),
+    speed=st.floats(100, 300),
+    unbalance_phase=st.floats(-1e6, 1e6),
+    restitution=st.floats(0, 1),
+)
+def test_a_machine_written_to_a_file_is_read_back_in_every_bit(tmp_path_factory, **values):
+    machine = Machine.load(REAL).replace(**values)
+    path = tmp_path_factory.mktemp("round", numbered=True) / "machine.toml"
+    path.write_text(machine.to_toml(), encoding="utf-8")
+
+    assert Machine.load(path) == machine
+
+
+def test_si_numbers_and_text_with_units_are_the_same_machine(write):
+    plain = {**dict.fromkeys(ENTRIES), **Machine.load(REAL).model_dump()}
+
+    assert Machine.load(write(text_of("machine", plain))) == Machine.load(REAL)
+
+
+def test_a_byte_order_mark_and_windows_line_ends_do_no_harm(write):
+    content = b"\xef\xbb\xbf" + text_of("machine", ENTRIES).replace("\n", "\r\n").encode()
+
+    assert Machine.load(write(content)) == Machine.load(REAL)
+
+
+def test_angles_of_a_dimensionless_file_may_have_units(write):
+    case = load_case(write(text_of("dimensionless", {**NUMBERS, "phi": '"180 deg"'})))
+
+    assert case.parameters.phi == math.pi
+
+
+# ------------------------------------------------------------------------------------------ entries
+
+
+@pytest.mark.parametrize("field", ENTRIES)
+def test_a_missing_entry_is_named(write, field):
+    error = error_of(write(text_of("machine", {k: v for k, v in ENTRIES.items() if k != field})))
+
+    assert str(error).startswith(f"{field} = nothing given: missing in [machine]; must be a")
+
+
+@pytest.mark.parametrize("field", ENTRIES)
+def test_a_misspelt_entry_suggests_the_right_name(write, field):
+    misspelt = field[0] + field[2:]
+
+    error = error_of(write(text_of("machine", {misspelt if k == field else k: v for k, v in ENTRIES.items()})))
+
+    assert error.field == misspelt
+    assert error.value == ENTRIES[field].strip('"')
+    assert f"did you mean {field}?" in error.allowed
+
+
+@pytest.mark.parametrize("field", ENTRIES)
+def test_an_entry_of_wrong_dimension_is_named(write, field):
+    error = error_of(write(text_of("machine", {**ENTRIES, field: f'"{WRONG_UNIT[field]}"'})))
+
+    assert str(error).startswith(f"{field} = {WRONG_UNIT[field]}: must be a")
+    assert WRONG_UNIT[field].split(maxsplit=1)[1] in error.allowed
+
+
+@pytest.mark.parametrize("field", ENTRIES)
+@pytest.mark.parametrize(
+    ("value", "as_shown"),
+    [
+        *[
+            ("nan", "nan"),
+            ("inf", "inf"),
+            ("-inf", "-inf"),
+            ("1e300", "1e+300"),
+            ("1" + "0" * 400, "1000"),
+            ("true", "true"),
+        ],
+        *[
+            ('""', "''"),
+            ("[1, 2]", "[1, 2]"),
+            ("{a = 1}", "{'a': 1}"),
+            ("2026-01-01", "2026-01-01"),
+            ('"a lot"', "a lot"),
+        ],
+    ],
+)
+def test_an_entry_that_is_no_moderate_number_is_named(write, field, value, as_shown):
+    error = error_of(write(text_of("machine", {**ENTRIES, field: value})))
+
+    assert str(error).startswith(f"{field} = {as_shown}")
+    assert error.allowed.startswith("must be a")
+
+
+@pytest.mark.parametrize("field", [name for name in ENTRIES if name != "unbalance_phase"])
+def test_a_negative_entry_is_named(write, field):
+    error = error_of(write(text_of("machine", {**ENTRIES, field: "-3"})))
+
+    assert str(error).startswith(f"{field} = -3: must be a")
+
+
+@pytest.mark.parametrize("field", ["mass", "stiffness", "clearance", "rotor_radius", "speed"])
+def test_a_zero_entry_is_named_where_it_is_not_allowed(write, field):
+    error = error_of(write(text_of("machine", {**ENTRIES, field: "0.0"})))
+
+    assert str(error).startswith(f"{field} = 0.0: must be a")
+    assert "> 0" in error.allowed
+
+
+@pytest.mark.parametrize("field", ["damping", "eccentricity", "unbalance_phase", "friction", "restitution"])
+def test_a_zero_entry_is_read_where_it_is_allowed(write, field):
+    machine = load_case(write(text_of("machine", {**ENTRIES, field: "0"}))).machine
+
+    assert getattr(machine, field) == 0.0
+
+
+@pytest.mark.parametrize("name", NUMBERS)
+def test_dimensionless_entries_are_checked_alike(write, name):
+    others = {k: v for k, v in NUMBERS.items() if k != name}
+
+    assert error_of(write(text_of("dimensionless", others))).field == name
+    assert error_of(write(text_of("dimensionless", {**NUMBERS, name: "nan"}))).value == "nan"
+    assert error_of(write(text_of("dimensionless", {**NUMBERS, name: "true"}))).value == "true"
+    assert error_of(write(text_of("dimensionless", {**NUMBERS, name: '"0.5 kg"'}))).field == name
+    misspelt = error_of(write(text_of("dimensionless", {**others, f"{name}s": NUMBERS[name]})))
+    assert f"did you mean {name}?" in misspelt.allowed
+
+
+def test_a_physical_name_in_a_dimensionless_table_suggests_its_partner(write):
+    error = error_of(write(text_of("dimensionless", {**NUMBERS, "friction": "0.1"})))
+
+    assert "did you mean mu?" in error.allowed
+
+
+# ------------------------------------------------------------------------------------------ files
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    error = error_of(tmp_path / "no.toml")
+
+    assert str(error).startswith(f"machine file = {tmp_path / 'no.toml'}: there is no such file")
+
+
+def test_a_directory(tmp_path):
+    assert "this is a directory" in error_of(tmp_path).allowed
+
+
+def test_a_file_without_permission(write, monkeypatch):
+    path = write(text_of("machine", ENTRIES))
+    path.chmod(0)
+
+    def refuse(*_, **__):  # the superuser may read any file
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "open", refuse)
+
+    assert "no permission" in error_of(path).allowed
+
+
+def test_a_path_that_leads_nowhere(tmp_path):
+    loop = tmp_path / "loop.toml"
+    loop.symlink_to(loop)
+
+    assert "cannot be read" in error_of(loop).allowed
+    assert "cannot be read" in error_of("rotor\0.toml").allowed
+    assert error_of("").field == error_of(3).field == error_of(b"rotor.toml").field == "machine file"
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        ("", "it is empty"),
+        (" \n\n", "it is empty"),
+        ("# nothing\n", "holds neither"),
+        ("[zones]\nlimits = [0.1, 0.2, 0.3]\n", "holds neither"),
+        (text_of("machine", ENTRIES) + text_of("dimensionless", NUMBERS), "holds both"),
+        ("[machine\nmass = 3\n", "line 1"),
+        ("[machine]\nmass = 50 kg\n", "line 2"),
+        ("[machine]\n\nmass = \n", "line 3"),
+        ("[machine]\nmass = 50\nmass = 51\n", "line 3"),
+        ("[machine]\nmass = 50\nmass = 51\n", "the same key is given twice"),
+        ("[machine]\nmass = 50\n[machine]\n", "line 3"),
+        (b"[machine]\nmass = '\xff'\n", "UTF-8; line 2 is not"),
+        (text_of("machine", ENTRIES).encode("utf-16"), "UTF-8; line 1 is not"),
+        (b"\x00\x01\x02", "valid TOML"),
+        ("x = " + "[" * 5000, "valid TOML"),
+        ("[machine]\nmass = " + "1" * 5000, "valid TOML"),
+        (b"# " + b"x" * 2_000_000, "in less than 1000000 bytes"),
+    ],
+)
+def test_content_that_is_no_machine_file(write, content, reason):
+    path = write(content)
+
+    error = error_of(path)
+
+    assert error.field == "machine file"
+    assert error.value == str(path)
+    assert reason in error.allowed
+
+
+@pytest.mark.parametrize("content", ["machine = 3\n", "machine = [1]\n", "[[machine]]\nmass = 3\n", 'machine = "x"\n'])
+def test_a_machine_that_is_no_table(write, content):
+    error = error_of(write(content))
+
+    assert error.field == "machine"
+    assert "must be a table" in error.allowed
+
+
+def test_unknown_tables_suggest_the_nearest(write):
+    error = error_of(write(text_of("machin", ENTRIES)))
+    outside = error_of(write("mass = 50\n" + text_of("dimensionless", NUMBERS)))
+
+    assert "did you mean machine?" in error.allowed
+    assert outside.field == "mass"
+    assert "below a line [machine]" in outside.allowed
+
+
+def test_a_machine_is_not_loaded_from_a_dimensionless_file():
+    with pytest.raises(InputError, match=r"source-paper.toml: must hold a \[machine\] table"):
+        Machine.load(PAPER)
+
+
+# ------------------------------------------------------------------------------------------ zones
+
+
+@pytest.mark.parametrize(
+    ("radius", "zone"),
+    [(0, "A"), (0.3, "A"), (math.nextafter(0.3, 1), "B"), (0.4, "B"), (0.45, "C"), (0.5, "C"), (0.51, "D"), (1.0, "D")],
+)
+def test_zones_follow_the_standard(radius, zone):
+    assert Zones().zone(radius) == zone
+
+
+@pytest.mark.parametrize("radius", [-0.1, math.nan])
+def test_a_radius_is_not_negative(radius):
+    with pytest.raises(InputError, match=f"radius = {radius}: must be >= 0"):
+        Zones().zone(radius)
+
+
+def test_zone_limits_are_read_from_the_file(write):
+    case = load_case(write(text_of("machine", ENTRIES) + "[zones]\nlimits = [0.2, 0.5, 1]\n"))
+
+    assert case == Case("rotor", case.machine.parameters, Machine.load(REAL), Zones((0.2, 0.5, 1.0)))
+    assert case.zones.zone(0.25) == "B"
+
+
+@pytest.mark.parametrize(
+    ("limits", "as_shown"),
+    [
+        *[("[0.3, 0.4]", "[0.3, 0.4]"), ("[0.3, 0.4, 0.5, 0.6]", "[0.3"), ("0.3", "0.3"), ("[0.4, 0.3, 0.5]", "[0.4")],
+        *[("[0.3, 0.4, 1.5]", "[0.3"), ("[0, 0.4, 0.5]", "[0"), ("[nan, 0.4, 0.5]", "[nan"), ("[-1, 0.4, 0.5]", "[-1")],
+        *[('["0.3", 0.4, 0.5]', "['0.3'"), ("[true, 0.4, 0.5]", "[True"), ('"A"', "A"), ("[0.3, 0.3, 0.5]", "[0.3")],
+    ],
+)
+def test_zone_limits_that_make_no_zones_are_named(write, limits, as_shown):
+    error = error_of(write(text_of("machine", ENTRIES) + f"[zones]\nlimits = {limits}\n"))
+
+    assert error.field == "limits"
+    assert error.value.startswith(as_shown)
+    assert "three numbers that increase" in error.allowed
+
+
+def test_unknown_entries_of_zones_suggest_the_nearest(write):
+    error = error_of(write(text_of("machine", ENTRIES) + "[zones]\nlimit = [0.3, 0.4, 0.5]\n"))
+
+    assert "did you mean limits?" in error.allowed

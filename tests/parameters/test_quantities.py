@@ -1,0 +1,250 @@
+"""Text with units becomes SI numbers; names that do not exist get a suggestion."""
+
+import subprocess
+import sys
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from carom.outcome import InputError
+from carom.parameters import MACHINE_FIELDS, read_quantity, unknown_name
+
+ALLOWED = {
+    "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
+    "damping": "must be a damping in N s/m, >= 0 (0, or 1e-30 to 1e+30)",
+    "stiffness": "must be a stiffness in N/m, > 0 (1e-30 to 1e+30)",
+    "eccentricity": "must be a length in m, >= 0 (0, or 1e-30 to 1e+06)",
+    "clearance": "must be a length in m, > 0 (1e-09 to 1000)",
+    "rotor_radius": "must be a length in m, > 0 (1e-09 to 1e+06)",
+    "speed": "must be an angular speed in rad/s, > 0 (1e-06 to 1e+06)",
+    "unbalance_phase": "must be an angle in rad, -1e+06 to 1e+06",
+    "friction": "must be a number, 0 to 10",
+    "restitution": "must be a number, 0 to 1",
+}
+
+
+def error_of(call):
+    """The input error a call raises; its message is one line."""
+    with pytest.raises(InputError) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+    return caught.value
+
+
+# ------------------------------------------------------------------------------------------ units
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "number"),
+    [
+        ("mass", "50 kg", 50.0),
+        ("mass", "50kg", 50.0),
+        ("mass", " 0.05 t ", 50.0),
+        ("mass", "+5.e1 kg", 50.0),
+        ("damping", "1400 N s/m", 1400.0),
+        ("damping", "1400 N*s/m", 1400.0),
+        ("damping", "1400 N·s/m", 1400.0),
+        ("damping", "1400 Ns/m", 1400.0),
+        ("damping", "1.4 kN s m^-1", 1400.0),
+        ("damping", "1400 kg/s", 1400.0),
+        ("damping", "0 N s/m", 0.0),
+        ("stiffness", "9.8e5 N/m", 9.8e5),
+        ("stiffness", "0.98 kN/mm", 9.8e5),
+        ("stiffness", "980000 kg*m^2*m**-2/s^2", 9.8e5),
+        ("eccentricity", "0.3 mm", 0.0003),
+        ("eccentricity", "300 µm", 0.0003),
+        ("eccentricity", "300 um", 0.0003),
+        ("clearance", "0.7 mm", 0.0007),
+        ("clearance", "1 thou", 0.0000254),
+        ("rotor_radius", "40 mm", 0.04),
+        ("speed", "184.2 rad/s", 184.2),
+        ("speed", "1759 rpm", float(1759 * mpmath.mpf(2) * mpmath.mp.pi / 60)),
+        ("friction", "15 %", 0.15),
+        ("friction", "0.15", 0.15),
+        ("restitution", 1, 1.0),
+        ("restitution", np.float64(0.5), 0.5),
+        ("unbalance_phase", "-0.21 rad", -0.21),
+    ],
+)
+def test_text_with_a_unit_is_its_si_number(field, text, number):
+    read = read_quantity(MACHINE_FIELDS[field], text)
+
+    assert type(read) is float
+    assert read == number
+
+
+@pytest.mark.parametrize(
+    ("field", "unit", "in_si"),
+    [
+        ("speed", "rpm", lambda: mpmath.mp.pi / 30),
+        ("speed", "RPM", lambda: mpmath.mp.pi / 30),
+        ("speed", "rev/s", lambda: 2 * mpmath.mp.pi),
+        ("speed", "rev/min", lambda: mpmath.mp.pi / 30),
+        ("speed", "deg/s", lambda: mpmath.mp.pi / 180),
+        ("unbalance_phase", "deg", lambda: mpmath.mp.pi / 180),
+        ("unbalance_phase", "°", lambda: mpmath.mp.pi / 180),
+    ],
+)
+@given(number=st.floats(0.01, 1000))
+def test_angles_and_speeds_are_rounded_once(field, unit, in_si, number):
+    with mpmath.workprec(200):
+        expected = float(mpmath.mpf(repr(number)) * in_si())
+
+    assert read_quantity(MACHINE_FIELDS[field], f"{number!r} {unit}") == expected
+
+
+@given(number=st.floats(1e-6, 1e5, allow_subnormal=False), scale=st.sampled_from([("mm", 3), ("um", 6), ("cm", 2)]))
+def test_lengths_are_rounded_once(number, scale):
+    unit, places = scale
+
+    read = read_quantity(MACHINE_FIELDS["eccentricity"], f"{number!r} {unit}")
+
+    assert read == float(Fraction(repr(number)) / 10**places)
+
+
+@pytest.mark.parametrize("text", ["30 Hz", "30 1/s", "30 s^-1", "1759 min^-1", "0.03 kHz"])
+def test_speed_without_turns_or_radians_is_ambiguous(text):
+    error = error_of(lambda: read_quantity(MACHINE_FIELDS["speed"], text))
+
+    if "min" in text or "k" in text:
+        assert text.split()[1] in str(error)
+    assert "rpm" in error.allowed
+    assert "rad/s" in error.allowed
+
+
+@pytest.mark.parametrize(
+    ("field", "text"),
+    [
+        ("mass", "3 m"),
+        ("mass", "490 N"),
+        ("mass", "20 degC"),
+        ("mass", "3 dB"),
+        ("damping", "1400 N/m"),
+        ("damping", "1400 N s/(m rad)"),
+        ("stiffness", "1400 N s/m"),
+        ("eccentricity", "0.3 kg"),
+        ("eccentricity", "0.3 mm/rev"),
+        ("clearance", "0.7 mm^2"),
+        ("rotor_radius", "40 s"),
+        ("speed", "184.2 m/s"),
+        ("speed", "30 Bq"),
+        ("unbalance_phase", "12 %"),
+        ("unbalance_phase", "12 sr"),
+        ("friction", "0.15 rad"),
+        ("friction", "3 dB"),
+        ("friction", "20 degC"),
+        ("restitution", "0.95 m/s"),
+    ],
+)
+def test_wrong_dimension_names_unit_and_what_is_allowed(field, text):
+    error = error_of(lambda: read_quantity(MACHINE_FIELDS[field], text))
+
+    assert str(error).startswith(f"{field} = {text}: {ALLOWED[field]}")
+    assert repr(text.split(maxsplit=1)[1]) in error.allowed
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *(
+            "5 foo",
+            "5 m**9**9**9",
+            "5 m^9^9",
+            "5 m^(9^9)",
+            "5 (m",
+            "5 m)",
+            "5 ()",
+            "5 m/",
+            "5 /m",
+            "5 kg + 3 kg",
+            "5 kg;",
+        ),
+        *("5 5", "5 kg 5", "5 __import__('os')", "0,7 kg", "1_000 kg", "5 \x1b[31mkg", "5 k\u0000g", "5 KG", "0x10 kg"),
+        *("5 " + "m " * 1000, "5 " + "(" * 50, "5 " + "9" * 50, "5 lambda x: x", "5 kg\n\nkg kg"),
+    ],
+)
+def test_unreadable_units_are_refused_at_once(text):
+    error = error_of(lambda: read_quantity(MACHINE_FIELDS["mass"], text))
+
+    assert error.field == "mass"
+    assert ALLOWED["mass"] in error.allowed
+    assert str(error).isprintable()
+
+
+def fields_of_errors(text):
+    """Read a text as every field: the numbers are allowed ones, and the errors name these fields."""
+    for field in MACHINE_FIELDS.values():
+        try:
+            number = read_quantity(field, text)
+        except InputError as error:
+            yield field.name, error.field
+        else:
+            assert field.contains(number)
+
+
+@given(st.text(max_size=80))
+def test_no_text_brings_anything_but_a_number_or_an_input_error(text):
+    for candidate in (text, f"5 {text}"):
+        assert all(named == field for field, named in fields_of_errors(candidate))
+
+
+@given(st.lists(st.sampled_from(["m", "kg", "s", "N", "rad", "*", "/", "^", "**", "(", ")", " ", "1", "2", "-"])))
+def test_no_combination_of_units_brings_anything_but_a_number_or_an_input_error(parts):
+    assert all(named == field for field, named in fields_of_errors("0.5 " + "".join(parts)))
+
+
+def test_a_number_in_quotes_needs_its_unit_except_on_the_command_line():
+    error = error_of(lambda: read_quantity(MACHINE_FIELDS["mass"], "50"))
+
+    assert "in quotes needs its unit" in error.allowed
+    assert read_quantity(MACHINE_FIELDS["mass"], "50", bare=True) == 50.0
+
+
+def test_pint_is_loaded_by_the_first_unit_only():
+    code = """if True:
+        import sys
+        from carom.parameters import Machine
+        values = dict(mass=50, damping=1400, stiffness=9.8e5, eccentricity=0.3e-3, clearance=0.7e-3, rotor_radius=0.04,
+                      speed=184.2, unbalance_phase=0.21, friction=0.15, restitution=0.95)
+        machine = Machine(**values)
+        machine.replace(gamma=0.1)
+        print("pint" in sys.modules, "numpy" in sys.modules, "numba" in sys.modules)
+        print(Machine(**{**values, "mass": "50 kg"}) == machine, "pint" in sys.modules)
+    """
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert done.stdout.split() == ["False", "False", "False", "True", "True"]
+
+
+# ------------------------------------------------------------------------------------------ names
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        *[
+            ("dampin", "damping"),
+            ("Damping", "damping"),
+            ("rotor-radius", "rotor_radius"),
+            ("restituton", "restitution"),
+        ],
+        *[("c", "damping"), ("e_c", "eccentricity"), ("Ω", "speed"), ("gamma", "damping"), ("radius", "rotor_radius")],
+    ],
+)
+def test_unknown_names_suggest_the_nearest(written, meant):
+    error = unknown_name(written, 3, MACHINE_FIELDS, "[machine]")
+
+    assert error.field == written
+    assert f"did you mean {meant}?" in error.allowed
+
+
+def test_unknown_names_without_a_near_one_list_all():
+    error = unknown_name("xyz\n", 3, MACHINE_FIELDS, "[machine]")
+
+    assert "did you mean" not in error.allowed
+    assert all(name in error.allowed for name in MACHINE_FIELDS)
+    assert "\n" not in str(error)

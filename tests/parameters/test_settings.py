@@ -1,0 +1,147 @@
+"""Settings `name=value` on top of a machine file."""
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from carom.outcome import InputError
+from carom.parameters import Machine, load_case
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+REAL = EXAMPLES / "keogh-cole.toml"
+PAPER = EXAMPLES / "source-paper.toml"
+PARTNERS = {
+    "gamma": "damping",
+    "omega": "stiffness",
+    "rho": "eccentricity",
+    "phi": "unbalance_phase",
+    "mu": "friction",
+    "d": "restitution",
+    "radius_ratio": "rotor_radius",
+}
+
+
+def error_of(path, *settings):
+    """The input error of loading; its message is one line and names its parts."""
+    with pytest.raises(InputError) as caught:
+        load_case(path, settings)
+    error = caught.value
+    assert "\n" not in str(error)
+    assert str(error).startswith(f"{error.field} = ")
+    return error
+
+
+@pytest.mark.parametrize("path", [REAL, PAPER])
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        *[("gamma", "0.1"), ("omega", "0.7612345678901234"), ("rho", "0"), ("phi", "-1.5"), ("mu", "0.3"), ("d", "1")],
+        *[("radius_ratio", "57.1"), ("gamma", "1e-3"), ("gamma", ".5"), ("gamma", "+0.123456789012345678")],
+    ],
+)
+def test_a_dimensionless_setting_is_exact(path, name, text):
+    before = load_case(path)
+
+    case = load_case(path, [f" {name} = {text} "])
+
+    assert case.parameters == before.parameters.replace(**{name: float(text)})
+    if before.machine is not None:
+        assert {**case.machine.model_dump(), PARTNERS[name]: 0} == {**before.machine.model_dump(), PARTNERS[name]: 0}
+
+
+@given(gamma=st.floats(1e-6, 100), omega=st.floats(1e-2, 100), rho=st.floats(0, 100), radius_ratio=st.floats(1e-2, 1e6))
+def test_settings_are_exact_and_the_machine_follows(gamma, omega, rho, radius_ratio):
+    numbers = {"gamma": gamma, "omega": omega, "rho": rho if rho > 1e-20 else 0.0, "radius_ratio": radius_ratio}
+
+    case = load_case(REAL, [f"{name}={number!r}" for name, number in numbers.items()])
+
+    followed = case.machine.parameters.as_dict()
+    for name, number in numbers.items():
+        assert getattr(case.parameters, name) == number
+        assert abs(followed[name] - number) <= math.ulp(number)
+
+
+def test_physical_settings_change_what_depends_on_them():
+    case = load_case(REAL, ["speed=1500 rpm", "damping = 2000 N s/m", "friction=0.2", "mass=60"])
+
+    expected = Machine.load(REAL).replace(speed="1500 rpm", damping=2000, friction=0.2, mass=60)
+    assert case.machine == expected
+    assert case.parameters == expected.parameters
+    assert case.parameters.mu == 0.2
+
+
+def test_physical_settings_come_before_dimensionless_ones():
+    case = load_case(REAL, ["gamma=0.1", "speed=1500 rpm"])
+
+    assert case.parameters.gamma == 0.1
+    assert case.machine.damping == pytest.approx(0.1 * 50 * 1500 * math.pi / 30, rel=1e-15)
+    assert case == load_case(REAL, ["speed=1500 rpm", "gamma=0.1"])
+
+
+@pytest.mark.parametrize("path", [REAL, PAPER])
+@pytest.mark.parametrize(
+    ("settings", "start"),
+    [
+        (["gamma"], "--set = gamma: must be name=value"),
+        ([""], "--set = '': must be name=value"),
+        (["=0.1"], "--set = =0.1: must be name=value"),
+        (["gamma="], "gamma = '': must be a number"),
+        (["gamma=abc"], "gamma = abc: must be a number"),
+        (["gamma=nan"], "gamma = nan: must be a number"),
+        (["gamma=inf"], "gamma = inf: must be a number"),
+        (["gamma=1e400"], "gamma = 1e400: must be a number"),
+        (["gamma=0.1=0.2"], "gamma = 0.1=0.2: must be a number"),
+        (["gamma=0.1 kg"], "gamma = 0.1 kg: must be a number"),
+        (["gamma=[1]"], "gamma = [1]: must be a number"),
+        (["omega=0"], "omega = 0: must be a number, > 0"),
+        (["d=2"], "d = 2: must be a number, 0 to 1"),
+        (["gama=0.1"], "gama = 0.1: unknown name in a machine or its parameters; did you mean gamma?"),
+        (["dampin=3 N s/m"], "dampin = 3 N s/m: unknown name in a machine or its parameters; did you mean damping?"),
+        (["gamma=0.1", "gamma=0.2"], "gamma = 0.2: is set twice"),
+        (["damping=3 N s/m", "gamma=0.1"], "gamma = 0.1: sets damping, which is set too"),
+        (["radius_ratio=50", "rotor_radius=3 mm"], "radius_ratio = 50: sets rotor_radius, which is set too"),
+        (["omega=1", "gamma=0"], "gamma = 0"),
+    ],
+)
+def test_nonsense_settings_are_named(path, settings, start):
+    assert str(error_of(path, *settings)).startswith(start)
+
+
+@pytest.mark.parametrize(
+    ("setting", "start"),
+    [
+        ("mass=3 m", "mass = 3 m: must be a mass"),
+        ("damping=-3 N s/m", "damping = -3 N s/m: must be a damping in N s/m, >= 0"),
+        ("damping=many", "damping = many: must be a damping"),
+        ("speed=30 Hz", "speed = 30 Hz: must be an angular speed"),
+        ("gamma=-0.1", "gamma = -0.1: sets damping to -921.0, which must be a damping"),
+    ],
+)
+def test_settings_that_no_machine_can_have_are_named(setting, start):
+    assert str(error_of(REAL, setting)).startswith(start)
+
+
+@pytest.mark.parametrize(
+    ("setting", "advice"),
+    [("damping=2000 N s/m", "set gamma instead"), ("mass=3 kg", "use a file with a [machine] table")],
+)
+def test_physical_settings_need_a_machine(setting, advice):
+    error = error_of(PAPER, setting)
+
+    assert error.field == setting.partition("=")[0]
+    assert "no mass, clearance and speed" in error.allowed
+    assert advice in error.allowed
+
+
+def test_a_dimensionless_file_may_have_negative_damping():
+    assert load_case(PAPER, ["gamma=-0.2"]).parameters.gamma == -0.2
+
+
+def test_a_broken_file_is_not_mended_by_a_setting(tmp_path):
+    path = tmp_path / "broken.toml"
+    path.write_text(REAL.read_text(encoding="utf-8").replace('"50 kg"', "-1"), encoding="utf-8")
+
+    assert error_of(path, "mass=50 kg").value == "-1"
