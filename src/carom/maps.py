@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.core.advance import advance
+from carom.core.fate import memory
 from carom.core.impact import strike
 from carom.core.layout import workspace
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
-from carom.outcome import Outcome
+from carom.outcome import Outcome, Phase
 from carom.rotors import Rotor
-from carom.trajectories import State, Trajectory, simulate
+from carom.trajectories import EventLog, State, Trajectory, follow, simulate
 
 __all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "section_jacobian", "stroboscopic_map"]
 
@@ -101,15 +101,12 @@ def impact_map(rotor: Rotor, section: Section, longest_flight: float = 1000.0) -
     """
     state = section.state
     amplitudes = rotor.amplitudes(state.position, state.velocity)
-    before = np.empty((2, len(amplitudes)), complex)
-    log = np.empty(2), np.empty(2, np.int64), before, np.empty_like(before)
-    code, time, count, _ = advance(
-        rotor.arrays, rotor.table, amplitudes, longest_flight, 0, *log, workspace(len(amplitudes))
-    )
+    log = EventLog.empty(2, len(amplitudes))
+    bounces = memory(len(amplitudes), stop_at_landing=True)
+    outcome, time, count, *_ = follow(rotor, amplitudes, longest_flight, Phase.FLIGHT, 0, log, bounces)
     if count < 2:
-        outcome = Outcome.CLEAR if code == Outcome.TIME_REACHED else Outcome(code)
-        return ImpactMap(outcome, None, time, None)
-    position, velocity = rotor.state(before[1])
+        return ImpactMap(Outcome.CLEAR if outcome is Outcome.TIME_REACHED else outcome, None, time, None)
+    position, velocity = rotor.state(log.before[1])
     image = Section.from_state(complex(position), complex(velocity))
     return ImpactMap(Outcome.CONTACT, image, time, section_jacobian(rotor, section, time))
 
@@ -171,15 +168,15 @@ def stroboscopic_map(rotor: Rotor, state: State, period: float) -> StroboscopicM
     StroboscopicMap
         Its derivative is meaningless if the trajectory ends in ``CHATTER`` or ``GRAZING``.
     """
-    trajectory = simulate(rotor, state, period)
+    trajectory = simulate(rotor, state, period, stop_at_chatter=True)
     units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
     directions = np.array([rotor.amplitude_change(*unit) for unit in units])
     delays, work = np.empty(4), workspace(directions.shape[1])
-    durations = np.diff(np.append(trajectory.flight_starts, trajectory.time))
+    durations = np.diff(np.append(trajectory.segment_starts, trajectory.time))
     for flight, arrival in enumerate(trajectory.arrivals):
         carry_to_wall(rotor.arrays, 0, durations[flight], arrival, directions, delays, work)
         carry_through_impact(rotor.arrays, 0, arrival, directions)
-        shift(rotor.arrays, trajectory.flight_amplitudes[flight + 1], directions, -delays)
+        shift(rotor.arrays, trajectory.segment_amplitudes[flight + 1], directions, -delays)
     directions = rotor.fly(directions, np.full(4, durations[-1]))
     position, velocity = directions @ rotor.arrays.rows[0], directions @ rotor.arrays.rate_rows[0]
     return StroboscopicMap(trajectory, np.array([position.real, position.imag, velocity.real, velocity.imag]))

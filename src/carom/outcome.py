@@ -8,21 +8,28 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-__all__ = ["CaromError", "InputError", "Outcome"]
+__all__ = ["CaromError", "InputError", "Outcome", "Phase"]
 
 
 class Outcome(IntEnum):
     """Outcome of a flight, an impact or a whole motion.
 
-    The codes below 10 belong to a single flight, those from 10 to a motion.  ``grazing`` can end both.
+    The codes below 10 belong to a single flight, those from 10 to a motion that was stopped, those from 20 to one that
+    has settled.  ``grazing`` can end both a flight and a motion.
     """
 
     CLEAR = 0
     CONTACT = 1
     GRAZING = 2
     TIME_REACHED = 10
-    IMPACT_LIMIT = 11
+    EVENT_LIMIT = 11
     CHATTER = 12
+    LEVITATED = 20
+    BOUNCING = 21
+    MIXED = 22
+    FORWARD_RUB = 23
+    BACKWARD_WHIRL = 24
+    ROLLING = 25
 
     @property
     def label(self) -> str:
@@ -30,9 +37,28 @@ class Outcome(IntEnum):
         return self.name.lower().replace("_", "-")
 
     @property
+    def settled(self) -> bool:
+        """Whether the motion has reached its end; what it does from there on is known."""
+        return self >= Outcome.LEVITATED
+
+    @property
     def meaning(self) -> str:
         """One sentence that explains the outcome to a user."""
         return _MEANINGS[self]
+
+
+class Phase(IntEnum):
+    """Kind of motion between two events."""
+
+    FLIGHT = 0
+    FORWARD_SLIP = 1
+    BACKWARD_SLIP = 2
+    ROLLING = 3
+
+    @property
+    def label(self) -> str:
+        """Name used in tables and JSON, for example ``"forward-slip"``."""
+        return self.name.lower().replace("_", "-")
 
 
 _MEANINGS = {
@@ -42,9 +68,15 @@ _MEANINGS = {
         "The path touches the wall so nearly tangentially that double precision cannot decide whether it hits; "
         "move the start by more than 1e-12 to decide."
     ),
-    Outcome.TIME_REACHED: "The motion was followed to the time asked for.",
-    Outcome.IMPACT_LIMIT: "The motion was stopped at the largest allowed number of impacts; raise max_impacts.",
+    Outcome.TIME_REACHED: "The motion was followed to the time asked for without settling.",
+    Outcome.EVENT_LIMIT: "The motion was stopped at the largest allowed number of events; raise max_events.",
     Outcome.CHATTER: "The impacts accumulate: the rotor goes over into lasting contact with the touchdown bearing.",
+    Outcome.LEVITATED: "The rotor returns to contact-free levitation: no later flight can reach the wall.",
+    Outcome.BOUNCING: "The rotor keeps bouncing on the touchdown bearing.",
+    Outcome.MIXED: "The rotor keeps alternating between bounces and lasting contact.",
+    Outcome.FORWARD_RUB: "The rotor rubs along the touchdown bearing in forward whirl.",
+    Outcome.BACKWARD_WHIRL: "The rotor slides round the touchdown bearing in dry-friction backward whirl.",
+    Outcome.ROLLING: "The rotor rolls round the touchdown bearing in backward whirl without slip.",
 }
 
 

@@ -1,4 +1,4 @@
-"""Motions: a start followed through flights and impacts."""
+"""Motions: a start followed through flights, impacts and lasting contact."""
 
 from __future__ import annotations
 
@@ -6,26 +6,27 @@ import cmath
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from itertools import pairwise
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.core.advance import advance, set_on_wall
-from carom.core.layout import workspace
-from carom.outcome import InputError, Outcome
+from carom.contacts import ContactLog, LastingContact
+from carom.core.advance import INSIDE_ALL, advance
+from carom.core.fate import memory
+from carom.core.impact import set_on_wall
+from carom.core.layout import rub_workspace, workspace
+from carom.core.rub import fly_or_rub_all
+from carom.equilibria import equilibria
+from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
 
-if TYPE_CHECKING:
-    import xarray
-
-    from carom.parameters import Scales
-
-__all__ = ["ContactLog", "Kick", "State", "Trajectory", "kick", "simulate"]
+__all__ = ["EventLog", "Kick", "State", "Trajectory", "follow", "kick", "simulate"]
 
 WALL_TOLERANCE = 1e-12
 """A start this near to ``|U| = 1`` lies on the wall."""
 CHUNK = 4096
-"""Impacts per kernel call; between calls progress is reported."""
+"""Events per kernel call; between calls progress is reported."""
 
 
 @dataclass(frozen=True)
@@ -67,115 +68,45 @@ def kick(speed: float, angle: float = 0.0) -> Kick:
     return Kick(speed, angle)
 
 
-@dataclass(frozen=True, eq=False)
-class ContactLog:
-    """Impacts of a motion, one entry each, in the order of time.
+class EventLog(NamedTuple):
+    """Events of a motion as a kernel writes them; see :func:`carom.core.advance.advance`."""
 
-    All arrays have shape (n,).  Lengths are in ``c_r``, times in ``1/Ω``, impulses in ``m c_r Ω``, energies in
-    ``m c_r² Ω²``, in the co-rotating frame.
+    times: np.ndarray
+    phases: np.ndarray
+    planes: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
 
-    Attributes
-    ----------
-    time, angle : ndarray
-        Time and angle ``θ`` of the impact.
-    radial_speed, angular_speed : ndarray
-        ``ṙ`` and ``θ̇`` just before it.
-    radial_speed_after, angular_speed_after : ndarray
-        ``ṙ`` and ``θ̇`` just after it.
-    normal_impulse, tangential_impulse : ndarray
-        Impulse of the bearing on the rotor: inward, and along growing ``θ`` (against the slip).
-    slip_before, slip_after : ndarray
-        Slip velocity ``v = s + 1 + θ̇`` of the contact point.
-    sticks : ndarray of bool
-        Whether friction stopped the slip.
-    contact_work : ndarray
-        Work of the impulse on the contact point (mean velocity of before and after), never positive.
-    drive_work : ndarray
-        Work that the shaft's drive feeds in through friction: kinetic energy gained minus ``contact_work``.
-    """
-
-    time: np.ndarray
-    angle: np.ndarray
-    radial_speed: np.ndarray
-    angular_speed: np.ndarray
-    radial_speed_after: np.ndarray
-    angular_speed_after: np.ndarray
-    normal_impulse: np.ndarray
-    tangential_impulse: np.ndarray
-    slip_before: np.ndarray
-    slip_after: np.ndarray
-    sticks: np.ndarray
-    contact_work: np.ndarray
-    drive_work: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.time)
-
-    def in_si(self, scales: Scales) -> dict[str, tuple[np.ndarray, str]]:
-        """Columns with their SI units: name to (values, unit)."""
-        return {
-            name: (getattr(self, name) * (getattr(scales, scale) if scale else 1), unit)
-            for name, (scale, unit, _) in _COLUMNS.items()
-        }
-
-    def to_dataset(self, scales: Scales | None = None) -> xarray.Dataset:
-        """Table with units and long names as attributes; in SI if scales are given."""
-        import xarray
-
-        si = self.in_si(scales) if scales else {}
-        columns = {}
-        for name, (scale, _, words) in _COLUMNS.items():
-            values, unit = si.get(name, (getattr(self, name), _DIMENSIONLESS_UNITS.get(scale, "1")))
-            columns[name] = ("impact", values, {"units": unit, "long_name": words})
-        return xarray.Dataset(columns)
-
-
-_COLUMNS = {
-    "time": ("time", "s", "time of impact"),
-    "angle": ("", "rad", "angle of impact in the co-rotating frame"),
-    "radial_speed": ("velocity", "m/s", "radial speed before impact"),
-    "angular_speed": ("speed", "rad/s", "angular speed before impact, co-rotating frame"),
-    "radial_speed_after": ("velocity", "m/s", "radial speed after impact"),
-    "angular_speed_after": ("speed", "rad/s", "angular speed after impact, co-rotating frame"),
-    "normal_impulse": ("impulse", "N s", "normal impulse of the bearing on the rotor"),
-    "tangential_impulse": ("impulse", "N s", "friction impulse of the bearing on the rotor"),
-    "slip_before": ("velocity", "m/s", "slip velocity before impact"),
-    "slip_after": ("velocity", "m/s", "slip velocity after impact"),
-    "sticks": ("", "1", "whether friction stopped the slip"),
-    "contact_work": ("energy", "J", "work of the impact on the contact point"),
-    "drive_work": ("energy", "J", "work of the shaft's drive through friction"),
-}
-
-_DIMENSIONLESS_UNITS = {
-    "": "1",
-    "time": "1/Omega",
-    "velocity": "c_r Omega",
-    "speed": "Omega",
-    "impulse": "m c_r Omega",
-    "energy": "m c_r^2 Omega^2",
-}
+    @classmethod
+    def empty(cls, size: int, modes: int) -> EventLog:
+        """Room for that many events."""
+        whole = np.empty((2, size), np.int64)
+        return cls(np.empty(size), whole[0], whole[1], *np.empty((2, size, modes), complex))
 
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """A motion: exact flights joined by impacts.
+    """A motion: exact flights and lasting contacts joined by events.
 
     Attributes
     ----------
     rotor : Rotor
     start : State
     outcome : Outcome
-        ``TIME_REACHED``, ``IMPACT_LIMIT``, ``CHATTER`` (the exact state where impacts have accumulated) or ``GRAZING``.
+        Where it settled, or why it was stopped.
     time : float
         End of the motion in ``1/Ω``.
     final : State
         State at the end.
-    flight_starts : ndarray, shape (n + 1,)
-        Start time of each flight.
-    flight_amplitudes : ndarray of complex, shape (n + 1, N)
-        Mode amplitudes at the start of each flight.
+    multiplicity : int
+        Impacts in a period if it settled to periodic bouncing; zero otherwise (of bouncing: aperiodic).
+    segment_starts : ndarray, shape (n + 1,)
+        Start time of each segment.  A long contact consists of several.
+    segment_phases : ndarray of :class:`~carom.outcome.Phase`, shape (n + 1,)
+    segment_amplitudes : ndarray of complex, shape (n + 1, N)
+        Mode amplitudes at the start of each segment.
     arrivals : ndarray of complex, shape (n, N)
-        Mode amplitudes just before each impact.
+        Mode amplitudes at the end of each segment but the last.
     """
 
     rotor: Rotor
@@ -183,42 +114,41 @@ class Trajectory:
     outcome: Outcome
     time: float
     final: State
-    flight_starts: np.ndarray
-    flight_amplitudes: np.ndarray
+    multiplicity: int
+    segment_starts: np.ndarray
+    segment_phases: np.ndarray
+    segment_amplitudes: np.ndarray
     arrivals: np.ndarray
+
+    @cached_property
+    def is_impact(self) -> np.ndarray:
+        """Which of the ``n`` events are impacts, bool, shape (n,)."""
+        flying = self.segment_phases == Phase.FLIGHT
+        struck = (self.arrivals != self.segment_amplitudes[1:]).any(axis=1)
+        return flying[:-1] & flying[1:] & struck
 
     @cached_property
     def contacts(self) -> ContactLog:
         """Log of the impacts."""
-        before = _polar(*self.rotor.state(self.arrivals))
-        after = _polar(*self.rotor.state(self.flight_amplitudes[1:]))
-        drive = float(self.rotor.arrays.drive[0])
-        ratio = self.rotor.parameters.radius_ratio
-        angle, radial, angular = before
-        _, radial_after, angular_after = after
-        normal = radial - radial_after
-        tangential = angular_after - angular
-        slip, slip_after = drive + angular, drive + angular_after
-        stopped = self.rotor.parameters.mu * normal >= np.abs(slip)
-        normal_work = -0.5 * normal * (radial + radial_after)
-        return ContactLog(
-            time=self.flight_starts[1:],
-            angle=angle,
-            radial_speed=radial,
-            angular_speed=angular,
-            radial_speed_after=radial_after,
-            angular_speed_after=angular_after,
-            normal_impulse=normal,
-            tangential_impulse=tangential,
-            slip_before=slip,
-            slip_after=slip_after,
-            sticks=stopped,
-            contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
-            drive_work=-ratio * tangential,
+        impact = self.is_impact
+        before = self.rotor.state(self.arrivals[impact])
+        after = self.rotor.state(self.segment_amplitudes[1:][impact])
+        return ContactLog.from_states(self.rotor, self.segment_starts[1:][impact], before, after)
+
+    @cached_property
+    def lasting_contacts(self) -> tuple[LastingContact, ...]:
+        """Stretches of sliding and rolling in the order of time."""
+        changes = np.flatnonzero(np.diff(self.segment_phases)) + 1
+        bounds = [0, *changes, len(self.segment_phases)]
+        ends = np.append(self.segment_starts, self.time)
+        return tuple(
+            LastingContact(Phase(int(self.segment_phases[first])), float(ends[first]), float(ends[last]))
+            for first, last in pairwise(bounds)
+            if self.segment_phases[first] != Phase.FLIGHT
         )
 
     def at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """State at given times, exact; at an impact the state just after it.
+        """State at given times, exact to rounding; at an impact the state just after it.
 
         Parameters
         ----------
@@ -230,16 +160,47 @@ class Trajectory:
         position, velocity : ndarray of complex
             ``U`` and ``U̇`` in the co-rotating frame, of the shape of ``times``.
         """
-        times = np.asarray(times, float)
-        flight = np.clip(np.searchsorted(self.flight_starts, times, side="right") - 1, 0, None)
-        elapsed = times - self.flight_starts[flight]
-        return self.rotor.state(self.rotor.fly(self.flight_amplitudes[flight], elapsed))
+        amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
+        return self.rotor.state(amplitudes)
+
+    def _amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Mode amplitudes and phases at given times."""
+        flat = times.ravel()
+        segment = np.clip(np.searchsorted(self.segment_starts, flat, side="right") - 1, 0, None)
+        phases = self.segment_phases[segment]
+        moved = fly_or_rub_all(
+            self.rotor.arrays,
+            0,
+            self.segment_amplitudes[segment],
+            phases,
+            flat - self.segment_starts[segment],
+            rub_workspace(self.segment_amplitudes.shape[1]),
+        )
+        return moved.reshape(*times.shape, -1), phases.reshape(times.shape)
+
+    def forces(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Normal and friction force of lasting contact at given times, in ``m c_r Ω²``; zero in flight.
+
+        Returns
+        -------
+        normal, friction : ndarray
+            The normal force presses the rotor inward; friction is positive along growing angle.
+        """
+        amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
+        arrays = self.rotor.arrays
+        position, velocity = self.rotor.state(amplitudes)
+        local = position.conj() * (amplitudes @ arrays.acceleration_rows[0])
+        push = local.real + np.abs(velocity) ** 2
+        slip_sign = np.where(phases == Phase.FORWARD_SLIP, 1.0, -1.0)
+        grip = np.where(phases == Phase.ROLLING, -local.imag, -slip_sign * arrays.friction[0] * push)
+        touching = phases != Phase.FLIGHT
+        return np.where(touching, push, 0.0), np.where(touching, grip, 0.0)
 
     def sample(self, count: int = 2000) -> np.ndarray:
-        """Times for drawing: about ``count`` even ones, every impact time, and the last instant before each."""
-        impacts = self.flight_starts[1:]
+        """Times for drawing: about ``count`` even ones, every event, and the last instant before each."""
+        events = self.segment_starts[1:]
         even = np.linspace(0.0, self.time, count)
-        return np.unique(np.concatenate([even, impacts, np.nextafter(impacts, 0.0)]))
+        return np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
 
     def position(self, times: np.ndarray, frame: Literal["rotating", "fixed"] = "rotating") -> np.ndarray:
         """Position in clearances, ``U`` in the co-rotating or ``Z = U e^{it}`` in the fixed frame."""
@@ -252,21 +213,18 @@ class Trajectory:
         return radius
 
 
-def _polar(position: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Angle, radial and angular speed of states on the wall."""
-    local = position.conj() * velocity / np.abs(position)
-    return np.angle(position), local.real, local.imag / np.abs(position)
-
-
 def simulate(
     rotor: Rotor,
     start: State | Kick,
     until: float,
     *,
-    max_impacts: int = 1_000_000,
+    settle: bool = False,
+    stop_at_chatter: bool = False,
+    patience: int = 20_000,
+    max_events: int = 1_000_000,
     progress: Callable[[float], None] | None = None,
 ) -> Trajectory:
-    """Follow a start through flights and impacts.
+    """Follow a start through flights, impacts, sliding and rolling.
 
     Parameters
     ----------
@@ -275,15 +233,20 @@ def simulate(
         On the wall (``|U| = 1`` to within 1e-12) or inside it.
     until : float
         Time to follow it, in ``1/Ω``.
-    max_impacts : int
-        Impacts after which to give up.
+    settle : bool
+        End earlier, as soon as it is known where the motion ends (criteria in :mod:`carom.core.fate`).
+    stop_at_chatter : bool
+        End with ``CHATTER`` and the exact state where impacts have accumulated.
+    patience : int
+        With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
+    max_events : int
+        Impacts and steps of lasting contact after which to give up.
     progress : callable, optional
         Called now and then with the time reached.
 
     Returns
     -------
     Trajectory
-        Where impacts accumulate it ends early with the outcome ``CHATTER``.
 
     Raises
     ------
@@ -294,26 +257,24 @@ def simulate(
     amplitudes, plane = _checked_start(rotor, state)
     if not (np.isfinite(until) and until > 0):
         raise InputError("until", until, "a finite time above 0, in 1/Omega")
-    if max_impacts < 1:
-        raise InputError("max_impacts", max_impacts, "a whole number of at least 1")
+    if max_events < 1:
+        raise InputError("max_events", max_events, "a whole number of at least 1")
     modes = len(amplitudes)
-    work = workspace(modes)
+    recollection = memory(
+        modes,
+        rub_position=_stable_rub(rotor) if settle else 0j,
+        patience=patience if settle else 0,
+        recheck=_recheck_time(rotor),
+        stop_at_landing=stop_at_chatter,
+    )
     first = amplitudes.copy()
-    times, before, after = [np.zeros(0)], [np.zeros((0, modes), complex)], [np.zeros((0, modes), complex)]
-    reached, impacts, outcome = 0.0, 0, Outcome.IMPACT_LIMIT
-    while outcome is Outcome.IMPACT_LIMIT and impacts < max_impacts:
-        size = min(CHUNK, max_impacts - impacts)
-        log = (
-            np.empty(size),
-            np.empty(size, np.int64),
-            np.empty((size, modes), complex),
-            np.empty((size, modes), complex),
-        )
-        code, time, count, plane = advance(rotor.arrays, rotor.table, amplitudes, until - reached, plane, *log, work)
-        times.append(reached + log[0][:count])
-        before.append(log[2][:count])
-        after.append(log[3][:count])
-        reached, impacts, outcome = reached + time, impacts + count, Outcome(code)
+    logs: list[EventLog] = []
+    reached, events, outcome, phase = 0.0, 0, Outcome.EVENT_LIMIT, int(Phase.FLIGHT)
+    while outcome is Outcome.EVENT_LIMIT and events < max_events:
+        log = EventLog.empty(min(CHUNK, max_events - events), modes)
+        outcome, time, count, phase, plane = follow(rotor, amplitudes, until - reached, phase, plane, log, recollection)
+        logs.append(EventLog(reached + log.times[:count], *(part[:count] for part in log[1:])))
+        reached, events = reached + time, events + count
         if progress:
             progress(reached)
     position, velocity = rotor.state(amplitudes)
@@ -323,14 +284,46 @@ def simulate(
         outcome=outcome,
         time=until if outcome is Outcome.TIME_REACHED else reached,
         final=State(complex(position), complex(velocity)),
-        flight_starts=np.concatenate([np.zeros(1), *times]),
-        flight_amplitudes=np.concatenate([first[None], *after]),
-        arrivals=np.concatenate(before),
+        multiplicity=int(recollection.period),
+        segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
+        segment_phases=np.concatenate([np.zeros(1, np.int64), *(log.phases for log in logs)]),
+        segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
+        arrivals=np.concatenate([log.before for log in logs]),
     )
 
 
+def follow(
+    rotor: Rotor, amplitudes: np.ndarray, until: float, phase: int, plane: int, log: EventLog, recollection: np.record
+) -> tuple[Outcome, float, int, int, int]:
+    """Advance amplitudes in place until the log is full or the motion ends; see :func:`carom.core.advance.advance`."""
+    modes = len(amplitudes)
+    code, *rest = advance(
+        rotor.arrays,
+        rotor.table,
+        amplitudes,
+        until,
+        phase,
+        plane,
+        *log,
+        recollection,
+        workspace(modes),
+        rub_workspace(modes),
+    )
+    return Outcome(code), *rest
+
+
+def _stable_rub(rotor: Rotor) -> complex:
+    rubs = [rub for rub in equilibria(rotor) if rub.kind == "rub" and rub.stable and rub.status == "admissible"]
+    return rubs[0].position if rubs else 0j
+
+
+def _recheck_time(rotor: Rotor) -> float:
+    decay = -rotor.eigenvalues.real.max()
+    return 1.0 / decay if decay > 0.0 else np.inf
+
+
 def _checked_start(rotor: Rotor, state: State) -> tuple[np.ndarray, int]:
-    """Amplitudes of a start, and the plane it touches or −1."""
+    """Amplitudes of a start, and the plane it touches or INSIDE_ALL."""
     for name in ("position", "velocity"):
         if not cmath.isfinite(getattr(state, name)):
             raise InputError(f"start {name}", getattr(state, name), "finite numbers")
@@ -339,6 +332,6 @@ def _checked_start(rotor: Rotor, state: State) -> tuple[np.ndarray, int]:
         raise InputError("start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g})")
     amplitudes = rotor.amplitudes(state.position, state.velocity)
     if radius < 1.0 - WALL_TOLERANCE:
-        return amplitudes, -1
+        return amplitudes, INSIDE_ALL
     set_on_wall(rotor.arrays, 0, amplitudes)
     return amplitudes, 0

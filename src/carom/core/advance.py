@@ -1,29 +1,50 @@
-"""The loop of a motion: fly, meet the wall, strike."""
+"""The loop of a motion: fly, meet the wall, strike; land, slide, roll, lift off; end where it settles."""
 
 from __future__ import annotations
 
-from carom.core.events import first_crossing
-from carom.core.flow import acceleration, displacement, velocity
-from carom.core.impact import strike, unit
-from carom.core.layout import kernel
-from carom.outcome import Outcome
+import math
 
-__all__ = ["advance", "set_on_wall"]
+from carom.core.events import INSIDE, LEAVING, LIFTING, first_crossing
+from carom.core.fate import approaches_turn, forget_rub, levitates, near_rub, recurs, same_state
+from carom.core.flow import displacement, velocity
+from carom.core.impact import set_on_wall, strike, unit
+from carom.core.layout import kernel
+from carom.core.rub import (
+    first_transition,
+    next_phase,
+    rest_on_wall,
+    rub_series,
+    rub_step,
+    sum_series,
+    turn_ahead,
+    wall_push,
+)
+from carom.outcome import Outcome, Phase
+
+__all__ = ["INSIDE_ALL", "advance"]
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
-TIME_REACHED, IMPACT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.IMPACT_LIMIT)
+LANDING = -1
+INSIDE_ALL = -1
+TIME_REACHED, EVENT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.EVENT_LIMIT)
 CHATTER = int(Outcome.CHATTER)
+LEVITATED, BOUNCING, MIXED = int(Outcome.LEVITATED), int(Outcome.BOUNCING), int(Outcome.MIXED)
+FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (
+    int(Outcome.FORWARD_RUB),
+    int(Outcome.BACKWARD_WHIRL),
+    int(Outcome.ROLLING),
+)
+FLIGHT, ROLLING = int(Phase.FLIGHT), int(Phase.ROLLING)
 
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
-
 RESTING = 16 * 2.220446049250313e-16
 """Radial speed, relative to the whole, that is rounding: the rotor rests on the wall."""
 
 
 @kernel
-def advance(rotor, table, amplitudes, until, plane, times, planes, before, after, work):
-    """Follow a motion through impacts until a time, a full log, or an end of bouncing.
+def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes, before, after, memory, work, rub):
+    """Follow a motion until a time, a full log, or the end it settles to.
 
     Parameters
     ----------
@@ -32,58 +53,97 @@ def advance(rotor, table, amplitudes, until, plane, times, planes, before, after
         State at time zero; on return the state at the returned time.
     until : float
         Duration to follow.
+    phase : int
+        :class:`~carom.outcome.Phase` at the start.
     plane : int
-        Plane whose wall the start lies on, or −1 for a start inside all of them.
-    times, planes, before, after : arrays, shapes (L,), (L,), (L, N), (L, N)
-        Log: time and plane of each impact, amplitudes just before and just after it.
-    work : record of :func:`~carom.core.layout.workspace`
+        Plane whose wall the start lies on, or −1 (``INSIDE_ALL``).
+    times, phases, planes, before, after : arrays, shapes (L,), (L,), (L,), (L, N), (L, N)
+        Log of events: time, phase that follows, plane, amplitudes just before and just after.  An impact is followed by
+        ``FLIGHT`` and changes the amplitudes; a long contact is logged in steps that change nothing.  A motion that
+        settles at an impact ends just before it.
+    memory : record of :func:`~carom.core.fate.memory`
+    work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
 
     Returns
     -------
     outcome : int
-        ``TIME_REACHED``, ``IMPACT_LIMIT`` (log full), ``CHATTER`` or ``GRAZING``.
+        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full), ``GRAZING`` or where the motion settles.
     time : float
-    impacts : int
+    events : int
+    phase : int
     plane : int
         Plane whose wall the end lies on, or −1.
     """
-    modes = amplitudes.shape[0]
     time = 0.0
-    impacts = 0
-    if plane >= 0:
-        outcome = _wall_state(rotor, plane, amplitudes)
-        if outcome in (CHATTER, GRAZING):
-            return outcome, time, impacts, plane
-        if outcome == CONTACT:
-            times[0], planes[0] = time, plane
-            _record_strike(rotor, plane, amplitudes, before, after, 0)
-            impacts = 1
-    while impacts < times.shape[0]:
-        if impacts > 0 and _wall_state(rotor, plane, amplitudes) == CHATTER:
-            return CHATTER, time, impacts, plane
-        outcome, duration, target = _next_contact(rotor, table, amplitudes, until - time, plane, work)
-        for k in range(modes):
-            amplitudes[k] = work.nearest[k]
-        if outcome == CLEAR:
-            return TIME_REACHED, until, impacts, -1
-        time += duration
-        plane = target
-        if outcome == GRAZING:
-            return GRAZING, time, impacts, plane
-        set_on_wall(rotor, plane, amplitudes)
-        times[impacts], planes[impacts] = time, plane
-        _record_strike(rotor, plane, amplitudes, before, after, impacts)
-        impacts += 1
-    return IMPACT_LIMIT, time, impacts, plane
+    events = 0
+    while events < times.shape[0]:
+        if phase == FLIGHT:
+            outcome, duration, phase, plane = _fly(
+                rotor, table, amplitudes, until - time, plane, before[events], memory, work
+            )
+        else:
+            outcome, duration, phase = _rub(rotor, plane, amplitudes, phase, until - time, memory, rub)
+            before[events, :] = amplitudes
+        time = until if outcome == TIME_REACHED else time + duration
+        if outcome != CONTACT:
+            return outcome, time, events, phase, plane
+        times[events], phases[events], planes[events] = time, phase, plane
+        after[events, :] = amplitudes
+        events += 1
+    return EVENT_LIMIT, time, events, phase, plane
 
 
 @kernel
-def _next_contact(rotor, table, amplitudes, horizon, touched, work):
+def _fly(rotor, table, amplitudes, horizon, plane, arrival, memory, work):
+    """One flight and the impact or landing at its end, in place.
+
+    Returns the outcome (CONTACT: it goes on), the duration, the phase that follows and the plane touched.
+    ``arrival`` receives the amplitudes just before the impact.
+    """
+    elapsed = 0.0
+    settle = memory.patience > 0
+    while True:
+        reaction, start = CLEAR, INSIDE
+        if plane >= 0:
+            reaction, start = _wall_reaction(rotor, plane, amplitudes)
+        if reaction != CLEAR:
+            break
+        if settle and levitates(rotor, amplitudes, work):
+            return LEVITATED, elapsed, FLIGHT, plane
+        leap = min(horizon - elapsed, memory.recheck) if settle else horizon - elapsed
+        reaction, duration, target = _next_contact(rotor, table, amplitudes, leap, plane, start, work)
+        amplitudes[:] = work.nearest
+        elapsed, plane = elapsed + duration, target
+        if reaction == GRAZING:
+            return GRAZING, elapsed, FLIGHT, plane
+        if reaction == CONTACT:
+            break
+        if elapsed >= horizon:
+            return TIME_REACHED, horizon, FLIGHT, INSIDE_ALL
+    set_on_wall(rotor, plane, amplitudes)
+    arrival[:] = amplitudes
+    if reaction == CONTACT:
+        if settle and recurs(memory, amplitudes):
+            return (MIXED if memory.rubbed > 0 else BOUNCING), elapsed, FLIGHT, plane
+        _apply_strike(rotor, plane, amplitudes)
+        return CONTACT, elapsed, FLIGHT, plane
+    if memory.stop_at_landing:
+        return CHATTER, elapsed, FLIGHT, plane
+    _land(rotor, plane, amplitudes)
+    memory.rubbed = 1
+    forget_rub(memory)
+    return CONTACT, elapsed, next_phase(rotor, plane, amplitudes), plane
+
+
+@kernel
+def _next_contact(rotor, table, amplitudes, horizon, touched, start, work):
     """Earliest contact over all planes; ``work.nearest`` holds the amplitudes there."""
     outcome = CLEAR
     target = -1
     for plane in range(rotor.rows.shape[0]):
-        found, time = first_crossing(rotor, table, plane, amplitudes, horizon, plane == touched, work)
+        found, time = first_crossing(
+            rotor, table, plane, amplitudes, horizon, start if plane == touched else INSIDE, work
+        )
         if found != CLEAR or target < 0:
             for k in range(amplitudes.shape[0]):
                 work.nearest[k] = work.arrival[k]
@@ -93,63 +153,89 @@ def _next_contact(rotor, table, amplitudes, horizon, touched, work):
 
 
 @kernel
-def _record_strike(rotor, plane, amplitudes, before, after, entry):
-    """Apply the impact law in place and note the amplitudes on both sides in an entry of the log."""
+def _apply_strike(rotor, plane, amplitudes):
+    """Apply the impact law in place."""
     position = displacement(rotor, plane, amplitudes)
     speed = velocity(rotor, plane, amplitudes)
     change, _ = strike(position, speed, rotor.friction[plane], rotor.restitution[plane], rotor.drive[plane])
     for k in range(amplitudes.shape[0]):
-        before[entry, k] = amplitudes[k]
         amplitudes[k] += rotor.columns[k, plane] * change
-        after[entry, k] = amplitudes[k]
 
 
 @kernel
-def set_on_wall(rotor, plane, amplitudes):
-    """Remove the rounding error of ``|y| = 1`` by the smallest change of the amplitudes."""
-    position = displacement(rotor, plane, amplitudes)
-    shift = unit(position) - position
-    scale = 1.0 / rotor.weights[plane]
+def _land(rotor, plane, amplitudes):
+    """Complete a chatter: replace its remaining bounces by lasting contact from now on.
+
+    Over the rest of the chatter the bounces have the normal impulse ``N τ − v``, where lasting contact has ``N τ``, if
+    ``v`` is the speed of the first rebound; both have the friction that goes with it.  An outward impulse ``v`` with its
+    share of friction makes up the difference, so what is left out is of the order ``v²/(N(1 − d))``, the height of the
+    first bounce over ``1 − d``.
+    """
+    normal = unit(displacement(rotor, plane, amplitudes))
+    local = normal.conjugate() * velocity(rotor, plane, amplitudes)
+    slip = rotor.drive[plane] + local.imag
+    share = min(rotor.friction[plane] * max(-local.real, 0.0), abs(slip))
+    change = normal * complex(-local.real, math.copysign(share, slip))
     for k in range(amplitudes.shape[0]):
-        amplitudes[k] += rotor.rows[plane, k].conjugate() * shift * scale
+        amplitudes[k] += rotor.columns[k, plane] * change
+    rest_on_wall(rotor, plane, amplitudes, False)
 
 
 @kernel
-def _wall_state(rotor, plane, amplitudes):
-    """What a state on the wall does next: CONTACT (strikes), CLEAR (leaves), CHATTER (stays) or GRAZING.
+def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
+    """One step of lasting contact, in place: outcome (CONTACT: it goes on), duration and phase that follows."""
+    rub_series(rotor, plane, amplitudes, phase, rub)
+    step = min(rub_step(rub), horizon)
+    duration, following, slip_stops = first_transition(rotor, plane, phase, step, rub)
+    turned, speed = False, 0.0
+    if memory.patience > 0:
+        position = unit(rub.position[0])
+        speed = (position.conjugate() * rub.speed[0]).imag
+        if near_rub(memory, position, speed):
+            return FORWARD_RUB, 0.0, phase
+        if approaches_turn(memory, position, amplitudes, speed):
+            turn = turn_ahead(memory.turn_position, math.copysign(1.0, speed), duration, rub)
+            if turn < duration:
+                duration, following, slip_stops, turned = turn, phase, False, True
+    sum_series(rub, duration, amplitudes)
+    rest_on_wall(rotor, plane, amplitudes, phase == ROLLING or slip_stops)
+    if slip_stops:
+        following = next_phase(rotor, plane, amplitudes)
+    if following != phase:
+        forget_rub(memory)
+    memory.turn_time += duration
+    if turned:
+        if same_state(memory.turn_state, amplitudes):
+            backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
+            rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
+            return (ROLLS_ON if phase == ROLLING else rub_outcome), duration, phase
+        forget_rub(memory)
+    if duration >= horizon:
+        return TIME_REACHED, duration, following
+    return CONTACT, duration, following
 
-    It stays when it is pressed outward (``push > 0``, the normal force of lasting contact) and leaves so slowly that the
-    whole remaining geometric series of bounces, of duration ``2ṙ/(push (1 − d))``, stays below CHATTER_HEIGHT and
-    cannot outlast the push.
+
+@kernel
+def _wall_reaction(rotor, plane, amplitudes):
+    """What a state on the wall does next, and how a flight would start.
+
+    It strikes (CONTACT) with outward speed; lands (LANDING) when it is pressed outward and leaves so slowly that the
+    whole remaining geometric series of bounces, of duration ``2v/(N(1 − d))``, stays below CHATTER_HEIGHT and cannot
+    outlast the push; and else flies (CLEAR).
     """
     position = displacement(rotor, plane, amplitudes)
-    normal = unit(position)
-    local = normal.conjugate() * velocity(rotor, plane, amplitudes)
-    push = (normal.conjugate() * acceleration(rotor, plane, amplitudes)).real + local.imag * local.imag
+    local = unit(position).conjugate() * velocity(rotor, plane, amplitudes)
+    push, rate, rounding = wall_push(rotor, plane, amplitudes)
     rebound = -local.real
-    if abs(rebound) <= RESTING * (1.0 + abs(local.real) + abs(local.imag)):
-        rebound = 0.0
+    resting = abs(rebound) <= RESTING * (1.0 + abs(local.real) + abs(local.imag))
+    if resting:
+        if abs(push) <= rounding:
+            return (LANDING if rate > 0.0 else CLEAR), LIFTING
+        return (LANDING if push > 0.0 else CLEAR), LEAVING
     if rebound < 0.0:
-        return CONTACT
-    if push <= 0.0:
-        return GRAZING if rebound == 0.0 and push == 0.0 else CLEAR
-    if rebound == 0.0:
-        return CHATTER
+        return CONTACT, LEAVING
     loss = 1.0 - rotor.restitution[plane]
-    if rebound * rebound > 2.0 * push * CHATTER_HEIGHT or loss <= 0.0:
-        return CLEAR
-    duration = 2.0 * rebound / (push * loss)
-    return CHATTER if duration * _push_rate(rotor, plane, amplitudes, abs(local)) < 0.5 * push else CLEAR
-
-
-@kernel
-def _push_rate(rotor, plane, amplitudes, speed):
-    """Bound of ``|d/dt (r̈ + rθ̇²)|`` on the wall, from ``|y⃛|``, ``|ÿ|`` and ``|ẏ|``."""
-    jerk = 0j
-    for k in range(amplitudes.shape[0]):
-        rate = rotor.exponents[k] * amplitudes[k]
-        if rotor.driven[k]:
-            rate += amplitudes[k - 1]
-        jerk += rotor.acceleration_rows[plane, k] * rate
-    force = abs(acceleration(rotor, plane, amplitudes))
-    return abs(jerk) + 3.0 * speed * force + 4.0 * speed**3
+    if push <= 0.0 or rebound * rebound > 2.0 * push * CHATTER_HEIGHT or loss <= 0.0:
+        return CLEAR, LEAVING
+    brief = 2.0 * rebound * abs(rate) < 0.5 * push * push * loss
+    return (LANDING if brief else CLEAR), LEAVING

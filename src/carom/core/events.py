@@ -20,9 +20,12 @@ from carom.core.flow import acceleration, displacement, flight_increments, nudge
 from carom.core.layout import DEGREE, kernel
 from carom.outcome import Outcome
 
-__all__ = ["first_crossing"]
+__all__ = ["INSIDE", "LEAVING", "LIFTING", "basis_amplitudes", "first_crossing"]
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
+
+INSIDE, LEAVING, LIFTING = 0, 1, 2
+"""How a flight starts: inside the wall, on it with inward velocity or push, or lifting off where the push vanishes."""
 
 UNDECIDED = -1.0
 NO_ROOT = 2.0
@@ -34,7 +37,7 @@ POLISHED = 1e-5
 
 
 @kernel
-def first_crossing(rotor, table, plane, amplitudes, horizon, touching, work):
+def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
     """First time at which a flight meets the wall of a plane.
 
     Parameters
@@ -45,8 +48,9 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, touching, work):
         Amplitudes at the start; left unchanged.
     horizon : float
         Latest time of interest, counted from the start.
-    touching : bool
-        The start lies on the wall and its ``|y|`` is one by definition, whatever its rounding.
+    start : int
+        ``INSIDE``, or the start lies on the wall, where ``|y|`` is one by definition: ``LEAVING`` or ``LIFTING`` (radial
+        speed and acceleration are zero by definition too).
     work : record of :func:`~carom.core.layout.workspace`
         On return ``work.arrival`` holds the amplitudes at the returned time.
 
@@ -61,25 +65,25 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, touching, work):
         work.current[k] = amplitudes[k]
     elapsed = 0.0
     while True:
-        start = displacement(rotor, plane, work.current)
-        level = 0.0 if touching else squared_modulus(start) - 1.0
+        origin = displacement(rotor, plane, work.current)
+        level = 0.0 if start != INSIDE else squared_modulus(origin) - 1.0
         block = min(table.duration, horizon - elapsed)
-        remainder = _load_block(rotor, table, plane, start, level, work)
+        remainder = _load_block(rotor, table, plane, origin, level, work)
         guess = _guess_root(work.polynomial, level, remainder)
         outcome, time = CLEAR, block
         if guess != NO_ROOT:
-            curvature, jerk = _bounds(table, work)
+            bounds = _bounds(table, work)
             certified = False
             if guess != UNDECIDED:
                 certified, time = _polish(
-                    rotor, plane, start, level, guess * table.duration, MARGIN * remainder * curvature, work
+                    rotor, plane, origin, level, guess * table.duration, MARGIN * remainder * bounds[0], work
                 )
             if certified and time <= block:
                 return CONTACT, elapsed + time
             if certified:
                 time = block
             else:
-                outcome, time = _step_safely(rotor, plane, start, level, touching, block, curvature, jerk, work)
+                outcome, time = _step_safely(rotor, plane, origin, level, start, block, bounds, work)
                 if outcome != CLEAR:
                     return outcome, elapsed + time
         flight_increments(rotor, work.current, time, work.increments)
@@ -90,18 +94,18 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, touching, work):
             return CLEAR, horizon
         for k in range(modes):
             work.current[k] = work.arrival[k]
-        touching = False
+        start = INSIDE
 
 
 @kernel
-def _load_block(rotor, table, plane, start, level, work):
+def _load_block(rotor, table, plane, origin, level, work):
     """Write the polynomial of ``f`` on a block from ``work.current``; return the bound of its error."""
     modes = work.current.shape[0]
-    _basis_amplitudes(rotor, plane, work.current, work.amplitudes)
+    basis_amplitudes(rotor, plane, work.current, work.amplitudes)
     products = work.products
     row = 0
     for k in range(modes):
-        linear = start.conjugate() * work.amplitudes[k]
+        linear = origin.conjugate() * work.amplitudes[k]
         products[row] = linear.real
         products[row + 1] = linear.imag
         row += 2
@@ -127,7 +131,7 @@ def _load_block(rotor, table, plane, start, level, work):
 
 
 @kernel
-def _basis_amplitudes(rotor, plane, amplitudes, out):
+def basis_amplitudes(rotor, plane, amplitudes, out):
     """Factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a plane."""
     modes = amplitudes.shape[0]
     for k in range(modes):
@@ -164,20 +168,26 @@ def _guess_root(polynomial, level, remainder):
 
 @kernel
 def _bounds(table, work):
-    """Bounds of ``|f''|`` and ``|f'''|`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
+    """Bounds of the second, third and fourth derivative of ``f`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
     speed = 0.0
     second = 0.0
     third = 0.0
+    fourth = 0.0
     for k in range(work.amplitudes.shape[0]):
         modulus = math.sqrt(squared_modulus(work.amplitudes[k]))
         speed += modulus * table.bounds[0, k]
         second += modulus * table.bounds[1, k]
         third += modulus * table.bounds[2, k]
-    return 2.0 * (speed * speed + second), 2.0 * (3.0 * speed * second + third)
+        fourth += modulus * table.bounds[3, k]
+    return (
+        2.0 * (speed * speed + second),
+        2.0 * (3.0 * speed * second + third),
+        2.0 * (3.0 * second * second + 4.0 * speed * third + fourth),
+    )
 
 
 @kernel
-def _measure(rotor, plane, start, level, time, work):
+def _measure(rotor, plane, origin, level, time, work):
     """Move to ``time``: fill ``work.arrival``, return ``f``, ``f'``, ``f''`` and the rounding error of ``f``."""
     flight_increments(rotor, work.current, time, work.increments)
     change = 0j
@@ -187,8 +197,8 @@ def _measure(rotor, plane, start, level, time, work):
         change += part
         size += abs(part.real) + abs(part.imag)
         work.arrival[k] = work.current[k] + work.increments[k]
-    value = level + (2.0 * (start.conjugate() * change).real + squared_modulus(change))
-    position = start + change
+    value = level + (2.0 * (origin.conjugate() * change).real + squared_modulus(change))
+    position = origin + change
     speed = velocity(rotor, plane, work.arrival)
     force = acceleration(rotor, plane, work.arrival)
     slope = 2.0 * (position.conjugate() * speed).real
@@ -198,10 +208,10 @@ def _measure(rotor, plane, start, level, time, work):
 
 
 @kernel
-def _polish(rotor, plane, start, level, time, least_square, work):
+def _polish(rotor, plane, origin, level, time, least_square, work):
     """Householder steps to a root; certified when ``f'²`` there exceeds ``least_square``."""
     for _ in range(6):
-        value, slope, bend, _ = _measure(rotor, plane, start, level, time, work)
+        value, slope, bend, _ = _measure(rotor, plane, origin, level, time, work)
         if slope * slope <= least_square or slope <= 0.0:
             return False, time
         newton = value / slope
@@ -214,16 +224,20 @@ def _polish(rotor, plane, start, level, time, least_square, work):
 
 
 @kernel
-def _step_safely(rotor, plane, start, level, touching, block, curvature, jerk, work):
+def _step_safely(rotor, plane, origin, level, start, block, bounds, work):
     """Certified steps from the start of a block to its end or to the first crossing."""
     time = 0.0
-    if touching:
-        _, slope, bend, _ = _measure(rotor, plane, start, level, 0.0, work)
-        time = _departure(min(slope, 0.0), bend, jerk)
+    curvature = bounds[0]
+    if start != INSIDE:
+        _, slope, bend, _ = _measure(rotor, plane, origin, level, 0.0, work)
+        if start == LEAVING:
+            time = _departure(min(slope, 0.0), bend, bounds[1])
+        else:
+            time = _lift_off(_third_derivative(rotor, plane, work.arrival), bounds[2])
         if time == 0.0:
             return GRAZING, time
     while time < block:
-        value, slope, _, rounding = _measure(rotor, plane, start, level, time, work)
+        value, slope, _, rounding = _measure(rotor, plane, origin, level, time, work)
         if value >= -rounding:
             if slope > 2.0 * math.sqrt(curvature * rounding):
                 step = -value / slope
@@ -250,3 +264,24 @@ def _departure(slope, bend, jerk):
     half = 0.5 * bend
     root = math.sqrt(half * half - 2.0 / 3.0 * jerk * slope)
     return -2.0 * slope / (root + half) if half > 0.0 else 3.0 * (root - half) / jerk
+
+
+@kernel
+def _lift_off(third, fourth):
+    """The same for a start with ``f' = f'' = 0``, from the third derivative and a bound of the fourth."""
+    return -4.0 * third / fourth if third < 0.0 else 0.0
+
+
+@kernel
+def _third_derivative(rotor, plane, amplitudes):
+    """Third derivative of ``f``, ``2 Re(ȳ y⃛) + 6 Re(ẏ* ÿ)``."""
+    jerk = 0j
+    for k in range(amplitudes.shape[0]):
+        rate = rotor.exponents[k] * amplitudes[k]
+        if rotor.driven[k]:
+            rate += amplitudes[k - 1]
+        jerk += rotor.acceleration_rows[plane, k] * rate
+    position = displacement(rotor, plane, amplitudes)
+    speed = velocity(rotor, plane, amplitudes)
+    force = acceleration(rotor, plane, amplitudes)
+    return 2.0 * (position.conjugate() * jerk).real + 6.0 * (speed.conjugate() * force).real

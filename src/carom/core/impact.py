@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from carom.core.flow import squared_modulus
+from carom.core.flow import displacement, squared_modulus
 from carom.core.layout import kernel
 
-__all__ = ["strike", "strike_variation", "unit"]
+__all__ = ["set_on_wall", "strike", "strike_variation", "unit"]
 
 
 @kernel
@@ -66,3 +66,13 @@ def strike_variation(position, velocity, friction, restitution, drive, position_
         change = complex(-normal_change, -grip * normal_change)
         variation = complex(-normal_variation, -grip * normal_variation)
     return normal * (variation + 1j * turn * change)
+
+
+@kernel
+def set_on_wall(rotor, plane, amplitudes):
+    """Remove the rounding error of ``|y| = 1`` by the smallest change of the amplitudes."""
+    position = displacement(rotor, plane, amplitudes)
+    shift = unit(position) - position
+    scale = 1.0 / rotor.weights[plane]
+    for k in range(amplitudes.shape[0]):
+        amplitudes[k] += rotor.rows[plane, k].conjugate() * shift * scale

@@ -15,10 +15,12 @@ import numpy as np
 from numba.core import config
 from platformdirs import user_cache_path
 
-__all__ = ["DEGREE", "kernel", "rotor_record", "table_record", "workspace"]
+__all__ = ["DEGREE", "ORDER", "kernel", "record", "rotor_record", "rub_workspace", "table_record", "workspace"]
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
+ORDER = 20
+"""Order of the Taylor series of lasting contact."""
 DEGREE = 8
 """Degree of the Bernstein polynomials that stand for ``|y|² − 1`` on a block of flight."""
 
@@ -63,6 +65,7 @@ def rotor_record(
     -------
     numpy.record
         The arguments and what follows from them: ``gaps`` and ``inverse_gaps`` (``λ_k − λ_{k−1}`` of the pairs),
+        ``largest_response`` (bound of their ``|φ|`` over all later time),
         ``rate_rows`` and ``acceleration_rows`` (velocity and acceleration at the planes per amplitude), ``weights``
         (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as on a tuple of arrays.
@@ -75,11 +78,12 @@ def rotor_record(
         gaps[k] = exponents[k] - exponents[k - 1]
     inverse_gaps = np.zeros(modes, np.complex128)
     np.divide(1.0, gaps, out=inverse_gaps, where=gaps != 0)
-    return _record(
+    return record(
         exponents=exponents,
         driven=np.asarray(driven, np.int8),
         gaps=gaps,
         inverse_gaps=inverse_gaps,
+        largest_response=_largest_response(exponents, gaps),
         offsets=offsets,
         rows=rows,
         rate_rows=rows @ generator,
@@ -90,6 +94,14 @@ def rotor_record(
         restitution=restitution,
         drive=drive,
     )
+
+
+def _largest_response(exponents: np.ndarray, gaps: np.ndarray) -> np.ndarray:
+    """Bound over all later time of a pair's ``|φ(t)|``, at most ``t e^{−xt} ≤ 1/(ex)`` and at most ``2/|gap|``."""
+    decay = -exponents.real
+    slow = np.divide(1.0, np.e * decay, out=np.full(len(decay), np.inf), where=decay > 0)
+    apart = np.divide(2.0, np.abs(gaps), out=np.full(len(decay), np.inf), where=gaps != 0)
+    return np.where(decay >= 0, np.minimum(slow, apart), np.inf)
 
 
 def table_record(duration: float, coefficients: np.ndarray, errors: np.ndarray, bounds: np.ndarray) -> np.record:
@@ -103,29 +115,41 @@ def table_record(duration: float, coefficients: np.ndarray, errors: np.ndarray, 
         Bernstein coefficients 1 … DEGREE of the products of basis functions.
     errors : ndarray, shape (Q,)
         Bound of the approximation error at the end of the block, per row of ``coefficients``.
-    bounds : ndarray, shape (3, N)
-        Largest modulus on the block of the first three derivatives of the basis functions.
+    bounds : ndarray, shape (4, N)
+        Largest modulus on the block of the first four derivatives of the basis functions.
     """
-    return _record(duration=np.asarray(duration), coefficients=coefficients, errors=errors, bounds=bounds)
+    return record(duration=np.asarray(duration), coefficients=coefficients, errors=errors, bounds=bounds)
 
 
 def workspace(modes: int) -> np.record:
     """Scratch arrays of a kernel call for that many modes; they carry nothing from one call to the next."""
     vectors = ("current", "arrival", "nearest", "increments", "amplitudes")
-    return _record(
+    return record(
         **{name: np.zeros(modes, np.complex128) for name in vectors},
         products=np.zeros(2 * modes + modes**2),
         polynomial=np.zeros(DEGREE),
     )
 
 
-def _record(**fields: np.ndarray) -> np.record:
+def rub_workspace(modes: int) -> np.record:
+    """Scratch arrays of lasting contact: Taylor coefficients of the motion at the contact plane."""
+    vectors = ("position", "speed", "free", "force")
+    margins = ("push", "slip", "grip", "first_margin", "second_margin")
+    return record(
+        series=np.zeros((ORDER + 1, modes), np.complex128),
+        **{name: np.zeros(ORDER + 1, np.complex128) for name in vectors},
+        **{name: np.zeros(ORDER + 1) for name in margins},
+    )
+
+
+def record(**fields: np.ndarray) -> np.record:
+    """Pack arrays and scalars into one record that kernels take by address."""
     layout = [(name, values.dtype, values.shape) for name, values in fields.items()]
     table = np.zeros(1, np.dtype(layout, align=True)).view(np.recarray)
     for name, values in fields.items():
         table[name][0] = values
-    record: np.record = table[0]
-    return record
+    packed: np.record = table[0]
+    return packed
 
 
 def kernel(function: Kernel) -> Kernel:

@@ -1,0 +1,161 @@
+"""Where a motion ends: criteria that settle it, and the memory they need.
+
+- *Levitated*: the sum of the moduli of the modes at every contact plane, a bound for all later time, is smaller than
+  the room between the contact-free equilibrium and the wall.  This is a proof.
+- *Forward rub*: the state slides within ``NEAR`` of the stable synchronous rub.
+- *Periodic*: the state at an impact, or after a turn along the wall, recurs to within ``NEAR`` twice in a row after the
+  same number of events.  The reference is renewed after 1, 2, 4, 8 … events (Brent 1980), so no period is too long.
+- *Aperiodic*: ``patience`` impacts have passed without recurrence.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from carom.core.events import basis_amplitudes
+from carom.core.flow import squared_modulus
+from carom.core.layout import kernel, record
+
+__all__ = ["approaches_turn", "forget_rub", "levitates", "memory", "near_rub", "recurs", "same_state"]
+
+NEAR = 1e-9
+"""Distance, relative to one plus the size of the state, below which two states are the same."""
+
+NO_TURN, SET_OUT, ROUND = 0, 1, 2
+
+
+def memory(
+    modes: int, rub_position: complex = 0j, patience: int = 0, recheck: float = np.inf, stop_at_landing: bool = False
+) -> np.record:
+    """Memory of a motion, and how far to follow it.
+
+    Parameters
+    ----------
+    modes : int
+    rub_position : complex
+        Position of the stable synchronous rub; zero if there is none.
+    patience : int
+        Impacts without recurrence after which a motion counts as aperiodic; zero to settle nothing.
+    recheck : float
+        Time of free flight after which to look again whether the rotor levitates.
+    stop_at_landing : bool
+        End with ``CHATTER`` where bounces go over into lasting contact.
+    """
+    return record(
+        reference=np.zeros(modes, np.complex128),
+        rub_position=np.asarray(rub_position, np.complex128),
+        patience=np.asarray(patience, np.int64),
+        recheck=np.asarray(recheck),
+        stop_at_landing=np.asarray(stop_at_landing, np.int64),
+        events=np.asarray(0, np.int64),
+        renewal=np.asarray(1, np.int64),
+        since=np.asarray(0, np.int64),
+        candidate=np.asarray(0, np.int64),
+        period=np.asarray(0, np.int64),
+        rubbed=np.asarray(0, np.int64),
+        turning=np.asarray(NO_TURN, np.int64),
+        turn_time=np.asarray(0.0),
+        turn_position=np.asarray(0, np.complex128),
+        turn_state=np.zeros(modes, np.complex128),
+    )
+
+
+@kernel
+def levitates(rotor, amplitudes, work):
+    """Whether no later flight can reach any wall."""
+    modes = amplitudes.shape[0]
+    for plane in range(rotor.rows.shape[0]):
+        basis_amplitudes(rotor, plane, amplitudes, work.amplitudes)
+        reach = math.sqrt(squared_modulus(rotor.offsets[plane]))
+        for k in range(modes):
+            if rotor.exponents[k].real > 0.0:
+                return False
+            if k + 1 < modes and rotor.driven[k + 1]:
+                continue
+            size = math.sqrt(squared_modulus(work.amplitudes[k]))
+            if rotor.driven[k]:
+                driving = work.amplitudes[k - 1]
+                share = driving * rotor.inverse_gaps[k]
+                apart = math.sqrt(squared_modulus(work.amplitudes[k] + share)) + math.sqrt(squared_modulus(share))
+                size += math.sqrt(squared_modulus(driving)) * rotor.largest_response[k]
+                if rotor.gaps[k] != 0.0:
+                    size = min(size, apart)
+            reach += size
+        if reach >= 1.0 - NEAR:
+            return False
+    return True
+
+
+@kernel
+def recurs(memory, amplitudes):
+    """Note the state at an impact; whether the motion has proved periodic (``memory.period`` impacts) or aperiodic (0)."""
+    memory.events += 1
+    if memory.events > 1:
+        memory.since += 1
+        if same_state(memory.reference, amplitudes):
+            if memory.candidate == memory.since:
+                memory.period = memory.since
+                return True
+            memory.candidate = memory.since
+            _renew(memory, amplitudes)
+            return False
+        if memory.candidate > 0 and memory.since >= memory.candidate:
+            memory.candidate = 0
+        if memory.since < memory.renewal:
+            return memory.events >= memory.patience
+        memory.renewal *= 2
+    memory.candidate = 0
+    _renew(memory, amplitudes)
+    memory.rubbed = 0
+    return memory.events >= memory.patience
+
+
+@kernel
+def _renew(memory, amplitudes):
+    memory.since = 0
+    for k in range(amplitudes.shape[0]):
+        memory.reference[k] = amplitudes[k]
+
+
+@kernel
+def same_state(first, second):
+    """Whether two states are within NEAR."""
+    size = 1.0
+    distance = 0.0
+    for k in range(first.shape[0]):
+        size += math.sqrt(squared_modulus(second[k]))
+        distance += math.sqrt(squared_modulus(first[k] - second[k]))
+    return distance <= NEAR * size
+
+
+@kernel
+def near_rub(memory, position, speed):
+    """Whether a sliding state is at the stable synchronous rub."""
+    if memory.rub_position == 0.0:
+        return False
+    return math.sqrt(squared_modulus(position - memory.rub_position)) + abs(speed) < NEAR
+
+
+@kernel
+def approaches_turn(memory, position, amplitudes, speed):
+    """Note a position on the wall; whether the rotor has been round and is within a quarter turn of it again."""
+    if memory.turning == NO_TURN:
+        memory.turn_position = position
+        memory.turn_time = 0.0
+        for k in range(amplitudes.shape[0]):
+            memory.turn_state[k] = amplitudes[k]
+        memory.turning = SET_OUT
+        return False
+    ahead = memory.turn_position.conjugate() * position
+    if ahead.real < 0.0:
+        memory.turning = ROUND
+        return False
+    return memory.turning == ROUND and ahead.imag * speed < 0.0
+
+
+@kernel
+def forget_rub(memory):
+    """Start to look for turns along the wall anew."""
+    memory.turning = NO_TURN

@@ -1,0 +1,277 @@
+"""Contact that lasts: sliding and rolling on the wall, by Taylor series of the constrained motion.
+
+With ``|y| = 1`` and ``Re(ȳẏ) = 0`` a contact force ``f`` (per unit of the mass felt at the plane) acts as
+``ċ = Mc + Bf``.  Writing ``a`` for the free acceleration ``WM²c``, staying on the wall needs the normal force
+
+    N = Re(ȳ a) + |ẏ|²,
+
+and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips with ``v = drive + Im(ȳẏ)``, and
+``f = −drive² y − a`` while it rolls (``ẏ = −i drive y``).  Products of series are all this needs, so the coefficients
+follow from a recurrence and a step costs the same for any rotor.  For the planar rotor it is
+``θ̈ = −γ(1 + θ̇) − ρ sin(θ − φ) − μN sgn v`` with ``N = ρ cos(θ − φ) + (1 + θ̇)² − ω²``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from carom.core.flow import displacement, flight_increments, velocity
+from carom.core.impact import set_on_wall, unit
+from carom.core.layout import ORDER, kernel
+from carom.outcome import Phase
+
+__all__ = [
+    "first_transition",
+    "fly_or_rub_all",
+    "next_phase",
+    "rest_on_wall",
+    "rub_series",
+    "rub_step",
+    "sum_series",
+    "turn_ahead",
+    "wall_push",
+]
+
+
+LEAVING, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
+    int(Phase.FLIGHT),
+    int(Phase.FORWARD_SLIP),
+    int(Phase.BACKWARD_SLIP),
+    int(Phase.ROLLING),
+)
+
+STEP_FRACTION = 0.135
+"""Step over radius of convergence: ``0.135^ORDER`` is below rounding."""
+NO_SLIP = 1e-13
+"""Slip velocity, relative to the drive and the speed along the wall, that counts as none."""
+
+NO_PUSH = 1e-13
+"""Normal force, relative to its parts, that counts as none."""
+
+
+@kernel
+def rub_series(rotor, plane, amplitudes, phase, work):
+    """Fill the Taylor coefficients of a lasting contact that starts with these amplitudes.
+
+    ``work.series`` (ORDER + 1, N) receives those of the amplitudes, ``work.push`` those of the normal force, ``work.grip``
+    those of the friction force along growing angle and ``work.slip`` those of the slip velocity.
+    """
+    modes = amplitudes.shape[0]
+    friction = rotor.friction[plane]
+    drive = rotor.drive[plane]
+    slope = -friction if phase == FORWARD_SLIP else friction
+    for m in range(modes):
+        work.series[0, m] = amplitudes[m]
+    for k in range(ORDER + 1):
+        position, speed, free = 0j, 0j, 0j
+        for m in range(modes):
+            position += rotor.rows[plane, m] * work.series[k, m]
+            speed += rotor.rate_rows[plane, m] * work.series[k, m]
+            free += rotor.acceleration_rows[plane, m] * work.series[k, m]
+        work.position[k] = position + rotor.offsets[plane] if k == 0 else position
+        work.speed[k] = speed
+        work.free[k] = free
+        push, slip = 0.0, drive if k == 0 else 0.0
+        for j in range(k + 1):
+            y, v = work.position[j], work.speed[j]
+            push += (y.conjugate() * work.free[k - j]).real + (v.conjugate() * work.speed[k - j]).real
+            slip += (y.conjugate() * work.speed[k - j]).imag
+        work.push[k] = push
+        work.slip[k] = slip
+        force = 0j
+        if phase == ROLLING:
+            force = -drive * drive * work.position[k] - free
+        else:
+            for j in range(k + 1):
+                force -= work.push[j] * work.position[k - j]
+            force *= complex(1.0, -slope)
+        work.force[k] = force
+        grip = 0.0
+        for j in range(k + 1):
+            grip += (work.position[j].conjugate() * work.force[k - j]).imag
+        work.grip[k] = grip
+        if k < ORDER:
+            for m in range(modes):
+                rate = rotor.exponents[m] * work.series[k, m] + rotor.columns[m, plane] * force
+                if rotor.driven[m]:
+                    rate += work.series[k, m - 1]
+                work.series[k + 1, m] = rate / (k + 1)
+
+
+@kernel
+def rub_step(work):
+    """Length of a step whose truncation error is below rounding, from the last two coefficients (Jorba and Zou 2005)."""
+    modes = work.series.shape[1]
+    start, last, before = 0.0, 0.0, 0.0
+    for m in range(modes):
+        start = max(start, abs(work.series[0, m]))
+        last = max(last, abs(work.series[ORDER, m]))
+        before = max(before, abs(work.series[ORDER - 1, m]))
+    scale = max(start, 1.0)
+    radius = math.inf
+    if last > 0.0:
+        radius = (scale / last) ** (1.0 / ORDER)
+    if before > 0.0:
+        radius = min(radius, (scale / before) ** (1.0 / (ORDER - 1)))
+    return min(STEP_FRACTION * radius, 1.0)
+
+
+@kernel
+def sum_series(work, time, amplitudes):
+    """Amplitudes at a time within the step."""
+    for m in range(amplitudes.shape[0]):
+        total = work.series[ORDER, m]
+        for k in range(ORDER - 1, -1, -1):
+            total = total * time + work.series[k, m]
+        amplitudes[m] = total
+
+
+@kernel
+def fly_or_rub_all(rotor, plane, amplitudes, phases, times, work):
+    """Amplitudes (M, N) after given times (M,), each in its own phase (M,) from its own amplitudes (M, N)."""
+    moved = np.empty_like(amplitudes)
+    for i in range(times.shape[0]):
+        if phases[i] == LEAVING:
+            flight_increments(rotor, amplitudes[i], times[i], moved[i])
+            for m in range(amplitudes.shape[1]):
+                moved[i, m] += amplitudes[i, m]
+        else:
+            rub_series(rotor, plane, amplitudes[i], phases[i], work)
+            sum_series(work, times[i], moved[i])
+    return moved
+
+
+@kernel
+def first_transition(rotor, plane, phase, step, work):
+    """First time within a step at which the contact changes its kind, and to what.
+
+    Sliding ends where the normal force vanishes (flight follows) or the slip does; rolling where the friction it needs
+    leaves the cone.
+
+    Returns
+    -------
+    time : float
+        The step itself if nothing changes.
+    phase : int
+        What follows; the same phase if nothing changes, or where the slip vanished and :func:`next_phase` must decide.
+    slip_stops : bool
+    """
+    friction = rotor.friction[plane]
+    sign = -1.0 if phase == BACKWARD_SLIP else 1.0
+    for k in range(ORDER + 1):
+        if phase == ROLLING:
+            work.first_margin[k] = friction * work.push[k] - work.grip[k]
+            work.second_margin[k] = friction * work.push[k] + work.grip[k]
+        else:
+            work.first_margin[k] = work.push[k]
+            work.second_margin[k] = sign * work.slip[k]
+    first = _first_zero(work.first_margin, step)
+    second = _first_zero(work.second_margin, first)
+    if second < first:
+        return second, (FORWARD_SLIP if phase == ROLLING else phase), phase != ROLLING
+    if first < step:
+        return first, (BACKWARD_SLIP if phase == ROLLING else LEAVING), False
+    return step, phase, False
+
+
+@kernel
+def turn_ahead(reference, direction, step, work):
+    """Time within a step at which the rotor next passes a reference position in a turning direction, or the step."""
+    for k in range(ORDER + 1):
+        work.first_margin[k] = -direction * (reference.conjugate() * work.position[k]).imag
+    return _first_zero(work.first_margin, step)
+
+
+@kernel
+def rest_on_wall(rotor, plane, amplitudes, rolling):
+    """Remove the rounding errors of ``|y| = 1`` and ``Re(ȳẏ) = 0``, and of rolling where it rolls."""
+    set_on_wall(rotor, plane, amplitudes)
+    normal = unit(displacement(rotor, plane, amplitudes))
+    local = normal.conjugate() * velocity(rotor, plane, amplitudes)
+    change = complex(-local.real, -(rotor.drive[plane] + local.imag) if rolling else 0.0) * normal
+    for m in range(amplitudes.shape[0]):
+        amplitudes[m] += rotor.columns[m, plane] * change
+
+
+@kernel
+def _first_zero(margin, step):
+    """First zero of a polynomial margin on ``0 < t ≤ step``, or ``step``; certified for the polynomial.
+
+    A margin that is zero to rounding at the start and grows from there is looked at as ``margin/t``.
+    """
+    size = 0.0
+    power = step
+    for k in range(1, ORDER + 1):
+        size += abs(margin[k]) * power
+        power *= step
+    if margin[0] > size:
+        return step
+    first = 0
+    if abs(margin[0]) <= NO_SLIP * (size + abs(margin[0])):
+        if margin[1] <= 0.0:
+            return 0.0
+        first = 1
+    curvature = 0.0
+    power = 1.0
+    for k in range(first + 2, ORDER + 1):
+        curvature += (k - first) * (k - first - 1) * abs(margin[k]) * power
+        power *= step
+    time = 0.0
+    while time < step:
+        value, slope = margin[ORDER], 0.0
+        for k in range(ORDER - 1, first - 1, -1):
+            slope = slope * time + value
+            value = value * time + margin[k]
+        if value <= 0.0:
+            return time
+        root = math.sqrt(slope * slope + 2.0 * curvature * value)
+        if slope <= 0.0:
+            advance = 2.0 * value / (root - slope) if root > slope else step
+        else:
+            advance = (root + slope) / curvature if curvature > 0.0 else step
+        if time + advance <= time * (1.0 + 4e-16):
+            return time
+        time += advance
+    return step
+
+
+@kernel
+def wall_push(rotor, plane, amplitudes):
+    """Normal force that keeps a rotor at rest against the wall, its rate at zero force, and its rounding error."""
+    position = unit(displacement(rotor, plane, amplitudes))
+    speed = velocity(rotor, plane, amplitudes)
+    free, jerk = 0j, 0j
+    for m in range(amplitudes.shape[0]):
+        rate = rotor.exponents[m] * amplitudes[m]
+        if rotor.driven[m]:
+            rate += amplitudes[m - 1]
+        free += rotor.acceleration_rows[plane, m] * amplitudes[m]
+        jerk += rotor.acceleration_rows[plane, m] * rate
+    inward = (position.conjugate() * free).real
+    turning = (position.conjugate() * speed).imag
+    change = (position.conjugate() * jerk).real + 3.0 * (speed.conjugate() * free).real
+    return inward + turning * turning, change, NO_PUSH * (abs(inward) + turning * turning)
+
+
+@kernel
+def next_phase(rotor, plane, amplitudes):
+    """Kind of motion that goes on from rest against the wall (``|y| = 1``, no radial speed, pressed outward).
+
+    Where the slip is zero it rolls if the friction this needs lies within the cone, and else slips to the side that the
+    missing friction leaves it to.
+    """
+    position = unit(displacement(rotor, plane, amplitudes))
+    speed = (position.conjugate() * velocity(rotor, plane, amplitudes)).imag
+    slip = rotor.drive[plane] + speed
+    if abs(slip) > NO_SLIP * (abs(speed) + abs(rotor.drive[plane])):
+        return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
+    free = 0j
+    for m in range(amplitudes.shape[0]):
+        free += rotor.acceleration_rows[plane, m] * amplitudes[m]
+    pull = (position.conjugate() * free).imag
+    push, _, _ = wall_push(rotor, plane, amplitudes)
+    if abs(pull) <= rotor.friction[plane] * push:
+        return ROLLING
+    return FORWARD_SLIP if pull > 0.0 else BACKWARD_SLIP
