@@ -128,12 +128,21 @@ class Trajectory:
         return flying[:-1] & flying[1:] & struck
 
     @cached_property
+    def is_landing(self) -> np.ndarray:
+        """Which of the ``n`` events complete a chatter (the impulses left to it as one), bool, shape (n,)."""
+        flying = self.segment_phases == Phase.FLIGHT
+        return flying[:-1] & ~flying[1:]
+
+    @cached_property
     def contacts(self) -> ContactLog:
         """Log of the impacts."""
-        impact = self.is_impact
-        before = self.rotor.state(self.arrivals[impact])
-        after = self.rotor.state(self.segment_amplitudes[1:][impact])
-        return ContactLog.from_states(self.rotor, self.segment_starts[1:][impact], before, after)
+        return self.log_of(self.is_impact)
+
+    def log_of(self, events: np.ndarray) -> ContactLog:
+        """Log of chosen events, bool, shape (n,)."""
+        before = self.rotor.state(self.arrivals[events])
+        after = self.rotor.state(self.segment_amplitudes[1:][events])
+        return ContactLog.from_states(self.rotor, self.segment_starts[1:][events], before, after)
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:
