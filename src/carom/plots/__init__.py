@@ -1,0 +1,30 @@
+"""Figures for print.  They take results and compute nothing.
+
+Every function returns a :class:`matplotlib.figure.Figure` made under carom's own style sheet, shows nothing, and leaves
+the settings and the backend of the user alone.  What the colours mean is told in :mod:`carom.plots.style`.
+"""
+
+from __future__ import annotations
+
+from carom.plots.conditions import period_condition
+from carom.plots.files import save
+from carom.plots.histories import radius
+from carom.plots.motions import motion, orbit
+from carom.plots.overviews import equilibria_and_orbits
+from carom.plots.spectra import multipliers
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, applied
+
+__all__ = [
+    "LOOKS",
+    "ONE_COLUMN",
+    "TWO_COLUMNS",
+    "Look",
+    "applied",
+    "equilibria_and_orbits",
+    "motion",
+    "multipliers",
+    "orbit",
+    "period_condition",
+    "radius",
+    "save",
+]

@@ -1,0 +1,87 @@
+"""Which parts of a picture are too small to be seen and deserve a picture of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from carom.plots.plane import Complex
+
+__all__ = ["Closeup", "closeups"]
+
+_SMALL = 0.15
+"""Paths that stay within this distance [c_r] of their first point, and points nearer to them, are crowded together."""
+
+
+@dataclass
+class Closeup:
+    """A square of the plane to be enlarged.
+
+    Attributes
+    ----------
+    members : list of int
+        Indices of the paths it is about.
+    places : list of numpy.ndarray
+        Everything it has to show, complex positions in units of the clearance.
+    """
+
+    members: list[int] = field(default_factory=list)
+    places: list[Complex] = field(default_factory=list)
+
+    @property
+    def middle(self) -> complex:
+        """Centre of the square."""
+        low, high = self._corners()
+        return (low + high) / 2.0
+
+    @property
+    def half(self) -> float:
+        """Half the side of the square: twice what it shows, so that names find room beyond the wall."""
+        low, high = self._corners()
+        return max(high.real - low.real, high.imag - low.imag)
+
+    def distance(self, place: complex) -> float:
+        """Distance of a point from the nearest thing shown."""
+        return min(float(np.abs(shown - place).min()) for shown in self.places)
+
+    def _corners(self) -> tuple[complex, complex]:
+        every = np.concatenate(self.places)
+        return complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())
+
+
+def closeups(paths: Sequence[Complex], points: Sequence[complex], most: int = 2) -> list[Closeup]:
+    """Group small paths with the paths and points near them.
+
+    Parameters
+    ----------
+    paths : sequence of numpy.ndarray
+        Complex positions along each path, in units of the clearance.
+    points : sequence of complex
+        Points that belong into a close-up when they are near one of its paths.
+    most : int
+        Largest number of close-ups; those with most members are kept.
+
+    Returns
+    -------
+    list of Closeup
+        From the left of the plane to its right.
+    """
+    found: list[Closeup] = []
+    for i, line in enumerate(paths):
+        if float(np.abs(line - line[0]).max()) > _SMALL:
+            continue
+        near = [closeup for closeup in found if closeup.distance(complex(line[0])) < _SMALL]
+        home = near[0] if near else Closeup()
+        if not near:
+            found.append(home)
+        home.members.append(i)
+        home.places.append(line)
+    for point in points:
+        for closeup in found:
+            if closeup.distance(point) < _SMALL:
+                closeup.places.append(np.array([point], dtype=complex))
+                break
+    kept = sorted(found, key=lambda closeup: -len(closeup.members))[:most]
+    return sorted(kept, key=lambda closeup: closeup.middle.real)

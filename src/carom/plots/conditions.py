@@ -1,0 +1,179 @@
+"""The period condition F1(T) = 0, whose roots are all single-impact orbits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
+from matplotlib.transforms import blended_transform_factory
+from numpy.typing import ArrayLike
+
+from carom.plots.placement import spread
+from carom.plots.plane import Floats, key, legend_below, one_axes
+from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.words import number, orbit_symbol, time_in_words
+
+if TYPE_CHECKING:
+    from carom.orbits import Orbit, OrbitSet
+
+__all__ = ["period_condition"]
+
+_INK = LOOKS["path"].colour
+_SAME_PERIOD = 1e-6
+"""Relative difference below which an orbit belongs to a root: far above rounding, far below the distance of roots."""
+_MOST_NAMES = 10
+"""Names that fit above the frame; of more roots only those with an admissible orbit are named."""
+_LINEAR = 0.05
+"""Where the scale of F1 goes over from linear to logarithmic."""
+
+
+@styled
+def period_condition(orbits: OrbitSet, periods: ArrayLike, values: ArrayLike, *, axes: Axes | None = None) -> Figure:
+    """Draw F1 over the period, its roots with the names of their orbits, and the bound that makes the list complete.
+
+    Parameters
+    ----------
+    orbits : carom.orbits.OrbitSet
+        All single-impact orbits of a rotor, with the roots and the bound.
+    periods : array_like, shape (n,)
+        Periods at which F1 is drawn [1/Omega], ascending.
+    values : array_like, shape (n,)
+        F1 at those periods (no unit).
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into.  Default: a new figure, 180 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        F1 over the period in units of 1/Omega.
+    """
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.42 * TWO_COLUMNS))
+    times, condition = np.asarray(periods, dtype=float), np.asarray(values, dtype=float)
+    words = r"period condition $F_1(T)$, zero for an orbit with one impact per period"
+    drawn.plot(times, condition, color=_INK, lw=0.9, label=words, gid="condition")
+    drawn.axhline(0.0, color="#1a1a1a", lw=0.5, gid="zero")
+    _limits(drawn, times, orbits.longest_period)
+    _bound(drawn, orbits)
+    _roots(drawn, orbits)
+    scales = orbits.rotor.scales
+    unit = "" if scales is None else f" = {number(1e3 * scales.time, 3)} ms"
+    drawn.set_xlabel(rf"period $T$ (units of $1/\Omega${unit})")
+    drawn.set_ylabel(_ordinate(drawn, condition))
+    if axes is None:
+        key(figure, [drawn], columns=2)
+    else:
+        legend_below(drawn)
+    return figure
+
+
+def _ordinate(axes: Axes, condition: Floats) -> str:
+    """Choose the scale of F1 and return the axis label that tells it.
+
+    F1 dips a little below zero, where the roots are, and peaks high above it at the resonances.
+    """
+    words = r"period condition $F_1$ (no unit)"
+    low, high = min(0.0, float(condition.min())), max(0.0, float(condition.max()))
+    if high <= 10.0 * max(-low, _LINEAR):
+        room = 0.08 * (high - low)
+        axes.set_ylim(low - room, high + room)
+        return words
+    axes.set_yscale("asinh", linear_width=_LINEAR)
+    axes.set_ylim(1.6 * min(low, -_LINEAR), 1.6 * high)
+    powers = [10.0**i for i in range(-1, int(np.log10(high)) + 1)]
+    axes.set_yticks([-power for power in powers if power < -1.6 * low] + [0.0, *powers])
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}".replace("-", "\N{MINUS SIGN}"))
+    axes.yaxis.set_minor_locator(NullLocator())
+    return f"{words},\nscale linear near 0, logarithmic beyond"
+
+
+def _limits(axes: Axes, times: Floats, bound: float) -> None:
+    """Show the bound where the curve reaches it or nearly so; a bound far away is told in words only."""
+    right = float(times[-1])
+    if bound > right and bound < 1.3 * right:
+        right = bound
+    axes.set_xlim(0.0, 1.06 * right)
+
+
+def _bound(axes: Axes, orbits: OrbitSet) -> None:
+    bound = orbits.longest_period
+    right = axes.get_xlim()[1]
+    claim = "no root" if orbits.complete else "not searched"
+    words = rf"{claim} beyond $T_\mathrm{{max}}$ = {time_in_words(bound, orbits.rotor.scales)}"
+    if bound < right:
+        axes.axvspan(bound, right, color="#ebebeb", lw=0, zorder=0, label=words, gid="excluded")
+        axes.axvline(bound, color="#808080", lw=0.7, linestyle="--", gid="bound")
+    else:
+        axes.plot([], [], linestyle="none", label=words, gid="bound")
+
+
+def _roots(axes: Axes, orbits: OrbitSet) -> None:
+    """Roots on the zero line; the names of their orbits stand above the frame."""
+    roots = np.asarray(orbits.periods, dtype=float)
+    if not len(roots):
+        axes.plot([], [], linestyle="none", label="no root: no orbit with one impact per period")
+        return
+    members = [[orbit for orbit in orbits if _belongs(orbit, root)] for root in roots]
+    physical = np.array([any(orbit.admissible for orbit in found) for found in members])
+    empty = np.array([not found for found in members])
+    grey = LOOKS["virtual"].colour
+    for chosen, face, edge, size, words in (
+        (physical, _INK, "#1a1a1a", 4.5, "root with an admissible orbit"),
+        (~physical & ~empty, "white", grey, 3.5, "root with virtual orbits only"),
+        (empty, grey, grey, 1.5, "root without an orbit"),
+    ):
+        if chosen.any():
+            _mark(axes, roots[chosen], face, edge, size, words)
+    named = physical if len(roots) > _MOST_NAMES else ~empty
+    labels = [f"{_name(found)}\n$T$ = {root:#.4g}" for found, root in zip(members, roots, strict=True) if found]
+    shown = [label for label, wanted in zip(labels, named[~empty], strict=True) if wanted][:_MOST_NAMES]
+    _name_roots(axes, roots[named][:_MOST_NAMES], shown)
+
+
+def _mark(axes: Axes, roots: Floats, face: str, edge: str, size: float, words: str) -> None:
+    axes.plot(
+        roots,
+        np.zeros_like(roots),
+        linestyle="none",
+        marker="o",
+        markersize=size,
+        markerfacecolor=face,
+        markeredgecolor=edge,
+        markeredgewidth=0.6,
+        zorder=4,
+        label=words,
+        gid="root",
+    )
+
+
+def _name_roots(axes: Axes, roots: Floats, labels: list[str]) -> None:
+    left, right = axes.get_xlim()
+    gap = 0.085 * (right - left)
+    places = spread(roots, gap, left + gap / 2.0, right - gap / 2.0)
+    across = blended_transform_factory(axes.transData, axes.transAxes)
+    for root, place, label in zip(roots, places, labels, strict=True):
+        axes.annotate(
+            label,
+            xy=(root, 0.0),
+            xycoords="data",
+            xytext=(place, 1.03),
+            textcoords=across,
+            ha="center",
+            va="bottom",
+            fontsize=7,
+            arrowprops={"arrowstyle": "-", "lw": 0.35, "color": "#808080", "shrinkA": 0, "shrinkB": 3},
+            annotation_clip=False,
+        )
+
+
+def _belongs(orbit: Orbit, root: float) -> bool:
+    return abs(orbit.period - root) <= _SAME_PERIOD * root
+
+
+def _name(found: list[Orbit]) -> str:
+    """Both orbits of a root in one name, ``B1,a/c``."""
+    stem, comma, _ = found[0].name.rpartition(",")
+    letters = "/".join(sorted(orbit.name.rpartition(",")[2] for orbit in found))
+    return orbit_symbol(f"{stem}{comma}{letters}")

@@ -1,0 +1,80 @@
+"""Figures to files, whole or not at all, and the same bytes every time."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from io import BytesIO
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from carom.outcome import InputError
+from carom.plots.style import applied
+
+__all__ = ["save"]
+
+# What would otherwise tie a file to the day it was made.
+_UNDATED: dict[str, dict[str, str | None]] = {
+    "svg": {"Date": None, "Creator": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+    "png": {"Software": None},
+}
+
+
+def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[str] = ("svg", "png")) -> list[Path]:
+    """Write a figure in several formats.
+
+    All formats are drawn in memory before the first byte is written, and each file appears under its name only when it
+    is complete.  The same figure gives the same bytes on every call: no dates, fixed identifiers.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        Figure to write; PNG at 300 dots per inch.
+    path_stem : path-like
+        Path without the ending, which is added as it is: ``"out/orbit"`` gives ``out/orbit.svg``.  Missing folders are
+        made.
+    formats : sequence of {"svg", "pdf", "png"}
+        Formats to write.
+
+    Returns
+    -------
+    list of pathlib.Path
+        The files written, in the order of `formats`.
+
+    Raises
+    ------
+    InputError
+        If a format is none of the three.
+    OSError
+        If the folder cannot be written; no partial file is left.
+    """
+    for name in formats:
+        if name not in _UNDATED:
+            raise InputError("format", name, f"must be one of {', '.join(_UNDATED)}")
+    stem = Path(path_stem)
+    contents = {name: _rendered(figure, name) for name in formats}
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, content in contents.items():
+        target = stem.with_name(f"{stem.name}.{name}")
+        _replace(target, content)
+        written.append(target)
+    return written
+
+
+def _rendered(figure: Figure, name: str) -> bytes:
+    buffer = BytesIO()
+    with applied():
+        figure.savefig(buffer, format=name, metadata=_UNDATED[name])
+    return buffer.getvalue()
+
+
+def _replace(target: Path, content: bytes) -> None:
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        part.write_bytes(content)
+        part.replace(target)
+    finally:
+        part.unlink(missing_ok=True)

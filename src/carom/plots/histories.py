@@ -1,0 +1,230 @@
+"""The radius over time: how near the wall the rotor runs, and when it strikes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.transforms import blended_transform_factory
+from numpy.typing import ArrayLike, NDArray
+
+from carom.plots.plane import (
+    MANY_MARKERS,
+    MANY_POINTS,
+    Floats,
+    key,
+    lasting_contact,
+    legend_below,
+    marker_size,
+    one_axes,
+    orbit_path,
+    sample_count,
+)
+from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
+from carom.plots.words import axis_length, axis_time, ending, orbit_look, orbit_title
+
+if TYPE_CHECKING:
+    from carom.orbits import Orbit
+    from carom.parameters import Scales, Zones
+    from carom.trajectories import Trajectory
+
+__all__ = ["radius"]
+
+_PERIODS = 3
+_Conversion = Callable[[ArrayLike], ArrayLike]
+
+
+@styled
+def radius(
+    motion: Trajectory | Orbit,
+    zones: Zones | None = None,
+    periods: int = _PERIODS,
+    title: str | None = None,
+    *,
+    axes: Axes | None = None,
+) -> Figure:
+    """Draw the distance of the rotor centre from the bearing centre over time, with the wall and the impacts.
+
+    Parameters
+    ----------
+    motion : carom.trajectories.Trajectory or carom.orbits.Orbit
+        Motion to draw.
+    zones : carom.parameters.Zones, optional
+        Vibration zones A to D, drawn as bands behind the curve.
+    periods : int
+        Number of periods drawn of an orbit.
+    title : str, optional
+        Title.  Default: for an orbit its name and stability in words.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into.  Default: a new figure, 180 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Radius in units of the clearance over time in units of 1/Omega.  Where the machine is known a second pair of
+        axes tells mm and ms.
+    """
+    if hasattr(motion, "path"):
+        history = _of_orbit(cast("Orbit", motion), periods)
+        title = title or orbit_title(cast("Orbit", motion))
+    else:
+        history = _of_trajectory(motion)
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
+    scales = motion.rotor.scales
+    _set_range(drawn, history, zones)
+    _wall_line(drawn)
+    _curve(drawn, history)
+    if history.trajectory is not None:
+        lasting_contact(drawn, history.times, history.times, history.radius, history.trajectory)
+    _marks(drawn, history)
+    drawn.set_xlabel(axis_time(scales))
+    drawn.set_ylabel(axis_length("radius", "$r$", scales))
+    if zones is not None:
+        _bands(drawn, zones)
+    _second_axes(drawn, scales)
+    if axes is not None:
+        drawn.set_title(title or "")
+        legend_below(drawn)
+        return figure
+    if title:
+        figure.suptitle(title)
+    key(figure, [drawn], columns=5)
+    return figure
+
+
+@dataclass(frozen=True)
+class _History:
+    """What is drawn: radius over time, impact times and whether each was in forward whirl."""
+
+    times: Floats
+    radius: Floats
+    impacts: Floats
+    forward: NDArray[np.bool_]
+    look: Look
+    words: str
+    trajectory: Trajectory | None = None
+
+
+def _of_orbit(orbit: Orbit, periods: int) -> _History:
+    times, position = orbit_path(orbit, periods)
+    look = LOOKS[orbit_look(orbit)]
+    forward = np.full(periods, orbit.angular_speed > -1.0)
+    impacts = orbit.period * np.arange(1.0, periods + 1.0)
+    return _History(times, np.abs(position), impacts, forward, look, f"radius ({look.words})")
+
+
+def _of_trajectory(trajectory: Trajectory) -> _History:
+    times = trajectory.sample(sample_count(trajectory.time))
+    contacts = trajectory.contacts
+    return _History(
+        times,
+        trajectory.radius(times),
+        contacts.time,
+        contacts.angular_speed > -1.0,
+        LOOKS["path"],
+        "radius",
+        trajectory,
+    )
+
+
+def _set_range(axes: Axes, history: _History, zones: Zones | None) -> None:
+    """From the bearing centre to just beyond the wall; enlarged where a motion stays near the wall."""
+    lowest, highest = float(history.radius.min()), max(1.0, float(history.radius.max()))
+    bottom = 0.0 if zones is not None or lowest < 0.5 else lowest - 0.12 * (highest - lowest)
+    axes.set_ylim(bottom, highest + 0.06 * (highest - bottom))
+    # The strip at the right is for the letters of the zones.
+    axes.set_xlim(0.0, float(history.times[-1]) * (1.0 if zones is None else 1.025))
+
+
+def _wall_line(axes: Axes) -> None:
+    look = LOOKS["wall"]
+    axes.axhline(
+        1.0, linestyle=look.line, color=look.colour, lw=look.width, label="wall (touchdown bearing)", gid="wall"
+    )
+
+
+def _curve(axes: Axes, history: _History) -> None:
+    outside = history.radius > 1.0 + 1e-9
+    beyond = LOOKS["outside"]
+    for part, look, words in ((~outside, history.look, history.words), (outside, beyond, beyond.words)):
+        if part.any():
+            axes.plot(
+                history.times,
+                np.where(part, history.radius, np.nan),
+                linestyle=look.line,
+                color=look.colour,
+                lw=max(look.width, 0.7),
+                rasterized=len(history.times) > MANY_POINTS,
+                label=words,
+                gid="outside" if look is beyond else "path",
+            )
+
+
+def _marks(axes: Axes, history: _History) -> None:
+    """Impacts on the wall line, and the end where the motion did not simply run out of time."""
+    size = marker_size(len(history.impacts))
+    for meaning, chosen in (("forward", history.forward), ("backward", ~history.forward)):
+        if chosen.any():
+            struck = history.impacts[chosen]
+            _mark(axes, struck, np.ones_like(struck), meaning, size, LOOKS[meaning].words)
+    if history.trajectory is not None and history.trajectory.outcome.label != "time-reached":
+        words = f"end: {ending(history.trajectory.outcome)}"
+        _mark(axes, history.times[-1:], history.radius[-1:], "end", 5.0, words)
+
+
+def _mark(axes: Axes, times: Floats, values: Floats, meaning: str, size: float, words: str) -> None:
+    look = LOOKS[meaning]
+    axes.plot(
+        times,
+        values,
+        linestyle="none",
+        marker=look.marker,
+        markersize=size,
+        markerfacecolor=look.colour,
+        markeredgecolor="#1a1a1a",
+        markeredgewidth=0.4,
+        rasterized=len(times) > MANY_MARKERS,
+        label=words,
+        zorder=4,
+        clip_on=False,
+        gid=meaning,
+    )
+
+
+def _bands(axes: Axes, zones: Zones) -> None:
+    axes.fill_between([], [], color=ZONE_SHADES[-1], lw=0, label="zones A to D")
+    bottom, top = axes.get_ylim()
+    edges = (bottom, *zones.limits, min(top, 1.0))
+    beside = blended_transform_factory(axes.transAxes, axes.transData)
+    for low, high, letter, shade in zip(edges[:-1], edges[1:], zones.labels, ZONE_SHADES, strict=True):
+        axes.axhspan(low, high, color=shade, lw=0, zorder=0, gid=f"zone {letter}")
+        axes.text(0.992, (low + high) / 2.0, letter, transform=beside, ha="right", va="center", fontsize=7)
+
+
+def _second_axes(axes: Axes, scales: Scales | None) -> None:
+    """The same time in ms and the same radius in mm, where the machine is known.
+
+    Near the wall the gap that is left, in micrometres, says more than a radius with many equal digits.
+    """
+    if scales is None:
+        return
+    top = axes.secondary_xaxis("top", functions=_linear(1e3 * scales.time))
+    top.set_xlabel("time (ms)")
+    if axes.get_ylim()[0] > 0.9:
+        right = axes.secondary_yaxis("right", functions=_linear(-1e6 * scales.clearance, zero=1.0))
+        right.set_ylabel("gap to the wall (\N{GREEK SMALL LETTER MU}m)")
+    else:
+        right = axes.secondary_yaxis("right", functions=_linear(1e3 * scales.clearance))
+        right.set_ylabel("radius (mm)")
+
+
+def _linear(factor: float, zero: float = 0.0) -> tuple[_Conversion, _Conversion]:
+    """Conversion ``factor (x - zero)`` to the second axis, and back."""
+    return (
+        lambda value: np.multiply(np.subtract(value, zero), factor),
+        lambda value: np.add(np.divide(value, factor), zero),
+    )

@@ -1,0 +1,202 @@
+"""Everything a machine can do, in one picture of the co-rotating frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from carom.plots.closeups import Closeup, closeups
+from carom.plots.placement import spread_angles
+from carom.plots.plane import (
+    Complex,
+    clearance_circle,
+    direction_arrow,
+    key,
+    label_frame,
+    legend_below,
+    look_closer,
+    one_axes,
+    orbit_path,
+    path,
+    point,
+)
+from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.words import orbit_look, orbit_symbol
+
+if TYPE_CHECKING:
+    from carom.equilibria import Equilibrium
+    from carom.orbits import Orbit, OrbitSet
+
+__all__ = ["equilibria_and_orbits"]
+
+_ORDER = {"virtual": 0, "unstable": 1, "stable": 2}
+_STATUS = {"admissible": "admissible", "boundary": "on the wall"}
+_MOST_VIRTUAL = 8
+"""Beyond this many virtual orbits their paths and names are left out, since they would hide the physical ones."""
+_LABEL_RING = 1.17
+"""Radius of the ring around the clearance circle on which the names sit."""
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """An orbit with its path over one period, complex positions in the co-rotating frame."""
+
+    orbit: Orbit
+    path: Complex
+
+    @property
+    def meaning(self) -> str:
+        return orbit_look(self.orbit)
+
+
+@styled
+def equilibria_and_orbits(
+    equilibria: Sequence[Equilibrium], orbits: OrbitSet, title: str | None = None, *, axes: Axes | None = None
+) -> Figure:
+    """Draw all equilibria and periodic orbits of a machine in the co-rotating frame.
+
+    The contact-free point is levitation; the rub points lie on the circle; each orbit touches the circle at its
+    impact.  Orbits too small to be seen are enlarged in panels of their own.  Virtual orbits are drawn pale.
+
+    Parameters
+    ----------
+    equilibria : sequence of carom.equilibria.Equilibrium
+        Contact-free and rub equilibria.
+    orbits : carom.orbits.OrbitSet
+        Periodic orbits of the rotor.
+    title : str, optional
+        Title of the figure.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw the whole circle into, without enlarged panels.  Default: a new figure, 180 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Positions in units of the clearance.
+    """
+    shown = sorted(
+        (_Drawn(orbit, orbit_path(orbit, 1)[1]) for orbit in orbits), key=lambda drawn: _ORDER[drawn.meaning]
+    )
+    physical = [drawn for drawn in shown if drawn.meaning != "virtual"]
+    crowded = closeups([drawn.path for drawn in physical], [e.position for e in equilibria]) if axes is None else []
+    figure, whole, panels = _panels(axes, len(crowded))
+    hidden = [physical[i] for closeup in crowded for i in closeup.members]
+    clearance_circle(whole, reach=1.36)
+    label_frame(whole, "rotating", orbits.rotor.scales)
+    named = shown if len(shown) - len(physical) <= _MOST_VIRTUAL else physical
+    _draw(whole, equilibria, shown, without_arrow=hidden)
+    tags = [(f"({letter})", closeup.middle) for letter, closeup in zip("bc", crowded, strict=False)]
+    _name(whole, [drawn for drawn in named if drawn not in hidden], _LABEL_RING, gap=0.14, tags=tags)
+    for (tag, _), closeup, panel in zip(tags, crowded, panels, strict=True):
+        _enlarge(whole, panel, closeup, tag)
+        _draw(panel, equilibria, shown)
+        _name(panel, [physical[i] for i in closeup.members], 1.0 + 0.33 * closeup.half, gap=0.24 * closeup.half)
+    if panels:
+        whole.set_title("(a) co-rotating frame")
+    if axes is None:
+        if title:
+            figure.suptitle(title)
+        key(figure, [whole], columns=3 if panels else 2)
+    else:
+        whole.set_title(title or "")
+        legend_below(whole)
+    return figure
+
+
+def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
+    """The whole circle at the left, close-ups at the right: one as large as the whole, or two above each other."""
+    if axes is not None or not count:
+        figure, whole = one_axes(axes, (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS))
+        return figure, whole, []
+    figure = Figure(figsize=(TWO_COLUMNS, (0.58 if count == 1 else 0.66) * TWO_COLUMNS))
+    grid = figure.add_gridspec(count, 2, width_ratios=(count, 1))
+    return figure, figure.add_subplot(grid[:, 0]), [figure.add_subplot(grid[i, 1]) for i in range(count)]
+
+
+def _draw(
+    axes: Axes, equilibria: Sequence[Equilibrium], shown: Sequence[_Drawn], without_arrow: Sequence[_Drawn] = ()
+) -> None:
+    virtual = sum(drawn.meaning == "virtual" for drawn in shown)
+    many = virtual > _MOST_VIRTUAL
+    for equilibrium in equilibria:
+        _draw_equilibrium(axes, equilibrium)
+    for drawn in shown:
+        look = LOOKS["outside" if drawn.meaning == "virtual" else drawn.meaning]
+        if drawn.meaning != "virtual" or not many:
+            path(axes, drawn.path, look, label="")
+        if drawn.meaning != "virtual" and drawn not in without_arrow:
+            direction_arrow(axes, drawn.path, look)
+        hollow = drawn.meaning != "stable"
+        point(axes, drawn.orbit.position, drawn.meaning, hollow=hollow, size=3.2, label="", layer=5.0)
+    for meaning in dict.fromkeys(drawn.meaning for drawn in reversed(shown)):
+        look, line = LOOKS[meaning], LOOKS["outside" if meaning == "virtual" else meaning]
+        note = f" ({virtual}, impacts only)" if meaning == "virtual" and many else ""
+        axes.plot(
+            [],
+            [],
+            linestyle="none" if note else line.line,
+            color=line.colour,
+            lw=line.width,
+            marker=look.marker,
+            markersize=3.2,
+            markerfacecolor=look.colour if meaning == "stable" else "white",
+            markeredgecolor=look.colour,
+            label=f"periodic orbit: {look.words}{note}",
+        )
+
+
+def _draw_equilibrium(axes: Axes, equilibrium: Equilibrium) -> None:
+    """Filled where it can be observed (stable and not virtual), hollow otherwise, grey where virtual."""
+    virtual = equilibrium.status == "virtual"
+    kind = "stable" if equilibrium.stable else "unstable"
+    state = LOOKS["virtual"].words if virtual else f"{_STATUS[equilibrium.status]}, {kind}"
+    point(
+        axes,
+        equilibrium.position,
+        equilibrium.kind,
+        hollow=virtual or not equilibrium.stable,
+        size=6.0,
+        label=f"{LOOKS[equilibrium.kind].words}: {state}",
+        colour=LOOKS["virtual"].colour if virtual else None,
+    )
+
+
+def _enlarge(whole: Axes, panel: Axes, closeup: Closeup, tag: str) -> None:
+    """Frame the panel around its close-up and mark the same square in the whole circle."""
+    middle, half = closeup.middle, closeup.half
+    look_closer(panel, middle, half)
+    panel.locator_params(nbins=4)
+    panel.set_title(f"{tag} enlarged")
+    panel.set_xlabel("Re $U$")
+    panel.set_ylabel("Im $U$")
+    corner = (middle.real - half, middle.imag - half)
+    square = Rectangle(corner, 2.0 * half, 2.0 * half, fill=False, edgecolor="#808080", lw=0.4, zorder=6, gid="square")
+    whole.add_patch(square)
+
+
+def _name(
+    axes: Axes, shown: Sequence[_Drawn], ring: float, gap: float, tags: Sequence[tuple[str, complex]] = ()
+) -> None:
+    """Names on a ring around the clearance circle, joined to the impact points by thin lines."""
+    labels = [(orbit_symbol(d.orbit.name), d.orbit.position, LOOKS[d.meaning].colour) for d in shown]
+    labels += [(tag, middle, "#1a1a1a") for tag, middle in tags]
+    angles = spread_angles([np.angle(anchor) for _, anchor, _ in labels], gap)
+    for (text, anchor, colour), angle in zip(labels, angles, strict=True):
+        axes.annotate(
+            text,
+            xy=(anchor.real, anchor.imag),
+            xytext=(ring * np.cos(angle), ring * np.sin(angle)),
+            ha="center",
+            va="center",
+            fontsize=8,
+            color=colour,
+            bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"},
+            arrowprops={"arrowstyle": "-", "lw": 0.35, "color": "#808080", "shrinkA": 0, "shrinkB": 2},
+            annotation_clip=False,
+        )

@@ -1,0 +1,312 @@
+"""What all pictures of the clearance share: the circle, paths, arrows, impacts and the legend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.legend import Legend
+from numpy.typing import NDArray
+
+from carom.outcome import InputError
+from carom.plots.style import LOOKS, Look
+from carom.plots.words import axis_length, times_larger
+
+if TYPE_CHECKING:
+    from carom.orbits import Orbit
+    from carom.parameters import Scales
+    from carom.trajectories import Trajectory
+
+__all__ = [
+    "MANY_MARKERS",
+    "MANY_POINTS",
+    "Complex",
+    "Floats",
+    "Frame",
+    "clearance_circle",
+    "direction_arrow",
+    "faded_path",
+    "impacts",
+    "key",
+    "label_frame",
+    "lasting_contact",
+    "legend_below",
+    "look_closer",
+    "magnifier",
+    "marker_size",
+    "one_axes",
+    "orbit_path",
+    "path",
+    "point",
+    "sample_count",
+]
+
+Complex = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+
+MANY_POINTS = 40_000
+MANY_MARKERS = 2_000
+"""Beyond these numbers a line or markers are stored as pixels inside vector files, which stay small."""
+
+Frame = Literal["rotating", "fixed"]
+
+_FRAMES = {"rotating": ("co-rotating frame", "U"), "fixed": ("fixed frame", "Z")}
+
+
+def clearance_circle(axes: Axes, reach: float = 1.12) -> None:
+    """Draw the circle the rotor centre cannot leave and set equal axes around it."""
+    _wall(axes, np.linspace(0.0, 2.0 * np.pi, 721))
+    axes.set_xlim(-reach, reach)
+    axes.set_ylim(-reach, reach)
+    step = 0.5 if reach < 1.5 else float(np.ceil(reach / 3.0))
+    whole = np.floor(reach / step)
+    ticks = step * np.arange(-whole, whole + 1.0)
+    axes.set_xticks(ticks)
+    axes.set_yticks(ticks)
+
+
+def _wall(axes: Axes, angle: Floats) -> None:
+    look = LOOKS["wall"]
+    axes.plot(np.cos(angle), np.sin(angle), look.line, color=look.colour, lw=look.width, label=look.words, gid="wall")
+    axes.set_aspect("equal")
+
+
+def label_frame(axes: Axes, frame: Frame, scales: Scales | None, note: str = "") -> None:
+    """Title and axis labels of a picture in the frame ``"rotating"`` or ``"fixed"``."""
+    words, symbol = _FRAMES[frame]
+    axes.set_title(f"{words}{', ' if note else ''}{note}")
+    axes.set_xlabel(axis_length("position", rf"Re ${symbol}$", scales))
+    axes.set_ylabel(axis_length("position", rf"Im ${symbol}$", scales))
+
+
+def path(axes: Axes, position: Complex, look: Look, label: str | None = None, width: float | None = None) -> None:
+    """Draw a path; where it is beyond the wall it is drawn faint and dotted, whatever its look.
+
+    An empty `label` keeps the path out of the legend.
+    """
+    # A hair's breadth of room keeps the impact points themselves, at radius 1, out of the faint part.
+    outside = np.abs(position) > 1.0 + 1e-9
+    beyond = LOOKS["outside"]
+    for part, drawn, words in ((~outside, look, look.words), (outside, beyond, beyond.words)):
+        if not part.any():
+            continue
+        shown = _with_neighbours(part) if drawn is beyond else part
+        named = words if drawn is beyond or label is None else label
+        axes.plot(
+            np.where(shown, position.real, np.nan),
+            np.where(shown, position.imag, np.nan),
+            linestyle=drawn.line,
+            color=drawn.colour,
+            lw=drawn.width if width is None else min(width, drawn.width),
+            rasterized=len(position) > MANY_POINTS,
+            label="_" if label == "" else named,
+            gid="outside" if drawn is beyond else "path",
+        )
+
+
+def _with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Widen each run by one sample on both sides, so that two parts of a line meet."""
+    wide = part.copy()
+    wide[1:] |= part[:-1]
+    wide[:-1] |= part[1:]
+    return wide
+
+
+def faded_path(axes: Axes, position: Complex, look: Look, pieces: int = 60) -> None:
+    """Draw a path whose beginning is pale and whose end has the full colour.
+
+    Opaque tints instead of transparency: where a path crosses itself, transparency would make dots.
+    """
+    colour = np.array(to_rgb(look.colour))
+    ends = np.unique(np.linspace(0, len(position) - 1, pieces + 1).astype(int))
+    points = np.column_stack((position.real, position.imag))
+    segments = [points[first : last + 1] for first, last in pairwise(ends)]
+    strength = np.linspace(0.2, 1.0, len(segments)) ** 1.5
+    tints = [tuple(1.0 - s * (1.0 - colour)) for s in strength]
+    drawn = LineCollection(segments, colors=tints, linewidths=look.width, gid="path")
+    drawn.set_rasterized(len(position) > MANY_POINTS)
+    axes.add_collection(drawn)
+    axes.plot([], [], look.line, color=look.colour, lw=look.width, label=f"{look.words} (early part pale)")
+
+
+def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float = 0.4) -> None:
+    """Put an arrow head on a path, at a fraction of its length, pointing forward in time."""
+    length = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(position)))))
+    if length[-1] == 0.0:
+        return
+    here = fraction * length[-1]
+    step = 0.01 * length[-1]
+    x = np.interp((here - step, here + step), length, position.real)
+    y = np.interp((here - step, here + step), length, position.imag)
+    axes.annotate(
+        "",
+        xy=(x[1], y[1]),
+        xytext=(x[0], y[0]),
+        arrowprops={
+            "arrowstyle": "-|>",
+            "color": look.colour,
+            "lw": 0,
+            "mutation_scale": 9,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
+        gid="direction",
+    )
+
+
+def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | None = None) -> None:
+    """Mark impact points, one marker for forward and one for backward whirl in the fixed frame.
+
+    The rotor whirls forward where its fixed-frame angular speed, the co-rotating one plus 1, is positive just before
+    the impact.
+    """
+    forward = np.asarray(angular_speed) > -1.0
+    size = marker_size(len(forward)) if size is None else size
+    for which, chosen in (("forward", forward), ("backward", ~forward)):
+        if chosen.any():
+            point(axes, position[chosen], which, size=size)
+
+
+def orbit_path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
+    """Times from an impact on, evenly spread over whole periods, and positions in the co-rotating frame."""
+    times = np.linspace(0.0, periods * orbit.period, periods * max(400, int(60.0 * orbit.period)) + 1)
+    return times, orbit.path(times)
+
+
+def sample_count(duration: float) -> int:
+    """Enough points for smooth turns, few enough for a file one can mail."""
+    return int(np.clip(60.0 * duration, 2000, 12000))
+
+
+def lasting_contact(axes: Axes, times: Floats, x: Floats, y: Floats, trajectory: Trajectory) -> None:
+    """Draw the parts of a curve during which the rotor stays in contact as broad bands, sliding apart from rolling."""
+    for kind in ("slide", "roll"):
+        spans = [(span.start, span.end) for span in trajectory.lasting_contacts if span.kind == kind]
+        if not spans:
+            continue
+        starts, ends = np.array(spans).T
+        latest = np.searchsorted(starts, times, side="right") - 1
+        within = (latest >= 0) & (times <= ends[latest])
+        look = LOOKS[kind]
+        axes.plot(
+            np.where(within, x, np.nan),
+            np.where(within, y, np.nan),
+            linestyle=look.line,
+            color=look.colour,
+            lw=look.width,
+            solid_capstyle="butt",
+            rasterized=len(times) > MANY_POINTS,
+            label=look.words,
+            zorder=3,
+            gid=kind,
+        )
+
+
+def marker_size(count: int) -> float:
+    """Marker size [pt] that shrinks as markers get many."""
+    return float(np.clip(5.0 - 0.9 * np.log10(max(count, 1) / 6.0), 2.2, 5.0))
+
+
+def point(
+    axes: Axes,
+    position: complex | Complex,
+    meaning: str,
+    *,
+    hollow: bool = False,
+    size: float = 5.0,
+    label: str | None = None,
+    colour: str | None = None,
+    layer: float = 4.0,
+) -> None:
+    """Mark one or more points with the look of `meaning`; hollow means unstable or virtual."""
+    look = LOOKS[meaning]
+    drawn = colour or look.colour
+    where = np.atleast_1d(position)
+    ring = meaning == "start"
+    axes.plot(
+        where.real,
+        where.imag,
+        linestyle="none",
+        marker=look.marker,
+        markersize=size + 3.0 if ring else size,
+        markerfacecolor="none" if ring else ("white" if hollow else drawn),
+        markeredgecolor=drawn if hollow or ring else "#1a1a1a",
+        markeredgewidth=0.8 if hollow or ring else 0.4,
+        rasterized=len(where) > MANY_MARKERS,
+        label=look.words if label is None else label or "_",
+        zorder=layer + ring,
+        gid=meaning,
+    )
+
+
+def magnifier(axes: Axes, shown: Complex, margin: float = 0.25) -> Axes | None:
+    """Open an enlarged view of the square around `shown` in the free part of the clearance circle.
+
+    Returns
+    -------
+    matplotlib.axes.Axes or None
+        The inner axes with its piece of the circle drawn, or None where `shown` is large enough to be seen as it is.
+    """
+    low, high = complex(shown.real.min(), shown.imag.min()), complex(shown.real.max(), shown.imag.max())
+    middle, half = (low + high) / 2.0, max(high.real - low.real, high.imag - low.imag) / 2.0 * (1.0 + margin)
+    if half > 0.2 or half == 0.0:
+        return None
+    centre = -0.28 * middle / abs(middle)
+    side = 0.9
+    inner = axes.inset_axes(
+        (centre.real - side / 2, centre.imag - side / 2, side, side), transform=axes.transData, gid="magnifier"
+    )
+    look_closer(inner, middle, half)
+    inner.set_xticks(())
+    inner.set_yticks(())
+    inner.set_title(f"enlarged {times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
+    # The layout would otherwise take the enlarged piece for part of the page.
+    inner.set_in_layout(False)
+    axes.indicate_inset_zoom(inner, edgecolor="#808080", lw=0.4, alpha=1.0)
+    return inner
+
+
+def look_closer(axes: Axes, middle: complex, half: float) -> None:
+    """Show the square of half-width `half` around `middle`, with its piece of the clearance circle."""
+    # Only the arc in view, so finely that impact points lie on it at any enlargement.
+    _wall(axes, np.angle(middle) + np.linspace(-4.0 * half, 4.0 * half, 361))
+    axes.set_xlim(middle.real - half, middle.real + half)
+    axes.set_ylim(middle.imag - half, middle.imag + half)
+
+
+def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
+    """Axes of a new figure of that size [inch], or those of the user with their figure."""
+    if axes is None:
+        figure = Figure(figsize=size)
+        return figure, figure.subplots()
+    owner = axes.get_figure(root=True)
+    if owner is None:
+        raise InputError("axes", axes, "must belong to a figure")
+    return owner, axes
+
+
+def key(figure: Figure, drawn: Iterable[Axes], columns: int) -> Legend:
+    """Legend of everything labelled in the axes, each word once, below the figure where no data are."""
+    handles, words = _unique(drawn)
+    return figure.legend(handles, words, loc="outside lower center", ncols=min(columns, len(words)))
+
+
+def legend_below(axes: Axes, columns: int = 2) -> Legend:
+    """The same legend below one axes, for axes that belong to a figure of the user."""
+    handles, words = _unique([axes])
+    return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(columns, len(words)))
+
+
+def _unique(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:
+    found: dict[str, Artist] = {}
+    for axes in drawn:
+        for handle, words in zip(*axes.get_legend_handles_labels(), strict=True):
+            found.setdefault(words, handle)
+    return list(found.values()), list(found)

@@ -1,0 +1,161 @@
+"""Multipliers of periodic orbits in the complex plane, next to the unit circle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from carom.plots.plane import Complex, one_axes
+from carom.plots.style import LOOKS, ONE_COLUMN, styled
+from carom.plots.words import orbit_look, orbit_words
+
+if TYPE_CHECKING:
+    from carom.orbits import Orbit
+
+__all__ = ["multipliers"]
+
+_SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p", "<", ">", "h", "*")
+_LINEAR_UP_TO = 2.0
+
+
+@styled
+def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
+    """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
+
+    An orbit is stable where all its multipliers lie inside the circle; one that leaves through +1 is a fold, through
+    -1 a period doubling, elsewhere a torus.  Where a multiplier is larger than 2 the plane outside the unit circle is
+    drawn with a logarithmic radius: a multiplier keeps its direction and is drawn at the distance
+    1 + log10 of its modulus.  The axes then say so and carry no numbers; circles tell the modulus.
+
+    Of more than twelve orbits the virtual ones share one small marker.
+
+    Parameters
+    ----------
+    orbits : iterable of carom.orbits.Orbit
+        Orbits, for example an :class:`carom.orbits.OrbitSet`.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into.  Default: a new figure, 88 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Imaginary over real part of the multipliers (no unit), equal scales.
+    """
+    every = list(orbits)
+    grouped = [orbit for orbit in every if not orbit.admissible] if len(every) > len(_SHAPES) else []
+    shown = [orbit for orbit in every if orbit not in grouped]
+    entries = len(shown) + bool(grouped)
+    columns = 1 if entries <= 4 else 2
+    lines = -(-entries // columns)
+    largest = max((float(np.abs(orbit.multipliers.values).max()) for orbit in every), default=1.0)
+    compressed = largest > _LINEAR_UP_TO
+    height = (1.06 if compressed else 0.97) * ONE_COLUMN + 0.15 * lines
+    figure, drawn = one_axes(axes, (ONE_COLUMN, height))
+    _unit_circle(drawn)
+    if compressed:
+        _logarithmic_plane(drawn, largest)
+    else:
+        _linear_plane(drawn, largest)
+    for orbit, shape in zip(shown, _endless(_SHAPES, len(shown)), strict=True):
+        values = np.asarray(orbit.multipliers.values)
+        _markers(drawn, _compress(values) if compressed else values, orbit, shape)
+    if grouped:
+        values = np.concatenate([orbit.multipliers.values for orbit in grouped])
+        _dots(drawn, _compress(values) if compressed else values, len(grouped))
+    if not every:
+        drawn.plot([], [], linestyle="none", label="no periodic orbit")
+    if axes is None:
+        figure.legend(*drawn.get_legend_handles_labels(), loc="outside lower center", ncols=columns)
+    else:
+        drawn.legend(loc="upper left", bbox_to_anchor=(1.03, 1.0))
+    return figure
+
+
+def _endless(shapes: Sequence[str], count: int) -> list[str]:
+    return [shapes[i % len(shapes)] for i in range(count)]
+
+
+def _compress(values: Complex) -> Complex:
+    """Inside the unit circle as it is; outside at the distance 1 + log10 of the modulus, in the same direction."""
+    modulus = np.maximum(np.abs(values), 1.0)
+    return values / modulus * (1.0 + np.log10(modulus))
+
+
+def _unit_circle(axes: Axes) -> None:
+    _circle(axes, 1.0, "#1a1a1a", 0.9, "unit-circle")
+    axes.axhline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
+    axes.axvline(0.0, color="#c4c4c4", lw=0.35, zorder=0)
+    axes.set_aspect("equal")
+
+
+def _circle(axes: Axes, radius: float, colour: str, width: float, gid: str) -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(radius * np.cos(angle), radius * np.sin(angle), color=colour, lw=width, zorder=1, gid=gid)
+
+
+def _linear_plane(axes: Axes, largest: float) -> None:
+    reach = 1.08 * max(1.1, largest)
+    ticks = np.arange(-2.0, 2.01, 0.5)
+    axes.set_xticks(ticks)
+    axes.set_yticks(ticks)
+    axes.set_xlim(-reach, reach)
+    axes.set_ylim(-reach, reach)
+    axes.set_xlabel(r"real part of the multiplier, Re $\lambda$ (no unit)")
+    axes.set_ylabel(r"imaginary part of the multiplier, Im $\lambda$ (no unit)")
+
+
+def _logarithmic_plane(axes: Axes, largest: float) -> None:
+    reach = 1.08 * (1.0 + np.log10(largest))
+    decades = range(int(np.ceil(np.log10(largest))) + 1)
+    diagonal = np.exp(-0.25j * np.pi)
+    for modulus in [factor * 10**decade for decade in decades for factor in (1, 2, 5)]:
+        place = (1.0 + np.log10(modulus)) * diagonal
+        if place.real > 0.97 * reach:
+            break
+        power = float(np.log10(modulus)).is_integer()
+        if modulus > 1:
+            _circle(axes, abs(place), "#a6a6a6" if power else "#dcdcdc", 0.4, "modulus")
+        if power or len(decades) <= 3:
+            _tag(axes, place, f"{modulus}")
+    axes.set_xlim(-reach, reach)
+    axes.set_ylim(-reach, reach)
+    axes.set_xticks(())
+    axes.set_yticks(())
+    axes.set_xlabel(
+        "direction of Re $\\lambda$ (circles: $|\\lambda|$, no unit; distance from the\n"
+        "centre $|\\lambda|$ up to 1, $1+\\log_{10}|\\lambda|$ beyond)"
+    )
+    axes.set_ylabel(r"direction of Im $\lambda$")
+
+
+def _tag(axes: Axes, place: complex, text: str) -> None:
+    box = {"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none"}
+    axes.text(place.real, place.imag, text, fontsize=6, ha="center", va="center", bbox=box, zorder=2)
+
+
+def _markers(axes: Axes, values: Complex, orbit: Orbit, shape: str) -> None:
+    meaning = orbit_look(orbit)
+    colour = LOOKS[meaning].colour
+    axes.plot(
+        values.real,
+        values.imag,
+        linestyle="none",
+        marker=shape,
+        markersize=4.8,
+        markerfacecolor=colour if meaning == "stable" else "none",
+        markeredgecolor=colour,
+        markeredgewidth=0.9,
+        label=orbit_words(orbit),
+        zorder=3 if meaning == "stable" else 4,
+        gid=orbit.name,
+    )
+
+
+def _dots(axes: Axes, values: Complex, count: int) -> None:
+    look = LOOKS["virtual"]
+    words = f"{count} orbits \N{EM DASH} {look.words}"
+    axes.plot(values.real, values.imag, ".", markersize=2.5, color=look.colour, label=words, zorder=2, gid="virtual")

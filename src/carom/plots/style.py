@@ -1,0 +1,132 @@
+"""The one look of all figures: style sheet, widths, and what each colour means.
+
+A colour, line or marker in a figure of carom always means the same thing.  Every meaning is told by colour *and* by
+line or marker, so that figures read in grey and for colour-blind eyes; the hues are those of Okabe and Ito (2008)
+but for wine.
+
+=====================  ==========================  ====================================================
+key of :data:`LOOKS`   drawn as                    means
+=====================  ==========================  ====================================================
+``"stable"``           blue, solid, disc           periodic orbit: admissible, stable
+``"unstable"``         vermilion, dashed, diamond  periodic orbit: admissible, unstable
+``"virtual"``          grey, thin, cross           not physical: violates the wall or the contact law
+``"outside"``          pale grey, dotted           the part of a virtual orbit beyond the wall
+``"wall"``             near-black, solid           clearance circle: the touchdown bearing
+``"path"``             dark slate, thin            a simulated motion
+``"contact-free"``     green, pentagon             contact-free equilibrium (levitation)
+``"rub"``              purple, square              synchronous rub equilibrium
+``"slide"``            purple, broad               lasting contact that slides along the wall
+``"roll"``             wine, broad, dash-dotted    lasting contact that rolls round the wall
+``"forward"``          sky blue, triangle up       impact in forward whirl (fixed frame)
+``"backward"``         orange, triangle down       impact in backward whirl (fixed frame)
+``"start"``, ``"end"`` hollow ring, filled cross   first and last instant of a motion
+=====================  ==========================  ====================================================
+
+Filled markers are stable or admissible, hollow ones unstable or virtual.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import wraps
+from types import MappingProxyType
+from typing import ParamSpec
+
+import matplotlib.style
+from matplotlib.figure import Figure
+
+__all__ = ["LOOKS", "ONE_COLUMN", "TWO_COLUMNS", "ZONE_SHADES", "Look", "applied", "styled"]
+
+Arguments = ParamSpec("Arguments")
+
+ONE_COLUMN = 88 / 25.4
+"""Width of a one-column figure [inch]: 88 mm."""
+
+TWO_COLUMNS = 180 / 25.4
+"""Width of a two-column figure [inch]: 180 mm."""
+
+ZONE_SHADES = ("#ffffff", "#faf7ef", "#f5f0e1", "#efe7d0")
+"""Background of the vibration zones A, B, C, D: the darker, the worse."""
+
+_SHEET = "carom.plots.carom"
+
+
+@dataclass(frozen=True)
+class Look:
+    """How one meaning is drawn, and the words the legend uses for it.
+
+    Parameters
+    ----------
+    colour : str
+        Hexadecimal colour.
+    words : str
+        Legend text.
+    line : str
+        Matplotlib line style; ``"none"`` where the meaning is a point.
+    width : float
+        Line width [pt].
+    marker : str
+        Matplotlib marker; ``"none"`` where the meaning is a line.
+    """
+
+    colour: str
+    words: str
+    line: str = "none"
+    width: float = 0.9
+    marker: str = "none"
+
+
+LOOKS = MappingProxyType(
+    {
+        "stable": Look("#0072b2", "admissible, stable", line="-", width=1.1, marker="o"),
+        "unstable": Look("#d55e00", "admissible, unstable", line="--", width=0.9, marker="D"),
+        "virtual": Look("#808080", "virtual, not physical", line="-", width=0.6, marker="x"),
+        "outside": Look("#a6a6a6", "virtual part, outside the clearance", line=":", width=0.8),
+        "wall": Look("#1a1a1a", "clearance circle (touchdown bearing)", line="-", width=1.0),
+        "path": Look("#3d4f66", "path of the rotor centre", line="-", width=0.6),
+        "contact-free": Look("#009e73", "contact-free equilibrium", marker="p"),
+        "rub": Look("#cc79a7", "rub equilibrium", marker="s"),
+        "slide": Look("#cc79a7", "lasting contact, sliding", line="-", width=2.8),
+        "roll": Look("#882255", "lasting contact, rolling", line="-.", width=2.8),
+        "forward": Look("#56b4e9", "impact, forward whirl", marker="^"),
+        "backward": Look("#e69f00", "impact, backward whirl", marker="v"),
+        "start": Look("#1a1a1a", "start", marker="o"),
+        "end": Look("#1a1a1a", "end", marker="X"),
+    }
+)
+"""Every meaning a figure can show (read-only)."""
+
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Apply carom's style sheet inside a ``with`` block.
+
+    The sheet starts from matplotlib's defaults, so a figure does not depend on the settings of the user, and all of
+    ``matplotlib.rcParams`` is as before once the block ends.
+    """
+    with matplotlib.style.context(_SHEET, after_reset=True):
+        yield
+
+
+def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
+    """Run a drawing function under carom's style sheet.
+
+    A figure of its own is laid out before the sheet is taken away, and its layout then stays: matplotlib makes ticks
+    only when it draws, and would give them the settings of the user, and a layout done anew for each file would make
+    each file a little different.  Axes of the user, given as the keyword `axes`, keep the layout of the user.
+    """
+
+    @wraps(draw)
+    def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Figure:
+        with applied():
+            figure = draw(*args, **kwargs)
+            if kwargs.get("axes") is None:
+                # The first round makes the ticks, the second arranges the axes with their ticks in place.
+                for _ in range(2):
+                    figure.draw_without_rendering()
+                figure.set_layout_engine("none")
+        return figure
+
+    return wrapper

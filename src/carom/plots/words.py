@@ -1,0 +1,117 @@
+"""Names, titles and axis labels: words with their symbols and units."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from carom.plots.style import LOOKS
+
+if TYPE_CHECKING:
+    from carom.orbits import Orbit
+    from carom.outcome import Outcome
+    from carom.parameters import Scales
+
+__all__ = [
+    "axis_length",
+    "axis_time",
+    "counted",
+    "ending",
+    "number",
+    "orbit_look",
+    "orbit_symbol",
+    "orbit_title",
+    "orbit_words",
+    "time_in_words",
+    "times_larger",
+    "turns",
+]
+
+
+_ENDINGS = {
+    "event-limit": "limit of events reached",
+    "chatter": "chatter, goes over into lasting contact",
+    "grazing": "grazes the wall, undecided",
+    "levitated": "levitates without contact",
+    "bouncing": "keeps bouncing",
+    "mixed": "keeps alternating between bounces and lasting contact",
+    "forward-rub": "rubs in forward whirl",
+    "backward-whirl": "slides in backward whirl",
+    "rolling": "rolls in backward whirl",
+}
+"""Where the label of an outcome, with a space for the hyphen, is not yet said in words."""
+
+
+def orbit_symbol(name: str) -> str:
+    """Orbit name as mathematics: ``"B1,d"`` becomes B with the subscript 1,d."""
+    letter, subscript = name[:1], name[1:].replace(" ", r"\,")
+    return rf"${letter}_{{\mathrm{{{subscript}}}}}$" if subscript else f"${letter}$"
+
+
+def orbit_look(orbit: Orbit) -> str:
+    """Key of :data:`carom.plots.style.LOOKS` that says what kind of orbit this is."""
+    if not orbit.admissible:
+        return "virtual"
+    return "stable" if orbit.stable else "unstable"
+
+
+def orbit_words(orbit: Orbit) -> str:
+    """Name and kind of an orbit, for example ``B1,d — admissible, stable``."""
+    return f"{orbit_symbol(orbit.name)} \N{EM DASH} {LOOKS[orbit_look(orbit)].words}"
+
+
+def orbit_title(orbit: Orbit) -> str:
+    """The same, with the reason where the orbit is virtual."""
+    return orbit_words(orbit) if orbit.admissible or not orbit.reason else f"{orbit_words(orbit)}: {orbit.reason}"
+
+
+def ending(outcome: Outcome) -> str:
+    """How a motion ended, in words short enough for a legend."""
+    return _ENDINGS.get(outcome.label, outcome.label.replace("-", " "))
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number for a label, without trailing zeros; powers of ten as mathematics."""
+    text = f"{value:.{digits}g}"
+    if "e" not in text:
+        return text
+    mantissa, exponent = text.split("e")
+    return rf"${mantissa}\times 10^{{{int(exponent)}}}$"
+
+
+def counted(count: int, noun: str) -> str:
+    """``1 impact``, ``2 impacts``."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def times_larger(ratio: float) -> str:
+    """An enlargement to two digits."""
+    return f"{float(f'{ratio:.2g}'):.0f}"
+
+
+def time_in_words(time: float, scales: Scales | None) -> str:
+    """A dimensionless time with its unit, and in ms where the machine is known."""
+    text = rf"{number(time)} $/\,\Omega$"
+    return text if scales is None else f"{text} ({_seconds(time * scales.time)})"
+
+
+def _seconds(time: float) -> str:
+    return f"{number(time, 3)} s" if time >= 1.0 else f"{number(1e3 * time, 3)} ms"
+
+
+def axis_length(words: str, symbol: str, scales: Scales | None) -> str:
+    """Axis label of a length in units of the clearance, whose size is told where the machine is known."""
+    size = "" if scales is None else f" = {number(1e3 * scales.clearance, 3)} mm"
+    return rf"{words} {symbol} (units of $c_\mathrm{{r}}${size})"
+
+
+def axis_time(scales: Scales | None) -> str:
+    """Axis label of the dimensionless time."""
+    if scales is None:
+        return r"time $t$ (units of $1/\Omega$)"
+    return rf"time $t$ (units of $1/\Omega$ = {number(1e3 * scales.time, 3)} ms)"
+
+
+def turns(time: float) -> str:
+    """Dimensionless time as turns of the shaft."""
+    return f"{number(time / math.tau, 3)} turns of the shaft"

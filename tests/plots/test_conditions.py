@@ -1,0 +1,94 @@
+"""F1 over the period."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import carom
+from carom import plots
+
+
+def _drawn(case, longest=None):
+    periods = np.linspace(1e-3, longest or case.orbits.longest_period, 3000)
+    return plots.period_condition(case.orbits, periods, carom.period_condition(case.rotor, periods))
+
+
+def _names(axes):
+    return [text.get_text().split("\n")[0] for text in axes.texts]
+
+
+def test_roots_lie_on_the_zero_line_and_are_named(damped, read):
+    (axes,) = _drawn(damped).axes
+    (roots,) = read.lines(axes, "root")
+    np.testing.assert_array_equal(roots.get_xdata(), damped.orbits.periods)
+    assert np.all(np.asarray(roots.get_ydata()) == 0.0)
+    assert len(read.lines(axes, "zero")) == 1
+    assert _names(axes) == [r"$B_{\mathrm{1,a/c}}$", r"$B_{\mathrm{1,b/d}}$"]
+    (curve,) = read.lines(axes, "condition")
+    crossings = np.flatnonzero(np.diff(np.sign(curve.get_ydata())))
+    np.testing.assert_allclose(curve.get_xdata()[crossings], damped.orbits.periods, atol=0.01)
+
+
+def test_roots_with_virtual_orbits_only_are_hollow(weak, read):
+    figure = _drawn(weak)
+    (axes,) = figure.axes
+    filled, hollow = read.lines(axes, "root")
+    assert filled.get_xdata() == pytest.approx([weak.orbits["B1,c"].period])
+    assert hollow.get_markerfacecolor() == "white"
+    assert len(hollow.get_xdata()) == 3
+    assert len(_names(axes)) == 4
+    assert "root with virtual orbits only" in read.legend(figure)
+
+
+def test_bound_is_marked(damped, read):
+    figure = _drawn(damped)
+    (axes,) = figure.axes
+    (bound,) = read.lines(axes, "bound")
+    assert bound.get_xdata()[0] == damped.orbits.longest_period < axes.get_xlim()[1]
+    assert any(words.startswith(r"no root beyond $T_\mathrm{max}$ = ") for words in read.legend(figure))
+
+
+def test_bound_far_away_is_told_in_words(damped, read):
+    figure = _drawn(damped, longest=5.0)
+    (axes,) = figure.axes
+    assert axes.get_xlim()[1] < damped.orbits.longest_period
+    assert any(words.startswith("no root beyond") for words in read.legend(figure))
+
+
+def test_no_claim_beyond_an_unfinished_search(damped, read):
+    orbits = carom.single_impact_orbits(damped.rotor, longest_period=5.0)
+    periods = np.linspace(1e-3, 5.0, 500)
+    figure = plots.period_condition(orbits, periods, carom.period_condition(damped.rotor, periods))
+    words = read.legend(figure)
+    assert any(text.startswith("not searched beyond") for text in words)
+    assert not any(text.startswith("no root") for text in words)
+
+
+def test_no_roots(quiet, read):
+    figure = _drawn(quiet)
+    assert read.lines(figure.axes[0], "root") == []
+    assert "no root: no orbit with one impact per period" in read.legend(figure)
+
+
+def test_many_roots_names_do_not_crowd(damped):
+    rotor = carom.jeffcott(damped.rotor.parameters.replace(gamma=0.02))
+    orbits = carom.single_impact_orbits(rotor)
+    assert len(orbits.periods) > 10
+    periods = np.linspace(1e-3, orbits.longest_period, 2000)
+    (axes,) = plots.period_condition(orbits, periods, carom.period_condition(rotor, periods)).axes
+    physical = {orbit.period for orbit in orbits if orbit.admissible}
+    assert len(axes.texts) == len(physical)
+
+
+def test_names_do_not_overlap(weak, read):
+    boxes = read.boxes(_drawn(weak).axes[0])
+    assert len(boxes) == 4
+    for left, right in pairwise(boxes):
+        assert left.x1 < right.x0
+
+
+def test_units(damped):
+    (axes,) = _drawn(damped).axes
+    assert axes.get_xlabel() == r"period $T$ (units of $1/\Omega$ = 5.43 ms)"
+    assert "no unit" in axes.get_ylabel()

@@ -1,0 +1,156 @@
+"""Orbits and motions in both frames: what is drawn where, and what the words say."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from carom import plots
+
+
+def test_wall_is_the_unit_circle_in_both_frames(damped, read):
+    figure = plots.orbit(damped.orbits["B1,d"])
+    assert len(figure.axes) == 2
+    for axes in figure.axes:
+        (wall,) = read.lines(axes, "wall")
+        np.testing.assert_allclose(np.hypot(wall.get_xdata(), wall.get_ydata()), 1.0)
+        assert axes.get_aspect() == 1.0
+
+
+def test_orbit_closes_in_the_rotating_frame_and_strikes_once_a_period_in_the_fixed(damped, read):
+    orbit = damped.orbits["B1,d"]
+    rotating, fixed = plots.orbit(orbit, periods=7).axes
+    (path,) = read.lines(rotating, "path")
+    x, y = path.get_data()
+    assert (x[0], y[0]) == pytest.approx((orbit.position.real, orbit.position.imag))
+    assert (x[-1], y[-1]) == pytest.approx((x[0], y[0]))
+    # theta' = -1.368 before the impact: backward in the fixed frame, as angular speed -1 is standstill there.
+    assert (read.marked(rotating, "backward"), read.marked(rotating, "forward")) == (1, 0)
+    assert (read.marked(fixed, "backward"), read.marked(fixed, "forward")) == (7, 0)
+    (strikes,) = read.lines(fixed, "backward")
+    turned = orbit.angle + orbit.period * np.arange(1, 8)
+    np.testing.assert_allclose(strikes.get_xdata(), np.cos(turned), atol=1e-9)
+    np.testing.assert_allclose(strikes.get_ydata(), np.sin(turned), atol=1e-9)
+
+
+def test_fixed_frame_shows_as_many_periods_as_bring_it_nearest_to_closing(damped, read):
+    orbit = damped.orbits["B1,d"]
+    _, fixed = plots.orbit(orbit).axes
+    assert fixed.get_title() == "fixed frame, 11 periods = 5.01 turns of the shaft"
+    assert read.marked(fixed, "backward") == 11
+
+
+def test_words_of_an_orbit(damped, read):
+    figure = plots.orbit(damped.orbits["B1,d"])
+    assert figure.get_suptitle() == r"$B_{\mathrm{1,d}}$ — admissible, stable"
+    rotating, fixed = figure.axes
+    assert rotating.get_title() == r"co-rotating frame, period $T$ = 2.864 $/\,\Omega$ (15.5 ms)"
+    assert rotating.get_xlabel() == r"position Re $U$ (units of $c_\mathrm{r}$ = 0.7 mm)"
+    assert fixed.get_ylabel() == r"position Im $Z$ (units of $c_\mathrm{r}$ = 0.7 mm)"
+    assert read.legend(figure) == [
+        "clearance circle (touchdown bearing)",
+        "orbit (admissible, stable)",
+        "impact, backward whirl",
+        "start, just after an impact",
+        "contact-free equilibrium",
+    ]
+
+
+def test_part_of_a_virtual_orbit_beyond_the_wall_is_faint_and_dotted(weak, read):
+    orbit = weak.orbits["B1,d"]
+    figure = plots.orbit(orbit)
+    assert orbit.reason in figure.get_suptitle()
+    for axes in figure.axes:
+        (inside,), (outside,) = read.lines(axes, "path"), read.lines(axes, "outside")
+        assert outside.get_linestyle() == ":"
+        assert outside.get_color() == plots.LOOKS["outside"].colour
+        assert np.nanmax(np.hypot(*inside.get_data())) <= 1.0 + 1e-9
+        assert np.nanmax(np.hypot(*outside.get_data())) > 1.2
+        assert np.ptp(axes.get_xlim()) > 2.5
+    assert "virtual part, outside the clearance" in read.legend(figure)
+    # The contact-free point lies beyond the wall as well: hollow.
+    (point,) = read.lines(figure.axes[0], "contact-free")
+    assert point.get_markerfacecolor() == "white"
+
+
+def test_admissible_orbit_has_no_faint_part(damped, read):
+    for orbit in damped.orbits:
+        for axes in plots.orbit(orbit).axes:
+            assert read.lines(axes, "outside") == []
+
+
+def test_orbit_too_small_to_be_seen_is_enlarged(damped, read):
+    rotating, _ = plots.orbit(damped.orbits["B1,b"]).axes
+    (inner,) = rotating.child_axes
+    (path,) = read.lines(inner, "path")
+    x, y = path.get_data()
+    low, high = inner.get_xlim()
+    assert low < x.min() < x.max() < high
+    assert np.ptp(x) + np.ptp(y) > 0.5 * (high - low)
+    assert plots.orbit(damped.orbits["B1,d"]).axes[0].child_axes == []
+
+
+def test_motion_shows_every_impact_in_both_frames_by_whirl_direction(bouncing, read):
+    forward = int((bouncing.contacts.angular_speed > -1.0).sum())
+    backward = len(bouncing.contacts) - forward
+    assert min(forward, backward) > 0
+    for axes in plots.motion(bouncing).axes:
+        assert (read.marked(axes, "forward"), read.marked(axes, "backward")) == (forward, backward)
+        assert len(read.lines(axes, "path")) == 1
+
+
+def test_motion_starts_and_ends_where_it_does(bouncing, read):
+    rotating, fixed = plots.motion(bouncing).axes
+    for axes, turn in ((rotating, 1.0), (fixed, np.exp(1j * bouncing.time))):
+        (end,) = read.lines(axes, "end")
+        last = bouncing.final.position * turn
+        assert (end.get_xdata()[0], end.get_ydata()[0]) == pytest.approx((last.real, last.imag))
+
+
+def test_motion_without_its_transient(bouncing, read):
+    rotating, _ = plots.motion(bouncing, since=50.0).axes
+    assert (
+        read.marked(rotating, "forward") + read.marked(rotating, "backward") == (bouncing.contacts.time >= 50.0).sum()
+    )
+    (start,) = read.lines(rotating, "start")
+    first = bouncing.position(np.array([50.0]))[0]
+    assert abs(start.get_xdata()[0] + 1j * start.get_ydata()[0] - first) < 0.1
+
+
+def test_faded_motion_begins_paler_than_it_ends(bouncing, read):
+    figure = plots.motion(bouncing, fade=True)
+    (path,) = [drawn for drawn in figure.axes[0].collections if drawn.get_gid() == "path"]
+    colours = path.get_colors()
+    assert colours[0, :3].sum() > colours[-1, :3].sum() + 0.5
+    assert np.all(np.diff(colours[:, :3].sum(axis=1)) <= 1e-12)
+    assert "path of the rotor centre (early part pale)" in read.legend(figure)
+
+
+def test_words_say_how_a_motion_ended(bouncing, chattering, read):
+    assert "end: time reached" in read.legend(plots.motion(bouncing))
+    figure = plots.motion(chattering)
+    assert "end: chatter, goes over into lasting contact" in read.legend(figure)
+    assert figure.get_suptitle().startswith(f"{len(chattering.contacts)} impacts in ")
+    assert plots.motion(chattering, title="A shock").get_suptitle() == "A shock"
+
+
+def test_lasting_contact_is_a_band_on_the_wall(rubbing, chattering, read):
+    (contact,) = rubbing.lasting_contacts
+    assert contact.kind == "slide"
+    figure = plots.motion(rubbing)
+    for axes in figure.axes:
+        (band,) = read.lines(axes, "slide")
+        np.testing.assert_allclose(np.hypot(*band.get_data())[np.isfinite(band.get_xdata())], 1.0)
+        assert read.lines(axes, "roll") == []
+        assert band.get_linewidth() > 2 * read.lines(axes, "wall")[0].get_linewidth()
+    assert "lasting contact, sliding" in read.legend(figure)
+    assert "lasting contact, sliding" not in read.legend(plots.motion(chattering))
+
+
+def test_own_axes(damped, bouncing, read):
+    figure = Figure()
+    both = figure.subplots(1, 2)
+    assert plots.orbit(damped.orbits["B1,d"], axes=both) is figure
+    assert plots.motion(bouncing, axes=both) is figure
+    assert len(read.lines(both[0], "wall")) == 2
+    assert figure.legends == []
+    assert figure.get_suptitle() == ""

@@ -1,0 +1,103 @@
+"""Everything in one picture."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import carom
+from carom import plots
+
+
+def _texts(axes):
+    return {text.get_text() for text in axes.texts} - {""}
+
+
+def test_every_equilibrium_is_at_its_place(damped, read):
+    figure = plots.equilibria_and_orbits(damped.equilibria, damped.orbits)
+    whole = figure.axes[0]
+    for kind in ("contact-free", "rub"):
+        drawn = [complex(line.get_xdata()[0], line.get_ydata()[0]) for line in read.lines(whole, kind)]
+        wanted = [point.position for point in damped.equilibria if point.kind == kind]
+        np.testing.assert_allclose(sorted(drawn, key=abs), sorted(wanted, key=abs))
+    saddle, stable = sorted(read.lines(whole, "rub"), key=lambda line: line.get_xdata()[0])
+    assert saddle.get_markerfacecolor() == "white"
+    assert stable.get_markerfacecolor() == plots.LOOKS["rub"].colour
+
+
+def test_words(damped, read):
+    figure = plots.equilibria_and_orbits(damped.equilibria, damped.orbits, title="A machine")
+    assert figure.get_suptitle() == "A machine"
+    assert set(read.legend(figure)) == {
+        "clearance circle (touchdown bearing)",
+        "contact-free equilibrium: admissible, stable",
+        "rub equilibrium: admissible, stable",
+        "rub equilibrium: admissible, unstable",
+        "periodic orbit: admissible, stable",
+        "periodic orbit: admissible, unstable",
+    }
+    assert figure.axes[0].get_xlabel() == r"position Re $U$ (units of $c_\mathrm{r}$ = 0.7 mm)"
+
+
+def test_every_orbit_is_named_once_small_ones_in_a_panel(damped):
+    figure = plots.equilibria_and_orbits(damped.equilibria, damped.orbits)
+    whole, left, right = figure.axes
+    assert _texts(whole) == {r"$B_{\mathrm{1,d}}$", "(b)", "(c)"}
+    assert _texts(left) == {r"$B_{\mathrm{1,a}}$", r"$B_{\mathrm{1,b}}$"}
+    assert _texts(right) == {r"$B_{\mathrm{1,c}}$"}
+    assert whole.get_title() == "(a) co-rotating frame"
+    for panel, names in ((left, ("B1,a", "B1,b")), (right, ("B1,c",))):
+        for name in names:
+            position = damped.orbits[name].position
+            assert panel.get_xlim()[0] < position.real < panel.get_xlim()[1]
+            assert panel.get_ylim()[0] < position.imag < panel.get_ylim()[1]
+
+
+def test_virtual_orbits_are_faint(weak, read):
+    figure = plots.equilibria_and_orbits(weak.equilibria, weak.orbits)
+    whole = figure.axes[0]
+    pale = plots.LOOKS["outside"]
+    virtual = [orbit for orbit in weak.orbits if not orbit.admissible]
+    drawn = read.lines(whole, "path") + read.lines(whole, "outside")
+    faint = [line for line in drawn if line.get_color() == pale.colour and line.get_linestyle() == pale.line]
+    strong = [line for line in drawn if line not in faint]
+    assert len(faint) >= len(virtual)
+    assert len(strong) == 1
+    assert strong[0].get_color() == plots.LOOKS["unstable"].colour
+    assert "contact-free equilibrium: virtual, not physical" in read.legend(figure)
+
+
+def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
+    rotor = carom.jeffcott(damped.rotor.parameters.replace(gamma=0.02))
+    orbits = carom.single_impact_orbits(rotor)
+    virtual = sum(not orbit.admissible for orbit in orbits)
+    figure = plots.equilibria_and_orbits(carom.equilibria(rotor), orbits)
+    whole = figure.axes[0]
+    assert len(read.lines(whole, "path")) == len(orbits) - virtual
+    assert sum(len(line.get_xdata()) for line in read.lines(whole, "virtual")) == virtual
+    assert f"periodic orbit: virtual, not physical ({virtual}, impacts only)" in read.legend(figure)
+
+
+def test_without_orbits_one_panel(quiet, read):
+    figure = plots.equilibria_and_orbits(quiet.equilibria, quiet.orbits)
+    (axes,) = figure.axes
+    assert len(read.lines(axes, "contact-free")) == 1
+    assert len(read.lines(axes, "rub")) == 2
+
+
+def test_own_axes_hold_everything(damped):
+    figure = Figure()
+    axes = figure.subplots()
+    assert plots.equilibria_and_orbits(damped.equilibria, damped.orbits, title="All", axes=axes) is figure
+    assert figure.axes == [axes]
+    assert _texts(axes) == {rf"$B_{{\mathrm{{1,{letter}}}}}$" for letter in "abcd"}
+    assert axes.get_title() == "All"
+
+
+@pytest.mark.parametrize("case", ["damped", "weak"])
+def test_names_do_not_overlap(case, request, read):
+    motions = request.getfixturevalue(case)
+    figure = plots.equilibria_and_orbits(motions.equilibria, motions.orbits)
+    for axes in figure.axes:
+        boxes = read.boxes(axes)
+        for i, box in enumerate(boxes):
+            assert not any(box.overlaps(other) for other in boxes[i + 1 :])

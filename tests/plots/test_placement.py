@@ -1,0 +1,66 @@
+"""Labels keep their distance and go no farther than needed."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from carom.plots.closeups import closeups
+from carom.plots.placement import spread, spread_angles
+
+places = st.lists(st.floats(-100.0, 100.0), min_size=1, max_size=12)
+
+
+@given(places, st.floats(0.1, 5.0))
+def test_labels_keep_their_distance_and_order(wanted, gap):
+    placed = spread(wanted, gap)
+    order = np.argsort(wanted, kind="stable")
+    assert np.all(np.diff(placed[order]) >= gap * (1.0 - 1e-9))
+
+
+@given(places, st.floats(0.1, 5.0))
+def test_labels_with_room_stay(wanted, gap):
+    roomy = gap * 1.01 * np.arange(len(wanted)) + wanted[0]
+    np.testing.assert_allclose(spread(roomy, gap), roomy, rtol=0.0, atol=1e-9)
+
+
+@given(places, st.floats(0.1, 5.0))
+def test_labels_move_least(wanted, gap):
+    """No single shift of all labels from any one on brings them nearer to where they belong."""
+    placed = spread(wanted, gap)
+    order = np.argsort(wanted, kind="stable")
+    moved = placed[order] - np.asarray(wanted)[order]
+    free = np.diff(placed[order]) > gap * (1.0 + 1e-9)
+    blocks = np.split(moved, np.flatnonzero(free) + 1)
+    for block in blocks:
+        assert block.mean() == pytest.approx(0.0, abs=1e-8)
+
+
+def test_labels_stay_within_limits():
+    placed = spread([0.0, 0.1, 0.2, 9.9, 10.0], 1.0, 0.0, 10.0)
+    np.testing.assert_allclose(placed, [0.0, 1.0, 2.0, 9.0, 10.0])
+
+
+def test_no_labels():
+    assert len(spread([], 1.0)) == 0
+    assert len(spread_angles([], 1.0)) == 0
+
+
+@given(st.lists(st.floats(-np.pi, np.pi), min_size=2, max_size=8))
+def test_labels_keep_their_distance_around_a_circle(wanted):
+    gap = 0.2
+    turned = np.sort(np.mod(spread_angles(wanted, gap), 2.0 * np.pi))
+    spaces = np.diff(np.append(turned, turned[0] + 2.0 * np.pi))
+    assert np.all(spaces >= gap * (1.0 - 1e-9))
+
+
+def test_small_paths_that_are_near_share_a_closeup():
+    ring = 0.01 * np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 50))
+    paths = [ring - 1.0, ring - 0.97, ring + 1.0, 50.0 * ring]
+    left, right = closeups(paths, [-0.95 + 0j, 0.0j])
+    assert left.members == [0, 1]
+    assert right.members == [2]
+    # The point near the first two is shown with them; the lonely one is in no close-up.
+    assert left.middle.real + left.half > -0.95
+    assert abs(left.middle - (-0.98)) < 0.02
+    assert closeups([50.0 * ring], [0.5 + 0j]) == []

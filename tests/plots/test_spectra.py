@@ -1,0 +1,76 @@
+"""Multipliers next to the unit circle."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import carom
+from carom import plots
+
+
+def _values(axes, name):
+    (line,) = [line for line in axes.get_lines() if line.get_gid() == name]
+    return np.sort_complex(np.asarray(line.get_xdata()) + 1j * np.asarray(line.get_ydata())), line
+
+
+def test_small_multipliers_are_drawn_as_they_are(damped):
+    orbit = damped.orbits["B1,d"]
+    (axes,) = plots.multipliers([orbit]).axes
+    values, _ = _values(axes, "B1,d")
+    np.testing.assert_allclose(values, np.sort_complex(orbit.multipliers.values))
+    (circle,) = [line for line in axes.get_lines() if line.get_gid() == "unit-circle"]
+    np.testing.assert_allclose(np.hypot(*circle.get_data()), 1.0)
+    assert axes.get_aspect() == 1.0
+    assert axes.get_xlabel() == r"real part of the multiplier, Re $\lambda$ (no unit)"
+
+
+def test_large_multipliers_keep_their_direction_and_the_label_says_how(damped):
+    (axes,) = plots.multipliers(damped.orbits).axes
+    for orbit in damped.orbits:
+        drawn, _ = _values(axes, orbit.name)
+        for value in orbit.multipliers.values:
+            distance = abs(value) if abs(value) <= 1.0 else 1.0 + np.log10(abs(value))
+            wanted = distance * value / abs(value)
+            assert np.min(np.abs(drawn - wanted)) < 1e-12
+    assert "log" in axes.get_xlabel()
+    assert "no unit" in axes.get_xlabel()
+    # No numbers on axes that show directions only; the circles carry them.
+    assert len(axes.get_xticks()) == len(axes.get_yticks()) == 0
+    assert {"1", "2", "5"} <= {text.get_text() for text in axes.texts}
+
+
+def test_each_orbit_has_its_marker_and_words(damped, read):
+    figure = plots.multipliers(damped.orbits)
+    (axes,) = figure.axes
+    shapes = {_values(axes, orbit.name)[1].get_marker() for orbit in damped.orbits}
+    assert len(shapes) == len(damped.orbits)
+    assert r"$B_{\mathrm{1,d}}$ — admissible, stable" in read.legend(figure)
+    assert r"$B_{\mathrm{1,a}}$ — admissible, unstable" in read.legend(figure)
+
+
+def test_stable_is_filled_unstable_hollow(damped):
+    (axes,) = plots.multipliers(damped.orbits).axes
+    for orbit in damped.orbits:
+        _, line = _values(axes, orbit.name)
+        assert (line.get_markerfacecolor() == "none") == (not orbit.stable)
+
+
+def test_many_virtual_orbits_share_a_marker(damped, read):
+    orbits = carom.single_impact_orbits(carom.jeffcott(damped.rotor.parameters.replace(gamma=0.02)))
+    virtual = sum(not orbit.admissible for orbit in orbits)
+    figure = plots.multipliers(orbits)
+    assert len(read.legend(figure)) == len(orbits) - virtual + 1
+    values, _ = _values(figure.axes[0], "virtual")
+    assert len(values) == 3 * virtual
+
+
+def test_no_orbits(read):
+    assert read.legend(plots.multipliers([])) == ["no periodic orbit"]
+
+
+def test_own_axes(damped):
+    figure = Figure()
+    axes = figure.subplots()
+    assert plots.multipliers(damped.orbits, axes=axes) is figure
+    assert axes.get_legend() is not None
+    assert figure.get_size_inches() == pytest.approx(Figure().get_size_inches())
