@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,15 +30,17 @@ class Rotor:
     ----------
     arrays : numpy.record
         Modes, contact plane and contact law (:func:`~carom.core.layout.rotor_record`).
-    table : numpy.record
-        Constants of the certified crossing search (:func:`~carom.core.layout.table_record`).
     parameters : Parameters
         The dimensionless parameters it was made from.
     """
 
     arrays: np.record
-    table: np.record
     parameters: Parameters
+
+    @cached_property
+    def table(self) -> np.record:
+        """Constants of the certified crossing search (:func:`~carom.core.layout.table_record`)."""
+        return flight_table(self.arrays.exponents, self.arrays.driven)
 
     @property
     def scales(self) -> Scales | None:
@@ -139,4 +142,4 @@ def jeffcott(machine: Parameters | Machine) -> Rotor:
         restitution=np.array([parameters.d]),
         drive=np.array([parameters.radius_ratio + 1.0]),
     )
-    return Rotor(arrays, flight_table(arrays.exponents, arrays.driven), parameters)
+    return Rotor(arrays, parameters)
