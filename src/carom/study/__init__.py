@@ -1,0 +1,40 @@
+"""The main job: from a machine to a verdict.
+
+==================  ==================================================================================
+``assembly``        :func:`study` and the frozen :class:`Study`
+``ranges``          for which damping and stiffness equilibria exist, in closed form
+``folds``           for which damping and stiffness single-impact orbits exist, by search
+``disturbances``    simulated disturbances and where they end
+``verdict``         all of it in words
+``wording``         numbers with units
+``document``        results as JSON
+==================  ==================================================================================
+"""
+
+from carom.study.assembly import Study, all_orbits, study
+from carom.study.disturbances import Disturbance, Ending, Trials
+from carom.study.document import as_json, orbits_document, trajectory_document
+from carom.study.ranges import Edge, MotionRange, Span, Threshold
+from carom.study.verdict import NOT_COVERED, Finding, Verdict, free_spans
+from carom.study.wording import Wording
+
+__all__ = [
+    "NOT_COVERED",
+    "Disturbance",
+    "Edge",
+    "Ending",
+    "Finding",
+    "MotionRange",
+    "Span",
+    "Study",
+    "Threshold",
+    "Trials",
+    "Verdict",
+    "Wording",
+    "all_orbits",
+    "as_json",
+    "free_spans",
+    "orbits_document",
+    "study",
+    "trajectory_document",
+]

@@ -1,0 +1,182 @@
+"""Everything known about one machine at one speed, put together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from carom.equilibria import Equilibrium, equilibria
+from carom.orbits import Orbit, OrbitSet, single_impact_orbits
+from carom.outcome import InputError
+from carom.parameters import Case, Machine, Parameters, Zones
+from carom.periods import PeriodCondition
+from carom.rotors import Rotor, jeffcott
+from carom.study.disturbances import Trials, simulate_disturbances
+from carom.study.document import study_document
+from carom.study.folds import single_impact_range
+from carom.study.ranges import Gain, Motion, MotionRange, Threshold, contact_free_range, rolling_range, rub_range
+from carom.study.verdict import Verdict, verdict
+from carom.study.wording import Wording
+
+__all__ = ["Study", "all_orbits", "study"]
+
+MOST_RADIANS = 600.0
+"""How far the fastest mode may turn, or decay, within the longest period searched: some hundred orbits."""
+
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Every simple motion of a machine, a sample of disturbances, and what it all means.
+
+    Attributes
+    ----------
+    case : Case
+    rotor : Rotor
+    equilibria : tuple of Equilibrium
+        The contact-free one, then the synchronous rubs.
+    orbits : OrbitSet
+        Orbits with one impact a period.
+    ranges : tuple of MotionRange
+        For which damping and which stiffness each motion exists, the other parameters fixed.
+    disturbances : Trials
+        Simulated disturbances and their fates.
+    """
+
+    case: Case
+    rotor: Rotor
+    equilibria: tuple[Equilibrium, ...]
+    orbits: OrbitSet
+    ranges: tuple[MotionRange, ...]
+    disturbances: Trials
+
+    @property
+    def rubs(self) -> tuple[Equilibrium, ...]:
+        """The synchronous rubs, virtual ones included."""
+        return self.equilibria[1:]
+
+    @property
+    def levitates(self) -> bool:
+        """Whether the contact-free motion lies inside the wall and is stable."""
+        return self.equilibria[0].status == "admissible" and self.equilibria[0].stable
+
+    @property
+    def zone(self) -> str | None:
+        """Zone of the contact-free amplitude; ``None`` where there is no contact-free motion."""
+        levitation = self.equilibria[0]
+        return None if levitation.status == "virtual" else self.case.zones.zone(min(levitation.radius, 1.0))
+
+    @property
+    def stable_orbits(self) -> tuple[Orbit, ...]:
+        """Orbits on which the machine can stay."""
+        return tuple(orbit for orbit in self.orbits if orbit.admissible and orbit.stable)
+
+    @property
+    def gains(self) -> tuple[Gain, ...]:
+        """The gains along which ranges are known."""
+        return tuple(dict.fromkeys(entry.gain for entry in self.ranges))
+
+    def range_of(self, motion: Motion, gain: Gain) -> MotionRange | None:
+        """Where a motion exists along a gain; ``None`` if that was not found out."""
+        return next((entry for entry in self.ranges if (entry.motion, entry.gain) == (motion, gain)), None)
+
+    @property
+    def thresholds(self) -> tuple[Threshold, ...]:
+        """Values of damping and stiffness at which a motion appears or vanishes."""
+        return tuple(threshold for entry in self.ranges for threshold in entry.thresholds)
+
+    @property
+    def wording(self) -> Wording:
+        """Turns the results of this study into text."""
+        return Wording(self.rotor.scales)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """What it all means, in words."""
+        return verdict(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the study as it is written to ``study.json``."""
+        return study_document(self)
+
+
+def study(subject: Case | Machine | Parameters, *, progress: Progress | None = None) -> Study:
+    """Study a machine: its simple motions, where they exist, and what becomes of disturbances.
+
+    Parameters
+    ----------
+    subject : Case, Machine or Parameters
+        What :func:`carom.load_case` gives, or a machine, or dimensionless parameters.
+    progress : callable, optional
+        Called with the share done (0 to 1) and what is done next, in words.
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    InputError
+        The subject is none of these.
+    CaromError
+        Its motions cannot be computed; the message says why.
+
+    Examples
+    --------
+    >>> result = study(load_case("examples/keogh-cole.toml"))  # doctest: +SKIP
+    >>> print(result.verdict.text)  # doctest: +SKIP
+    """
+    case = _as_case(subject)
+    tell = progress or (lambda share, words: None)
+    parameters = case.parameters
+    tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
+    rotor = jeffcott(parameters)
+    orbits = all_orbits(rotor)
+    stable = [orbit for orbit in orbits if orbit.admissible and orbit.stable]
+    tell(0.3, "disturbances")
+    trials = simulate_disturbances(rotor, stable, lambda share: tell(0.3 + 0.1 * share, "disturbances"))
+    ranges = _ranges(parameters, lambda share: tell(0.4 + 0.6 * share, "thresholds of damping and stiffness"))
+    return Study(case, rotor, equilibria(rotor), orbits, ranges, trials)
+
+
+def all_orbits(rotor: Rotor) -> OrbitSet:
+    """All single-impact orbits; with little or no damping, when they are too many, only those of shorter period.
+
+    Parameters
+    ----------
+    rotor : Rotor
+
+    Returns
+    -------
+    OrbitSet
+        Its ``complete`` and ``argument`` tell whether the list was cut.
+    """
+    condition = PeriodCondition(rotor)
+    limit = MOST_RADIANS / float(abs(condition.exponents).max())
+    return single_impact_orbits(rotor, None if condition.longest_period() <= limit else limit)
+
+
+def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:
+    found: list[MotionRange | None] = []
+    gains: tuple[Gain, ...] = ("gamma", "omega") if parameters.gamma >= 0 else ("gamma",)
+    for place, gain in enumerate(gains):
+
+        def tell(share: float, place: int = place) -> None:
+            progress((place + share) / len(gains))
+
+        found += [contact_free_range(parameters, gain), rub_range(parameters, gain), rolling_range(parameters, gain)]
+        found.append(single_impact_range(parameters, gain, tell))
+    return tuple(entry for entry in found if entry is not None)
+
+
+def _as_case(subject: Case | Machine | Parameters) -> Case:
+    if isinstance(subject, Case):
+        return subject
+    if isinstance(subject, Machine):
+        return Case("machine", subject.parameters, subject, Zones())
+    if isinstance(subject, Parameters):
+        return Case("machine", subject, None, Zones())
+    raise InputError("subject", type(subject).__name__, "must be a carom.Case, carom.Machine or carom.Parameters")

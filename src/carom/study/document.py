@@ -1,0 +1,226 @@
+"""Results as JSON: one place for what ``--json`` prints and what ``study.json`` holds.
+
+Complex numbers are ``[re, im]``.  Times are in ``1/Ω`` and lengths in ``c_r``, in the co-rotating frame, unless the key
+ends in ``_si``; those keys are there where the machine is known.  What is not finite is ``null``.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.equilibria import Equilibrium
+from carom.orbits import Orbit, OrbitSet
+from carom.parameters import MACHINE_FIELDS, Parameters, Scales
+from carom.study.disturbances import Disturbance, Ending, Trials
+from carom.study.ranges import MotionRange, Span, Threshold
+from carom.study.verdict import NOT_COVERED, free_spans
+from carom.study.wording import Wording
+from carom.trajectories import State, Trajectory
+
+if TYPE_CHECKING:
+    from carom.study.assembly import Study
+
+__all__ = ["as_json", "orbits_document", "study_document", "trajectory_document"]
+
+
+def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
+    """Write a document as one JSON object: plain types only, ``null`` for what is not finite."""
+    return json.dumps(_plain(document), indent=indent, ensure_ascii=False, allow_nan=False)
+
+
+def orbits_document(
+    parameters: Parameters, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Any = None
+) -> dict[str, Any]:
+    """Equilibria and periodic orbits."""
+    scales = parameters.scales
+    return {
+        "parameters": parameters.as_dict(),
+        "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
+        "equilibria": [_equilibrium(entry, scales) for entry in equilibria],
+        "orbits": [_orbit(entry, scales) for entry in orbits],
+        "complete": orbits.complete,
+        "longest_period": orbits.longest_period,
+        "argument": orbits.argument,
+    }
+
+
+def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
+    """One motion, its impacts and its lasting contacts; velocities are those just before the impact."""
+    log = trajectory.contacts
+    impacts = zip(log.time, log.angle, log.radial_speed, log.angular_speed, log.normal_impulse, strict=True)
+    keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
+    document: dict[str, Any] = {
+        "parameters": trajectory.rotor.parameters.as_dict(),
+        "start": _state(trajectory.start),
+        "outcome": trajectory.outcome.label,
+        "meaning": trajectory.outcome.meaning,
+        "multiplicity": trajectory.multiplicity,
+        "time": trajectory.time,
+        "impacts": [dict(zip(keys, map(float, impact), strict=True)) for impact in impacts],
+        "contacts": [
+            {"kind": contact.kind, "phase": contact.phase.label, "start": contact.start, "end": contact.end}
+            for contact in trajectory.lasting_contacts
+        ],
+        "final": _state(trajectory.final),
+    }
+    scales = trajectory.rotor.scales
+    if scales is not None:
+        document["scales_si"] = _scales(scales)
+    return document
+
+
+def study_document(study: Study) -> dict[str, Any]:
+    """Everything a study found."""
+    case, say = study.case, study.wording
+    return {
+        "name": case.name,
+        "carom": version("carom"),
+        **orbits_document(case.parameters, study.equilibria, study.orbits, case.machine),
+        "scales_si": _scales(case.parameters.scales) if case.parameters.scales else None,
+        "zone": study.zone,
+        "zone_limits": list(case.zones.limits),
+        "verdict": {
+            "level": study.verdict.level,
+            "headline": study.verdict.headline,
+            "findings": [{"topic": finding.topic, "text": finding.text} for finding in study.verdict.findings],
+        },
+        "thresholds": [_threshold(entry, say) for entry in study.thresholds],
+        "ranges": [_range(entry) for entry in study.ranges],
+        "levitation_alone": {gain: _free(study, gain) for gain in study.gains},
+        "disturbances": _trials(study.disturbances, case.parameters.scales),
+        "not_covered": list(NOT_COVERED),
+    }
+
+
+def _equilibrium(entry: Equilibrium, scales: Scales | None) -> dict[str, Any]:
+    document = {
+        "kind": entry.kind,
+        "U": entry.position,
+        "radius": entry.radius,
+        "normal_force": entry.normal_force,
+        "status": entry.status,
+        "stable": entry.stable,
+        "eigenvalues": list(entry.eigenvalues),
+    }
+    if scales is not None:
+        document["radius_si"] = entry.radius * scales.length
+        document["normal_force_si"] = entry.normal_force * scales.force
+    return document
+
+
+def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
+    document = {
+        "name": entry.name,
+        "impacts": entry.impacts,
+        "period": entry.period,
+        "radial_speed": entry.radial_speed,
+        "angle": entry.angle,
+        "angular_speed": entry.angular_speed,
+        "multipliers": list(entry.multipliers.values),
+        "stable": entry.stable,
+        "admissible": entry.admissible,
+        "reason": entry.reason,
+    }
+    if scales is not None:
+        impulse = (1.0 + entry.rotor.parameters.d) * entry.radial_speed
+        document["period_si"] = entry.period * scales.time
+        document["radial_speed_si"] = entry.radial_speed * scales.velocity
+        document["normal_impulse_si"] = impulse * scales.impulse
+    return document
+
+
+def _state(state: State) -> dict[str, complex]:
+    return {"U": state.position, "V": state.velocity}
+
+
+def _scales(scales: Scales) -> dict[str, float]:
+    names = ("length", "time", "velocity", "acceleration", "force", "impulse", "energy", "damping", "stiffness")
+    return {name: getattr(scales, name) for name in names}
+
+
+def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
+    document: dict[str, Any] = {
+        "motion": entry.motion,
+        "kind": entry.edge.kind,
+        "exists": entry.exists,
+        "parameter": entry.gain,
+        "value": entry.edge.value,
+        "period": entry.edge.period,
+        "certified": entry.edge.certified,
+    }
+    if say.scales is not None:
+        document["quantity"] = say.gain_name(entry.gain)
+        document["value_si"] = say.gain_in_si(entry.gain, entry.edge.value)
+    return document
+
+
+def _range(entry: MotionRange) -> dict[str, Any]:
+    return {
+        "motion": entry.motion,
+        "parameter": entry.gain,
+        "spans": [_span(span) for span in entry.spans],
+        "searched": _span(entry.searched) if entry.searched else None,
+        "step": entry.step,
+    }
+
+
+def _span(span: Span) -> list[float]:
+    return [span.low.value, span.high.value]
+
+
+def _free(study: Study, gain: Any) -> list[list[float]] | None:
+    spans = free_spans(study.ranges, gain)
+    return None if spans is None else [_span(span) for span in spans]
+
+
+def _trials(trials: Trials, scales: Scales | None) -> dict[str, Any]:
+    smallest = trials.smallest_unrecovered_kick
+    document = {
+        "seed": trials.seed,
+        "count": len(trials),
+        "recovered": trials.recovered,
+        "endings": [{**_ending(ending), "count": len(group)} for ending, group in trials.endings.items()],
+        "smallest_unrecovered_kick": smallest,
+        "trials": [_disturbance(entry) for entry in trials],
+    }
+    if scales is not None:
+        document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
+        document["hardest_impulse_si"] = trials.hardest_impulse * scales.impulse
+        document["final_force_si"] = trials.final_force * scales.force
+    return document
+
+
+def _ending(ending: Ending) -> dict[str, Any]:
+    return {"outcome": ending.outcome.label, "orbit": ending.orbit, "multiplicity": ending.multiplicity}
+
+
+def _disturbance(entry: Disturbance) -> dict[str, Any]:
+    return {
+        "kind": entry.kind,
+        "start": _state(entry.start),
+        **_ending(entry.ending),
+        "time": entry.time,
+        "impacts": entry.impacts,
+        "hardest_impulse": entry.hardest_impulse,
+        "final_force": entry.final_force,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """Only what JSON knows."""
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, complex):
+        return [_plain(value.real), _plain(value.imag)]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value

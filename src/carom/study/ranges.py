@@ -1,0 +1,287 @@
+"""For which damping, and for which stiffness, a motion exists: exact for equilibria.
+
+Damping and stiffness are the gains a designer can turn.  Each is varied alone, all other parameters as they are, and is
+written as ``gamma`` or ``omega`` here; the scales turn them into N s/m and N/m.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from carom.parameters import Parameters
+
+__all__ = [
+    "Edge",
+    "Gain",
+    "Motion",
+    "MotionRange",
+    "Span",
+    "Threshold",
+    "common",
+    "contact_free_range",
+    "outside",
+    "rolling_range",
+    "rub_range",
+    "runaway_whirl_speed",
+]
+
+Gain = Literal["gamma", "omega"]
+Motion = Literal["contact-free", "rub", "single-impact", "rolling"]
+
+
+@dataclass(frozen=True)
+class Edge:
+    """End of a span.
+
+    Attributes
+    ----------
+    value : float
+        ``gamma`` or ``omega``; 0 and infinity are possible.
+    kind : str
+        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"``, ``"fold"`` or ``"rolling-limit"``; empty where nothing does, at the end
+        of the axis or of a search.
+    period : float or None
+        Of the orbit that is born at a fold, in ``1/Ω``.
+    certified : bool
+        Whether it is exact, or confirmed by a proven count on both sides.
+    """
+
+    value: float
+    kind: str = ""
+    period: float | None = None
+    certified: bool = True
+
+
+@dataclass(frozen=True)
+class Span:
+    """An interval of one gain."""
+
+    low: Edge
+    high: Edge
+
+    def __contains__(self, value: float) -> bool:
+        return self.low.value <= value <= self.high.value
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """A value of one gain at which a motion appears or vanishes.
+
+    Attributes
+    ----------
+    motion : {"contact-free", "rub", "single-impact", "rolling"}
+    gain : {"gamma", "omega"}
+    edge : Edge
+    exists : {"above", "below"}
+        On which side of the value the motion exists.
+    """
+
+    motion: Motion
+    gain: Gain
+    edge: Edge
+    exists: Literal["above", "below"]
+
+
+@dataclass(frozen=True)
+class MotionRange:
+    """Where along one gain a motion exists, all other parameters fixed.
+
+    Attributes
+    ----------
+    motion : {"contact-free", "rub", "single-impact", "rolling"}
+    gain : {"gamma", "omega"}
+    spans : tuple of Span
+        Disjoint, in growing order.
+    searched : Span or None
+        What was searched; ``None`` where the range follows in closed form for all values from zero on.
+    step : float
+        Relative step of the search; 0 for a closed form.
+    """
+
+    motion: Motion
+    gain: Gain
+    spans: tuple[Span, ...]
+    searched: Span | None = None
+    step: float = 0.0
+
+    @property
+    def thresholds(self) -> tuple[Threshold, ...]:
+        """The edges at which something happens."""
+        found = []
+        for span in self.spans:
+            if span.low.kind:
+                found.append(Threshold(self.motion, self.gain, span.low, "above"))
+            if span.high.kind:
+                found.append(Threshold(self.motion, self.gain, span.high, "below"))
+        return tuple(found)
+
+    def exists_at(self, value: float) -> bool:
+        """Whether the motion exists for this value of the gain."""
+        return any(value in span for span in self.spans)
+
+
+def outside(spans: tuple[Span, ...], within: Span) -> tuple[Span, ...]:
+    """Return the parts of ``within`` that none of the spans covers."""
+    gaps, start = [], within.low
+    for span in spans:
+        if span.low.value > start.value:
+            gaps.append(Span(start, min(span.low, within.high, key=_value)))
+        start = max(start, span.high, key=_value)
+    if start.value < within.high.value:
+        gaps.append(Span(start, within.high))
+    return tuple(gap for gap in gaps if gap.low.value < gap.high.value)
+
+
+def common(first: tuple[Span, ...], second: tuple[Span, ...]) -> tuple[Span, ...]:
+    """Return where spans of both families overlap."""
+    overlaps = [
+        Span(max(one.low, other.low, key=_value), min(one.high, other.high, key=_value))
+        for one in first
+        for other in second
+    ]
+    return tuple(sorted((span for span in overlaps if span.low.value < span.high.value), key=lambda s: s.low.value))
+
+
+def _value(edge: Edge) -> float:
+    return edge.value
+
+
+ZERO, INFINITE = Edge(0.0), Edge(math.inf)
+
+
+def contact_free_range(parameters: Parameters, gain: Gain) -> MotionRange:
+    """Where the contact-free equilibrium lies inside the wall.
+
+    ``|U*| < 1`` is ``ρ² < (1 − ω²)² + γ²``, from (3.7) of the source paper.  Along the damping its boundary is
+    ``γ* = √(ρ² − (1 − ω²)²)``; along the stiffness the motion is lost between ``ω² = 1 ± √(ρ² − γ²)``.
+
+    Parameters
+    ----------
+    parameters : Parameters
+    gain : {"gamma", "omega"}
+        The one that is varied, from zero on.
+
+    Returns
+    -------
+    MotionRange
+    """
+    kind = "boundary-equilibrium"
+    if gain == "gamma":
+        boundary = _leg(parameters.rho, 1.0 - parameters.omega**2)
+        start = Edge(boundary, kind) if boundary > 0 else ZERO
+        return MotionRange("contact-free", gain, (Span(start, INFINITE),))
+    half_width = _leg(parameters.rho, parameters.gamma)
+    if half_width == 0:
+        return MotionRange("contact-free", gain, (Span(ZERO, INFINITE),))
+    above = Span(Edge(math.sqrt(1.0 + half_width), kind), INFINITE)
+    if half_width >= 1:
+        return MotionRange("contact-free", gain, (above,))
+    return MotionRange("contact-free", gain, (Span(ZERO, Edge(math.sqrt(1.0 - half_width), kind)), above))
+
+
+def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
+    """Where a synchronous rub exists with the wall pushing, not pulling.
+
+    With ``κ = 1 − ω²`` the normal force ``N`` of a synchronous rub solves
+
+        (1 + μ²) N² − 2(κ − μγ) N + κ² + γ² − ρ² = 0,
+
+    the squared modulus of ``(ω² − 1 + iγ) e^{ix} + N(1 + iμ) e^{ix} = ρ`` (see :func:`carom.equilibria.equilibria`).  A
+    positive root exists
+
+    - inside the disc ``κ² + γ² < ρ²``, where the roots differ in sign and the contact-free equilibrium is virtual, and
+    - outside it where ``γ < κ/μ`` and ``γ + μκ ≤ ρ√(1 + μ²)``, with two positive roots, a stable rub and a saddle.
+
+    The line ``γ + μκ = ρ√(1 + μ²)``, on which the two meet in a fold, touches the circle at ``κ = ρμ/√(1 + μ²)``,
+    ``γ = ρ/√(1 + μ²)``, where ``N = 0``.  Beyond that point the fold bounds the region, before it the circle does.  The
+    larger root is always stable: there ``ρ(cos x − μ sin x) = (1 + μ²)N − κ + μγ > 0``.  So where a rub exists, a
+    stable one exists.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the rigid rotor; for the stiffness, with ``gamma >= 0``.
+    gain : {"gamma", "omega"}
+        The one that is varied, from zero on.
+
+    Returns
+    -------
+    MotionRange
+    """
+    rho, mu, gamma = parameters.rho, parameters.mu, parameters.gamma
+    slope = math.hypot(1.0, mu)
+    if gain == "gamma":
+        kappa = 1.0 - parameters.omega**2
+        if kappa * slope >= rho * mu:
+            end = Edge(rho * slope - mu * kappa, "rub-fold")
+        else:
+            end = Edge(_leg(rho, kappa), "boundary-equilibrium")
+        return MotionRange("rub", gain, (Span(ZERO, end),) if end.value > 0 else ())
+    half_width = _leg(rho, gamma)
+    if half_width == 0:
+        return MotionRange("rub", gain, ())
+    if gamma * slope <= rho:
+        softest = 1.0 - (rho * slope - gamma) / mu if mu > 0 else -math.inf
+        kind = "rub-fold"
+    else:
+        softest, kind = 1.0 - half_width, "boundary-equilibrium"
+    start = Edge(math.sqrt(softest), kind) if softest > 0 else ZERO
+    end = Edge(math.sqrt(1.0 + half_width), "boundary-equilibrium")
+    return MotionRange("rub", gain, (Span(start, end),))
+
+
+def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
+    """Where rolling round the bearing in backward whirl sustains itself.
+
+    Rolling is ``1 + θ̇ = −s`` with ``s`` the ratio of radii.  It needs the normal force ``N = s² − ω² + ρ cos x`` and the
+    friction ``ρ sin x − γs`` (components of (2.13) of the source paper along ``e^{iθ}`` and ``ie^{iθ}``), which must stay
+    within ``μN`` at every angle ``x`` it comes by: ``γs + ρ√(1 + μ²) ≤ μ(s² − ω²)``, for ``γ ≥ 0``.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        With ``gamma >= 0`` for the stiffness.
+    gain : {"gamma", "omega"}
+        The one that is varied, from zero on.
+
+    Returns
+    -------
+    MotionRange
+    """
+    rho, mu, ratio = parameters.rho, parameters.mu, parameters.radius_ratio
+    pull = rho * math.hypot(1.0, mu)
+    if gain == "gamma":
+        limit = (mu * (ratio**2 - parameters.omega**2) - pull) / ratio
+    else:
+        limit = ratio**2 - (parameters.gamma * ratio + pull) / mu if mu > 0 else -1.0
+        limit = math.sqrt(limit) if limit > 0 else -1.0
+    return MotionRange("rolling", gain, (Span(ZERO, Edge(limit, "rolling-limit")),) if limit > 0 else ())
+
+
+def runaway_whirl_speed(parameters: Parameters) -> float:
+    """Speed of backward whirl beyond which sliding friction feeds the whirl until the rotor rolls.
+
+    While it slides along the wall with the whirl speed ``w = −(1 + θ̇)`` in the fixed frame,
+    ``ẇ = μ(w² − ω²) − γw`` but for the unbalance, whose share averages out over a turn.  That is positive beyond
+
+        w = (γ + √(γ² + 4μ²ω²))/(2μ).
+
+    Parameters
+    ----------
+    parameters : Parameters
+
+    Returns
+    -------
+    float
+        In ``Ω``, and in ``c_r Ω`` as the speed of the rotor centre; infinite without friction.
+    """
+    gamma, mu = parameters.gamma, parameters.mu
+    return (gamma + math.hypot(gamma, 2.0 * mu * parameters.omega)) / (2.0 * mu) if mu > 0 else math.inf
+
+
+def _leg(hypotenuse: float, leg: float) -> float:
+    """Other leg of a right-angled triangle, zero if there is none."""
+    square = (hypotenuse - leg) * (hypotenuse + leg)
+    return math.sqrt(square) if square > 0 else 0.0
