@@ -127,10 +127,7 @@ def jeffcott(machine: Parameters | Machine) -> Rotor:
     """
     parameters = machine if isinstance(machine, Parameters) else machine.parameters
     gamma, omega = parameters.gamma, parameters.omega
-    # (γ − 2ω)(γ + 2ω) keeps the split of the exponents accurate near critical damping.
-    split = cmath.sqrt(complex((gamma - 2.0 * omega) * (gamma + 2.0 * omega)))
-    fast, slow = 0.5 * (-gamma - 2j - split), 0.5 * (-gamma - 2j + split)
-    exponents = np.array([fast, slow])
+    exponents = np.array(_fixed_frame_exponents(gamma, omega)) - 1j
     stiffness = complex(omega**2 - 1.0, gamma)
     arrays = rotor_record(
         exponents=exponents,
@@ -143,3 +140,14 @@ def jeffcott(machine: Parameters | Machine) -> Rotor:
         drive=np.array([parameters.radius_ratio + 1.0]),
     )
     return Rotor(arrays, parameters)
+
+
+def _fixed_frame_exponents(gamma: float, omega: float) -> tuple[complex, complex]:
+    """Roots of ``s² + γs + ω² = 0``, the one with the smaller real part first, free of cancellation."""
+    # (γ − 2ω)(γ + 2ω) keeps the split accurate near critical damping.
+    split = cmath.sqrt(complex((gamma - 2.0 * omega) * (gamma + 2.0 * omega)))
+    lower, upper = 0.5 * (-gamma - split), 0.5 * (-gamma + split)
+    if split.real > 0.5 * abs(gamma):
+        # Strongly overdamped: one root is a difference of near equals; their product ω² gives it in full.
+        return (lower, omega * omega / lower) if gamma > 0.0 else (omega * omega / upper, upper)
+    return lower, upper

@@ -9,7 +9,7 @@ The search moves only over times that are proven free of a crossing.  Two proofs
 2. *Steps* for what a block leaves open: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so the first root of the right side is a time
    that cannot be behind a crossing.  The steps converge to a transversal crossing quadratically.
 
-Where ``|f|`` and ``f'`` both vanish to within the rounding of ``f``, the outcome is ``grazing``.
+Where ``f`` comes to zero within its rounding and is not seen to rise above it, the outcome is ``grazing``.
 """
 
 from __future__ import annotations
@@ -33,7 +33,10 @@ MARGIN = 4.4
 """The 4 of the acceptance test plus room for the rounding of both sides."""
 ROUNDING = 16 * 2.220446049250313e-16
 POLISHED = 1e-5
-"""Correction below which the cubic Householder step and the cubic nudge are exact to rounding."""
+"""Correction, in units of ``f'/M₂``, below which a Householder step and the cubic nudge are exact to rounding.
+
+With ``M₂ ≥ 2|ẏ|²`` and ``f' ≤ 2|ẏ|`` the error this leaves in ``f`` is of the order of ``POLISHED³`` at any speed.
+"""
 
 
 @kernel
@@ -76,11 +79,12 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
             certified = False
             if guess != UNDECIDED:
                 certified, time = _polish(
-                    rotor, plane, origin, level, guess * table.duration, MARGIN * remainder * bounds[0], work
+                    rotor, plane, origin, level, guess * table.duration, bounds[0], MARGIN * remainder * bounds[0], work
                 )
             if certified and time <= block:
                 return CONTACT, elapsed + time
-            if certified:
+            # Past the end of the table's block the polynomial says nothing: a root there does not prove the block free.
+            if certified and time <= table.duration:
                 time = block
             else:
                 outcome, time = _step_safely(rotor, plane, origin, level, start, block, bounds, work)
@@ -168,7 +172,7 @@ def _guess_root(polynomial, level, remainder):
 
 @kernel
 def _bounds(table, work):
-    """Bounds of the second, third and fourth derivative of ``f`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
+    """Bounds of the derivatives 2, 3, 4 of ``f`` and of ``|ẏ|`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
     speed = 0.0
     second = 0.0
     third = 0.0
@@ -183,19 +187,17 @@ def _bounds(table, work):
         2.0 * (speed * speed + second),
         2.0 * (3.0 * speed * second + third),
         2.0 * (3.0 * second * second + 4.0 * speed * third + fourth),
+        speed,
     )
 
 
 @kernel
 def _measure(rotor, plane, origin, level, time, work):
-    """Move to ``time``: fill ``work.arrival``, return ``f``, ``f'``, ``f''`` and the rounding error of ``f``."""
+    """Move to ``time``: fill ``work.arrival``, return ``f``, ``f'`` and ``f''``."""
     flight_increments(rotor, work.current, time, work.increments)
     change = 0j
-    size = 0.0
     for k in range(work.current.shape[0]):
-        part = rotor.rows[plane, k] * work.increments[k]
-        change += part
-        size += abs(part.real) + abs(part.imag)
+        change += rotor.rows[plane, k] * work.increments[k]
         work.arrival[k] = work.current[k] + work.increments[k]
     value = level + (2.0 * (origin.conjugate() * change).real + squared_modulus(change))
     position = origin + change
@@ -203,21 +205,20 @@ def _measure(rotor, plane, origin, level, time, work):
     force = acceleration(rotor, plane, work.arrival)
     slope = 2.0 * (position.conjugate() * speed).real
     bend = 2.0 * ((position.conjugate() * force).real + squared_modulus(speed))
-    rounding = ROUNDING * (size * (2.0 + size) + (0.0 if level == 0.0 else 1.0))
-    return value, slope, bend, rounding
+    return value, slope, bend
 
 
 @kernel
-def _polish(rotor, plane, origin, level, time, least_square, work):
+def _polish(rotor, plane, origin, level, time, curvature, least_square, work):
     """Householder steps to a root; certified when ``f'²`` there exceeds ``least_square``."""
-    for _ in range(6):
-        value, slope, bend, _ = _measure(rotor, plane, origin, level, time, work)
+    for _ in range(8):
+        value, slope, bend = _measure(rotor, plane, origin, level, time, work)
         if slope * slope <= least_square or slope <= 0.0:
             return False, time
         newton = value / slope
         step = -newton / (1.0 - 0.5 * newton * bend / slope)
         time += step
-        if abs(step) < POLISHED:
+        if abs(step) * curvature < POLISHED * slope:
             nudge(rotor, work.arrival, step)
             return time > 0.0, time
     return False, time
@@ -227,30 +228,82 @@ def _polish(rotor, plane, origin, level, time, least_square, work):
 def _step_safely(rotor, plane, origin, level, start, block, bounds, work):
     """Certified steps from the start of a block to its end or to the first crossing."""
     time = 0.0
-    curvature = bounds[0]
+    curvature, jerk, _, speed = bounds
+    spread = 0.0 if start != INSIDE else _spread(rotor, plane, work.current)
     if start != INSIDE:
-        _, slope, bend, _ = _measure(rotor, plane, origin, level, 0.0, work)
+        _, slope, bend = _measure(rotor, plane, origin, level, 0.0, work)
         if start == LEAVING:
-            time = _departure(min(slope, 0.0), bend, bounds[1])
+            time = _departure(min(slope, 0.0), bend, jerk)
         else:
             time = _lift_off(_third_derivative(rotor, plane, work.arrival), bounds[2])
         if time == 0.0:
             return GRAZING, time
     while time < block:
-        value, slope, _, rounding = _measure(rotor, plane, origin, level, time, work)
+        value, slope, bend = _measure(rotor, plane, origin, level, time, work)
+        rounding = ROUNDING * (spread + speed * time)
         if value >= -rounding:
-            if slope > 2.0 * math.sqrt(curvature * rounding):
-                step = -value / slope
-                nudge(rotor, work.arrival, step)
-                return CONTACT, time + step
-            return GRAZING, time
-        step = (math.sqrt(slope * slope - 2.0 * curvature * value) - slope) / curvature
-        if slope > 0.0:
-            step = -2.0 * value / (math.sqrt(slope * slope - 2.0 * curvature * value) + slope)
+            if slope <= 2.0 * math.sqrt(curvature * rounding):
+                return _decide(rotor, plane, origin, level, time, block, bounds, rounding, work)
+            step = -value / slope
+            nudge(rotor, work.arrival, step)
+            return CONTACT, time + step
+        # A bound of f'' that holds for steps up to `reach` takes longer ones along a wall that is nearly followed.
+        reach = (-value / jerk) ** (1.0 / 3.0)
+        nearby = min(reach, _first_root(value, slope, bend + jerk * reach / 3.0))
+        step = max(nearby, _first_root(value, slope, curvature))
         if time + step == time:
             return (CONTACT if slope > 0.0 else GRAZING), time
         time += step
     return CLEAR, block
+
+
+@kernel
+def _spread(rotor, plane, amplitudes):
+    """Sum of the moduli of the terms of a displacement: its rounding error in units of the spacing of doubles."""
+    total = math.sqrt(squared_modulus(rotor.offsets[plane]))
+    for k in range(amplitudes.shape[0]):
+        total += math.sqrt(squared_modulus(rotor.rows[plane, k] * amplitudes[k]))
+    return total
+
+
+@kernel
+def _first_root(value, slope, bend):
+    """First positive root of ``value + slope τ + bend τ²/2`` with ``value < 0``; infinite where there is none."""
+    square = slope * slope - 2.0 * bend * value
+    if square < 0.0 or (slope <= 0.0 and bend <= 0.0):
+        return math.inf
+    root = math.sqrt(square)
+    return -2.0 * value / (root + slope) if slope > 0.0 else (root - slope) / bend
+
+
+@kernel
+def _decide(rotor, plane, origin, level, time, block, bounds, rounding, work):
+    """Whether ``f``, zero to rounding at a time up to which nothing crosses, goes on to rise above its rounding.
+
+    It is followed over stretches on which ``f' + f''τ − M₃τ²/2 > 0`` proves it rising, until the rise is beyond
+    doubt; the root is then bisected, for a derivative as small as this one may be does not lead to it.
+    """
+    first = time
+    value, slope, bend = _measure(rotor, plane, origin, level, time, work)
+    while value <= rounding:
+        if slope <= 0.0:
+            return GRAZING, time
+        rise = 2.0 * slope / (math.sqrt(bend * bend + 2.0 * bounds[1] * slope) - bend)
+        later = min(time + rise, block)
+        if later == time:
+            return (CLEAR if time == block else GRAZING), time
+        time = later
+        value, slope, bend = _measure(rotor, plane, origin, level, time, work)
+    middle = 0.5 * (first + time)
+    while first < middle < time:
+        value, _, _ = _measure(rotor, plane, origin, level, middle, work)
+        if value < 0.0:
+            first = middle
+        else:
+            time = middle
+        middle = 0.5 * (first + time)
+    _measure(rotor, plane, origin, level, time, work)
+    return CONTACT, time
 
 
 @kernel
