@@ -7,6 +7,7 @@
 ``disturbances``    simulated disturbances and where they end
 ``verdict``         all of it in words
 ``wording``         numbers with units
+``summaries``       its tables, as text
 ``document``        results as JSON
 ==================  ==================================================================================
 """

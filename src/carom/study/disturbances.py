@@ -91,7 +91,7 @@ class Disturbance:
         Where it settled.
     time : float
         When that was known, in ``1/Ω``.
-    impacts : int
+    impacts, lasting_contacts : int
         Until then.
     hardest_impulse : float
         Largest normal impulse until then, in ``m c_r Ω``.
@@ -104,6 +104,7 @@ class Disturbance:
     ending: Ending
     time: float
     impacts: int
+    lasting_contacts: int
     hardest_impulse: float
     final_force: float
 
@@ -118,13 +119,18 @@ class Disturbance:
         return cmath.phase(self.start.velocity)
 
     @property
+    def touches(self) -> bool:
+        """Whether the rotor touches the wall at all."""
+        return self.impacts > 0 or self.lasting_contacts > 0
+
+    @property
     def recovers(self) -> bool:
         """Whether the rotor comes back to contact-free levitation."""
         return self.ending.outcome is Outcome.LEVITATED
 
-    def trajectory(self, rotor: Rotor) -> Trajectory:
-        """Simulate it again, to where it has settled."""
-        return simulate(rotor, self.start, self.time)
+    def trajectory(self, rotor: Rotor, longer: float = 0.0) -> Trajectory:
+        """Simulate it again, to where it has settled and ``longer``, in ``1/Ω``."""
+        return simulate(rotor, self.start, self.time + longer)
 
 
 @dataclass(frozen=True)
@@ -171,6 +177,11 @@ class Trials:
     def recovered(self) -> int:
         """How many came back to contact-free levitation."""
         return sum(member.recovers for member in self)
+
+    @property
+    def touching(self) -> Trials:
+        """Only those that touched the wall."""
+        return self._only([member for member in self if member.touches])
 
     @property
     def smallest_unrecovered_kick(self) -> float | None:
@@ -233,8 +244,16 @@ def _follow(rotor: Rotor, kind: Kind, start: State, stable_orbits: Sequence[Orbi
     orbit = next((orbit.name for orbit in stable_orbits if _is_on(motion, orbit)), "")
     impulses = motion.contacts.normal_impulse
     hardest = float(impulses.max()) if len(impulses) else 0.0
-    ending = Ending(motion.outcome, orbit, motion.multiplicity)
-    return Disturbance(kind, start, ending, motion.time, len(impulses), hardest, _final_force(motion))
+    return Disturbance(
+        kind=kind,
+        start=start,
+        ending=Ending(motion.outcome, orbit, motion.multiplicity),
+        time=motion.time,
+        impacts=len(impulses),
+        lasting_contacts=len(motion.lasting_contacts),
+        hardest_impulse=hardest,
+        final_force=_final_force(motion),
+    )
 
 
 def _final_force(motion: Trajectory) -> float:

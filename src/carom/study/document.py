@@ -184,6 +184,8 @@ def _trials(trials: Trials, scales: Scales | None) -> dict[str, Any]:
         "seed": trials.seed,
         "count": len(trials),
         "recovered": trials.recovered,
+        "touching": len(trials.touching),
+        "touching_recovered": trials.touching.recovered,
         "endings": [{**_ending(ending), "count": len(group)} for ending, group in trials.endings.items()],
         "smallest_unrecovered_kick": smallest,
         "trials": [_disturbance(entry) for entry in trials],
@@ -206,6 +208,7 @@ def _disturbance(entry: Disturbance) -> dict[str, Any]:
         **_ending(entry.ending),
         "time": entry.time,
         "impacts": entry.impacts,
+        "lasting_contacts": entry.lasting_contacts,
         "hardest_impulse": entry.hardest_impulse,
         "final_force": entry.final_force,
     }

@@ -37,7 +37,7 @@ NOT_COVERED = (
 
 @dataclass(frozen=True)
 class Finding:
-    """A paragraph of the verdict."""
+    """A part of the verdict; each line of its text is a paragraph."""
 
     topic: str
     text: str
@@ -74,7 +74,7 @@ def verdict(study: Study) -> Verdict:
         Finding("Backward whirl", _backward_whirl(study)),
         Finding("Disturbances tried", _disturbances(study)),
         Finding("What would change it", _remedies(study)),
-        Finding("Not covered", " ".join(NOT_COVERED)),
+        Finding("Not covered", "\n".join(NOT_COVERED)),
     ]
     level, headline = _headline(study)
     return Verdict(level, headline, tuple(findings))
@@ -250,6 +250,10 @@ def _disturbances(study: Study) -> str:
         )
     tried.append(f"{len(starts)} starts spread over the clearance")
     text = f"{len(trials)} were simulated to where they settle: {' and '.join(tried)}. {_endings(trials)}"
+    touching = trials.touching
+    if trials.recovered and len(touching) < len(trials):
+        back = touching.recovered or "none"
+        text += f" Of the {len(touching)} that touched the wall {back} came back to levitation."
     smallest = trials.smallest_unrecovered_kick
     if smallest is not None:
         alike = kicks.of_speed(smallest)
@@ -298,7 +302,7 @@ def _backward_whirl(study: Study) -> str:
 
 
 def _remedies(study: Study) -> str:
-    return " ".join(sentence for gain in study.gains for sentence in _remedies_along(study, gain))
+    return "\n".join(" ".join(_remedies_along(study, gain)) for gain in study.gains)
 
 
 def _remedies_along(study: Study, gain: Gain) -> list[str]:

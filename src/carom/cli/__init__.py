@@ -1,0 +1,18 @@
+"""The command line.
+
+=============  ==========================================================
+``app``        the commands together, and how errors are told
+``study``      ``carom study``
+``simulate``   ``carom simulate``
+``orbits``     ``carom orbits``
+``starts``     starts and times from text, with or without units
+``tables``     tables for people
+``terminal``   output, progress and options that commands share
+=============  ==========================================================
+
+Modules here import only what is needed to show help; commands load the rest when they run.
+"""
+
+from carom.cli.app import main
+
+__all__ = ["main"]

@@ -1,0 +1,101 @@
+"""All commands together, and the one place where errors become a line of text and an exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from carom.cli.orbits import orbits
+from carom.cli.simulate import simulate
+from carom.cli.study import study
+from carom.outcome import CaromError
+
+__all__ = ["app", "main"]
+
+FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
+
+# The error of a wrong option or argument, wherever this typer keeps its click.
+UsageError: type[Exception] = typer.BadParameter.__bases__[0]
+
+app = typer.Typer(
+    name="carom",
+    help="A rotor on magnetic bearings that touches its touchdown bearing: does it come back?",
+    epilog="A machine file is TOML with a [machine] table of values with units, or a [dimensionless] table.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+)
+app.command("study", help=study.__doc__)(study)
+app.command("simulate", help=simulate.__doc__)(simulate)
+app.command("orbits", help=orbits.__doc__)(orbits)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"carom {version('carom')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.", callback=_print_version, is_eager=True)
+    ] = False,
+) -> None:
+    """Options of the program itself."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Command and options; by default those of the process.
+
+    Returns
+    -------
+    int
+        Exit code: 0; 1 for a failure that is not the user's; 2 for input that cannot be used; 130 if interrupted.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    try:
+        code = app(args=words, prog_name="carom", standalone_mode=False)
+        sys.stdout.flush()
+    except CaromError as problem:
+        return _complain(str(problem), BAD_INPUT)
+    except UsageError as problem:
+        message = getattr(problem, "format_message", problem.__str__)()
+        return _complain(f"{message} (carom --help tells what is allowed)", BAD_INPUT)
+    except (KeyboardInterrupt, typer.Abort):
+        return _complain("interrupted", INTERRUPTED)
+    except BrokenPipeError:
+        _close_quietly()
+        return FAILURE
+    except OSError as problem:
+        where = f" ({problem.filename})" if problem.filename else ""
+        return _complain(f"{problem.strerror or problem}{where}", FAILURE)
+    except Exception as problem:  # the last resort: no traceback reaches a user
+        if os.environ.get("CAROM_DEBUG") == "1":
+            raise
+        name = type(problem).__name__
+        return _complain(f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {problem}", FAILURE)
+    return code if isinstance(code, int) else 0
+
+
+def _complain(message: str, code: int) -> int:
+    """Say on one line what went wrong."""
+    print(f"carom: {' '.join(message.split())}", file=sys.stderr)  # noqa: T201
+    return code
+
+
+def _close_quietly() -> None:
+    """Whoever read the output has gone: let the interpreter flush what is left to nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

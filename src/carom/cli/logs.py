@@ -1,0 +1,124 @@
+"""Contact logs to files, whole or not at all."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom.outcome import InputError, Phase
+
+if TYPE_CHECKING:
+    import xarray
+
+    from carom.trajectories import Trajectory
+
+__all__ = ["check_file", "write_csv", "write_netcdf"]
+
+
+def check_file(option: str, path: str) -> None:
+    """Refuse early what cannot become a file.
+
+    Raises
+    ------
+    InputError
+        Naming the option.
+    """
+    target = Path(path)
+    if not path or target.is_dir():
+        raise InputError(option, path, "must be the path of a file to write, not a directory")
+    if not target.parent.is_dir():
+        raise InputError(option, path, "must lie in a directory that exists")
+
+
+def write_csv(motion: Trajectory, path: str) -> None:
+    """Write impacts and lasting contacts in the order of time, in SI units where the machine is known.
+
+    A lasting contact fills only ``kind``, ``time`` and ``end``.
+    """
+    columns = _columns(motion)
+    time_unit = columns["time"][1]
+    header = ["kind", f"time [{time_unit}]", f"end [{time_unit}]"]
+    header += [f"{name} [{unit}]" for name, (_, unit) in columns.items() if name != "time"]
+    rest = [values for name, (values, _) in columns.items() if name != "time"]
+    rows: list[tuple[float, list[object]]] = []
+    for place, time in enumerate(columns["time"][0].tolist()):
+        rows.append((time, ["impact", time, "", *(values[place].item() for values in rest)]))
+    scale = motion.rotor.scales.time if motion.rotor.scales else 1.0
+    for contact in motion.lasting_contacts:
+        start, end = contact.start * scale, contact.end * scale
+        rows.append((start, [f"{contact.kind} ({contact.phase.label})", start, end, *[""] * len(rest)]))
+
+    def write(target: Path) -> None:
+        with target.open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream)
+            writer.writerow(header)
+            writer.writerows(row for _, row in sorted(rows, key=lambda entry: entry[0]))
+
+    _write_whole("--csv", path, write)
+
+
+def write_netcdf(motion: Trajectory, path: str) -> None:
+    """Write impacts and lasting contacts as netCDF, in SI units where the machine is known."""
+    dataset = _dataset(motion)
+
+    def write(target: Path) -> None:
+        dataset.to_netcdf(target, engine="h5netcdf")
+
+    _write_whole("--netcdf", path, write)
+
+
+def _columns(motion: Trajectory) -> dict[str, tuple[np.ndarray, str]]:
+    dataset = motion.contacts.to_dataset(motion.rotor.scales)
+    return {str(name): (column.values, column.attrs["units"]) for name, column in dataset.items()}
+
+
+def _dataset(motion: Trajectory) -> xarray.Dataset:
+    scales = motion.rotor.scales
+    dataset = motion.contacts.to_dataset(scales)
+    unit, scale = ("s", scales.time) if scales else ("1/Omega", 1.0)
+    contacts = motion.lasting_contacts
+    for name, words in (("start", "start"), ("end", "end")):
+        times = np.array([getattr(contact, name) * scale for contact in contacts], float)
+        dataset[f"contact_{name}"] = ("contact", times, {"units": unit, "long_name": f"{words} of lasting contact"})
+    kinds = [phase for phase in Phase if phase is not Phase.FLIGHT]
+    dataset["contact_phase"] = (
+        "contact",
+        np.array([contact.phase for contact in contacts], np.int8),
+        {
+            "long_name": "kind of lasting contact",
+            "flag_values": np.array(kinds, np.int8),
+            "flag_meanings": " ".join(phase.label.replace("-", "_") for phase in kinds),
+        },
+    )
+    dataset.attrs = {
+        "Conventions": "CF-1.11",
+        "title": "Contacts of a rotor with its touchdown bearing",
+        "source": f"carom {version('carom')}",
+        "outcome": motion.outcome.label,
+        "comment": motion.outcome.meaning,
+        "end_time": motion.time * scale,
+        **motion.rotor.parameters.as_dict(),
+    }
+    return dataset
+
+
+def _write_whole(option: str, path: str, write: Callable[[Path], None]) -> None:
+    """Write under another name first: the file is there complete, or as it was."""
+    target = Path(path)
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        write(part)
+        part.replace(target)
+    except OSError as problem:
+        reason = problem.strerror or str(problem)
+        raise InputError(option, path, f"cannot be written ({reason}); give another path") from None
+    finally:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)

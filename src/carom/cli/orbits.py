@@ -1,0 +1,44 @@
+"""``carom orbits``: equilibria and periodic orbits."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+
+__all__ = ["orbits"]
+
+
+def orbits(
+    machine: MachineFile,
+    settings: Settings = None,
+    longest_period: Annotated[
+        float | None,
+        typer.Option(metavar="T", help="Search only periods up to T, in 1/Omega; by default all of them."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """List equilibria and periodic orbits, stable or not.
+
+    All orbits with one impact a period, with the argument that there are no more.
+    """
+    from carom.parameters import load_case
+
+    case = load_case(machine, settings or ())
+    with progress("equilibria and periodic orbits (the kernels are compiled on first use)"):
+        from carom.equilibria import equilibria
+        from carom.orbits import single_impact_orbits
+        from carom.rotors import jeffcott
+        from carom.study import all_orbits, orbits_document
+
+        rotor = jeffcott(case.parameters)
+        steady = equilibria(rotor)
+        found = all_orbits(rotor) if longest_period is None else single_impact_orbits(rotor, longest_period)
+    if as_json:
+        print_document(orbits_document(case.parameters, steady, found, case.machine))
+        return
+    from carom.cli.tables import print_orbits
+
+    print_orbits(console(), case, steady, found)

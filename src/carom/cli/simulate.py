@@ -1,0 +1,117 @@
+"""``carom simulate``: one motion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.outcome import InputError
+
+if TYPE_CHECKING:
+    from carom.parameters import Case
+    from carom.trajectories import State, Trajectory
+
+__all__ = ["simulate"]
+
+LONGEST = 20_000.0
+"""Time in ``1/Ω`` after which a motion that has not settled is given up."""
+MOST_EVENTS = 1_000_000
+
+
+def simulate(
+    machine: MachineFile,
+    settings: Settings = None,
+    start: Annotated[
+        str | None,
+        typer.Option(
+            metavar="RE,IM,VRE,VIM",
+            help="Position and velocity at the start, co-rotating frame; in c_r and c_r Omega, or with units.",
+        ),
+    ] = None,
+    kick: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SPEED[,ANGLE]",
+            help="Instead of --start: a velocity kick out of levitation; in c_r Omega and rad, or with units.",
+        ),
+    ] = None,
+    until: Annotated[
+        str | None,
+        typer.Option(
+            metavar="T",
+            help="Follow the motion to this time, in 1/Omega or with a unit; by default until it is known where it ends.",
+        ),
+    ] = None,
+    csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as CSV.")] = None,
+    netcdf: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as netCDF.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Simulate one motion and log its contacts.
+
+    The motion is followed through flights, impacts and lasting contact, exactly to rounding.
+    """
+    from carom.parameters import load_case
+
+    case = load_case(machine, settings or ())
+    targets = {option: path for option, path in (("--csv", csv), ("--netcdf", netcdf)) if path is not None}
+    if targets:
+        from carom.cli.logs import check_file
+
+        for option, path in targets.items():
+            check_file(option, path)
+    with progress("simulating (the kernels are compiled on first use)") as tell:
+        motion = _follow(case, start, kick, until, tell)
+        if targets:
+            from carom.cli.logs import write_csv, write_netcdf
+
+            writers = {"--csv": write_csv, "--netcdf": write_netcdf}
+            for option, path in targets.items():
+                writers[option](motion, path)
+    if as_json:
+        from carom.study import trajectory_document
+
+        print_document(trajectory_document(motion))
+        return
+    from carom.cli.tables import print_motion
+
+    print_motion(console(), case, motion)
+
+
+def _follow(case: Case, start: str | None, kick: str | None, until: str | None, tell) -> Trajectory:  # type: ignore[no-untyped-def]
+    from carom.cli.starts import read_time
+    from carom.rotors import jeffcott
+    from carom.trajectories import simulate as follow
+
+    rotor = jeffcott(case.parameters)
+    state = _start(case, rotor.equilibrium, start, kick)
+    end = LONGEST if until is None else read_time(until, case.parameters.scales)
+    return follow(
+        rotor,
+        state,
+        end,
+        settle=until is None,
+        max_events=MOST_EVENTS,
+        progress=lambda time: tell(time / end, "simulating"),
+    )
+
+
+def _start(case: Case, levitation: complex, start: str | None, kick: str | None) -> State:
+    from carom.cli.starts import read_kick, read_start
+    from carom.trajectories import State
+
+    if (start is None) == (kick is None):
+        given = None if start is None else f"{start} with --kick {kick}"
+        raise InputError("--start", given, "give either --start RE,IM,VRE,VIM or --kick SPEED[,ANGLE]")
+    if start is not None:
+        return read_start(start, case.parameters.scales)
+    blow = read_kick(str(kick), case.parameters.scales)
+    if abs(levitation) > 1.0:
+        radius = f"|U*| = {abs(levitation):.6g}"
+        raise InputError(
+            "--kick", kick, f"needs levitation without contact, but {radius} is outside the wall; use --start"
+        )
+    import cmath
+
+    return State(levitation, cmath.rect(blow.speed, blow.angle))

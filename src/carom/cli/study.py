@@ -1,0 +1,52 @@
+"""``carom study``: the main job."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+
+__all__ = ["study"]
+
+
+def study(
+    machine: MachineFile,
+    settings: Settings = None,
+    out: Annotated[
+        str | None,
+        typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Study a machine: the verdict in words and numbers, and a report.
+
+    Every simple motion of the machine with its stability, the damping and stiffness at which each appears or vanishes,
+    and where 200 simulated disturbances end. With --out also figures, study.json and report.html.
+    """
+    from carom.parameters import load_case
+
+    case = load_case(machine, settings or ())
+    with progress("loading") as tell:
+        if out is not None:
+            from carom.report import check_directory
+
+            check_directory(out, "--out")
+        from carom.study import study as study_case
+
+        share_of_study = 1.0 if out is None else 0.4
+        result = study_case(case, progress=lambda share, words: tell(share_of_study * share, words))
+        report = None
+        if out is not None:
+            from carom.report import write_report
+
+            report = write_report(result, out, lambda share, words: tell(0.4 + 0.6 * share, words))
+    if as_json:
+        print_document(result.to_dict())
+        if report is not None:
+            console(errors=True).print(f"Report: {report}", soft_wrap=True)
+        return
+    from carom.cli.tables import print_study
+
+    print_study(console(), result, report)

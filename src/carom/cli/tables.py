@@ -1,0 +1,237 @@
+"""Results as tables for people."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from carom.study import Study, Wording
+from carom.study.summaries import (
+    MotionRow,
+    dimensionless_rows,
+    kick_rows,
+    motion_rows,
+    simple_motion_rows,
+    threshold_rows,
+)
+from carom.study.wording import counted, number
+from carom.trajectories import Trajectory
+
+if TYPE_CHECKING:
+    from carom.equilibria import Equilibrium
+    from carom.orbits import OrbitSet
+    from carom.parameters import Case
+
+__all__ = ["print_motion", "print_orbits", "print_study"]
+
+FIRST_EVENTS, LAST_EVENTS = 20, 8
+"""Contacts shown of a long log."""
+TEXT_WIDTH = 110
+"""Columns beyond which running text is hard to read."""
+_STYLES = {
+    "stable": "bold",
+    "seen": "bold",
+    "unstable": "",
+    "not possible": "dim",
+    "undecided": "",
+}
+_LEVELS = {
+    "no-contact-free-motion": "bold red",
+    "may-not-come-back": "bold yellow",
+    "all-tried-came-back": "bold green",
+}
+
+
+def print_study(console: Console, study: Study, report: Path | None) -> None:
+    """Verdict, motions, thresholds and kicks of a study."""
+    verdict = study.verdict
+    headline = Text(f"{study.case.name}: {verdict.headline}", style=_LEVELS[verdict.level])
+    console.print(headline, width=min(console.width, TEXT_WIDTH))
+    for finding in verdict.findings:
+        console.print()
+        console.print(Text(finding.topic, style="bold"))
+        console.print(Padding(Text(finding.text), (0, 0, 0, 2), expand=False), width=min(console.width, TEXT_WIDTH))
+    console.print()
+    console.print(_motions(motion_rows(study), "Motions"))
+    _print_left_out(console, study.orbits)
+    console.print()
+    console.print(_thresholds(study))
+    kicks = kick_rows(study)
+    if kicks:
+        console.print()
+        console.print(_kicks(kicks))
+    console.print()
+    if report is None:
+        console.print("Figures, study.json and report.html: add --out DIR")
+    else:
+        console.print(f"Report: {report}", soft_wrap=True)
+
+
+def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet) -> None:
+    """Equilibria and orbits, with the numbers of the equations and in SI units."""
+    values = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
+    console.print(Text(f"{case.name}: {values}"))
+    console.print()
+    rows = simple_motion_rows(equilibria, orbits, Wording(case.parameters.scales), most_virtual=40)
+    console.print(_motions(rows, "Equilibria and orbits with one impact a period"))
+    _print_left_out(console, orbits, most_virtual=40)
+    if len(orbits):
+        console.print()
+        console.print(_orbit_numbers(orbits))
+    console.print()
+    console.print(orbits.argument)
+
+
+def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
+    """How a motion ended, and its contacts."""
+    say = Wording(case.parameters.scales)
+    log, contacts = motion.contacts, motion.lasting_contacts
+    console.print(Text(motion.outcome.meaning, style="bold"))
+    if motion.multiplicity:
+        console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
+    turns = number(motion.time / (2.0 * math.pi), 3)
+    console.print(
+        f"Followed for {say.time(motion.time)} ({turns} turns of the shaft): {counted(len(log), 'impact')}, "
+        f"{counted(len(contacts), 'lasting contact')}."
+    )
+    if len(log):
+        console.print(f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}.")
+    if len(log) or contacts:
+        console.print()
+        console.print(_events(say, motion))
+    final = motion.final
+    console.print()
+    console.print(
+        f"At the end: U = {_complex(final.position)} c_r, U' = {_complex(final.velocity)} c_r Ω (co-rotating frame), "
+        f"r = {say.radius(abs(final.position))}"
+    )
+
+
+def _table(title: str) -> Table:
+    return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+
+
+def _motions(rows: list[MotionRow], title: str) -> Table:
+    table = _table(title)
+    headings = {
+        "name": "motion",
+        "state": "state",
+        "period": "period",
+        "size": "radius or impact speed",
+        "impulse": "impulse a hit",
+        "force": "force",
+        "trials": "disturbances",
+        "remark": "remark",
+    }
+    used = [entry.name for entry in fields(MotionRow) if any(getattr(row, entry.name) for row in rows)]
+    for name in used:
+        table.add_column(headings[name], no_wrap=name != "remark", overflow="fold")
+    for row in rows:
+        table.add_row(*(Text(getattr(row, name)) for name in used), style=_STYLES[row.state])
+    return table
+
+
+def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -> None:
+    virtual = sum(not orbit.admissible for orbit in orbits)
+    if virtual > most_virtual:
+        console.print(f"{virtual} orbits that are not possible are left out; --json lists them.")
+
+
+def _orbit_numbers(orbits: OrbitSet) -> Table:
+    table = _table("Orbits in the units of the equations, just before the impact")
+    for heading in ("orbit", "period T", "ṙ", "θ", "θ̇", "multipliers"):
+        table.add_column(heading, justify="left" if heading in ("orbit", "multipliers") else "right")
+    shown = [orbit for orbit in orbits if orbit.admissible] if len(orbits) > 40 else list(orbits)
+    for orbit in shown:
+        numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
+        values = "  ".join(_complex(value, 6) for value in orbit.multipliers.values)
+        table.add_row(
+            orbit.name, *(f"{value:.10g}" for value in numbers), values, style="" if orbit.admissible else "dim"
+        )
+    return table
+
+
+def _thresholds(study: Study) -> Table:
+    table = _table("Thresholds, each with all else as it is")
+    si = study.wording.scales is not None
+    for heading in ("motion", "exists", "quantity", "value", "dimensionless", "where"):
+        if si or heading != "value":
+            table.add_column(heading, justify="right" if heading == "value" else "left")
+    for row in threshold_rows(study):
+        cells = [row.motion, row.exists, row.quantity, row.value, row.dimensionless, row.what]
+        table.add_row(*(cell for place, cell in enumerate(cells) if si or place != 3))
+    return table
+
+
+def _kicks(rows: list[tuple[str, str, str]]) -> Table:
+    table = _table("Kicks out of levitation")
+    for heading in ("speed", "came back", "the others ended"):
+        table.add_column(heading, justify="right" if heading == "speed" else "left")
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _events(say: Wording, motion: Trajectory) -> Table:
+    """Impacts and lasting contacts in the order of time; the middle of a long log is left out."""
+    table = _table("Contacts")
+    for heading in (
+        "time",
+        "contact",
+        "angle",
+        "speed towards wall",
+        "whirl",
+        "normal impulse",
+        "friction impulse",
+        "slip",
+    ):
+        table.add_column(heading, justify="left" if heading in ("contact", "whirl", "slip") else "right")
+    rows = _event_rows(say, motion)
+    hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
+    if hidden > 1:
+        note = ("…", f"{number(hidden, 12)} more: --csv FILE has all")
+        rows = [*rows[:FIRST_EVENTS], note, *rows[-LAST_EVENTS:]]
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
+    log = motion.contacts
+    factor = 1.0 if say.scales is None else 1e3 * say.scales.time
+
+    def moment(time: float) -> str:
+        return f"{number(factor * time, 7)}{' ms' if say.scales else ''}"
+
+    entries: list[tuple[float, tuple[str, ...]]] = []
+    for place, time in enumerate(log.time.tolist()):
+        row = (
+            moment(time),
+            "impact",
+            f"{math.degrees(log.angle[place]):.1f}°",
+            say.velocity(float(log.radial_speed[place])),
+            "forward" if log.angular_speed[place] > -1.0 else "backward",
+            say.impulse(float(log.normal_impulse[place])),
+            say.impulse(float(log.tangential_impulse[place])),
+            "stops" if log.sticks[place] else say.velocity(float(log.slip_after[place])),
+        )
+        entries.append((time, row))
+    for contact in motion.lasting_contacts:
+        words = f"{contact.phase.label.replace('-', ' ')} for {say.time(contact.end - contact.start)}"
+        entries.append((contact.start, (moment(contact.start), words)))
+    return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
+
+
+def _complex(value: complex, digits: int = 6) -> str:
+    if value.imag == 0:
+        return f"{value.real:.{digits}g}"
+    sign = "+" if value.imag >= 0 else "−"
+    return f"{value.real:.{digits}g} {sign} {abs(value.imag):.{digits}g}i"

@@ -1,0 +1,81 @@
+"""What the commands share: their common options, output and progress."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["AsJson", "MachineFile", "Settings", "console", "print_document", "progress"]
+
+MachineFile = Annotated[str, typer.Argument(metavar="MACHINE.toml", help="The machine file.")]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="Set a parameter, with units or dimensionless, such as 'damping=2000 N s/m' or gamma=0.1; repeatable.",
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+
+PIPE_WIDTH = 140
+"""Columns of tables where the output is no terminal."""
+PATIENCE = 0.7
+"""Seconds without a progress bar."""
+
+
+def console(errors: bool = False) -> Console:
+    """Console for people; plain text where the output is no terminal."""
+    from rich.console import Console
+
+    stream = sys.stderr if errors else sys.stdout
+    width = None if stream.isatty() else PIPE_WIDTH
+    return Console(file=stream, markup=False, highlight=False, emoji=False, width=width)
+
+
+def print_document(document: dict[str, Any]) -> None:
+    """Print one JSON object."""
+    from carom.study import as_json
+
+    sys.stdout.write(as_json(document) + "\n")
+
+
+@contextmanager
+def progress(words: str) -> Iterator[Callable[[float, str], None]]:
+    """Progress bar on the error stream for what takes longer than a moment; nothing where that is no terminal.
+
+    Parameters
+    ----------
+    words : str
+        What is done first.
+
+    Yields
+    ------
+    callable
+        To be called with the share done, 0 to 1, and what is done next.
+    """
+    if not sys.stderr.isatty():
+        yield lambda share, words: None
+        return
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}", markup=False))
+    bar = Progress(*columns, console=console(errors=True), transient=True)
+    task = bar.add_task(words, total=1.0)
+    timer = threading.Timer(PATIENCE, bar.start)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield lambda share, words: bar.update(task, completed=share, description=words)
+    finally:
+        timer.cancel()
+        timer.join()
+        bar.stop()

@@ -1,0 +1,122 @@
+"""A directory that receives files whole, or not at all."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from carom.outcome import InputError
+
+__all__ = ["check_directory", "filled_at_once"]
+
+FIGURES = "figures"
+MANIFEST = "study.json"
+
+
+def check_directory(path: str, option: str) -> Path:
+    """Refuse early what cannot become, or is not, a directory to write to.
+
+    Parameters
+    ----------
+    path : str
+    option : str
+        Name of the input, for the error.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    InputError
+    """
+    allowed = "must be a directory to write to, there or to be made"
+    if not path.strip():
+        raise InputError(option, repr(path), allowed)
+    directory = Path(path)
+    try:
+        nearest = next(place for place in (directory, *directory.absolute().parents) if place.exists())
+    except (OSError, ValueError) as problem:
+        raise InputError(option, path, f"{allowed} ({getattr(problem, 'strerror', None) or problem})") from None
+    if not nearest.is_dir():
+        raise InputError(option, path, f"{allowed}; {nearest} is a file")
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise InputError(option, path, f"{allowed}; you may not write to {nearest}")
+    return directory
+
+
+@contextmanager
+def filled_at_once(path: str, option: str) -> Iterator[Path]:
+    """Give an empty directory to fill; when all is there, move its files to their place.
+
+    Files of the same name are replaced, each in one step.  Figures that an earlier study left there and this one does
+    not have are removed; all other files stay as they are.  If anything goes wrong before the move, nothing is changed.
+
+    Parameters
+    ----------
+    path : str
+        The place.
+    option : str
+        Name of the input, for errors.
+
+    Yields
+    ------
+    Path
+        A directory beside the place.
+
+    Raises
+    ------
+    InputError
+        The place cannot be written.
+    """
+    target = check_directory(path, option)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        # With tempfile's own rights nobody else could read the report.
+        made = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".part", dir=target.absolute().parent))
+        made.chmod(0o777 & ~_umask())
+    except OSError as problem:
+        raise InputError(option, path, f"cannot be written ({problem.strerror}); give another directory") from None
+    try:
+        yield made
+        _move(made, target)
+    except OSError as problem:
+        raise InputError(option, path, f"cannot be written ({problem.strerror}); give another directory") from None
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+
+
+def _move(made: Path, target: Path) -> None:
+    if not target.exists():
+        made.rename(target)
+        return
+    files = sorted(file.relative_to(made) for file in made.rglob("*") if file.is_file())
+    _remove_stale_figures(target, files)
+    # What others are read from comes last.
+    for file in sorted(files, key=lambda name: len(name.parts), reverse=True):
+        (target / file).parent.mkdir(parents=True, exist_ok=True)
+        (made / file).replace(target / file)
+
+
+def _remove_stale_figures(target: Path, files: list[Path]) -> None:
+    """Remove the figures that the study that is there names as its own, except those about to be replaced."""
+    try:
+        names = json.loads((target / MANIFEST).read_text(encoding="utf-8"))["figures"]
+        stale = [Path(name) for name in names]
+    except (OSError, ValueError, KeyError, TypeError):
+        return
+    for file in stale:
+        if len(file.parts) == 2 and file.parts[0] == FIGURES and file.parts[1] != ".." and file not in files:
+            with suppress(OSError):
+                (target / file).unlink(missing_ok=True)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

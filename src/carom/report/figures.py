@@ -1,0 +1,161 @@
+"""The figures of a study, with captions in words."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from carom import plots
+from carom.orbits import Orbit, OrbitSet, period_condition
+from carom.outcome import Outcome
+from carom.study import Study
+from carom.study.disturbances import Disturbance, Ending
+
+__all__ = ["Picture", "pictures"]
+
+MOST_ORBITS = 6
+"""Orbits with figures of their own."""
+MOST_ENDINGS = 5
+"""Examples of disturbances with a figure."""
+MOST_VIRTUAL = 16
+"""Virtual orbits beyond which the overview leaves them out."""
+SHOWN_TAIL = 4.0
+"""Time constants of levitation that an example shows after its last contact."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure to draw.
+
+    Attributes
+    ----------
+    name : str
+        File name without ending.
+    section : str
+        ``"motions"``, ``"disturbances"`` or ``"method"``.
+    caption : str
+    draw : callable
+        Gives the figure.
+    """
+
+    name: str
+    section: str
+    caption: str
+    draw: Callable[[], Figure]
+
+
+def pictures(study: Study) -> list[Picture]:
+    """All figures of a study in the order of the report.
+
+    Parameters
+    ----------
+    study : Study
+
+    Returns
+    -------
+    list of Picture
+    """
+    possible = sorted((orbit for orbit in study.orbits if orbit.admissible), key=lambda orbit: not orbit.stable)
+    figures = [_overview(study)]
+    for orbit in possible[:MOST_ORBITS]:
+        figures += _of_orbit(study, orbit)
+    figures += _of_disturbances(study)
+    figures.append(_condition(study.orbits))
+    if possible:
+        figures.append(_multipliers(possible))
+    return figures
+
+
+def _overview(study: Study) -> Picture:
+    orbits = study.orbits
+    possible = tuple(orbit for orbit in orbits if orbit.admissible)
+    if len(orbits) - len(possible) > MOST_VIRTUAL:
+        orbits = dataclasses.replace(orbits, members=possible)
+    return Picture(
+        "overview",
+        "motions",
+        "All steady motions and single-impact orbits in the frame that turns with the shaft. The circle is the wall: the "
+        "rotor centre cannot leave it. A steady whirl is a point here, a bounce a loop that touches the circle.",
+        lambda: plots.equilibria_and_orbits(study.equilibria, orbits),
+    )
+
+
+def _of_orbit(study: Study, orbit: Orbit) -> Iterator[Picture]:
+    file = orbit.name.replace(",", "")
+    say = study.wording
+    kind = "stable, so that the machine can stay on it" if orbit.stable else "unstable, so that the machine leaves it"
+    yield Picture(
+        f"orbit-{file}",
+        "motions",
+        f"Orbit {orbit.name}, {kind}: one impact every {say.time(orbit.period)}. Left in the frame that turns with the "
+        "shaft, where it repeats; right as seen from outside.",
+        lambda: plots.orbit(orbit),
+    )
+    yield Picture(
+        f"radius-{file}",
+        "motions",
+        f"Distance of the rotor centre from the bearing centre on orbit {orbit.name}; shaded are the zones of amplitude.",
+        lambda: plots.radius(orbit, study.case.zones),
+    )
+
+
+def _of_disturbances(study: Study) -> Iterator[Picture]:
+    for ending, group in list(study.disturbances.endings.items())[:MOST_ENDINGS]:
+        example = _example(group.members)
+        what = "a kick of the levitating rotor" if example.kind == "kick" else "a start within the clearance"
+        yield Picture(
+            f"disturbance-{_file_name(ending)}",
+            "disturbances",
+            f"After {what} at {study.wording.velocity(example.speed)} the rotor ends: {ending.words}. "
+            f"So did {len(group)} of {len(study.disturbances)} disturbances.",
+            lambda example=example: _history(study, example),  # type: ignore[misc]
+        )
+
+
+def _example(members: tuple[Disturbance, ...]) -> Disturbance:
+    """The one with contacts that settles first, as the easiest to read."""
+    struck = [member for member in members if member.impacts > 1] or list(members)
+    return min(struck, key=lambda member: member.time)
+
+
+def _file_name(ending: Ending) -> str:
+    parts = [ending.outcome.label, ending.orbit.replace(",", ""), str(ending.multiplicity or "")]
+    if ending.outcome is Outcome.BOUNCING and not ending.multiplicity:
+        parts[-1] = "aperiodic"
+    return "-".join(part for part in parts if part)
+
+
+def _history(study: Study, example: Disturbance) -> Figure:
+    """Radius over time until the motion has settled; for levitation a little longer, to show that it dies out."""
+    decay = -float(study.rotor.eigenvalues.real.max())
+    tail = SHOWN_TAIL / decay if example.recovers and decay > 0 else 0.0
+    return plots.radius(example.trajectory(study.rotor, tail), study.case.zones)
+
+
+def _condition(orbits: OrbitSet) -> Picture:
+    roots = orbits.periods
+    end = orbits.longest_period
+    if len(roots):
+        end = min(end, max(1.5 * float(roots[-1]), 10.0))
+    periods = np.linspace(end / 4000.0, end, 4000)
+    return Picture(
+        "period-condition",
+        "method",
+        "The condition that the period of a single-impact orbit meets. Each zero gives up to two orbits, so the zeros "
+        "show that the list of orbits is complete.",
+        lambda: plots.period_condition(orbits, periods, period_condition(orbits.rotor, periods)),
+    )
+
+
+def _multipliers(possible: list[Orbit]) -> Picture:
+    return Picture(
+        "multipliers",
+        "method",
+        "Multipliers of the possible orbits: a small disturbance is multiplied by these numbers from impact to impact. An "
+        "orbit is stable if all of them lie inside the unit circle.",
+        lambda: plots.multipliers(possible[:12]),
+    )

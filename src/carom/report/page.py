@@ -1,0 +1,164 @@
+"""The HTML page of a study: self-contained, for screen and paper, light and dark."""
+
+from __future__ import annotations
+
+import platform
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.metadata import version
+from importlib.resources import files
+from pathlib import Path
+
+from jinja2 import Environment, StrictUndefined
+from markupsafe import Markup
+
+from carom import plots
+from carom.report.directory import FIGURES, MANIFEST, filled_at_once
+from carom.report.figures import Picture, pictures
+from carom.study import NOT_COVERED, Study, as_json
+from carom.study.summaries import (
+    dimensionless_rows,
+    kick_rows,
+    machine_rows,
+    motion_rows,
+    range_rows,
+    threshold_rows,
+)
+
+__all__ = ["report_page", "write_report"]
+
+REPORT = "report.html"
+FORMATS = ("svg",)
+SCREEN_SCALE = 1.3
+"""Figures are made for print; a screen is farther away."""
+
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True)
+class InlineFigure:
+    """A figure as it stands in the page."""
+
+    section: str
+    caption: str
+    svg: Markup
+
+
+def write_report(study: Study, directory: str, progress: Progress | None = None) -> Path:
+    """Write ``report.html``, ``study.json`` and the figures of a study.
+
+    Parameters
+    ----------
+    study : Study
+    directory : str
+        Where to; made if it is not there.  Files of an earlier study are replaced, other files stay.
+    progress : callable, optional
+        Called with the share done, 0 to 1, and what is done next, in words.
+
+    Returns
+    -------
+    Path
+        The page.
+
+    Raises
+    ------
+    InputError
+        The directory cannot be written; then nothing has changed.
+    """
+    tell = progress or (lambda share, words: None)
+    wanted = pictures(study)
+    with filled_at_once(directory, "--out") as place:
+        (place / FIGURES).mkdir()
+        inline, names = [], []
+        for done, picture in enumerate(wanted):
+            tell(done / len(wanted), f"figure {done + 1} of {len(wanted)}")
+            paths = plots.save(picture.draw(), place / FIGURES / picture.name, FORMATS)
+            names += [f"{FIGURES}/{path.name}" for path in paths]
+            inline.append(_inline(picture, paths[0].read_text(encoding="utf-8"), f"f{done + 1}-"))
+        document = {**study.to_dict(), "figures": names}
+        (place / MANIFEST).write_text(as_json(document) + "\n", encoding="utf-8")
+        (place / REPORT).write_text(report_page(study, inline), encoding="utf-8")
+    return Path(directory) / REPORT
+
+
+def report_page(study: Study, figures: list[InlineFigure]) -> str:
+    """The page as text.
+
+    Parameters
+    ----------
+    study : Study
+    figures : list of InlineFigure
+
+    Returns
+    -------
+    str
+        HTML that needs nothing else.
+    """
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    environment.filters["formulas"] = _with_subscripts
+    template = environment.from_string(files("carom.report").joinpath("report.html.jinja").read_text(encoding="utf-8"))
+    rows = threshold_rows(study)
+    return template.render(
+        study=study,
+        verdict=study.verdict,
+        machine=machine_rows(study.case),
+        dimensionless=dimensionless_rows(study.case),
+        motions=motion_rows(study),
+        left_out=sum(not orbit.admissible for orbit in study.orbits),
+        ranges=range_rows(study),
+        own=[(study.wording.gain_name(gain), _own(study, gain)) for gain in study.gains],
+        thresholds=rows,
+        in_si=study.wording.scales is not None,
+        searched=[entry for entry in study.ranges if entry.searched is not None],
+        kicks=kick_rows(study),
+        figures=figures,
+        not_covered=NOT_COVERED,
+        versions=_versions(),
+    )
+
+
+def _own(study: Study, gain: str) -> str:
+    return study.wording.gain(gain, getattr(study.case.parameters, gain))  # type: ignore[arg-type]
+
+
+def _versions() -> str:
+    packages = ", ".join(f"{name} {version(name)}" for name in ("numpy", "numba", "matplotlib"))
+    return f"carom {version('carom')}, Python {platform.python_version()}, {packages}"
+
+
+_SUBSCRIPT = re.compile(r"\b([ce])_([rc])\b|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
+
+
+def _with_subscripts(text: str) -> Markup:
+    """Write ``c_r``, ``B1,d`` and ``F1`` as formulas."""
+
+    def formula(match: re.Match[str]) -> str:
+        letter, index = (part for part in match.groups() if part)
+        return f"{letter}<sub>{index}</sub>"
+
+    return Markup(_SUBSCRIPT.sub(formula, str(Markup.escape(text))))  # escaped above
+
+
+_PROLOGUE = re.compile(r"^.*?(?=<svg)", re.DOTALL)
+_METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
+_SIZE = re.compile(
+    r'<svg([^>]*?) width="([\d.]+)pt" height="[\d.]+pt"|<svg([^>]*?) height="[\d.]+pt" width="([\d.]+)pt"'
+)
+_IDENTIFIER = re.compile(r'\bid="([^"]+)"')
+_REFERENCE = re.compile(r'(xlink:href="#|url\(#)([^")]+)')
+
+
+def _inline(picture: Picture, text: str, prefix: str) -> InlineFigure:
+    """Turn a figure file into a part of the page: it scales, and its identifiers are its own."""
+    svg = _METADATA.sub("", _PROLOGUE.sub("", text))
+    # Identifiers must differ within a page, and every figure has an "axes_1".
+    svg = _IDENTIFIER.sub(lambda match: f'id="{prefix}{match[1]}"', svg)
+    svg = _REFERENCE.sub(lambda match: f"{match[1]}{prefix}{match[2]}", svg)
+    label = str(Markup.escape(picture.caption.split(". ")[0]))
+
+    def scaled(match: re.Match[str]) -> str:
+        width = SCREEN_SCALE * float(match[2] or match[4])
+        return f'<svg role="img" aria-label="{label}" style="width:{width:.0f}pt"{match[1] or match[3] or ""}'
+
+    return InlineFigure(picture.section, picture.caption, Markup(_SIZE.sub(scaled, svg, count=1)))

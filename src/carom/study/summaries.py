@@ -1,0 +1,260 @@
+"""The tables of a study, as text: what a terminal and a report show alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from carom.equilibria import Equilibrium
+from carom.orbits import Orbit, OrbitSet
+from carom.outcome import Outcome
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.study.disturbances import Ending, Trials
+from carom.study.ranges import Edge, Motion
+from carom.study.verdict import free_spans
+from carom.study.wording import Wording, number
+
+if TYPE_CHECKING:
+    from carom.study.assembly import Study
+
+__all__ = [
+    "MotionRow",
+    "ThresholdRow",
+    "ValueRow",
+    "dimensionless_rows",
+    "kick_rows",
+    "machine_rows",
+    "motion_rows",
+    "range_rows",
+    "simple_motion_rows",
+    "threshold_rows",
+]
+
+
+@dataclass(frozen=True)
+class ValueRow:
+    """A parameter: symbol, words and value with its unit."""
+
+    symbol: str
+    words: str
+    value: str
+
+
+@dataclass(frozen=True)
+class MotionRow:
+    """A motion of the machine.
+
+    Attributes
+    ----------
+    name : str
+    state : str
+        ``"stable"``, ``"unstable"``, ``"not possible"`` or ``"seen"``: met by disturbances, its stability not computed.
+    period : str
+    size : str
+        Radius of a steady motion, or radial speed of the impacts.
+    impulse : str
+        Normal impulse of an impact.
+    force : str
+        Force of lasting contact, or mean force of impacts.
+    trials : str
+        How many disturbances ended there.
+    remark : str
+    """
+
+    name: str
+    state: str
+    period: str = ""
+    size: str = ""
+    impulse: str = ""
+    force: str = ""
+    trials: str = ""
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class ThresholdRow:
+    """A value of damping or stiffness at which a motion appears or vanishes."""
+
+    motion: str
+    exists: str
+    quantity: str
+    value: str
+    dimensionless: str
+    what: str
+
+
+MOTIONS: dict[Motion, str] = {
+    "contact-free": "contact-free levitation",
+    "rub": "synchronous rub",
+    "single-impact": "orbits with one impact a period",
+    "rolling": "rolling backward whirl",
+}
+"""Names of the motions whose ranges are known."""
+
+_EVENTS = {
+    "boundary-equilibrium": "the contact-free motion reaches the wall",
+    "rub-fold": "a stable and an unstable rub meet (fold)",
+    "fold": "two orbits meet (fold)",
+    "rolling-limit": "friction just keeps the rotor rolling",
+}
+
+
+def machine_rows(case: Case) -> list[ValueRow]:
+    """The machine in SI units; empty where only dimensionless numbers are known."""
+    if case.machine is None:
+        return []
+    return [
+        ValueRow(field.symbol, field.words, f"{number(getattr(case.machine, name), 6)} {field.unit}".strip())
+        for name, field in MACHINE_FIELDS.items()
+    ]
+
+
+def dimensionless_rows(case: Case) -> list[ValueRow]:
+    """The dimensionless parameters."""
+    return [
+        ValueRow(field.symbol, field.words, f"{getattr(case.parameters, name):.9g}")
+        for name, field in DIMENSIONLESS_FIELDS.items()
+    ]
+
+
+def motion_rows(study: Study, most_virtual: int = 8) -> list[MotionRow]:
+    """All motions: steady ones, orbits, and what else disturbances ended in.
+
+    Parameters
+    ----------
+    study : Study
+    most_virtual : int
+        Orbits that are not possible are left out if there are more of them.
+    """
+    endings = study.disturbances.endings
+    rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.disturbances, most_virtual)
+    for ending, group in endings.items():
+        if ending.outcome not in (Outcome.LEVITATED, Outcome.FORWARD_RUB) and not ending.orbit:
+            rows.append(_seen(study.wording, ending, group, study.disturbances))
+    return rows
+
+
+def simple_motion_rows(
+    equilibria: tuple[Equilibrium, ...],
+    orbits: OrbitSet,
+    say: Wording,
+    trials: Trials | None = None,
+    most_virtual: int = 8,
+) -> list[MotionRow]:
+    """Equilibria and orbits; with the number of disturbances that ended there, if any were simulated."""
+    counts: dict[str, int] = {}
+    for member in trials or ():
+        outcome = member.ending.outcome
+        name = {Outcome.LEVITATED: "contact-free", Outcome.FORWARD_RUB: "rub"}.get(outcome, member.ending.orbit)
+        counts[name] = counts.get(name, 0) + 1
+    rows = []
+    for entry in equilibria:
+        count = counts.get(entry.kind, 0) if entry.kind == "contact-free" or entry.stable else 0
+        rows.append(_steady(entry, say, _share(count, trials)))
+    virtual = [orbit for orbit in orbits if not orbit.admissible]
+    shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]
+    return rows + [_bounce(orbit, say, _share(counts.get(orbit.name, 0), trials)) for orbit in shown]
+
+
+def _share(count: int, trials: Trials | None) -> str:
+    return f"{count} of {len(trials)}" if count and trials else ""
+
+
+def _steady(entry: Equilibrium, say: Wording, share: str) -> MotionRow:
+    contact_free = entry.kind == "contact-free"
+    name = MOTIONS[entry.kind]
+    size = f"r = {say.radius(entry.radius)}" if contact_free else ""
+    if entry.status == "virtual":
+        remark = "would lie outside the wall" if contact_free else "the wall would have to pull"
+        return MotionRow(name, "not possible", size=size, trials=share, remark=remark)
+    return MotionRow(
+        name,
+        "stable" if entry.stable else "unstable",
+        size=size,
+        force="" if contact_free else say.force(entry.normal_force),
+        trials=share,
+        remark="touches the wall without force" if entry.status == "boundary" else "",
+    )
+
+
+def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
+    name, period, size = f"orbit {orbit.name}", say.time(orbit.period), say.velocity(orbit.radial_speed)
+    if not orbit.admissible:
+        return MotionRow(name, "not possible", period, size, remark=orbit.reason)
+    impulse = (1.0 + orbit.rotor.parameters.d) * orbit.radial_speed
+    return MotionRow(
+        name,
+        "stable" if orbit.stable else "unstable",
+        period,
+        size,
+        say.impulse(impulse),
+        f"{say.force(impulse / orbit.period)} mean",
+        share,
+        "" if orbit.stable else f"grows {orbit.multipliers.instability}",
+    )
+
+
+def _seen(say: Wording, ending: Ending, group: Trials, trials: Trials) -> MotionRow:
+    force = group.final_force
+    return MotionRow(
+        ending.words,
+        "seen" if ending.outcome.settled else "undecided",
+        impulse="" if force > 0 else f"up to {say.impulse(group.hardest_impulse)}",
+        force=say.force(force) if force > 0 else "",
+        trials=_share(len(group), trials),
+    )
+
+
+def threshold_rows(study: Study) -> list[ThresholdRow]:
+    """Every threshold of damping and stiffness."""
+    say = study.wording
+    rows = []
+    for entry in study.thresholds:
+        what = _EVENTS[entry.edge.kind] + ("" if entry.edge.certified else " (located, but not confirmed by a count)")
+        rows.append(
+            ThresholdRow(
+                MOTIONS[entry.motion],
+                entry.exists,
+                say.gain_name(entry.gain),
+                say.gain(entry.gain, entry.edge.value) if say.scales else "",
+                f"{'γ' if entry.gain == 'gamma' else 'ω'} = {_digits(entry.edge)}",
+                what,
+            )
+        )
+    return rows
+
+
+def _digits(edge: Edge) -> str:
+    return f"{edge.value:.8g}"
+
+
+def range_rows(study: Study) -> list[tuple[str, ...]]:
+    """For each motion, where it exists along each gain of ``study.gains``; last, where levitation alone is left."""
+    say = study.wording
+    rows = []
+    for motion, name in MOTIONS.items():
+        cells = []
+        for gain in study.gains:
+            entry = study.range_of(motion, gain)
+            cells.append(say.where(gain, entry.spans, entry.searched) if entry else "not searched")
+        rows.append((name, *cells))
+    cells = []
+    for gain in study.gains:
+        free, orbits = free_spans(study.ranges, gain), study.range_of("single-impact", gain)
+        cells.append(say.where(gain, free, orbits.searched) if free is not None and orbits else "not found out")
+    return [*rows, ("levitation alone, backward whirl aside", *cells)]
+
+
+def kick_rows(study: Study) -> list[tuple[str, str, str]]:
+    """For each size of kick: how many directions came back, and where the others ended."""
+    kicks = study.disturbances.of_kind("kick")
+    rows = []
+    for speed in sorted({round(member.speed, 12) for member in kicks}):
+        alike = kicks.of_speed(speed)
+        lost = [
+            f"{len(group)} {ending.words}"
+            for ending, group in alike.endings.items()
+            if ending.outcome != Outcome.LEVITATED
+        ]
+        rows.append((study.wording.velocity(speed), f"{alike.recovered} of {len(alike)}", ", ".join(lost)))
+    return rows
