@@ -71,15 +71,18 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
         origin = displacement(rotor, plane, work.current)
         level = 0.0 if start != INSIDE else squared_modulus(origin) - 1.0
         block = min(table.duration, horizon - elapsed)
+        spread = _spread(rotor, plane, work.current)
+        floor = ROUNDING * spread
         remainder = _load_block(rotor, table, plane, origin, level, work)
-        guess = _guess_root(work.polynomial, level, remainder)
+        guess = _guess_root(work.polynomial, level, floor, remainder)
         outcome, time = CLEAR, block
         if guess != NO_ROOT:
             bounds = _bounds(table, work)
             certified = False
             if guess != UNDECIDED:
+                least_square = MARGIN * (floor + remainder) * bounds[0]
                 certified, time = _polish(
-                    rotor, plane, origin, level, guess * table.duration, bounds[0], MARGIN * remainder * bounds[0], work
+                    rotor, plane, origin, level, guess * table.duration, bounds[0], least_square, work
                 )
             if certified and time <= block:
                 return CONTACT, elapsed + time
@@ -87,7 +90,7 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
             if certified and time <= table.duration:
                 time = block
             else:
-                outcome, time = _step_safely(rotor, plane, origin, level, start, block, bounds, work)
+                outcome, time = _step_safely(rotor, plane, origin, level, start, spread, block, bounds, work)
                 if outcome != CLEAR:
                     return outcome, elapsed + time
         flight_increments(rotor, work.current, time, work.increments)
@@ -146,15 +149,17 @@ def basis_amplitudes(rotor, plane, amplitudes, out):
 
 
 @kernel
-def _guess_root(polynomial, level, remainder):
+def _guess_root(polynomial, level, floor, remainder):
     """Where on the block, in 0 … 1, the only root may be; or NO_ROOT (proven), or UNDECIDED.
 
-    The error grows from nothing at the start to ``remainder`` at the end because ``f`` is known exactly at the start.
+    The error grows from ``floor``, the rounding of ``f`` at the start, by ``remainder`` at the end.
     """
+    if -floor <= level != 0.0:
+        return UNDECIDED
     share = remainder / DEGREE
     first = DEGREE
     for j in range(DEGREE - 1, -1, -1):
-        if polynomial[j] + share * (j + 1) >= 0.0:
+        if polynomial[j] + share * (j + 1) + floor >= 0.0:
             first = j
     if first == DEGREE:
         return NO_ROOT
@@ -164,7 +169,7 @@ def _guess_root(polynomial, level, remainder):
     elif level >= 0.0:
         return UNDECIDED
     for j in range(first + 1, DEGREE):
-        if polynomial[j] - share * (j + 1) <= 0.0:
+        if polynomial[j] - share * (j + 1) - floor <= 0.0:
             return UNDECIDED
     rise = polynomial[first] - before
     return (first + min(1.0, -before / rise)) / DEGREE if rise > 0.0 else (first + 0.5) / DEGREE
@@ -225,11 +230,10 @@ def _polish(rotor, plane, origin, level, time, curvature, least_square, work):
 
 
 @kernel
-def _step_safely(rotor, plane, origin, level, start, block, bounds, work):
+def _step_safely(rotor, plane, origin, level, start, spread, block, bounds, work):
     """Certified steps from the start of a block to its end or to the first crossing."""
     time = 0.0
     curvature, jerk, _, speed = bounds
-    spread = 0.0 if start != INSIDE else _spread(rotor, plane, work.current)
     if start != INSIDE:
         _, slope, bend = _measure(rotor, plane, origin, level, 0.0, work)
         if start == LEAVING:
@@ -240,7 +244,9 @@ def _step_safely(rotor, plane, origin, level, start, block, bounds, work):
             return GRAZING, time
     while time < block:
         value, slope, bend = _measure(rotor, plane, origin, level, time, work)
-        rounding = ROUNDING * (spread + speed * time)
+        # On the wall f is exact at the start, and the rounding of y there turns the change of y that follows.
+        share = 1.0 if start == INSIDE else min(1.0, speed * time)
+        rounding = ROUNDING * (spread * share + speed * time)
         if value >= -rounding:
             if slope <= 2.0 * math.sqrt(curvature * rounding):
                 return _decide(rotor, plane, origin, level, time, block, bounds, rounding, work)
@@ -259,10 +265,11 @@ def _step_safely(rotor, plane, origin, level, start, block, bounds, work):
 
 @kernel
 def _spread(rotor, plane, amplitudes):
-    """Sum of the moduli of the terms of a displacement: its rounding error in units of the spacing of doubles."""
-    total = math.sqrt(squared_modulus(rotor.offsets[plane]))
+    """Sum of the sizes of the terms of a displacement: its rounding error in units of the spacing of doubles."""
+    total = abs(rotor.offsets[plane].real) + abs(rotor.offsets[plane].imag)
     for k in range(amplitudes.shape[0]):
-        total += math.sqrt(squared_modulus(rotor.rows[plane, k] * amplitudes[k]))
+        term = rotor.rows[plane, k] * amplitudes[k]
+        total += abs(term.real) + abs(term.imag)
     return total
 
 
