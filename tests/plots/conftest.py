@@ -53,8 +53,8 @@ def chattering(damped):
 
 @pytest.fixture(scope="session")
 def rubbing(damped):
-    """The same motion followed into the rub, which is sliding contact."""
-    return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=60.0)
+    """The same motion followed a little into the rub, which is sliding contact."""
+    return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=28.0)
 
 
 @pytest.fixture(scope="session")

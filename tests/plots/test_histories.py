@@ -91,6 +91,15 @@ def test_lasting_contact_is_a_band_for_as_long_as_it_lasts(rubbing, read):
     assert (during.min(), during.max()) == (contact.start, contact.end)
 
 
+def test_motion_that_ends_at_its_start(damped, read):
+    rub = next(point for point in damped.equilibria if point.kind == "rub" and point.stable)
+    motion = carom.simulate(damped.rotor, carom.State(rub.position), until=10.0, stop_at_chatter=True)
+    assert motion.time == 0.0
+    (axes,) = plots.radius(motion).axes
+    assert read.marked(axes, "end") == 1
+    assert axes.get_ylim()[0] == 0.0
+
+
 @pytest.mark.jit_only
 def test_long_motions_are_stored_as_pixels(damped, tmp_path, read):
     long = carom.simulate(damped.rotor, carom.kick(0.9, angle=0.2), until=60_000.0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+import carom
 from carom import plots
 
 
@@ -113,7 +114,13 @@ def test_motion_without_its_transient(bouncing, read):
     )
     (start,) = read.lines(rotating, "start")
     first = bouncing.position(np.array([50.0]))[0]
-    assert abs(start.get_xdata()[0] + 1j * start.get_ydata()[0] - first) < 0.1
+    assert (start.get_xdata()[0], start.get_ydata()[0]) == pytest.approx((first.real, first.imag))
+
+
+@pytest.mark.parametrize("since", [-1.0, 60.1, float("nan")])
+def test_transient_longer_than_the_motion(bouncing, since):
+    with pytest.raises(carom.InputError, match=r"since = .*: a time from 0 to the end of the motion at 60/Omega"):
+        plots.motion(bouncing, since=since)
 
 
 def test_faded_motion_begins_paler_than_it_ends(bouncing, read):
@@ -123,6 +130,13 @@ def test_faded_motion_begins_paler_than_it_ends(bouncing, read):
     assert colours[0, :3].sum() > colours[-1, :3].sum() + 0.5
     assert np.all(np.diff(colours[:, :3].sum(axis=1)) <= 1e-12)
     assert "path of the rotor centre (early part pale)" in read.legend(figure)
+
+
+def test_fading_ends_with_the_flight_not_with_the_contact_after_it(rubbing):
+    figure = plots.motion(rubbing, fade=True)
+    (path,) = [drawn for drawn in figure.axes[0].collections if drawn.get_gid() == "path"]
+    contact = rubbing.position(np.array([rubbing.lasting_contacts[0].start]))[0]
+    assert np.allclose(path.get_segments()[-1][-1], (contact.real, contact.imag), atol=1e-3)
 
 
 def test_words_say_how_a_motion_ended(bouncing, chattering, read):
@@ -141,9 +155,37 @@ def test_lasting_contact_is_a_band_on_the_wall(rubbing, chattering, read):
         (band,) = read.lines(axes, "slide")
         np.testing.assert_allclose(np.hypot(*band.get_data())[np.isfinite(band.get_xdata())], 1.0)
         assert read.lines(axes, "roll") == []
-        assert band.get_linewidth() > 2 * read.lines(axes, "wall")[0].get_linewidth()
+        assert band.get_linewidth() > 1.5 * read.lines(axes, "wall")[0].get_linewidth()
     assert "lasting contact, sliding" in read.legend(figure)
     assert "lasting contact, sliding" not in read.legend(plots.motion(chattering))
+
+
+@pytest.mark.jit_only
+def test_fast_rolling_keeps_to_the_circle(weak, read):
+    """Rolling backward the rotor goes round some nine times in 1/Omega: no chord may cut across."""
+    start = carom.State(0j, 0.4 + 0j)
+    whirl = carom.simulate(weak.rotor, start, until=60.0)
+    assert {contact.kind for contact in whirl.lasting_contacts} == {"slide", "roll"}
+    for axes in plots.motion(whirl).axes:
+        for kind in ("slide", "roll"):
+            (band,) = read.lines(axes, kind)
+            x, y = band.get_data()
+            chords = np.hypot(np.diff(x), np.diff(y))
+            assert np.nanmax(chords) < 0.05
+        (path,) = read.lines(axes, "path")
+        assert np.nanmax(np.abs(np.diff(np.hypot(*path.get_data())))) < 0.1
+
+
+@pytest.mark.parametrize("fade", [False, True])
+def test_motion_that_never_leaves_the_wall(damped, read, fade):
+    rub = next(point for point in damped.equilibria if point.kind == "rub" and point.stable)
+    motion = carom.simulate(damped.rotor, carom.State(rub.position), until=10.0)
+    assert len(motion.contacts) == 0
+    rotating, fixed = plots.motion(motion, fade=fade).axes
+    for axes in (rotating, fixed):
+        assert len(read.lines(axes, "slide")) == 1
+    (band,) = read.lines(plots.radius(motion).axes[0], "slide")
+    assert (np.nanmin(band.get_xdata()), np.nanmax(band.get_xdata())) == (0.0, 10.0)
 
 
 def test_own_axes(damped, bouncing, read):

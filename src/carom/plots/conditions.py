@@ -122,7 +122,7 @@ def _roots(axes: Axes, orbits: OrbitSet) -> None:
     for chosen, face, edge, size, words in (
         (physical, _INK, "#1a1a1a", 4.5, "root with an admissible orbit"),
         (~physical & ~empty, "white", grey, 3.5, "root with virtual orbits only"),
-        (empty, grey, grey, 1.5, "root without an orbit"),
+        (empty, grey, grey, 3.0, "root without an orbit"),
     ):
         if chosen.any():
             _mark(axes, roots[chosen], face, edge, size, words)

@@ -12,17 +12,16 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import ArrayLike, NDArray
 
+from carom.plots.bands import bands_over_time, drawing_times
 from carom.plots.plane import (
     MANY_MARKERS,
     MANY_POINTS,
     Floats,
     key,
-    lasting_contact,
     legend_below,
     marker_size,
     one_axes,
     orbit_path,
-    sample_count,
 )
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_length, axis_time, ending, orbit_look, orbit_title
@@ -79,7 +78,7 @@ def radius(
     _wall_line(drawn)
     _curve(drawn, history)
     if history.trajectory is not None:
-        lasting_contact(drawn, history.times, history.times, history.radius, history.trajectory)
+        bands_over_time(drawn, history.trajectory)
     _marks(drawn, history)
     drawn.set_xlabel(axis_time(scales))
     drawn.set_ylabel(axis_length("radius", "$r$", scales))
@@ -118,7 +117,7 @@ def _of_orbit(orbit: Orbit, periods: int) -> _History:
 
 
 def _of_trajectory(trajectory: Trajectory) -> _History:
-    times = trajectory.sample(sample_count(trajectory.time))
+    times = drawing_times(trajectory)
     contacts = trajectory.contacts
     return _History(
         times,
@@ -134,10 +133,11 @@ def _of_trajectory(trajectory: Trajectory) -> _History:
 def _set_range(axes: Axes, history: _History, zones: Zones | None) -> None:
     """From the bearing centre to just beyond the wall; enlarged where a motion stays near the wall."""
     lowest, highest = float(history.radius.min()), max(1.0, float(history.radius.max()))
-    bottom = 0.0 if zones is not None or lowest < 0.5 else lowest - 0.12 * (highest - lowest)
+    whole = zones is not None or lowest < 0.5 or highest - lowest < 1e-9
+    bottom = 0.0 if whole else lowest - 0.12 * (highest - lowest)
     axes.set_ylim(bottom, highest + 0.06 * (highest - bottom))
     # The strip at the right is for the letters of the zones.
-    axes.set_xlim(0.0, float(history.times[-1]) * (1.0 if zones is None else 1.025))
+    axes.set_xlim(0.0, (float(history.times[-1]) or 1.0) * (1.0 if zones is None else 1.025))
 
 
 def _wall_line(axes: Axes) -> None:

@@ -10,6 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.outcome import InputError
+from carom.plots.bands import bands_on_the_circle, drawing_times, flying
 from carom.plots.plane import (
     Frame,
     clearance_circle,
@@ -18,13 +20,11 @@ from carom.plots.plane import (
     impacts,
     key,
     label_frame,
-    lasting_contact,
     magnifier,
     one_axes,
     orbit_path,
     path,
     point,
-    sample_count,
 )
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import counted, ending, orbit_look, orbit_title, time_in_words, turns
@@ -133,11 +133,18 @@ def motion(
     -------
     matplotlib.figure.Figure
         The figure, with positions in units of the clearance.
+
+    Raises
+    ------
+    InputError
+        If `since` is not a time of the motion.
     """
+    if not 0.0 <= since <= trajectory.time:
+        raise InputError("since", since, f"a time from 0 to the end of the motion at {trajectory.time:g}/Omega")
     figure, frames = _two_frames(axes)
     scales = trajectory.rotor.scales
-    times = trajectory.sample(sample_count(trajectory.time))
-    times = times[times >= since]
+    times = drawing_times(trajectory)
+    times = np.append(since, times[times > since])
     contacts = trajectory.contacts
     shown = contacts.time >= since
     sides: tuple[tuple[Frame, Axes], ...] = (("rotating", frames[0]), ("fixed", frames[1]))
@@ -145,10 +152,12 @@ def motion(
         clearance_circle(drawn)
         label_frame(drawn, frame, scales)
         line = trajectory.position(times, frame)
-        (faded_path if fade else path)(drawn, line, LOOKS["path"])
-        direction_arrow(drawn, line, LOOKS["path"], fraction=0.9)
-        lasting_contact(drawn, times, line.real, line.imag, trajectory)
-        impacts(drawn, trajectory.position(contacts.time[shown], frame), contacts.angular_speed[shown])
+        flight = np.where(flying(trajectory, times), line, complex(np.nan, np.nan))
+        (faded_path if fade else path)(drawn, flight, LOOKS["path"])
+        direction_arrow(drawn, flight, LOOKS["path"], fraction=0.9)
+        bands_on_the_circle(drawn, trajectory, frame, since)
+        if shown.any():
+            impacts(drawn, trajectory.position(contacts.time[shown], frame), contacts.angular_speed[shown])
         point(drawn, complex(line[0]), "start", size=3.5)
         point(drawn, complex(line[-1]), "end", size=5.5, label=f"end: {ending(trajectory.outcome)}")
     _levitation(frames[0], trajectory.rotor.equilibrium)

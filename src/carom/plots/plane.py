@@ -22,7 +22,6 @@ from carom.plots.words import axis_length, times_larger
 if TYPE_CHECKING:
     from carom.orbits import Orbit
     from carom.parameters import Scales
-    from carom.trajectories import Trajectory
 
 __all__ = [
     "MANY_MARKERS",
@@ -36,7 +35,6 @@ __all__ = [
     "impacts",
     "key",
     "label_frame",
-    "lasting_contact",
     "legend_below",
     "look_closer",
     "magnifier",
@@ -45,7 +43,6 @@ __all__ = [
     "orbit_path",
     "path",
     "point",
-    "sample_count",
 ]
 
 Complex = NDArray[np.complex128]
@@ -125,6 +122,7 @@ def faded_path(axes: Axes, position: Complex, look: Look, pieces: int = 60) -> N
     Opaque tints instead of transparency: where a path crosses itself, transparency would make dots.
     """
     colour = np.array(to_rgb(look.colour))
+    position = position[: np.flatnonzero(~np.isnan(position)).max(initial=0) + 1]
     ends = np.unique(np.linspace(0, len(position) - 1, pieces + 1).astype(int))
     points = np.column_stack((position.real, position.imag))
     segments = [points[first : last + 1] for first, last in pairwise(ends)]
@@ -138,6 +136,7 @@ def faded_path(axes: Axes, position: Complex, look: Look, pieces: int = 60) -> N
 
 def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float = 0.4) -> None:
     """Put an arrow head on a path, at a fraction of its length, pointing forward in time."""
+    position = _longest_piece(position)
     length = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(position)))))
     if length[-1] == 0.0:
         return
@@ -161,6 +160,13 @@ def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float =
     )
 
 
+def _longest_piece(position: Complex) -> Complex:
+    """Of a path with gaps (nan) the piece with most samples."""
+    pieces = np.split(position, np.flatnonzero(np.isnan(position)))
+    longest = max(pieces, key=len)
+    return longest[~np.isnan(longest)]
+
+
 def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | None = None) -> None:
     """Mark impact points, one marker for forward and one for backward whirl in the fixed frame.
 
@@ -178,35 +184,6 @@ def orbit_path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
     """Times from an impact on, evenly spread over whole periods, and positions in the co-rotating frame."""
     times = np.linspace(0.0, periods * orbit.period, periods * max(400, int(60.0 * orbit.period)) + 1)
     return times, orbit.path(times)
-
-
-def sample_count(duration: float) -> int:
-    """Enough points for smooth turns, few enough for a file one can mail."""
-    return int(np.clip(60.0 * duration, 2000, 12000))
-
-
-def lasting_contact(axes: Axes, times: Floats, x: Floats, y: Floats, trajectory: Trajectory) -> None:
-    """Draw the parts of a curve during which the rotor stays in contact as broad bands, sliding apart from rolling."""
-    for kind in ("slide", "roll"):
-        spans = [(span.start, span.end) for span in trajectory.lasting_contacts if span.kind == kind]
-        if not spans:
-            continue
-        starts, ends = np.array(spans).T
-        latest = np.searchsorted(starts, times, side="right") - 1
-        within = (latest >= 0) & (times <= ends[latest])
-        look = LOOKS[kind]
-        axes.plot(
-            np.where(within, x, np.nan),
-            np.where(within, y, np.nan),
-            linestyle=look.line,
-            color=look.colour,
-            lw=look.width,
-            solid_capstyle="butt",
-            rasterized=len(times) > MANY_POINTS,
-            label=look.words,
-            zorder=3,
-            gid=kind,
-        )
 
 
 def marker_size(count: int) -> float:

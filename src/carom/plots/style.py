@@ -16,7 +16,7 @@ key of :data:`LOOKS`   drawn as                    means
 ``"contact-free"``     green, pentagon             contact-free equilibrium (levitation)
 ``"rub"``              purple, square              synchronous rub equilibrium
 ``"slide"``            purple, broad               lasting contact that slides along the wall
-``"roll"``             wine, broad, dash-dotted    lasting contact that rolls round the wall
+``"roll"``             wine, broad, dashed         lasting contact that rolls round the wall
 ``"forward"``          sky blue, triangle up       impact in forward whirl (fixed frame)
 ``"backward"``         orange, triangle down       impact in backward whirl (fixed frame)
 ``"start"``, ``"end"`` hollow ring, filled cross   first and last instant of a motion
@@ -88,8 +88,8 @@ LOOKS = MappingProxyType(
         "path": Look("#3d4f66", "path of the rotor centre", line="-", width=0.6),
         "contact-free": Look("#009e73", "contact-free equilibrium", marker="p"),
         "rub": Look("#cc79a7", "rub equilibrium", marker="s"),
-        "slide": Look("#cc79a7", "lasting contact, sliding", line="-", width=2.8),
-        "roll": Look("#882255", "lasting contact, rolling", line="-.", width=2.8),
+        "slide": Look("#cc79a7", "lasting contact, sliding", line="-", width=2.0),
+        "roll": Look("#882255", "lasting contact, rolling", line="--", width=2.0),
         "forward": Look("#56b4e9", "impact, forward whirl", marker="^"),
         "backward": Look("#e69f00", "impact, backward whirl", marker="v"),
         "start": Look("#1a1a1a", "start", marker="o"),

@@ -80,8 +80,8 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def counted(count: int, noun: str) -> str:
-    """``1 impact``, ``2 impacts``."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+    """``no impact``, ``1 impact``, ``2 impacts``."""
+    return f"{count or 'no'} {noun}" if count <= 1 else f"{count} {noun}s"
 
 
 def times_larger(ratio: float) -> str:

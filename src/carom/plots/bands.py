@@ -1,0 +1,94 @@
+"""Lasting contact: the parts of a motion during which the rotor slides or rolls along the wall, as broad bands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from carom.plots.plane import Complex, Floats, Frame
+from carom.plots.style import LOOKS
+
+if TYPE_CHECKING:
+    from carom.contacts import LastingContact
+    from carom.trajectories import Trajectory
+
+__all__ = ["bands_on_the_circle", "bands_over_time", "drawing_times", "flying"]
+
+_KINDS = ("slide", "roll")
+_STEP = 0.03
+"""Angle [rad] from point to point of a band: its chords leave the circle by less than the width of a line."""
+_MOST_POINTS = 20_000
+"""Points of a band at most; it has then gone round the circle many times, and more would not be seen."""
+
+
+def flying(trajectory: Trajectory, times: Floats) -> NDArray[np.bool_]:
+    """Which times belong to free flight; the end of a contact does where a flight follows."""
+    free = np.ones(times.shape, bool)
+    for span in trajectory.lasting_contacts:
+        free &= (times < span.start) | ((times >= span.end) & (span.end < trajectory.time))
+    return free
+
+
+def drawing_times(trajectory: Trajectory) -> Floats:
+    """Times at which a motion is drawn: dense in flight, of a lasting contact only its two ends.
+
+    In contact the radius is 1, and :func:`bands_on_the_circle` draws the rest.
+    """
+    # Enough points for smooth turns, few enough for a file one can mail.
+    times = trajectory.sample(int(np.clip(60.0 * trajectory.time, 2000, 12000)))
+    ends = [moment for span in trajectory.lasting_contacts for moment in (span.start, span.end)]
+    return times[flying(trajectory, times) | np.isin(times, ends)]
+
+
+def bands_over_time(axes: Axes, trajectory: Trajectory) -> None:
+    """Mark lasting contact on the wall line of a radius over time."""
+    for kind in _KINDS:
+        spans = [span for span in trajectory.lasting_contacts if span.kind == kind]
+        times = np.array([moment for span in spans for moment in (span.start, span.end, np.nan)])
+        _band(axes, kind, times, np.where(np.isnan(times), np.nan, 1.0))
+
+
+def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since: float = 0.0) -> None:
+    """Mark where on the circle the rotor slid or rolled, from a time on."""
+    for kind in _KINDS:
+        arcs = [
+            np.append(_arc(trajectory, span, frame, since), np.nan)
+            for span in trajectory.lasting_contacts
+            if span.kind == kind and span.end > since
+        ]
+        line = np.concatenate(arcs) if arcs else np.zeros(0, complex)
+        _band(axes, kind, line.real, line.imag)
+
+
+def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: float) -> Complex:
+    start = max(span.start, since)
+    position, velocity = trajectory.at(np.linspace(start, span.end, 16))
+    # On the wall the angular speed is the tangential one; the fixed frame adds the turn of the shaft, 1.
+    fastest = float(np.abs((position.conj() * velocity).imag + (frame == "fixed")).max())
+    points = int(np.ceil((span.end - start) * fastest / _STEP)) + 2
+    end = span.end
+    if points > _MOST_POINTS:
+        points, end = _MOST_POINTS, start + _MOST_POINTS * _STEP / fastest
+    arc: Complex = trajectory.position(np.linspace(start, end, points), frame)
+    return arc
+
+
+def _band(axes: Axes, kind: str, x: Floats, y: Floats) -> None:
+    if not len(x):
+        return
+    look = LOOKS[kind]
+    axes.plot(
+        x,
+        y,
+        linestyle=look.line,
+        color=look.colour,
+        lw=look.width,
+        solid_capstyle="butt",
+        dash_capstyle="butt",
+        label=look.words,
+        zorder=3,
+        gid=kind,
+    )
