@@ -14,13 +14,13 @@ there is ``F₁ > 0``.  Up to there, ``g̃(z) = −1/2 − Σ_{k≠0} 1/(z − 2
 
     |g̃⁽ⁿ⁾(z)| ≤ 2 n! (δ^{−n−1} + ζ(n+1) (2π)^{−n−1}),      δ = min_{k≠0} |z − 2πik|,
 
-hence a bound of ``|F₁''|`` on any interval (and a sharper one from ``g(z) = Σ e^{mz}`` far out); an interval is discarded, or accepted with one root, only when that bound
-proves it.
+hence a bound of ``|F₁''|`` on any interval, and ``g(z) = Σ e^{mz}`` a sharper one far out.  An interval is discarded, or
+accepted as monotone, only when that bound proves it; one on which ``F₁`` cannot be told from zero in double precision
+holds a double root, or a single one if ``F₁`` changes sign across it.  So roots are counted right to the last pair.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import factorial, pi
 
@@ -32,19 +32,30 @@ from carom.rotors import Rotor
 __all__ = ["PeriodCondition", "PeriodRoots"]
 
 SERIES_RADIUS = 1.0
-# Bernoulli numbers B₂ₘ/(2m)!: g̃(z) = −1/2 − Σ B₂ₘ z^{2m−1}/(2m)!, twelve terms reach rounding at |z| = 1.
+# Bernoulli numbers B₂ₘ: g̃(z) = −1/2 − Σ B₂ₘ z^{2m−1}/(2m)!, twelve terms reach rounding at |z| = 1.
 _BERNOULLI = (
     1 / 6, -1 / 30, 1 / 42, -1 / 30, 5 / 66, -691 / 2730, 7 / 6, -3617 / 510, 43867 / 798, -174611 / 330,
     854513 / 138, -236364091 / 2730,
 )  # fmt: skip
-_SERIES = np.array([number / factorial(2 * m + 2) for m, number in enumerate(_BERNOULLI)])
-_ZETA = (np.inf, 1.6449340668482264, 1.2020569031595943, 1.0823232337111382)
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+_ODD = np.arange(1, 25, 2)
+_SERIES = -np.array([number / factorial(power + 1) for number, power in zip(_BERNOULLI, _ODD, strict=True)])
+# Coefficients in powers of z² of g̃ + 1/2 and g̃'', both over z, and of g̃'.
+_SERIES = np.array([_SERIES, _SERIES * _ODD, np.append((_SERIES * _ODD * (_ODD - 1))[1:], 0.0)])
+_ZETA = {2: 1.2020569031595943, 3: 1.0823232337111382}
+"""``ζ(n + 1)``."""
+# Eight nodes integrate a divided difference to rounding where CLOSE holds.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+CLOSE = 0.25
+"""Split ``|λ₊ − λ₋|T`` of a pair, relative to the distance from the poles, below which a difference would cancel."""
 
 FIRST_WIDTH = 0.25
-NARROWEST = 1e-11
-"""Width, relative to ``1 + T``, below which an undecided interval is a double root (a fold) to rounding."""
-MOST_INTERVALS = 20_000_000
+BATCH = 20_000
+"""Intervals searched at a time."""
+MOST_INTERVALS = 1_000_000
+MOST_STEPS = 200
+"""More than bisection takes to exhaust double precision."""
+ROUNDING = 16 * np.finfo(float).eps
+"""Rounding error of a sum relative to the moduli of its terms."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,11 +70,14 @@ class PeriodRoots:
         End of the searched range.
     proven : bool
         Whether ``F₁ > 0`` is proven beyond it, so that there is no other root at all.
+    starts_below : bool
+        Whether ``F₁ < 0`` next to ``T = 0``.  It takes ``d = 1`` and a root at ``T = 0``, which is not counted.
     """
 
     periods: np.ndarray
     longest_period: float
     proven: bool
+    starts_below: bool
 
 
 class PeriodCondition:
@@ -79,72 +93,86 @@ class PeriodCondition:
     def __init__(self, rotor: Rotor, slip: int = 1) -> None:
         arrays = rotor.arrays
         row, column = arrays.rows[0], arrays.columns[:, 0]
-        self.factor = (1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0])
-        self.exponents = arrays.exponents
-        self.residues = row * column
-        driven = np.flatnonzero(arrays.driven)
-        self.pairs = [(arrays.exponents[k], arrays.exponents[k - 1], row[k] * column[k - 1]) for k in driven]
+        self.factor = complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0])
+        self.exponents = np.array(arrays.exponents)
+        self.singles = [(k, complex(row[k] * column[k])) for k in np.flatnonzero(row * column)]
+        self.pairs = [(k, complex(row[k] * column[k - 1])) for k in np.flatnonzero(arrays.driven)]
         self.receptance = -complex(row @ np.linalg.solve(rotor.generator, column))
 
-    def response(self, power: int, periods: np.ndarray, derivative: int = 0) -> np.ndarray:
-        """``d/dT``-th derivative of the sum of ``λ^power g̃(λT)``; ``power`` 1 is ``a₂₂``."""
-        periods = np.asarray(periods, float)
-        order = power + derivative
-        total = np.zeros(periods.shape, complex)
-        for exponent, residue in zip(self.exponents, self.residues, strict=True):
-            if residue != 0:
-                total += residue * exponent**order * _regular(exponent * periods, derivative)
-        for first, second, residue in self.pairs:
-            total += residue * _divided_difference(first, second, periods, order, derivative)
-        return total
-
     def a12(self, periods: np.ndarray) -> np.ndarray:
-        """``a₁₂(T)``, complex."""
-        return self.receptance / np.asarray(periods) + self.response(0, periods)
+        """``a₁₂(T)``, complex, of the shape of ``periods``."""
+        return self.receptance / np.asarray(periods) + self._sums(periods, (0, 0))[0][0]
 
     def a22(self, periods: np.ndarray) -> np.ndarray:
-        """``a₂₂(T)``, complex."""
-        return self.response(1, periods)
+        """``a₂₂(T)``, complex, of the shape of ``periods``."""
+        return self._sums(periods, (1, 0))[0][0]
 
     def value(self, periods: np.ndarray) -> np.ndarray:
         """``F₁(T)``."""
-        return 1.0 + (self.factor * self.response(1, periods)).real
+        return 1.0 + (self.factor * self.a22(periods)).real
 
     def slope(self, periods: np.ndarray) -> np.ndarray:
         """``F₁'(T)``."""
-        return (self.factor * self.response(1, periods, derivative=1)).real
+        return (self.factor * self._sums(periods, (2, 1))[0][0]).real
 
-    def curvature_bound(self, middles: np.ndarray, half_width: np.ndarray) -> np.ndarray:
+    def measure(self, periods: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """``F₁``, its slope, and what rounding may do to ``F₁`` (that of ``λT`` included)."""
+        (a22, rate), (size, rate_size) = self._sums(periods, (1, 0), (2, 1))
+        noise = ROUNDING * (1.0 + abs(self.factor) * (size + periods * rate_size))
+        return 1.0 + (self.factor * a22).real, (self.factor * rate).real, noise
+
+    def _sums(self, periods: np.ndarray, *terms: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+        """Sums over the modes of ``λⁿ g̃⁽ᵏ⁾(λT)`` times a residue, for each ``(n, k)``, and of the moduli of the parts."""
+        periods = np.asarray(periods, float)
+        regular = _regular(np.multiply.outer(self.exponents, periods), max(k for _, k in terms))
+        totals = np.zeros((len(terms), *periods.shape), complex)
+        sizes = np.zeros(totals.shape)
+        for index, residue in self.singles:
+            for i, (n, k) in enumerate(terms):
+                part = residue * self.exponents[index] ** n * regular[k, index]
+                totals[i] += part
+                sizes[i] += np.abs(part)
+        for index, residue in self.pairs:
+            first, second = self.exponents[index], self.exponents[index - 1]
+            close = _close(first, second, periods)
+            inverse = np.where(close, 0.0, residue / (first - second) if first != second else 0.0)
+            for i, (n, k) in enumerate(terms):
+                ends = first**n * inverse * regular[k, index], second**n * inverse * regular[k, index - 1]
+                totals[i] += ends[0] - ends[1]
+                sizes[i] += np.abs(ends[0]) + np.abs(ends[1])
+            if close.any():
+                mean = residue * _mean_derivatives(first, second, periods[close], terms)
+                totals[:, close] += mean
+                sizes[:, close] += np.abs(mean)
+        return totals, sizes
+
+    def curvature_bound(self, middles: np.ndarray, half_widths: np.ndarray) -> np.ndarray:
         """Bound of ``|F₁''|`` on intervals, the smaller one of a bound for ``g̃`` and one for ``g``.
 
         The second, ``|g⁽ⁿ⁾(z)| ≤ Σ mⁿ e^{m Re z}``, falls off at long periods.
         """
-
-        def near_poles(exponent: complex, order: int, reach: float = 0.0) -> np.ndarray:
-            distance = _pole_distance(exponent, middles) - abs(exponent) * half_width
-            return _regular_bound(order, distance - reach * (middles + half_width))
-
-        def far_out(exponent: complex, order: int, reach: float = 0.0) -> np.ndarray:
-            return _geometric_bound(order, -exponent.real * (middles - half_width))
-
-        bounds = [self._curvature(middles + half_width, bound) for bound in (near_poles, far_out)]
-        return abs(self.factor) * np.minimum(*bounds)
-
-    def _curvature(self, longest: np.ndarray, bound: Callable[..., np.ndarray]) -> np.ndarray:
-        """Bound of ``|a₂₂''|`` from bounds of the derivatives of ``g`` or ``g̃`` at ``λT`` (and within ``reach`` T)."""
-        total = np.zeros(longest.shape)
-        for exponent, residue in zip(self.exponents, self.residues, strict=True):
-            if residue != 0:
-                total += abs(residue) * abs(exponent) ** 3 * bound(exponent, 2)
-        for first, second, residue in self.pairs:
-            gap, size = abs(first - second), max(abs(first), abs(second))
-            slower = first if first.real >= second.real else second
-            along = 3.0 * size**2 * bound(slower, 2, gap) + size**3 * longest * bound(slower, 3, gap)
-            if gap > 0:
-                ends = (abs(first) ** 3 * bound(first, 2) + abs(second) ** 3 * bound(second, 2)) / gap
-                along = np.minimum(along, ends)
-            total += abs(residue) * along
-        return total
+        longest = middles + half_widths
+        moduli = np.abs(self.exponents)[:, None]
+        distance = _pole_distance(self.exponents[:, None], middles) - moduli * half_widths
+        decay = np.multiply.outer(-self.exponents.real, middles - half_widths)
+        bounds = moduli**3 * np.array([_regular_bound(2, distance), _geometric_bound(2, decay)])
+        total = np.zeros((2, len(middles)))
+        for index, residue in self.singles:
+            total += abs(residue) * bounds[:, index]
+        for index, residue in self.pairs:
+            gap = abs(self.exponents[index] - self.exponents[index - 1])
+            size = moduli[index - 1 : index + 1].max()
+            along = gap * longest < 1.0
+            part = np.empty_like(total)
+            part[:, ~along] = (bounds[:, index, ~along] + bounds[:, index - 1, ~along]) / (gap or 1.0)
+            if along.any():
+                # The pair lies within gap·T of its slower exponent, the driven one.
+                room, fall = distance[index, along] - gap * longest[along], decay[index, along]
+                second = np.array([_regular_bound(2, room), _geometric_bound(2, fall)])
+                third = np.array([_regular_bound(3, room), _geometric_bound(3, fall)])
+                part[:, along] = size**2 * (3.0 * second + size * longest[along] * third)
+            total += abs(residue) * part
+        return abs(self.factor) * total.min(axis=0)
 
     def longest_period(self) -> float:
         """Time beyond which ``|q a₂₂| < 1``, hence ``F₁ > 0``; infinite without damping."""
@@ -153,26 +181,25 @@ class PeriodCondition:
         low, high = 0.0, 1.0
         while self._decay_bound(high) >= 1.0:
             low, high = high, 2.0 * high
-        while high - low > 1e-3 * high:
+        while high - low > 1e-2 * high:
             middle = 0.5 * (low + high)
             low, high = (middle, high) if self._decay_bound(middle) >= 1.0 else (low, middle)
         return high
 
     def _decay_bound(self, period: float) -> float:
         """Bound of ``|q a₂₂|`` that decreases with the period, from ``|g(z)| ≤ 1/(e^{−Re z} − 1)``."""
-
-        def geometric(exponent: complex) -> float:
-            return float(1.0 / np.expm1(-exponent.real * period))
-
-        total = float(np.sum(np.abs(self.residues * self.exponents) * [geometric(e) for e in self.exponents]))
-        for first, second, residue in self.pairs:
-            gap, size = abs(first - second), max(abs(first), abs(second))
-            slow = geometric(first if first.real > second.real else second)
+        moduli = np.abs(self.exponents)
+        decay = self.exponents.real * period
+        geometric = -np.exp(decay) / np.expm1(decay)
+        total = sum(abs(residue) * moduli[index] * geometric[index] for index, residue in self.singles)
+        for index, residue in self.pairs:
+            gap, size = abs(self.exponents[index] - self.exponents[index - 1]), moduli[index - 1 : index + 1].max()
+            slow = geometric[index]
             bound = slow + size * period * slow * (1.0 + slow)
             if gap > 0:
-                bound = min(bound, (abs(first) * geometric(first) + abs(second) * geometric(second)) / gap)
+                bound = min(bound, (moduli[index] * slow + moduli[index - 1] * geometric[index - 1]) / gap)
             total += abs(residue) * bound
-        return abs(self.factor) * total
+        return float(abs(self.factor) * total)
 
     def roots(self, longest_period: float | None = None) -> PeriodRoots:
         """All roots up to ``longest_period``, by default up to where there are none any more.
@@ -197,111 +224,133 @@ class PeriodCondition:
         end = bound if longest_period is None else longest_period
         if not (np.isfinite(end) and end > 0):
             raise InputError("longest_period", longest_period, "a finite time above 0, in 1/Omega")
-        return PeriodRoots(self._search(end), end, end >= bound)
+        periods, starts_below = self._search(end)
+        return PeriodRoots(periods, end, end >= bound, starts_below)
 
-    def _search(self, end: float) -> np.ndarray:
+    def _search(self, end: float) -> tuple[np.ndarray, bool]:
+        """Roots up to ``end``, and whether ``F₁`` starts below zero."""
         count = int(np.ceil(end / FIRST_WIDTH))
         if count > MOST_INTERVALS:
             raise CaromError(f"periods up to {end:.3g}/Omega are too many to search; give a shorter longest_period")
-        edges = np.linspace(0.0, end, count + 1)
-        left, right = edges[:-1], edges[1:]
-        brackets: list[np.ndarray] = []
-        doubles: list[np.ndarray] = []
+        grid = np.linspace(0.0, end, count + 1)
+        batches = [self._sort_out(grid[k : k + BATCH + 1]) for k in range(0, count, BATCH)]
+        monotone = np.concatenate([batch[0] for batch in batches])
+        doubtful = _joined(np.concatenate([batch[1] for batch in batches]))
+        pieces = np.concatenate([monotone, doubtful])
+        edges, place = np.unique(pieces, return_inverse=True)
+        positive = (self.value(edges) >= 0.0)[place.reshape(pieces.shape)]
+        # Only d = 1 makes T = 0 a root; no other root lies in the piece that begins there.
+        value, _, noise = self.measure(np.zeros(1))
+        from_zero = (pieces[:, 0] == 0.0) & (value <= noise)
+        positive[from_zero, 0] = positive[from_zero, 1]
+        starts_below = bool((~positive[from_zero, 0]).any())
+        single = positive[:, 0] != positive[:, 1]
+        double = np.flatnonzero(~single[len(monotone) :] & ~from_zero[len(monotone) :])
+        simple = self._polish(pieces[single], positive[single, 1])
+        return np.sort(np.concatenate([simple, np.repeat(self._folds(doubtful[double]), 2)])), starts_below
+
+    def _sort_out(self, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Intervals, shape (n, 2), on which ``F₁`` is monotone, and those on which it cannot be told from zero.
+
+        It has no root outside them.
+        """
+        left, right = grid[:-1], grid[1:]
+        monotone, doubtful = [np.empty((0, 2))], [np.empty((0, 2))]
         while len(left):
             middle, half = 0.5 * (left + right), 0.5 * (right - left)
-            value, slope = self.value(middle), self.slope(middle)
+            value, slope, noise = self.measure(middle)
             bend = self.curvature_bound(middle, half)
-            free = np.abs(value) > np.abs(slope) * half + 0.5 * bend * half**2
-            monotone = ~free & (np.abs(slope) > bend * half)
-            brackets.append(self._with_sign_change(left[monotone], right[monotone]))
-            undecided = ~(free | monotone)
-            narrow = undecided & (half < NARROWEST * (1.0 + middle))
-            doubles.append(middle[narrow])
-            split = undecided & ~narrow
+            change = (np.abs(slope) + 0.5 * bend * half) * half
+            undecided = np.abs(value) <= change + noise
+            steady = np.abs(slope) > bend * half
+            lost = undecided & ~steady & (change < noise)
+            intervals = np.stack([left, right], axis=1)
+            monotone.append(intervals[undecided & steady])
+            # Without damping F₁ has poles.  What rounding makes of F₁ next to one is large, and no root is there.
+            doubtful.append(intervals[lost & (noise < 1.0)])
+            split = undecided & ~steady & ~lost & (half > ROUNDING * middle)
             left = np.concatenate([left[split], middle[split]])
             right = np.concatenate([middle[split], right[split]])
-        simple = self._polish(np.concatenate(brackets))
-        return np.sort(np.concatenate([simple, np.repeat(_merge(np.concatenate(doubles)), 2)]))
+        return np.concatenate(monotone), np.concatenate(doubtful)
 
-    def _with_sign_change(self, left: np.ndarray, right: np.ndarray) -> np.ndarray:
-        """Those intervals, shape (n, 2), whose ends have opposite signs; a root at ``T = 0`` (``d = 1``) is none."""
-        below, above = self.value(left), self.value(right)
-        change = (np.sign(below) * np.sign(above) < 0) | ((below == 0) & (left > 0))
-        return np.stack([left[change], right[change]], axis=1)
-
-    def _polish(self, brackets: np.ndarray) -> np.ndarray:
-        """Roots of monotone brackets by Newton's method, bisecting where it leaves the bracket."""
+    def _polish(self, brackets: np.ndarray, rising: np.ndarray) -> np.ndarray:
+        """Roots of brackets, shape (n, 2), by Newton's method, bisecting where it leaves the bracket."""
         low, high = brackets[:, 0].copy(), brackets[:, 1].copy()
-        rising = self.value(high) > 0
         root = 0.5 * (low + high)
-        for _ in range(80):
-            value = self.value(root)
-            above = (value > 0) == rising
+        for _ in range(MOST_STEPS):
+            value, slope, noise = self.measure(root)
+            above = (value >= 0.0) == rising
             high, low = np.where(above, root, high), np.where(above, low, root)
-            newton = root - value / self.slope(root)
-            inside = (newton >= low) & (newton <= high)
-            better = np.where(inside, newton, 0.5 * (low + high))
-            settled = np.abs(better - root) <= 2e-16 * root
+            step = np.divide(value, slope, out=np.full_like(value, np.inf), where=slope != 0)
+            newton = root - step
+            better = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+            settled = (np.abs(value) <= noise) | (np.abs(better - root) <= 4e-16 * root)
             root = better
             if settled.all():
                 break
         return root
 
+    def _folds(self, intervals: np.ndarray) -> np.ndarray:
+        """Where the slope vanishes on short intervals, shape (n, 2), that hold a double root."""
+        left, right = intervals.T
+        at_left, at_right = self.slope(left), self.slope(right)
+        crosses = at_left * at_right < 0
+        share = np.divide(at_left, at_left - at_right, out=np.full_like(left, 0.5), where=crosses)
+        return left + share * (right - left)
 
-def _regular(z: np.ndarray, derivative: int) -> np.ndarray:
-    """``g̃``, ``g̃'`` or ``g̃''`` at complex ``z``."""
+
+def _regular(z: np.ndarray, highest: int) -> np.ndarray:
+    """``g̃`` and its derivatives up to this one (at most the second) at complex ``z``, shape (highest + 1, ...)."""
     small = np.abs(z) < SERIES_RADIUS
-    far = np.where(small, -1.0, z)
-    decay = np.exp(far)
-    away = -np.expm1(far)
-    if derivative == 0:
-        direct = decay / away + 1.0 / far
-    elif derivative == 1:
-        direct = decay / away**2 - 1.0 / far**2
-    else:
-        direct = decay * (1.0 + decay) / away**3 + 2.0 / far**3
-    near = np.where(small, z, 0.0)
-    powers = 2 * np.arange(len(_SERIES)) + 1
-    coefficients = -_SERIES.astype(float)
-    for _ in range(derivative):
-        coefficients, powers = coefficients * powers, powers - 1
-    series = np.zeros(np.shape(z), complex)
-    for coefficient, power in zip(coefficients[::-1], powers[::-1], strict=True):
-        if power >= 0:
-            series += coefficient * near**power
-    return np.where(small, series - (0.5 if derivative == 0 else 0.0), direct)
+    # g(z) = −1 − g(−z) keeps the exponential from growing.
+    flip = z.real > 0
+    far = np.where(small, -1.0, np.where(flip, -z, z))
+    g = -np.exp(far) / np.expm1(far)
+    g = np.where(flip, -1.0 - g, g)
+    inverse = 1.0 / np.where(small, -1.0, z)
+    results = [g + inverse]
+    if highest > 0:
+        slope = g * (1.0 + g)
+        results.append(slope - inverse**2)
+    if highest > 1:
+        results.append(slope * (1.0 + 2.0 * g) + 2.0 * inverse**3)
+    regular = np.array(results)
+    if small.any():
+        near = z[small]
+        series = _SERIES[: highest + 1] @ np.vander(near * near, len(_ODD), increasing=True).T
+        series[::2] *= near
+        series[0] -= 0.5
+        regular[:, small] = series
+    return regular
 
 
-def _divided_difference(
-    first: complex, second: complex, periods: np.ndarray, order: int, derivative: int
-) -> np.ndarray:
-    """Divided difference over ``λ`` of ``λ^order g̃⁽ᵈ⁾(λT)``; where it would cancel, the mean of the derivative."""
-    gap = first - second
+def _close(first: complex, second: complex, periods: np.ndarray) -> np.ndarray:
+    """Whether the difference of values at the two exponents of a pair would cancel."""
     room = np.minimum(_pole_distance(first, periods), _pole_distance(second, periods))
-    close = np.abs(gap) * periods < 0.25 * np.minimum(room, 1.0)
-    result = np.empty(periods.shape, complex)
-    apart = periods[~close]
-    ends = [value**order * _regular(value * apart, derivative) for value in (first, second)]
-    if gap != 0:
-        result[~close] = (ends[0] - ends[1]) / gap
-    near = periods[close]
-    mean = np.zeros(near.shape, complex)
-    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
-        value = 0.5 * (first + second) + 0.5 * gap * node
-        slope = value**order * near * _regular(value * near, derivative + 1)
-        if order:
-            slope = slope + order * value ** (order - 1) * _regular(value * near, derivative)
-        mean += 0.5 * weight * slope
-    result[close] = mean
-    return result
+    close: np.ndarray = np.abs(first - second) * periods < CLOSE * np.minimum(room, 1.0)
+    return close
 
 
-def _pole_distance(exponent: complex, periods: np.ndarray) -> np.ndarray:
+def _mean_derivatives(
+    first: complex, second: complex, periods: np.ndarray, terms: tuple[tuple[int, int], ...]
+) -> np.ndarray:
+    """Divided differences over ``λ`` of ``λⁿ g̃⁽ᵏ⁾(λT)``, shape (terms, periods), as means of the derivative."""
+    exponents = (0.5 * (first + second) + 0.5 * (first - second) * _NODES)[:, None]
+    regular = _regular(exponents * periods, max(k for _, k in terms) + 1)
+    means = []
+    for n, k in terms:
+        rates = exponents**n * periods * regular[k + 1] + (n * exponents ** (n - 1) * regular[k] if n else 0.0)
+        means.append(0.5 * _WEIGHTS @ rates)
+    return np.array(means)
+
+
+def _pole_distance(exponent: complex | np.ndarray, periods: np.ndarray) -> np.ndarray:
     """Distance of ``λT`` from the nearest ``2πik``, ``k ≠ 0``."""
     z = exponent * periods
     turns = np.round(z.imag / (2 * pi))
     turns = np.where(turns == 0, np.where(z.imag >= 0, 1.0, -1.0), turns)
-    return np.abs(z - 2j * pi * turns)
+    distance: np.ndarray = np.abs(z - 2j * pi * turns)
+    return distance
 
 
 def _regular_bound(order: int, distance: np.ndarray) -> np.ndarray:
@@ -320,10 +369,10 @@ def _geometric_bound(order: int, decay: np.ndarray) -> np.ndarray:
     return np.where(decay > 0, bound, np.inf)
 
 
-def _merge(points: np.ndarray) -> np.ndarray:
-    """One point for each cluster of neighbours."""
-    points = np.sort(points)
-    if not len(points):
-        return points
-    breaks = np.flatnonzero(np.diff(points) > 1e-6 * (1.0 + points[:-1])) + 1
-    return np.array([cluster.mean() for cluster in np.split(points, breaks)])
+def _joined(intervals: np.ndarray) -> np.ndarray:
+    """Neighbouring intervals, shape (n, 2), joined to one."""
+    if not len(intervals):
+        return intervals
+    intervals = intervals[np.argsort(intervals[:, 0])]
+    apart = intervals[1:, 0] != intervals[:-1, 1]
+    return np.stack([intervals[np.append(True, apart), 0], intervals[np.append(apart, True), 1]], axis=1)
