@@ -5,3 +5,29 @@ from hypothesis import settings
 # Kernels compile on their first call, and a busy machine is slow: no test fails for the time it takes.
 settings.register_profile("carom", deadline=None)
 settings.load_profile("carom")
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Say how many flights were tried against the high-precision reference, and how many went wrong."""
+    totals = {}
+    reports = [report for key in ("passed", "failed") for report in terminalreporter.stats.get(key, [])]
+    for report in reports:
+        for name, value in getattr(report, "user_properties", []):
+            if name == "flights" and report.when == "call":
+                _add(totals.setdefault(value["scenario"], {}), value)
+    if totals:
+        terminalreporter.section("flights against the high-precision reference")
+    for scenario, total in totals.items():
+        terminalreporter.write_line(
+            f"{scenario}: {total['tried']} tried, {total['missed']} missed, {total['spurious']} spurious; "
+            f"{total['contact']} hit, {total['clear']} clear, {total['grazing']} grazing; worst time error "
+            f"{total['worst_time_error']:.1e} ({total['worst_share_of_bound']:.2f} of the rounding bound)"
+        )
+
+
+def _add(total, tally):
+    for name, value in tally.items():
+        if isinstance(value, int):
+            total[name] = total.get(name, 0) + value
+        elif isinstance(value, float):
+            total[name] = max(total.get(name, 0.0), value)

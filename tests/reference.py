@@ -108,6 +108,19 @@ class Flight:
                 bounds[n - 1] += amplitude * bound
         return bounds[0], bounds[1], bounds[2]
 
+    def spread(self, time: float) -> float:
+        """Sum of the moduli of the terms of ``y``, at their largest on ``0 … time``."""
+        total = _size(self.offset) + sum(amplitude * _growth(rate, 0.0, time) for amplitude, rate in self._mode_sizes)
+        for amplitude, upper, lower, gap in self._pair_sizes:
+            response = min(time, 2.0 / gap) if gap > 0.0 else time
+            total += amplitude * response * _pair_growth(upper, lower, 0.0, time)
+        return total
+
+    @property
+    def fastest(self) -> float:
+        """Largest modulus of an exponent."""
+        return max([abs(rate) for _, rate in self._mode_sizes] + [abs(lower) for _, _, lower, _ in self._pair_sizes])
+
     def third_bound(self, time: float, span: float) -> float:
         """Bound of ``|f'''| = |2 Re(3 ẏ* ÿ + y* y⃛)|`` on ``time … time + span`` while ``|y| ≤ 1``."""
         first, second, third = self.derivative_bounds(time, span)
@@ -214,10 +227,10 @@ def _departure(flight: Flight, radial_speed: float) -> float:
 def _step(flight: Flight, now: float, height: float, rate: float, bend: float) -> float:
     """Longest step found that the bound allows: ``τ`` with first root of the quadratic for ``h = τ`` not below ``τ``."""
     span = 1.0
-    reach = _root(height, rate, bend + flight.third_bound(now, span) * span / 3.0)
+    third = flight.third_bound(now, span) / 3.0
+    reach = _root(height, rate, bend + third * span)
     if reach >= span:
         return span * SAFE
-    third = flight.third_bound(now, span) / 3.0
     low, high = reach, span
     for _ in range(12):
         middle = 0.5 * (low + high)

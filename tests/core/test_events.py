@@ -1,0 +1,227 @@
+"""No crossing is missed and none invented: the kernel against the high-precision reference."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from flights import (
+    Tally,
+    Task,
+    compare,
+    inside_task,
+    near_grazing_task,
+    parameters,
+    random_wall_task,
+    rotors,
+    task_from_state,
+    wall_task,
+)
+from numba.core import config
+from reference import plane_flight
+
+from carom.core import events
+from carom.core.layout import rotor_record, workspace
+from carom.core.table import flight_table
+from carom.outcome import Outcome
+from carom.rotors import jeffcott
+
+HORIZON = 15.0
+SHARE = 0.01 if config.DISABLE_JIT else 1.0
+"""Without the compiler a sample is enough to go through every line."""
+
+
+def count(flights: int) -> int:
+    """How many flights to try."""
+    return math.ceil(flights * SHARE)
+
+
+@pytest.mark.parametrize("batch", range(4))
+def test_random_flights(batch, record_property):
+    tally = Tally("random flights")
+    for rotor, rng in rotors(100 + batch, count(100)):
+        for _ in range(250):
+            compare(inside_task(rotor, rng), HORIZON, tally)
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert tally.tried >= count(25_000)
+    assert min(tally.contact, tally.clear) > 0.2 * tally.tried
+
+
+@pytest.mark.parametrize("batch", range(2))
+def test_near_grazing_flights(batch, record_property):
+    tally, passes = Tally("near-grazing flights"), 0
+    wanted = count(6_000)
+    for rotor, rng in rotors(200 + batch, 10 * wanted):
+        for _ in range(20):
+            drawn = near_grazing_task(rotor, rng)
+            if drawn is None:
+                continue
+            task, time = drawn
+            expected = compare(task, time + 5.0, tally)
+            passes += expected is None or expected.time > time - 0.5
+        if passes >= wanted:
+            break
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert passes >= wanted
+    # Peaks stand out by 2e-12 and more; rounding stays below that.
+    assert tally.grazing == 0
+
+
+@pytest.mark.parametrize("kind", range(4), ids=["fast", "late-chatter", "slow", "along-the-wall"])
+def test_starts_on_the_wall(kind, record_property):
+    tally = Tally("starts on the wall")
+    wanted = count(3_000)
+    for rotor, rng in rotors(300 + kind, wanted):
+        for _ in range(30):
+            task = random_wall_task(rotor, rng, kind)
+            if task is not None:
+                compare(task, HORIZON, tally)
+        if tally.tried >= wanted:
+            break
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert tally.tried >= wanted
+    assert tally.grazing == 0
+
+
+def test_near_resonance(record_property):
+    """An equilibrium far outside the wall costs digits: where they are gone the outcome says so."""
+    tally = Tally("near resonance")
+    rng = np.random.default_rng(400)
+    while tally.tried < count(3_000):
+        shift = rng.choice([-1.0, 0.0, 1.0]) * 10.0 ** rng.uniform(-9.0, -3.0)
+        rotor = jeffcott(parameters(10.0 ** rng.uniform(-6.0, -2.0), 1.0 + shift, rho=rng.uniform(0.01, 1.0)))
+        for k in range(20):
+            compare(inside_task(rotor, rng), 5.0, tally)
+            compare(random_wall_task(rotor, rng, k % 3), 5.0, tally)
+            drawn = near_grazing_task(rotor, rng)
+            if drawn is not None:
+                compare(drawn[0], drawn[1] + 1.0, tally)
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert tally.grazing < 0.1 * tally.tried
+
+
+def test_high_speeds(record_property):
+    """The time of contact is as exact, relative to the duration of a flight, at a thousand clearances a turn."""
+    tally = Tally("high speeds")
+    for rotor, rng in rotors(500, count(100)):
+        for _ in range(20):
+            position = rng.uniform(0.0, 0.99) * np.exp(2j * math.pi * rng.uniform())
+            velocity = 10.0 ** rng.uniform(1.0, 3.0) * np.exp(2j * math.pi * rng.uniform())
+            compare(task_from_state(rotor, complex(position), complex(velocity)), 3.0, tally)
+    record_property("flights", tally.as_property())
+    tally.check()
+
+
+def general_rotor(rng, kind):
+    """Four modes, two planes: free-standing, paired, all but degenerate and degenerate, one growing; one is forcing."""
+    exponents = rng.uniform(-1.0, 0.0, 4) + 1j * rng.uniform(-3.0, 3.0, 4)
+    driven = np.zeros(4, bool)
+    if kind in ("pair", "near pair", "degenerate pair"):
+        exponents[:2] = sorted(exponents[:2], key=lambda value: value.real)
+        driven[1] = True
+        if kind != "pair":
+            exponents[1] = exponents[0] + (1e-9 if kind == "near pair" else 0.0)
+    if kind == "growing":
+        exponents[2] = rng.uniform(0.05, 0.6) + 1j * rng.uniform(-3.0, 3.0)
+    exponents[3] = -1j
+    columns = complex_normal(rng, 4, 2)
+    columns[3] = 0.0
+    return rotor_record(
+        exponents=exponents,
+        driven=driven,
+        offsets=0.3 * complex_normal(rng, 2),
+        rows=0.5 * complex_normal(rng, 2, 4),
+        columns=columns,
+        friction=np.full(2, 0.1),
+        restitution=np.full(2, 0.9),
+        drive=np.full(2, 5.0),
+    )
+
+
+def complex_normal(rng, *shape):
+    return rng.normal(size=shape) + 1j * rng.normal(size=shape)
+
+
+@pytest.mark.parametrize("kind", ["free-standing", "pair", "near pair", "degenerate pair", "growing"])
+def test_rotors_with_many_modes_and_planes(kind, record_property):
+    tally = Tally("general rotors")
+    rng = np.random.default_rng([600, len(kind)])
+    while tally.tried < count(1_500):
+        arrays = general_rotor(rng, kind)
+        table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+        for plane in (0, 1) * 10:
+            amplitudes = complex_normal(rng, 4) * 10.0 ** rng.uniform(-1.5, 0.3)
+            flight = plane_flight(
+                arrays.offsets[plane], arrays.rows[plane], arrays.exponents, arrays.driven, amplitudes
+            )
+            if flight.level(0.0)[0] < -1e-3:
+                compare(Task(flight, arrays, table, amplitudes, plane), 6.0, tally)
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert min(tally.contact, tally.clear) > 0.1 * tally.tried
+
+
+def test_arrival_is_the_state_at_the_returned_time():
+    for rotor, rng in rotors(700, 20):
+        for _ in range(5):
+            task, work = inside_task(rotor, rng), workspace(2)
+            for horizon in (0.3, 3.0, 30.0):
+                _, time = events.first_crossing(
+                    task.arrays, task.table, 0, task.amplitudes, horizon, events.INSIDE, work
+                )
+                expected = rotor.fly(task.amplitudes, np.array(time))
+                scale = np.abs(task.amplitudes).sum() + np.abs(rotor.equilibrium)
+                assert np.abs(work.arrival - expected).max() <= 1e-14 * scale * (1.0 + time)
+
+
+def test_amplitudes_are_left_alone():
+    (rotor, rng), work = rotors(800, 1)[0], workspace(2)
+    task = inside_task(rotor, rng)
+    before = task.amplitudes.copy()
+    events.first_crossing(task.arrays, task.table, 0, task.amplitudes, 10.0, events.INSIDE, work)
+    assert np.array_equal(task.amplitudes, before)
+
+
+def test_whirl_that_hugs_the_wall():
+    """Without damping and unbalance a circular whirl stays 1e-12 inside the wall: clear, and in bounded work."""
+    rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
+    for gap in (1e-3, 1e-6, 1e-9, 2e-12):
+        task = task_from_state(rotor, 1.0 - gap, -0.5j * (1.0 - gap))
+        outcome, time = events.first_crossing(
+            task.arrays, task.table, 0, task.amplitudes, 2.0, events.INSIDE, workspace(2)
+        )
+        assert (outcome, time) == (Outcome.CLEAR, 2.0)
+
+
+def test_whirl_on_the_wall_is_grazing():
+    """The same whirl to within rounding of the wall cannot be decided."""
+    rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
+    task = task_from_state(rotor, 1.0 - 1e-15, -0.5j * (1.0 - 1e-15))
+    outcome, _ = events.first_crossing(task.arrays, task.table, 0, task.amplitudes, 2.0, events.INSIDE, workspace(2))
+    assert outcome == Outcome.GRAZING
+
+
+def test_a_start_that_is_pressed_on_does_not_leave():
+    rotor = jeffcott(parameters(0.1, 0.7))
+    angle = rotor.parameters.phi
+    task = wall_task(rotor, angle, 0.0, 0.0)
+    assert task.flight.level(0.0)[2] > 0
+    outcome, time = events.first_crossing(
+        task.arrays, task.table, 0, task.amplitudes, 2.0, events.LEAVING, workspace(2)
+    )
+    assert (outcome, time) == (Outcome.GRAZING, 0.0)
+
+
+@pytest.mark.parametrize("horizon", [0.0, -1e-17, 1e-300, 1e-9])
+def test_short_horizons(horizon):
+    (rotor, rng) = rotors(900, 1)[0]
+    task = inside_task(rotor, rng)
+    outcome, time = events.first_crossing(
+        task.arrays, task.table, 0, task.amplitudes, horizon, events.INSIDE, workspace(2)
+    )
+    assert (outcome, time) == (Outcome.CLEAR, horizon)
