@@ -271,7 +271,7 @@ def simulate(
     modes = len(amplitudes)
     recollection = memory(
         modes,
-        rub_position=_stable_rub(rotor) if settle else 0j,
+        rub_position=_attracting_rub(rotor) if settle else 0j,
         patience=patience if settle else 0,
         recheck=_recheck_time(rotor),
         stop_at_landing=stop_at_chatter,
@@ -321,9 +321,12 @@ def follow(
     return Outcome(code), *rest
 
 
-def _stable_rub(rotor: Rotor) -> complex:
-    rubs = [rub for rub in equilibria(rotor) if rub.kind == "rub" and rub.stable and rub.status == "admissible"]
-    return rubs[0].position if rubs else 0j
+def _attracting_rub(rotor: Rotor) -> complex:
+    """Position of the synchronous rub that attracts sliding; with ``d = 1`` too, where it does not attract bounces."""
+    for rub in equilibria(rotor):
+        if rub.kind == "rub" and rub.status == "admissible" and rub.eigenvalues.real.max() < 0.0:
+            return rub.position
+    return 0j
 
 
 def _recheck_time(rotor: Rotor) -> float:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 
-from carom.core.events import INSIDE, LEAVING, LIFTING, first_crossing
-from carom.core.fate import approaches_turn, forget_rub, levitates, near_rub, recurs, same_state
+from carom.core.events import INSIDE, LEAVING, first_crossing
+from carom.core.fate import NEAR, approaches_turn, forget_rub, levitates, near_rub, recurs, same_state
 from carom.core.flow import displacement, velocity
 from carom.core.impact import set_on_wall, strike, unit
 from carom.core.layout import kernel
 from carom.core.rub import (
     first_transition,
+    lift_off,
     next_phase,
     rest_on_wall,
     rub_series,
@@ -38,8 +39,14 @@ FLIGHT, ROLLING = int(Phase.FLIGHT), int(Phase.ROLLING)
 
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
-RESTING = 16 * 2.220446049250313e-16
+RESTING = 64 * 2.220446049250313e-16
 """Radial speed, relative to the whole, that is rounding: the rotor rests on the wall."""
+STALLED = 64
+"""Events in a row without progress in time after which double precision cannot decide what follows."""
+SHORTEST = 1e-15
+"""Duration that counts as no progress."""
+LEAST_LOSS = 1e-3
+"""Loss of speed per bounce below which bounces lower than CHATTER_HEIGHT are not followed to their end."""
 
 
 @kernel
@@ -75,11 +82,11 @@ def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes
         Plane whose wall the end lies on, or −1.
     """
     time = 0.0
-    events = 0
+    events, stalled = 0, 0
     while events < times.shape[0]:
         if phase == FLIGHT:
             outcome, duration, phase, plane = _fly(
-                rotor, table, amplitudes, until - time, plane, before[events], memory, work
+                rotor, table, amplitudes, until - time, plane, before[events], memory, work, rub
             )
         else:
             outcome, duration, phase = _rub(rotor, plane, amplitudes, phase, until - time, memory, rub)
@@ -90,11 +97,14 @@ def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes
         times[events], phases[events], planes[events] = time, phase, plane
         after[events, :] = amplitudes
         events += 1
+        stalled = stalled + 1 if duration <= SHORTEST else 0
+        if stalled == STALLED:
+            return GRAZING, time, events, phase, plane
     return EVENT_LIMIT, time, events, phase, plane
 
 
 @kernel
-def _fly(rotor, table, amplitudes, horizon, plane, arrival, memory, work):
+def _fly(rotor, table, amplitudes, horizon, plane, arrival, memory, work, rub):
     """One flight and the impact or landing at its end, in place.
 
     Returns the outcome (CONTACT: it goes on), the duration, the phase that follows and the plane touched.
@@ -103,23 +113,22 @@ def _fly(rotor, table, amplitudes, horizon, plane, arrival, memory, work):
     elapsed = 0.0
     settle = memory.patience > 0
     while True:
-        reaction, start = CLEAR, INSIDE
+        reaction, at_rest = CLEAR, False
         if plane >= 0:
-            reaction, start = _wall_reaction(rotor, plane, amplitudes)
-        if reaction != CLEAR:
-            break
-        if settle and levitates(rotor, amplitudes, work):
-            return LEVITATED, elapsed, FLIGHT, plane
-        leap = min(horizon - elapsed, memory.recheck) if settle else horizon - elapsed
-        reaction, duration, target = _next_contact(rotor, table, amplitudes, leap, plane, start, work)
-        amplitudes[:] = work.nearest
-        elapsed, plane = elapsed + duration, target
+            reaction, at_rest = _wall_reaction(rotor, plane, amplitudes, memory.lifting)
+            memory.lifting = 0
+        if reaction == CLEAR:
+            if settle and levitates(rotor, amplitudes, work):
+                return LEVITATED, elapsed, FLIGHT, plane
+            leap = min(horizon - elapsed, memory.recheck) if settle else horizon - elapsed
+            reaction, duration, plane = _leap(rotor, table, amplitudes, leap, plane, at_rest, work, rub)
+            elapsed += duration
         if reaction == GRAZING:
             return GRAZING, elapsed, FLIGHT, plane
-        if reaction == CONTACT:
+        if reaction != CLEAR:
             break
         if elapsed >= horizon:
-            return TIME_REACHED, horizon, FLIGHT, INSIDE_ALL
+            return TIME_REACHED, horizon, FLIGHT, plane
     set_on_wall(rotor, plane, amplitudes)
     arrival[:] = amplitudes
     if reaction == CONTACT:
@@ -132,7 +141,24 @@ def _fly(rotor, table, amplitudes, horizon, plane, arrival, memory, work):
     _land(rotor, plane, amplitudes)
     memory.rubbed = 1
     forget_rub(memory)
-    return CONTACT, elapsed, next_phase(rotor, plane, amplitudes), plane
+    return CONTACT, elapsed, next_phase(rotor, plane, amplitudes, FLIGHT), plane
+
+
+@kernel
+def _leap(rotor, table, amplitudes, horizon, plane, at_rest, work, rub):
+    """Fly on, in place, to the next contact or the horizon, or just off the wall from a start at rest on it.
+
+    Returns the reaction of the wall (CLEAR: the flight goes on), the duration and the plane touched.
+    """
+    if at_rest:
+        duration, returned = lift_off(rotor, plane, amplitudes, horizon, rub)
+        if duration == 0.0:
+            return LANDING, duration, plane
+        return CLEAR, duration, plane if returned else INSIDE_ALL
+    start = LEAVING if plane >= 0 else INSIDE
+    reaction, duration, target = _next_contact(rotor, table, amplitudes, horizon, plane, start, work)
+    amplitudes[:] = work.nearest
+    return reaction, duration, target
 
 
 @kernel
@@ -200,15 +226,17 @@ def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
     sum_series(rub, duration, amplitudes)
     rest_on_wall(rotor, plane, amplitudes, phase == ROLLING or slip_stops)
     if slip_stops:
-        following = next_phase(rotor, plane, amplitudes)
-    if following != phase:
-        forget_rub(memory)
+        following = next_phase(rotor, plane, amplitudes, phase)
+    if following == FLIGHT:
+        memory.lifting = 1
     memory.turn_time += duration
+    if phase != ROLLING:
+        memory.turn_slipped = 1
     if turned:
-        if same_state(memory.turn_state, amplitudes):
+        if same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time)):
             backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
             rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
-            return (ROLLS_ON if phase == ROLLING else rub_outcome), duration, phase
+            return (rub_outcome if memory.turn_slipped > 0 else ROLLS_ON), duration, phase
         forget_rub(memory)
     if duration >= horizon:
         return TIME_REACHED, duration, following
@@ -216,26 +244,24 @@ def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
 
 
 @kernel
-def _wall_reaction(rotor, plane, amplitudes):
-    """What a state on the wall does next, and how a flight would start.
+def _wall_reaction(rotor, plane, amplitudes, lifting):
+    """What a state on the wall does next, and whether it is at rest there.
 
     It strikes (CONTACT) with outward speed; lands (LANDING) when it is pressed outward and leaves so slowly that the
     whole remaining geometric series of bounces, of duration ``2v/(N(1 − d))``, stays below CHATTER_HEIGHT and cannot
-    outlast the push; and else flies (CLEAR).
+    outlast the push; and else flies (CLEAR), as it does where a contact has just lost its push (``lifting``).
     """
     position = displacement(rotor, plane, amplitudes)
     local = unit(position).conjugate() * velocity(rotor, plane, amplitudes)
     push, rate, rounding = wall_push(rotor, plane, amplitudes)
     rebound = -local.real
-    resting = abs(rebound) <= RESTING * (1.0 + abs(local.real) + abs(local.imag))
-    if resting:
-        if abs(push) <= rounding:
-            return (LANDING if rate > 0.0 else CLEAR), LIFTING
-        return (LANDING if push > 0.0 else CLEAR), LEAVING
+    if abs(rebound) <= RESTING * (1.0 + abs(local.real) + abs(local.imag)):
+        pressed = push > 0.0 if abs(push) > rounding else rate > 0.0
+        return (LANDING if pressed and lifting == 0 else CLEAR), True
     if rebound < 0.0:
-        return CONTACT, LEAVING
-    loss = 1.0 - rotor.restitution[plane]
-    if push <= 0.0 or rebound * rebound > 2.0 * push * CHATTER_HEIGHT or loss <= 0.0:
-        return CLEAR, LEAVING
+        return CONTACT, False
+    if push <= 0.0 or rebound * rebound > 2.0 * push * CHATTER_HEIGHT:
+        return CLEAR, False
+    loss = max(1.0 - rotor.restitution[plane], LEAST_LOSS)
     brief = 2.0 * rebound * abs(rate) < 0.5 * push * push * loss
-    return (LANDING if brief else CLEAR), LEAVING
+    return (LANDING if brief else CLEAR), False

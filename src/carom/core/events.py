@@ -20,12 +20,12 @@ from carom.core.flow import acceleration, displacement, flight_increments, nudge
 from carom.core.layout import DEGREE, kernel
 from carom.outcome import Outcome
 
-__all__ = ["INSIDE", "LEAVING", "LIFTING", "basis_amplitudes", "first_crossing"]
+__all__ = ["INSIDE", "LEAVING", "basis_amplitudes", "first_crossing"]
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 
-INSIDE, LEAVING, LIFTING = 0, 1, 2
-"""How a flight starts: inside the wall, on it with inward velocity or push, or lifting off where the push vanishes."""
+INSIDE, LEAVING = 0, 1
+"""How a flight starts: inside the wall, or on it with inward velocity."""
 
 UNDECIDED = -1.0
 NO_ROOT = 2.0
@@ -52,8 +52,8 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
     horizon : float
         Latest time of interest, counted from the start.
     start : int
-        ``INSIDE``, or the start lies on the wall, where ``|y|`` is one by definition: ``LEAVING`` or ``LIFTING`` (radial
-        speed and acceleration are zero by definition too).
+        ``INSIDE``, or ``LEAVING`` where the start lies on the wall: there ``|y|`` is one by definition.  A start at rest
+        on the wall is for :func:`carom.core.rub.lift_off`.
     work : record of :func:`~carom.core.layout.workspace`
         On return ``work.arrival`` holds the amplitudes at the returned time.
 
@@ -177,21 +177,18 @@ def _guess_root(polynomial, level, floor, remainder):
 
 @kernel
 def _bounds(table, work):
-    """Bounds of the derivatives 2, 3, 4 of ``f`` and of ``|ẏ|`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
+    """Bounds of ``f''``, ``f'''`` and ``|ẏ|`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
     speed = 0.0
     second = 0.0
     third = 0.0
-    fourth = 0.0
     for k in range(work.amplitudes.shape[0]):
         modulus = math.sqrt(squared_modulus(work.amplitudes[k]))
         speed += modulus * table.bounds[0, k]
         second += modulus * table.bounds[1, k]
         third += modulus * table.bounds[2, k]
-        fourth += modulus * table.bounds[3, k]
     return (
         2.0 * (speed * speed + second),
         2.0 * (3.0 * speed * second + third),
-        2.0 * (3.0 * second * second + 4.0 * speed * third + fourth),
         speed,
     )
 
@@ -233,13 +230,10 @@ def _polish(rotor, plane, origin, level, time, curvature, least_square, work):
 def _step_safely(rotor, plane, origin, level, start, spread, block, bounds, work):
     """Certified steps from the start of a block to its end or to the first crossing."""
     time = 0.0
-    curvature, jerk, _, speed = bounds
+    curvature, jerk, speed = bounds
     if start != INSIDE:
         _, slope, bend = _measure(rotor, plane, origin, level, 0.0, work)
-        if start == LEAVING:
-            time = _departure(min(slope, 0.0), bend, jerk)
-        else:
-            time = _lift_off(_third_derivative(rotor, plane, work.arrival), bounds[2])
+        time = _departure(min(slope, 0.0), bend, jerk)
         if time == 0.0:
             return GRAZING, time
     while time < block:
@@ -324,24 +318,3 @@ def _departure(slope, bend, jerk):
     half = 0.5 * bend
     root = math.sqrt(half * half - 2.0 / 3.0 * jerk * slope)
     return -2.0 * slope / (root + half) if half > 0.0 else 3.0 * (root - half) / jerk
-
-
-@kernel
-def _lift_off(third, fourth):
-    """The same for a start with ``f' = f'' = 0``, from the third derivative and a bound of the fourth."""
-    return -4.0 * third / fourth if third < 0.0 else 0.0
-
-
-@kernel
-def _third_derivative(rotor, plane, amplitudes):
-    """Third derivative of ``f``, ``2 Re(ȳ y⃛) + 6 Re(ẏ* ÿ)``."""
-    jerk = 0j
-    for k in range(amplitudes.shape[0]):
-        rate = rotor.exponents[k] * amplitudes[k]
-        if rotor.driven[k]:
-            rate += amplitudes[k - 1]
-        jerk += rotor.acceleration_rows[plane, k] * rate
-    position = displacement(rotor, plane, amplitudes)
-    speed = velocity(rotor, plane, amplitudes)
-    force = acceleration(rotor, plane, amplitudes)
-    return 2.0 * (position.conjugate() * jerk).real + 6.0 * (speed.conjugate() * force).real

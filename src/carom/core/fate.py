@@ -2,9 +2,11 @@
 
 - *Levitated*: the sum of the moduli of the modes at every contact plane, a bound for all later time, is smaller than
   the room between the contact-free equilibrium and the wall.  This is a proof.
-- *Forward rub*: the state slides within ``NEAR`` of the stable synchronous rub.
-- *Periodic*: the state at an impact, or after a turn along the wall, recurs to within ``NEAR`` twice in a row after the
-  same number of events.  The reference is renewed after 1, 2, 4, 8 … events (Brent 1980), so no period is too long.
+- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding.
+- *Backward whirl*, *rolling* and forward rub that runs round the wall: after a turn without flight the state has changed
+  by less than ``NEAR`` and by less than ``NEAR`` per unit time, so slow changes do not pass for none.
+- *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
+  reference is renewed after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.
 - *Aperiodic*: ``patience`` impacts have passed without recurrence.
 """
 
@@ -18,7 +20,7 @@ from carom.core.events import basis_amplitudes
 from carom.core.flow import squared_modulus
 from carom.core.layout import kernel, record
 
-__all__ = ["approaches_turn", "forget_rub", "levitates", "memory", "near_rub", "recurs", "same_state"]
+__all__ = ["NEAR", "approaches_turn", "forget_rub", "levitates", "memory", "near_rub", "recurs", "same_state"]
 
 NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
@@ -35,7 +37,7 @@ def memory(
     ----------
     modes : int
     rub_position : complex
-        Position of the stable synchronous rub; zero if there is none.
+        Position of the synchronous rub that attracts sliding; zero if there is none.
     patience : int
         Impacts without recurrence after which a motion counts as aperiodic; zero to settle nothing.
     recheck : float
@@ -55,8 +57,10 @@ def memory(
         candidate=np.asarray(0, np.int64),
         period=np.asarray(0, np.int64),
         rubbed=np.asarray(0, np.int64),
+        lifting=np.asarray(0, np.int64),
         turning=np.asarray(NO_TURN, np.int64),
         turn_time=np.asarray(0.0),
+        turn_slipped=np.asarray(0, np.int64),
         turn_position=np.asarray(0, np.complex128),
         turn_state=np.zeros(modes, np.complex128),
     )
@@ -94,7 +98,7 @@ def recurs(memory, amplitudes):
     memory.events += 1
     if memory.events > 1:
         memory.since += 1
-        if same_state(memory.reference, amplitudes):
+        if same_state(memory.reference, amplitudes, NEAR):
             if memory.candidate == memory.since:
                 memory.period = memory.since
                 return True
@@ -120,19 +124,19 @@ def _renew(memory, amplitudes):
 
 
 @kernel
-def same_state(first, second):
-    """Whether two states are within NEAR."""
+def same_state(first, second, tolerance):
+    """Whether the distance of two states, relative to one plus their size, is within a tolerance."""
     size = 1.0
     distance = 0.0
     for k in range(first.shape[0]):
         size += math.sqrt(squared_modulus(second[k]))
         distance += math.sqrt(squared_modulus(first[k] - second[k]))
-    return distance <= NEAR * size
+    return distance <= tolerance * size
 
 
 @kernel
 def near_rub(memory, position, speed):
-    """Whether a sliding state is at the stable synchronous rub."""
+    """Whether a sliding state is at the synchronous rub that attracts it."""
     if memory.rub_position == 0.0:
         return False
     return math.sqrt(squared_modulus(position - memory.rub_position)) + abs(speed) < NEAR
@@ -144,6 +148,7 @@ def approaches_turn(memory, position, amplitudes, speed):
     if memory.turning == NO_TURN:
         memory.turn_position = position
         memory.turn_time = 0.0
+        memory.turn_slipped = 0
         for k in range(amplitudes.shape[0]):
             memory.turn_state[k] = amplitudes[k]
         memory.turning = SET_OUT

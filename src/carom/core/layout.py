@@ -115,8 +115,8 @@ def table_record(duration: float, coefficients: np.ndarray, errors: np.ndarray, 
         Bernstein coefficients 1 … DEGREE of the products of basis functions.
     errors : ndarray, shape (Q,)
         Bound of the approximation error at the end of the block, per row of ``coefficients``.
-    bounds : ndarray, shape (4, N)
-        Largest modulus on the block of the first four derivatives of the basis functions.
+    bounds : ndarray, shape (3, N)
+        Largest modulus on the block of the first three derivatives of the basis functions.
     """
     return record(duration=np.asarray(duration), coefficients=coefficients, errors=errors, bounds=bounds)
 

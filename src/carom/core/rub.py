@@ -9,6 +9,11 @@ and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips wi
 ``f = −drive² y − a`` while it rolls (``ẏ = −i drive y``).  Products of series are all this needs, so the coefficients
 follow from a recurrence and a step costs the same for any rotor.  For the planar rotor it is
 ``θ̈ = −γ(1 + θ̇) − ρ sin(θ − φ) − μN sgn v`` with ``N = ρ cos(θ − φ) + (1 + θ̇)² − ω²``.
+
+A phase lasts while its margins (normal force, slip, room within the friction cone) stay above minus their rounding
+error.  It ends at the last zero before one falls further.  So a margin that is zero at the start of a phase, as the slip
+is where rolling ends and the normal force where a rotor lifts off, does not end it, unless it falls: two phases cannot
+hand a state to and fro.
 """
 
 from __future__ import annotations
@@ -17,7 +22,7 @@ import math
 
 import numpy as np
 
-from carom.core.flow import displacement, flight_increments, velocity
+from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import set_on_wall, unit
 from carom.core.layout import ORDER, kernel
 from carom.outcome import Phase
@@ -25,6 +30,7 @@ from carom.outcome import Phase
 __all__ = [
     "first_transition",
     "fly_or_rub_all",
+    "lift_off",
     "next_phase",
     "rest_on_wall",
     "rub_series",
@@ -46,14 +52,17 @@ STEP_FRACTION = 0.135
 """Step over radius of convergence: ``0.135^ORDER`` is below rounding."""
 NO_SLIP = 1e-13
 """Slip velocity, relative to the drive and the speed along the wall, that counts as none."""
-
 NO_PUSH = 1e-13
 """Normal force, relative to its parts, that counts as none."""
+NO_TURN = 1e-15
+"""Distance along the wall that counts as none."""
+NEWTON_STEPS = 8
+"""Far more than a zero needs that rounding does not blur."""
 
 
 @kernel
 def rub_series(rotor, plane, amplitudes, phase, work):
-    """Fill the Taylor coefficients of a lasting contact that starts with these amplitudes.
+    """Fill the Taylor coefficients of a lasting contact, or of a flight, that starts with these amplitudes.
 
     ``work.series`` (ORDER + 1, N) receives those of the amplitudes, ``work.push`` those of the normal force, ``work.grip``
     those of the friction force along growing angle and ``work.slip`` those of the slip velocity.
@@ -83,7 +92,7 @@ def rub_series(rotor, plane, amplitudes, phase, work):
         force = 0j
         if phase == ROLLING:
             force = -drive * drive * work.position[k] - free
-        else:
+        elif phase != LEAVING:
             for j in range(k + 1):
                 force -= work.push[j] * work.position[k - j]
             force *= complex(1.0, -slope)
@@ -159,21 +168,54 @@ def first_transition(rotor, plane, phase, step, work):
     slip_stops : bool
     """
     friction = rotor.friction[plane]
-    sign = -1.0 if phase == BACKWARD_SLIP else 1.0
-    for k in range(ORDER + 1):
-        if phase == ROLLING:
+    push_rounding = _push_rounding(rotor, plane, work.series[0], work.speed[0])
+    first = _first_fall(work.push, step, push_rounding)
+    following = LEAVING if first < step else phase
+    if phase == ROLLING:
+        for k in range(ORDER + 1):
             work.first_margin[k] = friction * work.push[k] - work.grip[k]
             work.second_margin[k] = friction * work.push[k] + work.grip[k]
-        else:
-            work.first_margin[k] = work.push[k]
-            work.second_margin[k] = sign * work.slip[k]
-    first = _first_zero(work.first_margin, step)
-    second = _first_zero(work.second_margin, first)
-    if second < first:
-        return second, (FORWARD_SLIP if phase == ROLLING else phase), phase != ROLLING
-    if first < step:
-        return first, (BACKWARD_SLIP if phase == ROLLING else LEAVING), False
-    return step, phase, False
+        rounding = (1.0 + friction) * push_rounding
+        backward = _first_fall(work.first_margin, first, rounding)
+        forward = _first_fall(work.second_margin, backward, rounding)
+        if forward < backward:
+            return forward, FORWARD_SLIP, False
+        if backward < first:
+            return backward, BACKWARD_SLIP, False
+        return first, following, False
+    sign = -1.0 if phase == BACKWARD_SLIP else 1.0
+    for k in range(ORDER + 1):
+        work.first_margin[k] = sign * work.slip[k]
+    stop = _first_fall(work.first_margin, first, _slip_rounding(rotor, plane, work.speed[0]))
+    if stop < first:
+        return stop, phase, True
+    return first, following, False
+
+
+@kernel
+def lift_off(rotor, plane, amplitudes, horizon, work):
+    """Follow a flight that starts at rest on the wall, in place, to its return or to the end of a Taylor step.
+
+    There ``|y|² − 1 = 2∬N`` with ``N = Re(ȳÿ) + |ẏ|²``, so the series of ``N`` give the distance from the wall without
+    cancellation, from a departure as ``N't³/3`` on.
+
+    Returns
+    -------
+    time : float
+        Zero if it does not leave at all.
+    returned : bool
+        Whether it is back on the wall.
+    """
+    rub_series(rotor, plane, amplitudes, LEAVING, work)
+    step = min(rub_step(work), horizon)
+    for k in range(ORDER + 1):
+        work.first_margin[k] = -2.0 * work.push[k] / ((k + 1) * (k + 2))
+    time = _first_fall(work.first_margin, step, _push_rounding(rotor, plane, amplitudes, work.speed[0]))
+    sum_series(work, time, amplitudes)
+    returned = time < step
+    if returned:
+        set_on_wall(rotor, plane, amplitudes)
+    return time, returned
 
 
 @kernel
@@ -181,7 +223,7 @@ def turn_ahead(reference, direction, step, work):
     """Time within a step at which the rotor next passes a reference position in a turning direction, or the step."""
     for k in range(ORDER + 1):
         work.first_margin[k] = -direction * (reference.conjugate() * work.position[k]).imag
-    return _first_zero(work.first_margin, step)
+    return _first_fall(work.first_margin, step, NO_TURN)
 
 
 @kernel
@@ -196,45 +238,74 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
 
 
 @kernel
-def _first_zero(margin, step):
-    """First zero of a polynomial margin on ``0 < t ≤ step``, or ``step``; certified for the polynomial.
+def _first_fall(margin, step, rounding):
+    """Time within a step at which a polynomial margin falls through zero, or the step; certified for the polynomial.
 
-    A margin that is zero to rounding at the start and grows from there is looked at as ``margin/t``.
+    That is the last zero before its first fall below minus its rounding error; zero if it is negative all the way.
     """
-    size = 0.0
-    power = step
-    for k in range(1, ORDER + 1):
-        size += abs(margin[k]) * power
-        power *= step
-    if margin[0] > size:
-        return step
-    first = 0
-    if abs(margin[0]) <= NO_SLIP * (size + abs(margin[0])):
-        if margin[1] <= 0.0:
-            return 0.0
-        first = 1
-    curvature = 0.0
+    reach, curvature = 0.0, 0.0
     power = 1.0
-    for k in range(first + 2, ORDER + 1):
-        curvature += (k - first) * (k - first - 1) * abs(margin[k]) * power
+    for k in range(1, ORDER + 1):
         power *= step
-    time = 0.0
-    while time < step:
-        value, slope = margin[ORDER], 0.0
-        for k in range(ORDER - 1, first - 1, -1):
-            slope = slope * time + value
-            value = value * time + margin[k]
-        if value <= 0.0:
-            return time
-        root = math.sqrt(slope * slope + 2.0 * curvature * value)
+        reach += abs(margin[k]) * power
+        curvature += k * (k - 1) * abs(margin[k]) * power
+    if margin[0] + rounding > reach:
+        return step
+    curvature /= step * step
+    time, value, slope = 0.0, margin[0], margin[1]
+    while value > -rounding:
+        height = value + rounding
+        root = math.sqrt(slope * slope + 2.0 * curvature * height)
         if slope <= 0.0:
-            advance = 2.0 * value / (root - slope) if root > slope else step
+            advance = 2.0 * height / (root - slope) if root > slope else step
         else:
             advance = (root + slope) / curvature if curvature > 0.0 else step
+        if time + advance >= step:
+            return step
         if time + advance <= time * (1.0 + 4e-16):
-            return time
+            break
         time += advance
-    return step
+        value, slope = _value_and_slope(margin, time)
+    return _zero_before(margin, time)
+
+
+@kernel
+def _zero_before(margin, time):
+    """Last zero of a margin before a time at which it is negative by its rounding error, or 0."""
+    latest = time
+    for _ in range(NEWTON_STEPS):
+        value, slope = _value_and_slope(margin, time)
+        if slope >= 0.0:
+            return time
+        before = time
+        time = min(max(time - value / slope, 0.0), latest)
+        if abs(time - before) <= 2e-16 * time:
+            break
+    return time
+
+
+@kernel
+def _value_and_slope(margin, time):
+    value, slope = margin[ORDER], 0.0
+    for k in range(ORDER - 1, -1, -1):
+        slope = slope * time + value
+        value = value * time + margin[k]
+    return value, slope
+
+
+@kernel
+def _push_rounding(rotor, plane, amplitudes, speed):
+    """Rounding error of the normal force."""
+    size = squared_modulus(speed)
+    for m in range(amplitudes.shape[0]):
+        size += abs(rotor.acceleration_rows[plane, m] * amplitudes[m])
+    return NO_PUSH * size
+
+
+@kernel
+def _slip_rounding(rotor, plane, speed):
+    """Rounding error of the slip velocity."""
+    return NO_SLIP * (abs(rotor.drive[plane]) + math.sqrt(squared_modulus(speed)))
 
 
 @kernel
@@ -252,26 +323,26 @@ def wall_push(rotor, plane, amplitudes):
     inward = (position.conjugate() * free).real
     turning = (position.conjugate() * speed).imag
     change = (position.conjugate() * jerk).real + 3.0 * (speed.conjugate() * free).real
-    return inward + turning * turning, change, NO_PUSH * (abs(inward) + turning * turning)
+    return inward + turning * turning, change, _push_rounding(rotor, plane, amplitudes, speed)
 
 
 @kernel
-def next_phase(rotor, plane, amplitudes):
+def next_phase(rotor, plane, amplitudes, phase):
     """Kind of motion that goes on from rest against the wall (``|y| = 1``, no radial speed, pressed outward).
 
     Where the slip is zero it rolls if the friction this needs lies within the cone, and else slips to the side that the
-    missing friction leaves it to.
+    missing friction leaves it to.  Without friction it goes on to slip, to the other side than in the phase before.
     """
     position = unit(displacement(rotor, plane, amplitudes))
-    speed = (position.conjugate() * velocity(rotor, plane, amplitudes)).imag
-    slip = rotor.drive[plane] + speed
-    if abs(slip) > NO_SLIP * (abs(speed) + abs(rotor.drive[plane])):
+    speed = velocity(rotor, plane, amplitudes)
+    slip = rotor.drive[plane] + (position.conjugate() * speed).imag
+    if abs(slip) > _slip_rounding(rotor, plane, speed):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    free = 0j
-    for m in range(amplitudes.shape[0]):
-        free += rotor.acceleration_rows[plane, m] * amplitudes[m]
-    pull = (position.conjugate() * free).imag
-    push, _, _ = wall_push(rotor, plane, amplitudes)
-    if abs(pull) <= rotor.friction[plane] * push:
+    push, _, rounding = wall_push(rotor, plane, amplitudes)
+    pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
+    missing = abs(pull) - rotor.friction[plane] * max(push, 0.0)
+    if missing > rounding:
+        return FORWARD_SLIP if pull > 0.0 else BACKWARD_SLIP
+    if rotor.friction[plane] > 0.0:
         return ROLLING
-    return FORWARD_SLIP if pull > 0.0 else BACKWARD_SLIP
+    return BACKWARD_SLIP if phase == FORWARD_SLIP else FORWARD_SLIP

@@ -94,13 +94,13 @@ def _derivative_bounds(exponents: np.ndarray, driven: np.ndarray, duration: floa
 
     ``g`` is the growth of the fastest growing exponential over the block and ``λ_s`` runs between the pair's exponents.
     """
-    bounds = np.empty((4, len(exponents)))
+    bounds = np.empty((3, len(exponents)))
     for k, exponent in enumerate(exponents):
         drives = k + 1 < len(exponents) and driven[k + 1]
         pair = [exponent, exponents[k + 1]] if drives else [exponent]
         largest = max(abs(value) for value in pair)
         growth = np.exp(max(0.0, *(value.real * duration for value in pair)))
-        for n in (1, 2, 3, 4):
+        for n in (1, 2, 3):
             polynomial = duration * largest**n + n * largest ** (n - 1) if drives else largest**n
             bounds[n - 1, k] = polynomial * growth
     return bounds
