@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -65,6 +66,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     int
         Exit code: 0; 1 for a failure that is not the user's; 2 for input that cannot be used; 130 if interrupted.
     """
+    if sys.stdout is None:  # closed by the caller: output goes nowhere
+        sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
         code = app(args=words, prog_name="carom", standalone_mode=False)
@@ -81,7 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return FAILURE
     except OSError as problem:
         where = f" ({problem.filename})" if problem.filename else ""
-        return _complain(f"{problem.strerror or problem}{where}", FAILURE)
+        return _complain(f"cannot read or write{where}: {problem.strerror or problem}", FAILURE)
     except Exception as problem:  # the last resort: no traceback reaches a user
         if os.environ.get("CAROM_DEBUG") == "1":
             raise

@@ -117,7 +117,7 @@ def _write_whole(option: str, path: str, write: Callable[[Path], None]) -> None:
         write(part)
         part.replace(target)
     except OSError as problem:
-        reason = problem.strerror or str(problem)
+        reason = os.strerror(problem.errno) if problem.errno else "this file system refuses"
         raise InputError(option, path, f"cannot be written ({reason}); give another path") from None
     finally:
         with suppress(OSError):

@@ -15,8 +15,8 @@ def orbits(
     machine: MachineFile,
     settings: Settings = None,
     longest_period: Annotated[
-        float | None,
-        typer.Option(metavar="T", help="Search only periods up to T, in 1/Omega; by default all of them."),
+        str | None,
+        typer.Option(metavar="T", help="Search only periods up to T, in 1/Omega or with a unit; by default all."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -27,6 +27,11 @@ def orbits(
     from carom.parameters import load_case
 
     case = load_case(machine, settings or ())
+    longest = None
+    if longest_period is not None:
+        from carom.cli.starts import read_time
+
+        longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)"):
         from carom.equilibria import equilibria
         from carom.orbits import single_impact_orbits
@@ -35,7 +40,7 @@ def orbits(
 
         rotor = jeffcott(case.parameters)
         steady = equilibria(rotor)
-        found = all_orbits(rotor) if longest_period is None else single_impact_orbits(rotor, longest_period)
+        found = all_orbits(rotor) if longest is None else single_impact_orbits(rotor, longest)
     if as_json:
         print_document(orbits_document(case.parameters, steady, found, case.machine))
         return

@@ -58,17 +58,17 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
     )
 
 
-def read_time(text: str, scales: Scales | None) -> float:
+def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:
     """Read a time in ``1/Ω``, or with a unit of time.
 
     Raises
     ------
     InputError
-        Naming ``--until``.
+        Naming the option.
     """
-    time = _number("--until", text, "time", scales)
+    time = _number(option, text, "time", scales)
     if not time > 0:
-        raise InputError("--until", text, "must be a time above 0, such as 500 or '2 s'")
+        raise InputError(option, text, "must be a time above 0, such as 500 or '2 s'")
     return time
 
 

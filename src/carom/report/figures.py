@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from carom import plots
 from carom.orbits import Orbit, OrbitSet, period_condition
 from carom.outcome import Outcome
+from carom.parameters import Zones
 from carom.study import Study
 from carom.study.disturbances import Disturbance, Ending
 
@@ -95,12 +96,20 @@ def _of_orbit(study: Study, orbit: Orbit) -> Iterator[Picture]:
         "shaft, where it repeats; right as seen from outside.",
         lambda: plots.orbit(orbit),
     )
+    zones = _zones(study, np.abs(orbit.path(np.linspace(0.0, orbit.period, 400))))
+    shades = "shaded are the zones of amplitude" if zones else "all of it in zone D"
     yield Picture(
         f"radius-{file}",
         "motions",
-        f"Distance of the rotor centre from the bearing centre on orbit {orbit.name}; shaded are the zones of amplitude.",
-        lambda: plots.radius(orbit, study.case.zones),
+        f"Distance of the rotor centre from the bearing centre on orbit {orbit.name}; {shades}.",
+        lambda: plots.radius(orbit, zones),
     )
+
+
+def _zones(study: Study, radii: np.ndarray) -> Zones | None:
+    """Zones to draw; none where a motion never leaves the last one, so that it is drawn enlarged."""
+    zones = study.case.zones
+    return zones if float(radii.min()) <= zones.limits[-1] else None
 
 
 def _of_disturbances(study: Study) -> Iterator[Picture]:
@@ -118,7 +127,7 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
 
 def _example(members: tuple[Disturbance, ...]) -> Disturbance:
     """The one with contacts that settles first, as the easiest to read."""
-    struck = [member for member in members if member.impacts > 1] or list(members)
+    struck = [member for member in members if member.touches] or list(members)
     return min(struck, key=lambda member: member.time)
 
 
@@ -133,7 +142,8 @@ def _history(study: Study, example: Disturbance) -> Figure:
     """Radius over time until the motion has settled; for levitation a little longer, to show that it dies out."""
     decay = -float(study.rotor.eigenvalues.real.max())
     tail = SHOWN_TAIL / decay if example.recovers and decay > 0 else 0.0
-    return plots.radius(example.trajectory(study.rotor, tail), study.case.zones)
+    motion = example.trajectory(study.rotor, tail)
+    return plots.radius(motion, _zones(study, motion.radius(motion.sample())))
 
 
 def _condition(orbits: OrbitSet) -> Picture:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from carom.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.equilibria import Equilibrium, equilibria
 from carom.orbits import Orbit, OrbitSet, single_impact_orbits
 from carom.outcome import InputError
@@ -42,8 +43,10 @@ class Study:
         Orbits with one impact a period.
     ranges : tuple of MotionRange
         For which damping and which stiffness each motion exists, the other parameters fixed.
+    boundaries : tuple of BoundaryEquilibrium
+        Where, along damping and stiffness, the contact-free motion meets the wall, and what happens there.
     disturbances : Trials
-        Simulated disturbances and their fates.
+        Simulated disturbances and where they end.
     """
 
     case: Case
@@ -51,6 +54,7 @@ class Study:
     equilibria: tuple[Equilibrium, ...]
     orbits: OrbitSet
     ranges: tuple[MotionRange, ...]
+    boundaries: tuple[BoundaryEquilibrium, ...]
     disturbances: Trials
 
     @property
@@ -138,8 +142,10 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     stable = [orbit for orbit in orbits if orbit.admissible and orbit.stable]
     tell(0.3, "disturbances")
     trials = simulate_disturbances(rotor, stable, lambda share: tell(0.3 + 0.1 * share, "disturbances"))
-    ranges = _ranges(parameters, lambda share: tell(0.4 + 0.6 * share, "thresholds of damping and stiffness"))
-    return Study(case, rotor, equilibria(rotor), orbits, ranges, trials)
+    ranges = _ranges(parameters, lambda share: tell(0.4 + 0.5 * share, "thresholds of damping and stiffness"))
+    tell(0.9, "loss of levitation")
+    boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
+    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, trials)
 
 
 def all_orbits(rotor: Rotor) -> OrbitSet:
@@ -161,7 +167,7 @@ def all_orbits(rotor: Rotor) -> OrbitSet:
 
 def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:
     found: list[MotionRange | None] = []
-    gains: tuple[Gain, ...] = ("gamma", "omega") if parameters.gamma >= 0 else ("gamma",)
+    gains = _gains(parameters)
     for place, gain in enumerate(gains):
 
         def tell(share: float, place: int = place) -> None:
@@ -170,6 +176,11 @@ def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[
         found += [contact_free_range(parameters, gain), rub_range(parameters, gain), rolling_range(parameters, gain)]
         found.append(single_impact_range(parameters, gain, tell))
     return tuple(entry for entry in found if entry is not None)
+
+
+def _gains(parameters: Parameters) -> tuple[Gain, ...]:
+    """Without damping nothing comes back whatever the stiffness, so stiffness is not looked at then."""
+    return ("gamma", "omega") if parameters.gamma >= 0 else ("gamma",)
 
 
 def _as_case(subject: Case | Machine | Parameters) -> Case:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.boundary import BoundaryEquilibrium
 from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
@@ -91,6 +92,7 @@ def study_document(study: Study) -> dict[str, Any]:
         },
         "thresholds": [_threshold(entry, say) for entry in study.thresholds],
         "ranges": [_range(entry) for entry in study.ranges],
+        "boundaries": [_boundary(entry, say) for entry in study.boundaries],
         "levitation_alone": {gain: _free(study, gain) for gain in study.gains},
         "disturbances": _trials(study.disturbances, case.parameters.scales),
         "not_covered": list(NOT_COVERED),
@@ -156,6 +158,30 @@ def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
     if say.scales is not None:
         document["quantity"] = say.gain_name(entry.gain)
         document["value_si"] = say.gain_in_si(entry.gain, entry.edge.value)
+    return document
+
+
+def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
+    document: dict[str, Any] = {
+        "parameter": entry.gain,
+        "value": entry.value,
+        "levitates": entry.levitates,
+        "kind": entry.kind,
+        "orbits": [
+            {
+                "name": orbit.name,
+                "levitating_side": orbit.levitating_side,
+                "stable": orbit.stable,
+                "period": orbit.period,
+            }
+            for orbit in entry.orbits
+            if orbit.admissible
+        ],
+        "complete": entry.complete,
+    }
+    if say.scales is not None:
+        document["quantity"] = say.gain_name(entry.gain)
+        document["value_si"] = say.gain_in_si(entry.gain, entry.value)
     return document
 
 

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carom.parameters import Parameters
+from carom.rotors import jeffcott
+from carom.whirl import rolling
 
 __all__ = [
     "Edge",
@@ -24,7 +26,6 @@ __all__ = [
     "outside",
     "rolling_range",
     "rub_range",
-    "runaway_whirl_speed",
 ]
 
 Gain = Literal["gamma", "omega"]
@@ -233,11 +234,9 @@ def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
 
 
 def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
-    """Where rolling round the bearing in backward whirl sustains itself.
+    """Where the rotor, once it rolls round the bearing in backward whirl, goes on rolling at every angle.
 
-    Rolling is ``1 + θ̇ = −s`` with ``s`` the ratio of radii.  It needs the normal force ``N = s² − ω² + ρ cos x`` and the
-    friction ``ρ sin x − γs`` (components of (2.13) of the source paper along ``e^{iθ}`` and ``ie^{iθ}``), which must stay
-    within ``μN`` at every angle ``x`` it comes by: ``γs + ρ√(1 + μ²) ≤ μ(s² − ω²)``, for ``γ ≥ 0``.
+    ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)``, derived in :mod:`carom.whirl`.
 
     Parameters
     ----------
@@ -251,34 +250,13 @@ def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
     MotionRange
     """
     rho, mu, ratio = parameters.rho, parameters.mu, parameters.radius_ratio
-    pull = rho * math.hypot(1.0, mu)
     if gain == "gamma":
-        limit = (mu * (ratio**2 - parameters.omega**2) - pull) / ratio
+        limit = rolling(jeffcott(parameters)).largest_damping
     else:
-        limit = ratio**2 - (parameters.gamma * ratio + pull) / mu if mu > 0 else -1.0
-        limit = math.sqrt(limit) if limit > 0 else -1.0
+        pull = rho * math.hypot(1.0, mu)
+        square = ratio**2 - (parameters.gamma * ratio + pull) / mu if mu > 0 else 0.0
+        limit = math.sqrt(square) if square > 0 else 0.0
     return MotionRange("rolling", gain, (Span(ZERO, Edge(limit, "rolling-limit")),) if limit > 0 else ())
-
-
-def runaway_whirl_speed(parameters: Parameters) -> float:
-    """Speed of backward whirl beyond which sliding friction feeds the whirl until the rotor rolls.
-
-    While it slides along the wall with the whirl speed ``w = −(1 + θ̇)`` in the fixed frame,
-    ``ẇ = μ(w² − ω²) − γw`` but for the unbalance, whose share averages out over a turn.  That is positive beyond
-
-        w = (γ + √(γ² + 4μ²ω²))/(2μ).
-
-    Parameters
-    ----------
-    parameters : Parameters
-
-    Returns
-    -------
-    float
-        In ``Ω``, and in ``c_r Ω`` as the speed of the rotor centre; infinite without friction.
-    """
-    gamma, mu = parameters.gamma, parameters.mu
-    return (gamma + math.hypot(gamma, 2.0 * mu * parameters.omega)) / (2.0 * mu) if mu > 0 else math.inf
 
 
 def _leg(hypotenuse: float, leg: float) -> float:

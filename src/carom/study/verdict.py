@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Literal
 
 from carom.outcome import Outcome
 from carom.study.disturbances import Trials
-from carom.study.ranges import Gain, Motion, MotionRange, Span, common, outside, rolling_range, runaway_whirl_speed
+from carom.study.ranges import Gain, Motion, MotionRange, Span, common, outside
 from carom.study.wording import counted, listed, number
+from carom.whirl import rolling, runaway_speed
 
 if TYPE_CHECKING:
     from carom.equilibria import Equilibrium
@@ -23,6 +24,8 @@ __all__ = ["NOT_COVERED", "Finding", "Level", "Verdict", "free_spans", "verdict"
 
 Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
 
+GRAVITY = 9.80665
+"""Standard acceleration of free fall, m/s²."""
 NOT_COVERED = (
     "Disturbances other than those simulated. They are samples: one between them, or a larger one, may end elsewhere.",
     (
@@ -119,7 +122,7 @@ def _headline(study: Study) -> tuple[Level, str]:
             f"It levitates without contact, but after a touch it may not come back: {listed(holds)}.",
         )
     text = "It levitates without contact and came back from every disturbance tried."
-    if _can_roll(study):
+    if rolling(study.rotor).holds:
         text = f"{text[:-1]}; only backward whirl is known to be able to hold it."
     return "all-tried-came-back", f"{text} That is no guarantee: see what is not covered."
 
@@ -159,7 +162,29 @@ def _levitation(study: Study) -> str:
     decay = -float(levitation.eigenvalues.real.max())
     if not levitation.stable:
         return text + "But nothing damps it: a disturbance does not die out."
-    return text + f"Disturbances that do not reach the wall die out, with a time constant of {say.time(1.0 / decay)}."
+    text += f"Disturbances that do not reach the wall die out, with a time constant of {say.time(1.0 / decay)}."
+    return " ".join([text, *_loss_of_levitation(study)])
+
+
+def _loss_of_levitation(study: Study) -> list[str]:
+    """How levitation ends if one gain is turned far enough from where it is."""
+    say = study.wording
+    places: dict[str, list[str]] = {}
+    for boundary in study.boundaries:
+        own = getattr(study.case.parameters, boundary.gain)
+        if (boundary.value < own) != (boundary.levitates == "above"):
+            continue  # beyond the range in which this machine levitates
+        moves = "falls" if boundary.levitates == "above" else "rises"
+        where = f"{say.gain_name(boundary.gain)} {moves} to {say.gain(boundary.gain, boundary.value)}"
+        places.setdefault(_LOSS[boundary.kind], []).append(where)
+    return [f"Where {' or '.join(where)}, {what}." for what, where in places.items()]
+
+
+_LOSS = {
+    "persistence": "it goes over into a synchronous rub that begins without force",
+    "non-smooth fold": "it meets an unstable synchronous rub and both vanish, so that the rotor must go somewhere else",
+    "degenerate": "it ends on the wall",
+}
 
 
 def _rub(study: Study) -> str:
@@ -185,7 +210,7 @@ def _rub_load(study: Study, rub: Equilibrium) -> str:
     say, parameters = study.wording, study.case.parameters
     friction = parameters.mu * rub.normal_force
     slip = parameters.radius_ratio + 1.0
-    text = say.force(rub.normal_force)
+    text = _with_weight(study, rub.normal_force)
     if friction > 0:
         text += (
             f", and friction of {say.force(friction)} at a slip of {say.velocity(slip)} would heat the contact with "
@@ -282,23 +307,33 @@ _STEADY = (Outcome.LEVITATED, Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outco
 
 
 def _backward_whirl(study: Study) -> str:
-    say, parameters = study.wording, study.case.parameters
-    rolling = rolling_range(parameters, "gamma")
-    if not rolling.spans:
-        return "Friction is too weak to keep the rotor rolling backward round the bearing, whatever the damping."
-    limit = say.gain("gamma", rolling.spans[0].high.value)
-    if not _can_roll(study):
+    say, gamma = study.wording, study.case.parameters.gamma
+    roll, runaway = rolling(study.rotor), runaway_speed(study.rotor)
+    bound = say.gain("gamma", roll.damping_bound)
+    if roll.damping_bound <= 0.0:
+        return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
+    if gamma > roll.damping_bound:
+        return f"Damping is so strong that no backward whirl in lasting contact sustains itself (that takes {bound})."
+    if not roll.holds:
         return (
-            f"The rotor cannot roll on backward round the bearing: that needs {say.gain_name('gamma')} below {limit}."
+            "The rotor cannot roll backward round the bearing for a whole turn, but backward whirl that slides for a part of "
+            f"each turn is not ruled out; {say.gain_name('gamma')} above {bound} would rule it out."
         )
-    force = parameters.radius_ratio**2 - parameters.omega**2
-    speed = runaway_whirl_speed(parameters)
     return (
-        f"Dry friction can drive the rotor backward round the bearing until it rolls there with {say.force(force)}, which "
-        "is destructive. Once it rolls, it goes on rolling: damping would have to exceed "
-        f"{limit} to prevent that. It gets there if, in lasting contact, its centre moves backward faster than "
-        f"about {say.velocity(speed)} ({number(speed, 3)} times the speed of the shaft)."
+        f"Dry friction can drive the rotor backward round the bearing until it rolls there with "
+        f"{_with_weight(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
+        f"{bound} rules that out. It surely gets there if, in lasting contact, its centre moves backward faster than "
+        f"{say.velocity(runaway.certain)} ({number(runaway.certain, 3)} times the speed of the shaft), and may from about "
+        f"{say.velocity(runaway.average)} on."
     )
+
+
+def _with_weight(study: Study, force: float) -> str:
+    """A force, and how many times the weight of the rotor that is."""
+    text, scales = study.wording.force(force), study.rotor.scales
+    if scales is None:
+        return text
+    return f"{text} ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)"
 
 
 def _remedies(study: Study) -> str:
@@ -331,11 +366,6 @@ _POSSIBLE: dict[Motion, str] = {
     "rub": "a synchronous rub can hold the rotor",
     "single-impact": "orbits with one impact a period are possible",
 }
-
-
-def _can_roll(study: Study) -> bool:
-    parameters = study.case.parameters
-    return rolling_range(parameters, "gamma").exists_at(abs(parameters.gamma))
 
 
 def _rolling_concerns(study: Study, gain: Gain) -> bool:
