@@ -1,0 +1,186 @@
+"""The constants of a block of flight: its polynomial is as near as its error bound says, its derivatives below theirs."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from flights import parameters
+from reference import Flight, plane_flight
+
+from carom.core import table as tables
+from carom.core.layout import DEGREE, rotor_record
+from carom.core.table import flight_table
+from carom.rotors import jeffcott
+
+EPSILON = 2.0**-52
+MACHINES = [
+    (0.1, 0.76),
+    (1e-3, 1.0),
+    (0.0, 3.0),
+    (10.0, 0.1),
+    (10.0, 3.0),
+    (1.52, 0.76),
+    (1.52 * (1 + 1e-12), 0.76),
+    (1e3, 1e3),
+    (-0.5, 0.8),
+    (-10.0, 0.5),
+]
+
+
+def general_arrays(seed: int):
+    """Four modes with a pair, one of them growing."""
+    random = np.random.default_rng(seed)
+    exponents = random.uniform(-1.0, 0.5, 4) + 1j * random.uniform(-3.0, 3.0, 4)
+    exponents[:2] = sorted(exponents[:2], key=lambda value: value.real)
+    return rotor_record(
+        exponents=exponents,
+        driven=np.array([False, True, False, False]),
+        offsets=np.array([0.2 + 0.1j]),
+        rows=random.normal(size=(1, 4)) + 1j * random.normal(size=(1, 4)),
+        columns=np.ones((4, 1), complex),
+        friction=np.zeros(1),
+        restitution=np.ones(1),
+        drive=np.ones(1),
+    )
+
+
+def all_arrays():
+    yield from (jeffcott(parameters(*machine)).arrays for machine in MACHINES)
+    yield from (general_arrays(seed) for seed in range(6))
+
+
+@pytest.fixture(params=range(len(MACHINES) + 6))
+def arrays(request):
+    return list(all_arrays())[request.param]
+
+
+def polynomial_of(arrays, table, amplitudes):
+    """Bernstein coefficients 0 … DEGREE of ``|y|² − 1`` on a block, and the bound of their error at its end.
+
+    Written down from the sum in the docstring of the module, not from the kernel.
+    """
+    offset = arrays.offsets[0]
+    weights = arrays.rows[0] * amplitudes
+    for k in np.flatnonzero(arrays.driven):
+        weights[k] += arrays.rows[0, k - 1] * amplitudes[k - 1]
+        gap = arrays.exponents[k] - arrays.exponents[k - 1]
+        weights[k - 1] = (arrays.rows[0, k] - gap * arrays.rows[0, k - 1]) * amplitudes[k - 1]
+    start = offset + arrays.rows[0] @ amplitudes
+    products = []
+    for weight in weights:
+        products += [(start.conjugate() * weight).real, (start.conjugate() * weight).imag]
+    for j, first in enumerate(weights):
+        products.append(abs(first) ** 2)
+        for second in weights[j + 1 :]:
+            pair = first * second.conjugate()
+            products += [pair.real, pair.imag]
+    products = np.array(products)
+    level = abs(start) ** 2 - 1.0
+    return np.append(level, level + products @ table.coefficients), np.abs(products) @ table.errors
+
+
+def bernstein(coefficients, share):
+    degree = len(coefficients) - 1
+    j = np.arange(degree + 1)
+    binomials = np.array([math.comb(degree, i) for i in j])
+    return float((coefficients * binomials * share**j * (1.0 - share) ** (degree - j)).sum())
+
+
+def flight_of(arrays, amplitudes) -> Flight:
+    driven = arrays.driven.astype(bool)
+    return plane_flight(arrays.offsets[0], arrays.rows[0], arrays.exponents, driven, amplitudes)
+
+
+def test_the_polynomial_errs_by_less_than_its_bound(arrays):
+    """At any time of the block, in proportion to that time."""
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    random = np.random.default_rng(5)
+    modes = len(arrays.exponents)
+    for _ in range(20):
+        amplitudes = random.normal(size=modes) + 1j * random.normal(size=modes)
+        coefficients, error = polynomial_of(arrays, table, amplitudes)
+        flight = flight_of(arrays, amplitudes)
+        rounding = 64 * EPSILON * flight.spread(float(table.duration)) ** 2
+        for share in (*np.linspace(0.0, 1.0, 41), 1e-3, 1e-6, 1.0 - 1e-6):
+            exact = float(flight.level(share * float(table.duration))[0])
+            assert abs(bernstein(coefficients, share) - exact) <= error * share + rounding
+
+
+def test_each_row_errs_by_less_than_its_bound_and_not_by_much_less(arrays):
+    """Rows that are not all rounding come within a factor of 100 of their bound: the bound is of use."""
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    times = np.linspace(0.0, 1.0, 2001)[1:]
+    exact = tables._rows(arrays.exponents, arrays.driven.astype(bool), times * table.duration) * table.duration * times
+    j = np.arange(1, DEGREE + 1)
+    binomials = np.array([math.comb(DEGREE, i) for i in j])
+    basis = binomials * times[:, None] ** j * (1.0 - times[:, None]) ** (DEGREE - j)
+    worst = np.abs(basis @ table.coefficients.T - exact.T).max(axis=0)
+    assert np.all(worst <= table.errors)
+    telling = table.errors > 1e-9 * np.abs(exact).max(axis=1)
+    assert np.all(worst[telling] >= 0.01 * table.errors[telling])
+
+
+def test_basis_functions_against_many_digits(arrays):
+    driven = arrays.driven.astype(bool)
+    table = flight_table(arrays.exponents, driven)
+    times = np.array([1e-6, 0.1, 0.6, 1.0]) * table.duration
+    for k, values in enumerate(tables._basis(arrays.exponents, driven, times)):
+        for time, value in zip(times, values, strict=True):
+            exact = derivative_of_basis(arrays, k, 0, float(time))
+            assert abs(value - exact) <= 32 * EPSILON * max(abs(exact), abs(arrays.exponents[k]) * time * abs(exact))
+
+
+def derivative_of_basis(arrays, k: int, order: int, time: float) -> complex:
+    """``order``-th derivative of a basis function, with 50 digits."""
+    with mpmath.workdps(50):
+        rate = mpmath.mpc(complex(arrays.exponents[k]))
+        if k + 1 < len(arrays.exponents) and arrays.driven[k + 1]:
+            upper = mpmath.mpc(complex(arrays.exponents[k + 1]))
+            if upper == rate:
+                term = order * rate ** (order - 1) if order else 0
+                return complex((rate**order * time + term) * mpmath.exp(rate * time))
+            powers = upper**order * mpmath.exp(upper * time) - rate**order * mpmath.exp(rate * time)
+            return complex(powers / (upper - rate))
+        return complex(rate**order * mpmath.exp(rate * time) - (0 if order else 1))
+
+
+def test_derivative_bounds_bound(arrays):
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    for k in range(len(arrays.exponents)):
+        for order in (1, 2, 3):
+            for share in np.linspace(0.0, 1.0, 21):
+                value = derivative_of_basis(arrays, k, order, share * float(table.duration))
+                assert abs(value) <= table.bounds[order - 1, k] * (1 + 4 * EPSILON)
+
+
+def test_the_computed_tail_is_the_whole_tail(arrays):
+    """With twice as many Chebyshev points the error bounds do not change: nothing hides behind the last one."""
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    points = 2 * tables.SAMPLES
+    # Whole turns are taken off in whole numbers, which keeps the cosines exact to rounding.
+    turns = np.outer(2 * np.arange(points) + 1, np.arange(points)) % (4 * points)
+    cosines = np.cos(np.pi * turns / (2 * points))
+    times = (0.5 + 0.5 * cosines[:, 1]) * float(table.duration)
+    rows = tables._rows(arrays.exponents, arrays.driven.astype(bool), times) * float(table.duration)
+    series = np.abs(rows @ cosines) * 2.0 / points
+    tail = 2.0 * series[:, DEGREE:].sum(axis=1)
+    # Each of the coefficients carries a rounding error of the whole; a real part that of its imaginary part, next to it.
+    size = np.abs(rows).max(axis=1)
+    size = np.max([size, np.roll(size, 1), np.roll(size, -1)], axis=0)
+    rounding = 4.0 * points * EPSILON * size
+    assert np.all(np.abs(table.errors - tail) <= rounding + 2e-14 * series.sum(axis=1))
+
+
+def test_blocks_are_short_enough_for_the_fastest_mode(arrays):
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    assert 0.0 < table.duration <= tables.LONGEST_BLOCK
+    assert np.abs(arrays.exponents).max() * table.duration <= tables.LARGEST_PHASE * (1 + EPSILON)
+
+
+def test_a_rotor_at_rest_has_a_table():
+    table = flight_table(np.zeros(1, complex), np.zeros(1, bool))
+    assert table.duration == tables.LONGEST_BLOCK
+    assert not table.coefficients.any()
