@@ -1,0 +1,420 @@
+"""Pseudo-arclength continuation of ``F(u, p) = 0`` with location of special points.  It knows no rotor.
+
+The branch is a curve in ``x = (u, p)``.  A step predicts along the tangent and corrects by Newton's method in the
+hyperplane normal to it [1]_; the tangent comes from the bordered Jacobian, so folds in ``p`` are ordinary points.
+Functions that are watched along the branch are driven to zero by a bracketed root over the arclength.
+
+References
+----------
+.. [1] Keller, "Numerical solution of bifurcation and nonlinear eigenvalue problems", in: Applications of Bifurcation
+   Theory, Academic Press (1977).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from carom.outcome import CaromError, InputError
+from carom.roots import bracketed_root
+
+__all__ = ["Branch", "SpecialPoint", "Steps", "Watch", "continue_branch"]
+
+Residual = Callable[[np.ndarray, float], np.ndarray]
+StopReason = Literal["parameter limit", "end of domain", "closed loop", "step too small", "most points"]
+
+DIFFERENCE = 6e-6
+"""Step of central differences in scaled unknowns: the third root of rounding."""
+STRAY = 0.3
+"""Largest distance of a corrected point from its prediction, in steps: further off lies another branch."""
+JUMP = 1e-4
+"""What is left of a watched function where it vanishes, relative to its values at the ends of the step; a jump leaves
+more."""
+
+
+@dataclass(frozen=True)
+class Steps:
+    """How to step along a branch, in units of the scaled unknowns.
+
+    Attributes
+    ----------
+    first, smallest, largest : float
+        Arclength of the first step and its limits.  Neighbouring points are no more than 1.05 ``largest`` apart.
+    tolerance : float
+        Largest residual of an accepted point, or largest last correction where rounding leaves a larger residual.
+    iterations : int
+        Newton iterations after which a step is halved.
+    sharpest_turn : float
+        Largest angle between tangents of neighbouring points, in rad.
+    most_points : int
+        Points after which a direction is given up.
+    """
+
+    first: float = 0.01
+    smallest: float = 1e-8
+    largest: float = 0.05
+    tolerance: float = 1e-12
+    iterations: int = 8
+    sharpest_turn: float = 0.2
+    most_points: int = 5000
+
+
+@dataclass(frozen=True)
+class Watch:
+    """A function whose zeros on the branch are special points.
+
+    Attributes
+    ----------
+    kind : str
+        Name of the special point.
+    function : callable
+        Of ``u`` and ``p``; ``nan`` where it is not defined.  A jump from one sign to the other is no zero.
+    ends_branch : bool
+        Whether the branch ends there.
+    """
+
+    kind: str
+    function: Callable[[np.ndarray, float], float]
+    ends_branch: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class SpecialPoint:
+    """A located zero of a watched function.
+
+    Attributes
+    ----------
+    kind : str
+    unknowns : ndarray, shape (n,)
+    parameter : float
+    place : float
+        Where on the branch: index of the point before it plus the fraction of the step.
+    """
+
+    kind: str
+    unknowns: np.ndarray
+    parameter: float
+    place: float
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A curve of solutions in the order of arclength.
+
+    Attributes
+    ----------
+    unknowns : ndarray, shape (m, n)
+    parameters : ndarray, shape (m,)
+    special : tuple of SpecialPoint
+        In the order of ``place``.
+    stops : tuple of two str
+        Why the branch ends at its first and last point: ``"parameter limit"`` (the point lies on it exactly),
+        ``"end of domain"`` (a watch ended it, or the equations are not defined further on), ``"closed loop"`` (the last
+        point is the first), ``"step too small"`` or ``"most points"``.
+    """
+
+    unknowns: np.ndarray
+    parameters: np.ndarray
+    special: tuple[SpecialPoint, ...]
+    stops: tuple[StopReason, StopReason]
+
+    def __len__(self) -> int:
+        return len(self.parameters)
+
+    def of_kind(self, kind: str) -> tuple[SpecialPoint, ...]:
+        """Special points of one kind."""
+        return tuple(point for point in self.special if point.kind == kind)
+
+
+def continue_branch(
+    residual: Residual,
+    unknowns: np.ndarray,
+    parameter: float,
+    interval: tuple[float, float],
+    *,
+    watches: Sequence[Watch] = (),
+    steps: Steps | None = None,
+    scales: np.ndarray | None = None,
+    folds: str = "fold",
+) -> Branch:
+    """Follow the branch of solutions through a point, both ways.
+
+    Parameters
+    ----------
+    residual : callable
+        ``F(u, p)``, as many equations as unknowns; ``nan`` where it is not defined.
+    unknowns : ndarray, shape (n,)
+    parameter : float
+        A solution, or near one: it is corrected first, at fixed parameter where that is possible.
+    interval : tuple of float
+        Range of the parameter.  From a start on its edge the branch is followed inward only.
+    watches : sequence of Watch
+        Functions whose zeros are located.
+    steps : Steps, optional
+    scales : ndarray, shape (n + 1,), optional
+        Typical sizes of the unknowns and the parameter, in which arclength is measured; ones by default.
+    folds : str
+        Kind under which turning points of the parameter are listed; branch points are listed as ``"branch point"``.
+
+    Returns
+    -------
+    Branch
+
+    Raises
+    ------
+    InputError
+        The interval is empty or does not hold the parameter.
+    CaromError
+        No solution near the start.
+    """
+    if not interval[0] <= parameter <= interval[1] or interval[0] >= interval[1]:
+        raise InputError("interval", interval, f"two growing values with {parameter:g} between them")
+    start = np.append(np.asarray(unknowns, float), parameter)
+    sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
+    tracer = _Tracer(residual, sizes, interval, watches, steps or Steps(), folds)
+    first, tangent = tracer.begin(start / sizes)
+    ahead = tracer.walk(first, tangent)
+    behind = _Path([first], [], "closed loop")
+    if ahead.stop != "closed loop":
+        behind = tracer.walk(first, -tangent)
+    return tracer.joined(behind, ahead)
+
+
+@dataclass(eq=False)
+class _Path:
+    """One direction of a branch in scaled unknowns; a special point is its kind, place in space and on the path."""
+
+    points: list[np.ndarray]
+    special: list[tuple[str, np.ndarray, float]]
+    stop: StopReason
+
+
+@dataclass(eq=False)
+class _Stand:
+    """A point of the branch and all that is known there."""
+
+    x: np.ndarray
+    jacobian: np.ndarray
+    tangent: np.ndarray
+    watched: np.ndarray = field(default_factory=lambda: np.empty(0))
+
+
+@dataclass(eq=False)
+class _Tracer:
+    """Steps along a branch in scaled unknowns ``x``."""
+
+    residual: Residual
+    scales: np.ndarray
+    interval: tuple[float, float]
+    watches: Sequence[Watch]
+    steps: Steps
+    folds: str
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        y = x * self.scales
+        return np.asarray(self.residual(y[:-1], float(y[-1])), float)
+
+    def jacobian(self, x: np.ndarray) -> np.ndarray:
+        """Central differences, shape (n, n + 1)."""
+        changes = DIFFERENCE * np.eye(len(x))
+        return np.array([self.value(x + change) - self.value(x - change) for change in changes]).T / (2.0 * DIFFERENCE)
+
+    def begin(self, guess: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """First point and the direction in which the parameter grows there."""
+        jacobian = self.jacobian(guess)
+        if np.isfinite(jacobian).all():
+            level = np.zeros(len(guess))
+            level[-1] = 1.0
+            # At a fold the parameter cannot be kept.
+            for normal in (level, np.linalg.svd(jacobian)[2][-1]):
+                first = self.correct(guess, normal, jacobian)
+                if first is not None and self._inside(first):
+                    tangent = np.linalg.svd(self.jacobian(first))[2][-1]
+                    return first, tangent if tangent[-1] >= 0.0 else -tangent
+        y = guess * self.scales
+        raise CaromError(f"no solution near the start {y[:-1]} at parameter {y[-1]:g}; give a closer one")
+
+    def _inside(self, x: np.ndarray) -> bool:
+        slack = 1e-9 * (self.interval[1] - self.interval[0])
+        return bool(self.interval[0] - slack <= x[-1] * self.scales[-1] <= self.interval[1] + slack)
+
+    def correct(self, guess: np.ndarray, normal: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
+        """Point of the branch in the hyperplane through ``guess``; ``None`` where it is not reached.
+
+        A Jacobian from nearby is used as long as the residual falls to a tenth with each iteration.
+        """
+        x, previous, correction = guess, np.inf, np.inf
+        for _ in range(self.steps.iterations):
+            value = self.value(x)
+            size = float(np.abs(value).max())
+            if not np.isfinite(size):
+                return None
+            good = size <= self.steps.tolerance or correction <= self.steps.tolerance
+            if size > 0.1 * previous and not good:
+                jacobian = self.jacobian(x)
+            change = _solved(jacobian, normal, np.append(-value, -(normal @ (x - guess))))
+            if good:
+                return x if change is None or size > self.steps.tolerance else x + change
+            if change is None:
+                return None
+            x, previous, correction = x + change, size, float(np.abs(change).max())
+        return None
+
+    def walk(self, start: np.ndarray, heading: np.ndarray) -> _Path:
+        """Follow the branch from a point in a direction."""
+        path = _Path([start], [], "most points")
+        here = _Stand(start, self.jacobian(start), heading)
+        here.watched = self._watched(here)
+        length = self.steps.first
+        while len(path.points) < self.steps.most_points:
+            there = self._step(here, length)
+            if there is None:
+                length *= 0.5
+                if length < self.steps.smallest:
+                    path.stop = self._stuck(here)
+                    return path
+                continue
+            there.watched = self._watched(there)
+            if there.watched[0] < 0.0 and here.watched[0] <= 1e-9:
+                path.stop = "parameter limit"
+                return path
+            share = self._return(path, here, there, heading)
+            ending = self._locate(path, here, there, length, share)
+            if ending or share:
+                path.points += [] if ending else [start]
+                path.stop = ending or "closed loop"
+                return path
+            path.points.append(there.x)
+            if here.tangent @ there.tangent > np.cos(0.5 * self.steps.sharpest_turn):
+                length = min(1.5 * length, self.steps.largest)
+            here = there
+        return path
+
+    def _step(self, here: _Stand, length: float) -> _Stand | None:
+        """Next point; ``None`` if the step is too long."""
+        guess = here.x + length * here.tangent
+        x = self.correct(guess, here.tangent, here.jacobian)
+        if x is None or np.linalg.norm(x - guess) > STRAY * length:
+            return None
+        jacobian = self.jacobian(x)
+        tangent = self._tangent(jacobian, here.tangent)
+        if tangent is None or here.tangent @ tangent < np.cos(self.steps.sharpest_turn):
+            return None
+        return _Stand(x, jacobian, tangent)
+
+    def _tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
+        """Unit tangent on the side of ``along``."""
+        direction = _solved(jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
+        return None if direction is None else direction / np.linalg.norm(direction)
+
+    def _stuck(self, here: _Stand) -> StopReason:
+        """Why no step succeeds: the equations may end within the reach of the differences."""
+        reach = 10.0 * DIFFERENCE * np.eye(len(here.x))
+        around = [self.value(here.x + side) for side in (*reach, *-reach)]
+        return "step too small" if np.isfinite(around).all() else "end of domain"
+
+    def _watched(self, stand: _Stand) -> np.ndarray:
+        """Values of the limit (relative to the interval), the watches, the fold and the branch-point function."""
+        y = stand.x * self.scales
+        u, p = y[:-1], float(y[-1])
+        watches = [watch.function(u, p) for watch in self.watches]
+        return np.array([self._margin(p), *watches, stand.tangent[-1], self._crossing(stand)])
+
+    def _watched_value(self, which: int, x: np.ndarray, here: _Stand) -> float:
+        """One of these values, at a point on the step from ``here``."""
+        y = x * self.scales
+        if which == 0:
+            return self._margin(float(y[-1]))
+        if which <= len(self.watches):
+            return self.watches[which - 1].function(y[:-1], float(y[-1]))
+        jacobian = self.jacobian(x)
+        tangent = self._tangent(jacobian, here.tangent)
+        stand = _Stand(x, jacobian, here.tangent if tangent is None else tangent)
+        return float(stand.tangent[-1]) if which == len(self.watches) + 1 else self._crossing(stand)
+
+    def _margin(self, p: float) -> float:
+        low, high = self.interval
+        return min(p - low, high - p) / (high - low)
+
+    def _crossing(self, stand: _Stand) -> float:
+        """Determinant of the bordered Jacobian: changes sign where another branch crosses."""
+        return float(np.linalg.det(np.vstack([stand.jacobian, stand.tangent])))
+
+    def _locate(
+        self, path: _Path, here: _Stand, there: _Stand, length: float, share: float | None
+    ) -> StopReason | None:
+        """Add the special points of a step, up to a share of it, to the path; end it at the first that ends the branch."""
+        kinds = ["", *(watch.kind for watch in self.watches), self.folds, "branch point"]
+        ends = [True, *(watch.ends_branch for watch in self.watches), False, False]
+        reached: list[tuple[float, int, np.ndarray]] = []
+        for i in np.flatnonzero(here.watched * there.watched < 0.0):
+            place = self._root_on_step(here, there, length, int(i))
+            if place is not None and (share is None or place[0] <= share * length):
+                reached.append((place[0], int(i), place[1]))
+        for distance, which, x in sorted(reached, key=lambda item: item[0]):
+            if kinds[which]:
+                path.special.append((kinds[which], x, len(path.points) - 1 + distance / length))
+            if ends[which]:
+                path.points.append(x)
+                return "end of domain" if kinds[which] else "parameter limit"
+        return None
+
+    def _root_on_step(self, here: _Stand, there: _Stand, length: float, which: int) -> tuple[float, np.ndarray] | None:
+        """Arclength and point of a zero of a watched function; ``None`` if it jumps from one sign to the other."""
+        at = {0.0: here.x, length: there.x}
+        values = {0.0: float(here.watched[which]), length: float(there.watched[which])}
+
+        def value(distance: float) -> float:
+            if distance not in values:
+                x = self.correct(here.x + distance * here.tangent, here.tangent, here.jacobian)
+                at[distance] = here.x if x is None else x
+                values[distance] = np.nan if x is None else self._watched_value(which, x, here)
+            return values[distance]
+
+        try:
+            distance = bracketed_root(value, 0.0, length, 1e-14)
+        except CaromError:
+            return None
+        jump = abs(values[distance]) > JUMP * max(abs(values[0.0]), abs(values[length]))
+        return None if jump else (distance, at[distance])
+
+    def _return(self, path: _Path, here: _Stand, there: _Stand, heading: np.ndarray) -> float | None:
+        """Share of the step at which it passes the start again, in the direction it began with."""
+        if len(path.points) < 3 or there.tangent @ heading < np.cos(2.0 * self.steps.sharpest_turn):
+            return None
+        step, back = there.x - here.x, path.points[0] - here.x
+        share = float(back @ step / (step @ step))
+        return (
+            share if 0.0 < share <= 1.0 and np.linalg.norm(back - share * step) < 0.1 * np.linalg.norm(step) else None
+        )
+
+    def joined(self, behind: _Path, ahead: _Path) -> Branch:
+        """Both directions as one branch."""
+        points = np.array(behind.points[:0:-1] + ahead.points) * self.scales
+        for end, stop in ((0, behind.stop), (-1, ahead.stop)):
+            if stop == "parameter limit":
+                points[end, -1] = min(self.interval, key=lambda limit: abs(limit - points[end, -1]))
+        shift = len(behind.points) - 1
+        special = [(kind, x * self.scales, shift - place) for kind, x, place in behind.special]
+        special += [(kind, x * self.scales, shift + place) for kind, x, place in ahead.special]
+        return Branch(
+            unknowns=points[:, :-1],
+            parameters=points[:, -1],
+            special=tuple(
+                SpecialPoint(kind, x[:-1], float(x[-1]), place)
+                for kind, x, place in sorted(special, key=lambda item: item[2])
+            ),
+            stops=(behind.stop, ahead.stop),
+        )
+
+
+def _solved(jacobian: np.ndarray, normal: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+    """Solution of the bordered system; ``None`` if it is singular."""
+    try:
+        solution = np.linalg.solve(np.vstack([jacobian, normal]), right)
+    except np.linalg.LinAlgError:
+        return None
+    return solution if np.isfinite(solution).all() else None

@@ -1,0 +1,205 @@
+"""Continuation on curves that are known in closed form."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.outcome import CaromError, InputError
+
+
+def circle(u, p):
+    return np.array([u[0] ** 2 + p**2 - 1.0])
+
+
+def cubic(u, p):
+    return np.array([u[0] ** 3 - u[0] + p])
+
+
+def places(branch: Branch, kind: str) -> list[float]:
+    return [point.parameter for point in branch.of_kind(kind)]
+
+
+def gaps(branch: Branch) -> np.ndarray:
+    x = np.column_stack([branch.unknowns, branch.parameters])
+    return np.linalg.norm(np.diff(x, axis=0), axis=1)
+
+
+def test_circle_is_a_closed_loop_with_two_folds():
+    branch = continue_branch(circle, np.array([1.0]), 0.0, (-2.0, 2.0))
+    assert branch.stops == ("closed loop", "closed loop")
+    assert sorted(places(branch, "fold")) == pytest.approx([-1.0, 1.0], abs=1e-13)
+    assert len(branch.special) == 2
+    assert (branch.unknowns[0], branch.parameters[0]) == (branch.unknowns[-1], branch.parameters[-1])
+    assert gaps(branch).sum() == pytest.approx(2 * np.pi, rel=1e-3)
+    assert np.abs(branch.unknowns[:, 0] ** 2 + branch.parameters**2 - 1.0).max() < 1e-11
+
+
+@pytest.mark.parametrize("start", [(0.0, 1.0), (0.0, -1.0), (0.6, 0.8), (1e-9, 1.0)])
+def test_circle_from_any_start(start):
+    branch = continue_branch(circle, np.array([start[0]]), start[1], (-2.0, 2.0))
+    assert branch.stops == ("closed loop", "closed loop")
+    assert gaps(branch).sum() == pytest.approx(2 * np.pi, rel=1e-3)
+    assert np.ptp(branch.parameters) == pytest.approx(2.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("largest", [0.02, 0.1])
+def test_neighbours_are_no_further_apart_than_the_largest_step(largest):
+    for residual, start in ((circle, (1.0, 0.0)), (cubic, (-1.3, 1.3**3 - 1.3))):
+        branch = continue_branch(residual, np.array([start[0]]), start[1], (-2, 2), steps=Steps(largest=largest))
+        assert gaps(branch).max() <= 1.05 * largest
+        assert gaps(branch).max() > 0.5 * largest
+
+
+def test_hysteresis_reaches_both_limits_exactly():
+    fold = 2.0 / 3.0 / np.sqrt(3.0)
+    watch = Watch("passes 0.3", lambda u, p: u[0] - 0.3)
+    branch = continue_branch(cubic, np.array([-1.3]), 1.3**3 - 1.3, (-2.0, 3.0), watches=[watch])
+    assert branch.stops == ("parameter limit", "parameter limit")
+    assert {branch.parameters[0], branch.parameters[-1]} == {-2.0, 3.0}
+    assert sorted(places(branch, "fold")) == pytest.approx([-fold, fold], abs=1e-12)
+    (crossing,) = branch.of_kind("passes 0.3")
+    assert crossing.parameter == pytest.approx(0.3 - 0.3**3, abs=1e-13)
+    before = int(crossing.place)
+    low, high = sorted(branch.unknowns[before : before + 2, 0])
+    assert low <= 0.3 <= high
+
+
+def test_cusp_unfolds_into_two_folds_that_meet():
+    """``u³ − bu + p``: folds at ``p = ±2(b/3)^{3/2}`` for b > 0 and none for b < 0."""
+    for width in (1e-2, 1.0):
+        start = 1.4 * width - 1.4**3
+        branch = continue_branch(lambda u, p, b=width: np.array([u[0] ** 3 - b * u[0] + p]), [1.4], start, (-3, 3))
+        fold = 2 * (width / 3) ** 1.5
+        assert sorted(places(branch, "fold")) == pytest.approx([-fold, fold], abs=1e-11)
+    branch = continue_branch(lambda u, p: np.array([u[0] ** 3 + 0.1 * u[0] + p]), np.array([0.0]), 0.0, (-3, 3))
+    assert branch.special == ()
+
+
+def test_pitchfork_has_a_branch_point():
+    branch = continue_branch(lambda u, p: np.array([u[0] * (u[0] ** 2 - p)]), np.array([0.0]), -0.5, (-1.0, 1.0))
+    (point,) = branch.of_kind("branch point")
+    assert (point.parameter, point.unknowns[0]) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert np.abs(branch.unknowns).max() < 1e-12
+    assert branch.parameters[[0, -1]].tolist() == [-1.0, 1.0]
+
+
+def test_transcritical_branches_cross_and_are_kept_apart():
+    def residual(u, p):
+        return np.array([u[0] * (p - u[0])])
+
+    flat = continue_branch(residual, np.array([0.0]), -0.7, (-1.0, 1.0))
+    steep = continue_branch(residual, np.array([0.7]), 0.7, (-1.0, 1.0))
+    assert np.abs(flat.unknowns).max() < 1e-10
+    assert np.abs(steep.unknowns[:, 0] - steep.parameters).max() < 1e-10
+    for branch in (flat, steep):
+        assert places(branch, "branch point") == pytest.approx([0.0], abs=1e-9)
+
+
+def test_isola_is_followed_round():
+    def residual(u, p):
+        return np.array([(p - 0.5) ** 2 / 0.09 + (u[0] - 2.0) ** 2 / 4.0 - 1.0])
+
+    branch = continue_branch(residual, np.array([4.0]), 0.5, (-1.0, 2.0))
+    assert branch.stops == ("closed loop", "closed loop")
+    assert sorted(places(branch, "fold")) == pytest.approx([0.2, 0.8], abs=1e-12)
+
+
+def test_five_unknowns_and_scales():
+    """A chain of quadratic maps closed by a sine, with unknowns of size 1000."""
+
+    def residual(u, p):
+        chain = [u[k + 1] - 1e3 * (1e-3 * u[k]) ** 2 + p for k in range(4)]
+        return np.array([*chain, 1e-3 * u[4] - np.sin(1e-3 * u[0]) + 0.2 * p])
+
+    scales = np.array([1e3] * 5 + [1.0])
+    branch = continue_branch(residual, np.zeros(5), 0.0, (-0.5, 0.5), scales=scales)
+    worst = max(np.abs(residual(u, p)).max() for u, p in zip(branch.unknowns, branch.parameters, strict=True))
+    assert worst < 1e-11
+    assert all(stop in ("parameter limit", "closed loop") for stop in branch.stops)
+
+
+@pytest.mark.parametrize(("edge", "other"), [(-1.0, 2.0), (2.0, -1.0)])
+def test_start_on_the_edge_walks_inward_only(edge, other):
+    branch = continue_branch(lambda u, p: np.array([u[0] - p**2]), np.array([edge**2]), edge, (-1.0, 2.0))
+    assert sorted(branch.parameters[[0, -1]]) == [-1.0, 2.0]
+    assert len(np.unique(branch.parameters)) == len(branch)
+    assert other in branch.parameters
+
+
+def test_watch_that_ends_the_branch():
+    watch = Watch("wall", lambda u, p: 0.25 - u[0], ends_branch=True)
+    branch = continue_branch(lambda u, p: np.array([u[0] - p]), np.array([0.0]), 0.0, (-1.0, 1.0), watches=[watch])
+    assert branch.stops == ("parameter limit", "end of domain")
+    assert branch.parameters[-1] == pytest.approx(0.25, abs=1e-13)
+    assert [point.kind for point in branch.special] == ["wall"]
+
+
+def test_equations_that_end():
+    def residual(u, p):
+        return np.array([u[0] - (np.sqrt(0.3 - p) if p <= 0.3 else np.nan)])
+
+    branch = continue_branch(residual, np.array([np.sqrt(0.3)]), 0.0, (-1.0, 1.0))
+    assert branch.stops == ("parameter limit", "end of domain")
+    assert branch.parameters[-1] == pytest.approx(0.3, abs=1e-4)
+
+
+def test_most_points_and_step_too_small():
+    few = continue_branch(circle, np.array([1.0]), 0.0, (-2, 2), steps=Steps(most_points=5))
+    assert few.stops == ("most points", "most points")
+    assert len(few) == 9
+    corner = continue_branch(lambda u, p: np.array([u[0] - abs(p - 0.2)]), np.array([0.2]), 0.0, (-1, 1))
+    assert corner.stops == ("parameter limit", "step too small")
+    assert corner.parameters[-1] == pytest.approx(0.2, abs=1e-5)
+
+
+def test_jumps_and_missing_values_are_no_zeros():
+    jump = Watch("jump", lambda u, p: 1.0 if p > 0.1 else -1.0)
+    pole = Watch("pole", lambda u, p: 1.0 / (p - 0.13))
+    absent = Watch("absent", lambda u, p: np.nan if abs(p) < 0.5 else p)
+    branch = continue_branch(
+        lambda u, p: np.array([u[0] - p]), np.array([0.0]), 0.0, (-1, 1), watches=[jump, pole, absent]
+    )
+    assert branch.special == ()
+
+
+def test_first_step_has_the_stated_length():
+    """The point on the circle after a step ``h`` lies on the line normal to the tangent: ``u = √(1 − h²)``."""
+    for length in (0.04, 0.02, 0.01):
+        branch = continue_branch(circle, np.array([1.0]), 0.0, (-2, 2), steps=Steps(first=length, most_points=2))
+        assert branch.parameters[-1] == pytest.approx(length, abs=1e-13)
+        assert branch.unknowns[-1, 0] == pytest.approx(np.sqrt(1.0 - length**2), abs=1e-12)
+
+
+def test_calls_of_the_residual_are_counted():
+    calls = 0
+
+    def residual(u, p):
+        nonlocal calls
+        calls += 1
+        return circle(u, p)
+
+    branch = continue_branch(residual, np.array([1.0]), 0.0, (-2, 2))
+    assert calls < 12 * len(branch)
+
+
+@pytest.mark.parametrize("interval", [(1.0, -1.0), (0.5, 1.0), (0.0, 0.0)])
+def test_interval_must_hold_the_start(interval):
+    with pytest.raises(InputError, match="interval"):
+        continue_branch(circle, np.array([1.0]), 0.2, interval)
+
+
+def test_start_far_from_any_solution():
+    with pytest.raises(CaromError, match="no solution near the start"):
+        continue_branch(lambda u, p: np.array([u[0] ** 2 + 1.0 + p]), np.array([0.4]), 0.0, (-0.5, 0.5))
+    with pytest.raises(CaromError, match="no solution near the start"):
+        continue_branch(lambda u, p: np.array([np.nan]), np.array([0.4]), 0.0, (-0.5, 0.5))
+
+
+def test_places_grow_along_the_branch():
+    branch = continue_branch(cubic, np.array([0.0]), 0.0, (-2, 2), watches=[Watch("zero", lambda u, p: u[0] - 0.9)])
+    assert [point.kind for point in branch.special] in (["fold", "fold", "zero"], ["zero", "fold", "fold"])
+    assert all(first.place < second.place for first, second in pairwise(branch.special))

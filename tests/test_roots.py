@@ -1,0 +1,18 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carom.outcome import CaromError
+from carom.roots import bracketed_root
+
+
+def test_bracketed_root():
+    functions = (np.cos, lambda x: x**9 - 1e-3, lambda x: np.expm1(20 * (x - 0.7)), lambda x: np.cbrt(x - 1.1))
+    for function in functions:
+        root = bracketed_root(function, 0.0, 2.0)
+        assert function(root - 1e-14) * function(root + 1e-14) <= 0.0
+    assert bracketed_root(lambda x: x, 0.0, 1.0) == 0.0
+    assert bracketed_root(lambda x: x - 1.0, 0.0, 1.0) == 1.0
+    with pytest.raises(CaromError, match="no sign change"):
+        bracketed_root(np.cosh, -1.0, 1.0)
