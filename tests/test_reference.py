@@ -5,8 +5,8 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from flint import acb, arb
 from flights import inside_task, near_grazing_task, parameters, random_wall_task, rotors
+from flint import acb, arb
 from reference import Flight, first_crossing, jeffcott_equilibrium, jeffcott_flight, unit
 
 from carom.rotors import jeffcott
