@@ -19,8 +19,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from carom import plots as plots
+    from carom.attractors import Attractor as Attractor
+    from carom.attractors import AttractorSet as AttractorSet
+    from carom.attractors import find_attractors as find_attractors
+    from carom.boundary import BoundaryEquilibrium as BoundaryEquilibrium
+    from carom.boundary import boundary_equilibria as boundary_equilibria
     from carom.equilibria import Equilibrium as Equilibrium
     from carom.equilibria import equilibria as equilibria
+    from carom.ledger import EnergyLedger as EnergyLedger
+    from carom.ledger import energy_ledger as energy_ledger
     from carom.maps import Section as Section
     from carom.maps import impact_map as impact_map
     from carom.orbits import Orbit as Orbit
@@ -30,6 +37,7 @@ if TYPE_CHECKING:
     from carom.outcome import CaromError as CaromError
     from carom.outcome import InputError as InputError
     from carom.outcome import Outcome as Outcome
+    from carom.outcome import Phase as Phase
     from carom.parameters import Case as Case
     from carom.parameters import Machine as Machine
     from carom.parameters import Parameters as Parameters
@@ -38,18 +46,29 @@ if TYPE_CHECKING:
     from carom.parameters import load_case as load_case
     from carom.rotors import Rotor as Rotor
     from carom.rotors import jeffcott as jeffcott
+    from carom.safety import SafeDamping as SafeDamping
+    from carom.safety import least_safe_damping as least_safe_damping
     from carom.stability import multipliers as multipliers
     from carom.study import study as study
     from carom.trajectories import State as State
     from carom.trajectories import Trajectory as Trajectory
     from carom.trajectories import kick as kick
     from carom.trajectories import simulate as simulate
+    from carom.whirl import Rolling as Rolling
+    from carom.whirl import Runaway as Runaway
+    from carom.whirl import rolling as rolling
+    from carom.whirl import rub_limit as rub_limit
+    from carom.whirl import runaway_speed as runaway_speed
 
     __version__: str
 
 _HOMES = {
+    "Attractor": "attractors",
+    "AttractorSet": "attractors",
+    "BoundaryEquilibrium": "boundary",
     "CaromError": "outcome",
     "Case": "parameters",
+    "EnergyLedger": "ledger",
     "Equilibrium": "equilibria",
     "InputError": "outcome",
     "Machine": "parameters",
@@ -57,19 +76,30 @@ _HOMES = {
     "OrbitSet": "orbits",
     "Outcome": "outcome",
     "Parameters": "parameters",
+    "Phase": "outcome",
+    "Rolling": "whirl",
     "Rotor": "rotors",
+    "Runaway": "whirl",
+    "SafeDamping": "safety",
     "Scales": "parameters",
     "Section": "maps",
     "State": "trajectories",
     "Trajectory": "trajectories",
     "Zones": "parameters",
+    "boundary_equilibria": "boundary",
+    "energy_ledger": "ledger",
     "equilibria": "equilibria",
+    "find_attractors": "attractors",
     "impact_map": "maps",
     "jeffcott": "rotors",
     "kick": "trajectories",
+    "least_safe_damping": "safety",
     "load_case": "parameters",
     "multipliers": "stability",
     "period_condition": "orbits",
+    "rolling": "whirl",
+    "rub_limit": "whirl",
+    "runaway_speed": "whirl",
     "simulate": "trajectories",
     "single_impact_orbits": "orbits",
     "study": "study",

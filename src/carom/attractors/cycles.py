@@ -1,0 +1,156 @@
+"""What a settled motion repeats, and when two motions repeat the same."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carom.orbits import Orbit
+from carom.outcome import Outcome, Phase
+from carom.trajectories import Trajectory
+from carom.whirl import rolling
+
+__all__ = ["Cycle", "Whirl", "cycle_of", "forces_on", "orbit_of", "same_cycle", "whirl_of"]
+
+Whirl = Literal["forward", "backward", "none"]
+
+SAME = 1e-6
+"""Distance, relative to one plus the size, below which two impacts are the same.
+
+A motion counts as periodic when it recurs to within 1e-9; how far it is then from its attractor is that over the loss of
+distance in a period.
+"""
+SAMPLES = 1000
+TURNS = 10.0
+"""Turns of the shaft over which a motion without a period is judged."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cycle:
+    """What a settled motion repeats.
+
+    Attributes
+    ----------
+    outcome : Outcome
+    synchronous : bool
+        Whether it is at rest in the co-rotating frame.
+    period : float or None
+        In ``1/Ω``; ``None`` if it is at rest, does not repeat or has not settled.
+    positions, velocities : ndarray of complex, shape (m,)
+        States just before the impacts of one period, in their order; empty if there are none or no period.
+    """
+
+    outcome: Outcome
+    synchronous: bool
+    period: float | None
+    positions: np.ndarray
+    velocities: np.ndarray
+
+    @property
+    def kind(self) -> tuple[Outcome, bool, int]:
+        """What must agree before places and speeds are compared."""
+        return self.outcome, self.synchronous, self.multiplicity
+
+    @property
+    def multiplicity(self) -> int:
+        """Impacts a period; 0 without a period or impacts."""
+        return len(self.positions)
+
+
+def cycle_of(motion: Trajectory) -> Cycle:
+    """Read from the end of a motion what it repeats.
+
+    Near a period doubling a motion that still approaches its orbit may recur after two periods first; impacts that
+    are the same to ``SAME`` are then counted once.
+    """
+    outcome = motion.outcome
+    none = np.empty(0, complex)
+    if outcome is Outcome.ROLLING:
+        return Cycle(outcome, False, rolling(motion.rotor).period, none, none)
+    if outcome not in (Outcome.BOUNCING, Outcome.MIXED):
+        resting = outcome is Outcome.LEVITATED or (outcome is Outcome.FORWARD_RUB and abs(motion.final.velocity) < SAME)
+        return Cycle(outcome, resting, None, none, none)
+    count = motion.multiplicity
+    if count == 0:
+        return Cycle(outcome, False, None, none, none)
+    log = motion.contacts
+    positions = np.exp(1j * log.angle[-count:])
+    velocities = (log.radial_speed + 1j * log.angular_speed)[-count:] * positions
+    period = motion.time - float(log.time[-count])
+    for part in range(1, count):
+        if count % part == 0 and _distance(positions, velocities, *_turned(positions, velocities, part)) < SAME:
+            return Cycle(outcome, False, period * part / count, positions[:part], velocities[:part])
+    return Cycle(outcome, False, period, positions, velocities)
+
+
+def _turned(positions: np.ndarray, velocities: np.ndarray, places: int) -> tuple[np.ndarray, np.ndarray]:
+    return np.roll(positions, -places), np.roll(velocities, -places)
+
+
+def _distance(
+    positions: np.ndarray, velocities: np.ndarray, other_positions: np.ndarray, other_velocities: np.ndarray
+) -> float:
+    """Largest distance of paired states, relative to one plus their size."""
+    apart = np.abs(positions - other_positions) + np.abs(velocities - other_velocities)
+    return float((apart / (1.0 + np.abs(velocities))).max())
+
+
+def same_cycle(first: Cycle, second: Cycle) -> bool:
+    """Whether two motions have settled to the same, whichever impact of the period they ended at."""
+    if first.kind != second.kind:
+        return False
+    if first.multiplicity == 0:
+        return True
+    states = first.positions, first.velocities
+    turns = range(first.multiplicity)
+    return any(_distance(*states, *_turned(second.positions, second.velocities, places)) < SAME for places in turns)
+
+
+def orbit_of(cycle: Cycle, orbits: Sequence[Orbit]) -> Orbit | None:
+    """Return the single-impact orbit that a motion has settled to, if it is one of these."""
+    if cycle.outcome is not Outcome.BOUNCING or cycle.multiplicity != 1:
+        return None
+    for orbit in orbits:
+        before = orbit.section.state
+        states = np.array([before.position]), np.array([before.velocity])
+        if orbit.admissible and _distance(cycle.positions, cycle.velocities, *states) < SAME:
+            return orbit
+    return None
+
+
+def _last_stretch(motion: Trajectory, cycle: Cycle) -> float:
+    """Start of the last period, or of the last turns of the shaft."""
+    return max(0.0, motion.time - (cycle.period or 2.0 * math.pi * TURNS))
+
+
+def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:
+    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor."""
+    if cycle.outcome is Outcome.LEVITATED:
+        return 0.0, 0.0
+    if cycle.outcome is Outcome.ROLLING:
+        return 0.0, rolling(motion.rotor).largest_force
+    impulses = motion.contacts.normal_impulse
+    # Of irregular bouncing the later half: what came before may be the way there.
+    last = impulses[-cycle.multiplicity :] if cycle.multiplicity else impulses[len(impulses) // 2 :]
+    touching = cycle.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL)
+    impulse = float(last.max()) if len(last) and not touching else 0.0
+    if (motion.segment_phases == Phase.FLIGHT).all():
+        return impulse, 0.0
+    normal, _ = motion.forces(np.linspace(_last_stretch(motion, cycle), motion.time, SAMPLES))
+    return impulse, float(normal.max())
+
+
+def whirl_of(motion: Trajectory, cycle: Cycle) -> Whirl:
+    """Direction of whirl: that in which the rotor centre sweeps area in the fixed frame, on average.
+
+    The areal velocity is ``Im(Z̄Ż)/2 = (|U|² + Im(ŪU̇))/2``.
+    """
+    position, velocity = motion.at(np.linspace(_last_stretch(motion, cycle), motion.time, SAMPLES))
+    swept = float((np.abs(position) ** 2 + (position.conj() * velocity).imag).mean())
+    if abs(swept) < SAME:
+        return "none"
+    return "forward" if swept > 0.0 else "backward"

@@ -1,0 +1,160 @@
+"""Attractors: motions that have settled to the same, with a name."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, orbit_of, same_cycle, whirl_of
+from carom.attractors.following import Ending
+from carom.attractors.starts import Start
+from carom.orbits import Orbit
+from carom.outcome import Outcome
+from carom.trajectories import State, Trajectory
+
+__all__ = ["Attractor", "Groups"]
+
+
+@dataclass(frozen=True, eq=False)
+class Attractor:
+    """A motion that starts end on; or, if ``settled`` is false, why it is not known where they end.
+
+    Attributes
+    ----------
+    name : str
+        ``"levitation"``, ``"B1,d"``, ``"2-impact bouncing"``, ``"irregular bouncing"``, ``"synchronous rub"``,
+        ``"rolling"``, ``"unresolved: time-reached"`` and so on.
+    words : str
+        What the rotor does, in a sentence.
+    outcome : Outcome
+    multiplicity : int
+        Impacts a period; 0 without impacts or period.
+    period : float or None
+        In ``1/Ω``, in the co-rotating frame; ``None`` at rest there and of irregular motion.
+    whirl : {"forward", "backward", "none"}
+        Direction in which the rotor centre goes round in the fixed frame, on average.
+    count : int
+        Disturbances that end here.
+    share : float
+        The same as a share of all disturbances.
+    known : int
+        Starts next to motions known in closed form that end here.
+    representative : Start
+        The gentlest disturbance that ends here, or else the first other start.
+    state : State
+        A state on it (of periodic bouncing just before an impact).
+    largest_impulse : float
+        Of the impacts on it, in ``m c_r Ω``.
+    largest_force : float
+        Normal force of lasting contact on it, in ``m c_r Ω²``.
+    """
+
+    name: str
+    words: str
+    outcome: Outcome
+    multiplicity: int
+    period: float | None
+    whirl: Whirl
+    count: int
+    share: float
+    known: int
+    representative: Start
+    state: State
+    largest_impulse: float
+    largest_force: float
+
+    @property
+    def settled(self) -> bool:
+        """Whether it is an end, not a motion given up."""
+        return self.outcome.settled
+
+    @property
+    def touches(self) -> bool:
+        """Whether it keeps touching the bearing."""
+        return self.settled and self.outcome is not Outcome.LEVITATED
+
+
+class Groups:
+    """Motions that have settled to the same, by name, in the order in which they were found."""
+
+    def __init__(self, orbits: Sequence[Orbit]) -> None:
+        self.orbits = orbits
+        self.names: dict[str, tuple[Cycle, Attractor]] = {}
+
+    def name_of(self, motion: Trajectory) -> str:
+        """Name of the group of a motion, which is opened if it is the first."""
+        cycle = cycle_of(motion)
+        for name, (known, _) in self.names.items():
+            if same_cycle(known, cycle):
+                return name
+        name = self._new_name(cycle)
+        impulse, force = forces_on(motion, cycle)
+        found = Attractor(
+            name=name,
+            words=_words(cycle, name),
+            outcome=cycle.outcome,
+            multiplicity=cycle.multiplicity,
+            period=cycle.period,
+            whirl=whirl_of(motion, cycle),
+            count=0,
+            share=0.0,
+            known=0,
+            representative=Start("start", motion.start, "a start within the clearance"),
+            state=motion.final,
+            largest_impulse=impulse,
+            largest_force=force,
+        )
+        self.names[name] = cycle, found
+        return name
+
+    def _new_name(self, cycle: Cycle) -> str:
+        orbit = orbit_of(cycle, self.orbits)
+        name = orbit.name if orbit else _name(cycle)
+        alike = sum(known.split(" (")[0] == name for known in self.names)
+        return f"{name} ({alike + 1})" if alike else name
+
+    def attractor(self, name: str, endings: Sequence[Ending]) -> Attractor:
+        """Return the attractor of a group with its starts counted."""
+        _, member = self.names[name]
+        here = [ending.start for ending in endings if ending.attractor == name]
+        hit = [start for start in here if start.disturbance]
+        total = sum(ending.start.disturbance for ending in endings)
+        gentlest = min(hit, key=lambda start: (start.kind != "kick", start.speed), default=None)
+        return dataclasses.replace(
+            member,
+            count=len(hit),
+            share=len(hit) / total if total else 0.0,
+            known=len(here) - len(hit),
+            representative=gentlest or next(iter(here), member.representative),
+        )
+
+
+def _name(cycle: Cycle) -> str:
+    if cycle.outcome in _REPEATING:
+        noun = _REPEATING[cycle.outcome]
+        return f"{cycle.multiplicity}-impact {noun}" if cycle.multiplicity else f"irregular {noun}"
+    if cycle.outcome is Outcome.FORWARD_RUB:
+        return "synchronous rub" if cycle.synchronous else "drifting rub"
+    return _NAMES.get(cycle.outcome, f"unresolved: {cycle.outcome.label}")
+
+
+def _words(cycle: Cycle, name: str) -> str:
+    if cycle.outcome in _REPEATING:
+        doing = "bounces" if cycle.outcome is Outcome.BOUNCING else "alternates between bounces and lasting contact"
+        if not cycle.multiplicity:
+            return f"The rotor {doing} irregularly: it did not repeat itself as far as it was followed."
+        impacts = "one impact" if cycle.multiplicity == 1 else f"{cycle.multiplicity} impacts"
+        return f"The rotor {doing} ({name}): {impacts} in each period of {cycle.period:.4g}/Omega."
+    if cycle.outcome is Outcome.FORWARD_RUB:
+        how = "in step with the shaft" if cycle.synchronous else "out of step with the shaft"
+        return f"The rotor rubs along the touchdown bearing {how}."
+    return cycle.outcome.meaning
+
+
+_REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
+_NAMES = {
+    Outcome.LEVITATED: "levitation",
+    Outcome.BACKWARD_WHIRL: "backward whirl",
+    Outcome.ROLLING: "rolling",
+}

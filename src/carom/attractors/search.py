@@ -1,0 +1,168 @@
+"""Find the attractors of a rotor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from carom.attractors.following import Ending, endings_of
+from carom.attractors.groups import Attractor, Groups
+from carom.attractors.starts import DISTURBANCES, FASTEST, Start, disturbances, known_starts
+from carom.orbits import Orbit, single_impact_orbits
+from carom.outcome import InputError, Outcome
+from carom.periods import PeriodCondition
+from carom.rotors import Rotor
+from carom.trajectories import Kick, State
+
+__all__ = ["PATIENCE", "AttractorSet", "find_attractors", "orbits_within_reach"]
+
+PATIENCE = 20_000
+"""Impacts without recurrence after which bouncing counts as irregular; irregular transients of thousands are common."""
+MOST_RADIANS = 1500.0
+"""How far the fastest mode may turn, or decay, within the longest period of the orbits looked up."""
+
+
+@dataclass(frozen=True, eq=False)
+class AttractorSet:
+    """Every attractor found; look one up by name, ``found["B1,d"]``.
+
+    Attributes
+    ----------
+    rotor : Rotor
+    members : tuple of Attractor
+        That with the most disturbances first; motions given up last.
+    endings : tuple of Ending
+        Every start, the disturbances first.
+    seed : int
+    fastest : float
+        Largest kick and start speed of the disturbances, in ``c_r Ω``.
+    patience : int
+        Impacts without recurrence after which bouncing counts as irregular.
+    """
+
+    rotor: Rotor
+    members: tuple[Attractor, ...]
+    endings: tuple[Ending, ...]
+    seed: int
+    fastest: float
+    patience: int
+
+    def __len__(self) -> int:
+        return len(self.members)
+
+    def __iter__(self) -> Iterator[Attractor]:
+        return iter(self.members)
+
+    def __contains__(self, name: object) -> bool:
+        return any(member.name == name for member in self.members)
+
+    def __getitem__(self, name: str) -> Attractor:
+        for member in self.members:
+            if member.name == name:
+                return member
+        raise InputError("attractor", name, f"one of: {', '.join(member.name for member in self.members)}")
+
+    @property
+    def disturbances(self) -> tuple[Ending, ...]:
+        """Where the disturbances ended."""
+        return tuple(ending for ending in self.endings if ending.start.disturbance)
+
+    def ending_on(self, name: str) -> tuple[Ending, ...]:
+        """Disturbances and other starts that ended on an attractor."""
+        return tuple(ending for ending in self.endings if ending.attractor == name)
+
+    @property
+    def touching(self) -> tuple[Attractor, ...]:
+        """Attractors on which the rotor keeps touching the bearing."""
+        return tuple(member for member in self.members if member.touches)
+
+    @property
+    def recovered(self) -> float:
+        """Share of the disturbances that came back to levitation."""
+        return sum(member.share for member in self.members if member.outcome is Outcome.LEVITATED)
+
+    @property
+    def smallest_unrecovered_kick(self) -> float | None:
+        """Smallest kick tried that did not come back to levitation, in ``c_r Ω``; ``None`` if all did."""
+        kicks = [ending for ending in self.endings if ending.start.kind == "kick"]
+        speeds = [ending.start.speed for ending in kicks if ending.outcome is not Outcome.LEVITATED]
+        return min(speeds, default=None)
+
+    @property
+    def argument(self) -> str:
+        """What the list rests on, in a sentence or two."""
+        tried, known = len(self.disturbances), len(self.endings) - len(self.disturbances)
+        return (
+            f"{tried} disturbances of up to {self.fastest:g} c_r Omega (seed {self.seed}) and {known} starts next to motions "
+            "known in closed form were simulated to where they settle. This is evidence, not proof: an attractor that "
+            "none of them reaches is not listed."
+        )
+
+
+def find_attractors(
+    rotor: Rotor,
+    starts: Sequence[State | Kick] | None = None,
+    *,
+    seed: int = 0,
+    count: int = DISTURBANCES,
+    fastest: float = FASTEST,
+    known: bool = True,
+    patience: int = PATIENCE,
+    progress: Callable[[float], None] | None = None,
+) -> AttractorSet:
+    """Follow disturbances, and starts next to every known motion, to the attractors where they settle.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    starts : sequence of State or Kick, optional
+        Disturbances to follow instead of the seeded sample.
+    seed, count, fastest : int, int, float
+        Of the seeded sample; see :func:`~carom.attractors.disturbances`.
+    known : bool
+        Whether to add starts next to the motions known in closed form; see :func:`~carom.attractors.known_starts`.
+    patience : int
+        Impacts without recurrence after which bouncing counts as irregular.  Motions are followed for 1000 impacts, then
+        for twice as many, and so on.  Where twice as many have settled none, only the first 10 are followed on, and if
+        they last to the end the others are counted with them.
+    progress : callable, optional
+        Called with the share done, 0 to 1.
+
+    Returns
+    -------
+    AttractorSet
+        The same for the same arguments.
+
+    Raises
+    ------
+    InputError
+        A start lies outside the wall, or there is nothing to follow.
+    """
+    if starts is None:
+        sample = disturbances(rotor, count, seed, fastest)
+    else:
+        sample = tuple(_given(rotor, start) for start in starts)
+        fastest = max((start.speed for start in sample), default=0.0)
+    orbits = orbits_within_reach(rotor)
+    sample += known_starts(rotor, orbits) if known else ()
+    if not sample:
+        raise InputError("count", count, "at least one start to follow")
+    groups = Groups(orbits)
+    found = endings_of(rotor, sample, patience, groups.name_of, progress or (lambda share: None))
+    endings = tuple(sorted(found, key=lambda ending: not ending.start.disturbance))
+    members = tuple(groups.attractor(name, endings) for name in groups.names)
+    ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
+    return AttractorSet(rotor, tuple(ordered), endings, seed, fastest, patience)
+
+
+def orbits_within_reach(rotor: Rotor) -> tuple[Orbit, ...]:
+    """Single-impact orbits; with little damping, when they are too many, those of shorter period; else none."""
+    condition = PeriodCondition(rotor)
+    limit = MOST_RADIANS / float(abs(condition.exponents).max())
+    return tuple(single_impact_orbits(rotor, None if condition.longest_period() <= limit else limit))
+
+
+def _given(rotor: Rotor, start: State | Kick) -> Start:
+    if isinstance(start, Kick):
+        return Start("kick", start.state(rotor), f"a kick of {start.speed:.3g} c_r Omega")
+    return Start("start", start, "a given start")
