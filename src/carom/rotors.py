@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.core.flow import fly_all
 from carom.core.layout import rotor_record
+from carom.core.planar import planar_exponents
 from carom.core.table import flight_table
 from carom.parameters import Parameters, Scales
 
@@ -127,7 +128,7 @@ def jeffcott(machine: Parameters | Machine) -> Rotor:
     """
     parameters = machine if isinstance(machine, Parameters) else machine.parameters
     gamma, omega = parameters.gamma, parameters.omega
-    exponents = np.array(_fixed_frame_exponents(gamma, omega)) - 1j
+    exponents = np.array(planar_exponents(gamma, omega))
     stiffness = complex(omega**2 - 1.0, gamma)
     arrays = rotor_record(
         exponents=exponents,
@@ -140,14 +141,3 @@ def jeffcott(machine: Parameters | Machine) -> Rotor:
         drive=np.array([parameters.radius_ratio + 1.0]),
     )
     return Rotor(arrays, parameters)
-
-
-def _fixed_frame_exponents(gamma: float, omega: float) -> tuple[complex, complex]:
-    """Roots of ``s² + γs + ω² = 0``, the one with the smaller real part first, free of cancellation."""
-    # (γ − 2ω)(γ + 2ω) keeps the split accurate near critical damping.
-    split = cmath.sqrt(complex((gamma - 2.0 * omega) * (gamma + 2.0 * omega)))
-    lower, upper = 0.5 * (-gamma - split), 0.5 * (-gamma + split)
-    if split.real > 0.5 * abs(gamma):
-        # Strongly overdamped: one root is a difference of near equals; their product ω² gives it in full.
-        return (lower, omega * omega / lower) if gamma > 0.0 else (omega * omega / upper, upper)
-    return lower, upper

@@ -1,0 +1,279 @@
+"""Single-impact orbits of the planar rotor in closed form: their equations, and what vanishes at their bifurcations.
+
+Everything is a function of a handful of numbers, for continuation, which asks for it thousands of times.  The frame is
+turned so that the impact is at ``U = 1``; the contact-free equilibrium is then at ``1 + q a₁₂ ṙ``.
+"""
+
+from __future__ import annotations
+
+import cmath
+
+import numpy as np
+
+from carom.core.flow import complex_expm1, squared_modulus
+from carom.core.layout import kernel
+
+__all__ = ["orbit_conditions", "planar_exponents", "radial_profile", "returns"]
+
+# B₂ₖ/(2k)! of the Bernoulli numbers.
+_BERNOULLI = (
+    1.0 / 12.0,
+    -1.0 / 720.0,
+    1.0 / 30240.0,
+    -1.0 / 1209600.0,
+    1.0 / 47900160.0,
+    -691.0 / 1307674368000.0,
+    1.0 / 74724249600.0,
+    -3617.0 / 10670622842880000.0,
+    43867.0 / 5109094217170944000.0,
+    -174611.0 / 802857662698291200000.0,
+)
+_NEWTON_STEPS = 60
+
+
+@kernel
+def planar_exponents(gamma, omega):
+    """Exponents ``λ₋, λ₊ = (−γ − 2i ∓ √(γ² − 4ω²))/2``, the one with the smaller real part first, free of cancellation."""
+    # (γ − 2ω)(γ + 2ω) keeps the split accurate near critical damping.
+    split = cmath.sqrt(complex((gamma - 2.0 * omega) * (gamma + 2.0 * omega), 0.0))
+    lower, upper = 0.5 * (-gamma - split), 0.5 * (-gamma + split)
+    if split.real > 0.5 * abs(gamma):
+        # Strongly overdamped: one root is a difference of near equals; their product ω² gives it in full.
+        if gamma > 0.0:
+            upper = omega * omega / lower
+        else:
+            lower = omega * omega / upper
+    return lower - 1j, upper - 1j
+
+
+@kernel
+def returns(first, second, period):
+    """``a₁₂``, ``a₂₂`` and ``da₂₂/dT`` of the planar rotor with these exponents (source paper (4.1)).
+
+    With ``g(z) = 1/(e^{−z} − 1)`` they are the divided differences over ``λ`` of ``g(λT)``, ``λ g(λT)`` and ``λ² g'(λT)``.
+    The first is a product, accurate however close the exponents are; the second is a value of ``g`` and a multiple of
+    the first; the third follows from ``g' = g(1 + g)``.  At short periods the poles of ``g`` cancel in the last two, which
+    are summed there from the Bernoulli series of ``z g(z) + 1``.
+    """
+    if squared_modulus(first) < squared_modulus(second):
+        first, second = second, first
+    gap = first - second
+    lag = complex_expm1(-gap * period) / gap if gap != 0.0 else complex(-period, 0.0)
+    z, w = first * period, second * period
+    x, y = complex_expm1(-z), complex_expm1(-w)
+    a12 = -(1.0 + y) * lag / (x * y)
+    if squared_modulus(z) > 1.0:
+        g, h = 1.0 / x, 1.0 / y
+        a22 = g + second * a12
+        rate = (first + second) * h * (1.0 + h) + first * first * a12 * (1.0 + g + h)
+        return a12, a22, rate
+    a22, rate = complex(-0.5, 0.0), 0j
+    power, difference = w, z + w  # w^{n−1} and the divided difference of zⁿ, n = 2
+    for k in range(len(_BERNOULLI)):
+        a22 -= _BERNOULLI[k] * difference
+        rate -= _BERNOULLI[k] * (2 * k + 1) * difference / period
+        for _ in range(2):
+            power *= w
+            difference = z * difference + power
+    return a12, a22, rate
+
+
+@kernel
+def orbit_conditions(gamma, omega, rho, mu, d, drive, period, speed):
+    """Equations of a single-impact orbit with forward slip, and test functions of its bifurcations.
+
+    Parameters
+    ----------
+    gamma, omega, rho, mu, d : float
+    drive : float
+        ``s + 1``.
+    period, speed : float
+        ``T`` and ``ṙ`` before the impact; the equations tell how far they are from an orbit.
+
+    Returns
+    -------
+    closing, balance : float
+        ``F₁(T)`` and ``|1 + q a₁₂ ṙ|² − |U*|²``: zero on an orbit (source paper (4.3), (4.4)).
+    period_fold, speed_fold : float
+        ``F₁'(T)`` and half of the derivative of ``balance`` by ``ṙ``: zero where two orbits meet.
+    boundary : float
+        ``|U*|² − 1``.
+    slip_stop : float
+        Slip velocity just after the impact.
+    period_doubling : float
+        ``det(J + 1)`` of the impact map's derivative ``J``.
+    neimark_sacker, pair_sum : float
+        Product of ``λⱼλₖ − 1`` over the pairs of multipliers; where it is zero, the sum of those whose product is one.
+    lever, turn : complex
+        ``q a₁₂`` and ``q a₂₂``.
+    """
+    first, second = planar_exponents(gamma, omega)
+    a12, a22, rate = returns(first, second, period)
+    q = complex(1.0 + d, (1.0 + d) * mu)
+    lever, turn = q * a12, q * a22
+    closing = 1.0 + turn.real
+    rest = rho * rho / squared_modulus(complex(omega * omega - 1.0, gamma))
+    balance = squared_modulus(1.0 + lever * speed) - rest
+    jacobian = _jacobian(first, second, q, lever, turn, period, speed)
+    trace = jacobian[0, 0] + jacobian[1, 1] + jacobian[2, 2]
+    minors, determinant = _invariants(jacobian)
+    return (
+        closing,
+        balance,
+        (q * rate).real,
+        lever.real + squared_modulus(lever) * speed,
+        rest - 1.0,
+        drive - (turn.imag + mu * (1.0 + d)) * speed,
+        1.0 + trace + minors + determinant,
+        determinant * determinant - determinant * trace + minors - 1.0,
+        trace - determinant,
+        lever,
+        turn,
+    )
+
+
+@kernel
+def _jacobian(first, second, q, lever, turn, period, speed):
+    """Derivative of the impact map over ``(θ, ṙ, θ̇)``, with the saltation term of the time of impact.
+
+    The velocity before the impact is ``ṙ(1 − i Im q a₂₂)`` and the force there a multiple of ``ṙ`` too, so that nothing
+    is divided by ``ṙ`` and the derivative exists in the limit of vanishing impacts.
+    """
+    velocity = complex(1.0, -turn.imag)
+    force = (first + second) * velocity + first * second * lever
+    growth, response, decay = _propagator(first, second, period)
+    jacobian = np.empty((3, 3))
+    for column in range(3):
+        position_change, velocity_change = 0j, 1j
+        if column == 0:
+            position_change, velocity_change = 1j, 1j * speed * (velocity - q)
+        elif column == 1:
+            velocity_change = 1.0 - q
+        driving = velocity_change - second * position_change
+        position_change = position_change * growth + driving * response
+        velocity_change = second * position_change + driving * decay
+        late = -position_change.real
+        turned = (position_change + velocity * late).imag
+        velocity_change += force * late
+        jacobian[0, column] = turned
+        jacobian[1, column] = velocity_change.real + turned * speed * velocity.imag
+        jacobian[2, column] = velocity_change.imag - turned * speed
+    return jacobian
+
+
+@kernel
+def _propagator(first, second, time):
+    """``e^{λ₊t}``, the divided difference of ``e^{λt}``, and ``e^{λ₋t}`` for ``λ₋, λ₊`` = ``first, second``."""
+    gap = second - first
+    growth = cmath.exp(second * time)
+    lag = complex_expm1(-gap * time)
+    response = -growth * lag / gap if gap != 0.0 else growth * time
+    return growth, response, growth * (1.0 + lag)
+
+
+@kernel
+def _invariants(matrix):
+    """Sum of the principal minors and determinant, shape (3, 3)."""
+    minors = 0.0
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        minors += matrix[j, j] * matrix[k, k] - matrix[j, k] * matrix[k, j]
+    determinant = 0.0
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        determinant += matrix[0, i] * (matrix[1, j] * matrix[2, k] - matrix[1, k] * matrix[2, j])
+    return minors, determinant
+
+
+@kernel
+def radial_profile(gamma, omega, mu, d, period, speed, at):
+    """How the radius runs between the impacts of a single-impact orbit.
+
+    Parameters
+    ----------
+    gamma, omega, mu, d, period, speed : float
+        As in :func:`orbit_conditions`.
+    at : float
+        A time since the impact.
+
+    Returns
+    -------
+    height, top : float
+        Largest ``r² − 1`` of the local maxima inside the period, and its time; ``nan`` if there is none.
+    flattest : float
+        Product over all inflections of ``r²`` of ``s/(1 + |s|)`` with the slope ``s`` there: changes sign through zero where a
+        maximum and a minimum of the radius are born.
+    outward, excess : float
+        ``Re(Ū U̇)`` and ``r² − 1`` at the time ``at``.
+    """
+    first, second = planar_exponents(gamma, omega)
+    a12, a22, _ = returns(first, second, period)
+    q = complex(1.0 + d, (1.0 + d) * mu)
+    rest = 1.0 + q * a12 * speed
+    driven = 1.0 - rest
+    driving = speed * (complex(1.0, -(q * a22).imag) - q) - second * driven
+    outward, _, _, excess = _radial(first, second, rest, driven, driving, at)
+    fastest = max(abs(first), abs(second))
+    count = 48 + int(10.0 * fastest * period)
+    step = period / count
+    height, top, flattest = np.nan, np.nan, 1.0
+    slope, bend, _, _ = _radial(first, second, rest, driven, driving, 0.0)
+    for i in range(1, count + 1):
+        time = i * step
+        next_slope, next_bend, _, _ = _radial(first, second, rest, driven, driving, time)
+        if bend * next_bend < 0.0:
+            turning = _zero(first, second, rest, driven, driving, time - step, time, 1)
+            flat, _, _, _ = _radial(first, second, rest, driven, driving, turning)
+            flattest *= flat / (1.0 + abs(flat))
+            # A maximum may hide between the inflection and the end of the step.
+            if slope > 0.0 > flat or flat > 0.0 > next_slope:
+                low, high = (time - step, turning) if slope > 0.0 > flat else (turning, time)
+                place = _zero(first, second, rest, driven, driving, low, high, 0)
+                _, _, _, tall = _radial(first, second, rest, driven, driving, place)
+                if not tall <= height:
+                    height, top = tall, place
+        elif slope > 0.0 > next_slope:
+            place = _zero(first, second, rest, driven, driving, time - step, time, 0)
+            _, _, _, tall = _radial(first, second, rest, driven, driving, place)
+            if not tall <= height:
+                height, top = tall, place
+        slope, bend = next_slope, next_bend
+    return height, top, flattest, outward, excess
+
+
+@kernel
+def _radial(first, second, rest, driven, driving, time):
+    """``Re(Ū U̇)``, its first and second derivative, and ``r² − 1`` at a time."""
+    growth, response, decay = _propagator(first, second, time)
+    change = driven * growth + driving * response
+    late = driving * decay
+    position = rest + change
+    velocity = second * change + late
+    acceleration = second * velocity + first * late
+    jerk = second * acceleration + first * first * late
+    outward = (position.conjugate() * velocity).real
+    bend = squared_modulus(velocity) + (position.conjugate() * acceleration).real
+    twist = 3.0 * (velocity.conjugate() * acceleration).real + (position.conjugate() * jerk).real
+    return outward, bend, twist, squared_modulus(position) - 1.0
+
+
+@kernel
+def _zero(first, second, rest, driven, driving, low, high, order):
+    """Where the derivative of this order of ``Re(Ū U̇)`` changes sign, by Newton's method kept inside the bracket."""
+    values = _radial(first, second, rest, driven, driving, low)
+    rising = values[0] < 0.0 if order == 0 else values[1] < 0.0
+    time = 0.5 * (low + high)
+    for _ in range(_NEWTON_STEPS):
+        slope, bend, twist, _ = _radial(first, second, rest, driven, driving, time)
+        value, rate = (slope, bend) if order == 0 else (bend, twist)
+        if (value >= 0.0) == rising:
+            high = time
+        else:
+            low = time
+        guess = time - value / rate if rate != 0.0 else low
+        if not low < guess < high:
+            guess = 0.5 * (low + high)
+        if abs(guess - time) <= 4e-16 * time:
+            break
+        time = guess
+    return time

@@ -1,0 +1,136 @@
+"""Closed forms of the planar rotor against matrix exponentials with many digits, and against the general rotor."""
+
+from __future__ import annotations
+
+import mpmath
+import numpy as np
+import pytest
+from machines import PAPER, exact_return, random_parameters
+
+from carom import jeffcott, single_impact_orbits
+from carom.core.planar import orbit_conditions, planar_exponents, radial_profile, returns
+from carom.maps import section_jacobian
+from carom.periods import PeriodCondition
+
+
+def machines(count: int, seed: int):
+    random = np.random.default_rng(seed)
+    return [random_parameters(random) for _ in range(count)]
+
+
+def conditions(parameters, period, speed):
+    return orbit_conditions(
+        parameters.gamma,
+        parameters.omega,
+        parameters.rho,
+        parameters.mu,
+        parameters.d,
+        parameters.radius_ratio + 1.0,
+        period,
+        speed,
+    )
+
+
+def test_returns_keep_their_digits_at_any_damping_and_period():
+    random = np.random.default_rng(5)
+    for parameters in machines(200, 4):
+        period = float(10 ** random.uniform(-6, 1.3))
+        got = returns(*planar_exponents(parameters.gamma, parameters.omega), period)
+        with mpmath.workdps(60):
+            value, rate = exact_return(parameters, period)
+            exact = [complex(value[0, 1]), complex(value[1, 1]), complex(rate[1, 1])]
+        # A change of the exponents' last digit is felt after many turns, and near a resonance of the free motion.
+        exponents = np.array(planar_exponents(parameters.gamma, parameters.omega))
+        distance = np.abs(np.expm1(exponents * period)).min() / min(1.0, period)
+        turned = 1.0 + np.abs(exponents).max() * period
+        assert np.abs(np.subtract(got, exact) / exact).max() < 5e-14 * turned / min(1.0, distance) ** 2
+
+
+def test_returns_agree_with_the_general_rotor():
+    periods = np.linspace(0.05, 12.0, 40)
+    for parameters in machines(20, 6):
+        rotor = jeffcott(parameters)
+        condition = PeriodCondition(rotor)
+        got = np.array([returns(*planar_exponents(parameters.gamma, parameters.omega), period) for period in periods])
+        assert got[:, 0] == pytest.approx(condition.a12(periods), rel=1e-10)
+        assert got[:, 1] == pytest.approx(condition.a22(periods), rel=1e-10, abs=1e-12)
+        assert (condition.factor * got[:, 2]).real == pytest.approx(condition.slope(periods), rel=1e-9, abs=1e-10)
+
+
+def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
+    seen = 0
+    for parameters in [PAPER, *machines(60, 7)]:
+        rest = abs(jeffcott(parameters).equilibrium)
+        for orbit in single_impact_orbits(jeffcott(parameters), 20.0):
+            if orbit.slip < 0 or not 1e-6 < abs(orbit.radial_speed) < 1e3 or orbit.period < 1e-3:
+                continue
+            seen += 1
+            values = conditions(parameters, orbit.period, orbit.radial_speed)
+            lever, turn = values[-2:]
+            assert values[0] == pytest.approx(0.0, abs=1e-12 * (1.0 + abs(turn)) * (1.0 + abs(values[2])))
+            assert values[1] == pytest.approx(0.0, abs=1e-11 * max(1.0, rest**2, abs(lever * orbit.radial_speed) ** 2))
+            assert orbit.angular_speed == pytest.approx(-turn.imag * orbit.radial_speed, rel=1e-9, abs=1e-12)
+            arrays = orbit.rotor.arrays
+            loss = arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed
+            scale = 1.0 + abs(orbit.angular_speed) + parameters.radius_ratio
+            assert values[5] == pytest.approx(arrays.drive[0] + orbit.angular_speed - loss, abs=1e-9 * scale)
+            if min(values[5], arrays.drive[0] + orbit.angular_speed) <= 0.0:
+                continue
+            jacobian = section_jacobian(orbit.rotor, orbit.section, orbit.period)
+            eigenvalues = np.linalg.eigvals(jacobian)
+            size = (1.0 + np.abs(jacobian).max()) ** 3
+            assert values[6] == pytest.approx(np.prod(eigenvalues + 1.0).real, abs=1e-9 * size)
+            one, two, three = eigenvalues
+            pairs = (one * two - 1.0) * (one * three - 1.0) * (two * three - 1.0)
+            assert values[7] == pytest.approx(pairs.real, abs=1e-9 * size**2)
+    assert seen > 3
+
+
+def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
+    orbit = single_impact_orbits(jeffcott(PAPER))["B1,d"]
+    values = [conditions(PAPER, orbit.period, speed)[6] for speed in (1e-6, 0.0, -1e-6)]
+    assert np.isfinite(values).all()
+    assert values[0] - values[1] == pytest.approx(values[1] - values[2], rel=1e-4)
+
+
+def test_radial_profile_agrees_with_dense_sampling():
+    seen = 0
+    for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(30, 8)]:
+        for orbit in single_impact_orbits(jeffcott(parameters), 15.0):
+            if orbit.slip < 0 or not 1e-3 < abs(orbit.radial_speed) < 30.0 or orbit.period < 1e-2:
+                continue
+            speed = orbit.radial_speed
+            height, top, _, outward, excess = radial_profile(
+                parameters.gamma, parameters.omega, parameters.mu, parameters.d, orbit.period, speed, 0.4 * orbit.period
+            )
+            times = np.linspace(0.0, orbit.period, 20001)[1:-1]
+            square = np.abs(orbit.path(times)) ** 2
+            assert excess == pytest.approx(np.interp(0.4 * orbit.period, times, square) - 1.0, abs=1e-5 * square.max())
+            h = times[1] - times[0]
+            middle = int(np.searchsorted(times, 0.4 * orbit.period))
+            slope = 0.25 * (square[middle + 1] - square[middle - 1]) / h
+            assert outward == pytest.approx(slope, abs=1e-3 * (1.0 + np.abs(np.gradient(square, h)).max()))
+            peaks = np.flatnonzero((square[1:-1] > square[:-2]) & (square[1:-1] > square[2:])) + 1
+            if not len(peaks):
+                assert np.isnan(height)
+                continue
+            seen += 1
+            best = peaks[np.argmax(square[peaks])]
+            assert height == pytest.approx(square[best] - 1.0, abs=1e-6 * square.max())
+            assert np.interp(top, times, square) == pytest.approx(square[best], abs=1e-6 * square.max())
+    assert seen > 5
+
+
+def test_a_pair_of_extrema_of_the_radius_is_born_where_the_flattest_slope_vanishes():
+    """On the branch of the source paper's figure 5b with the diamonds, B1,d."""
+
+    def at(gamma):
+        orbit = single_impact_orbits(jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
+        square = np.abs(orbit.path(np.linspace(0.0, orbit.period, 4001)[:-1])) ** 2
+        extrema = int((np.diff(np.sign(np.diff(square))) != 0).sum())
+        speed = orbit.radial_speed
+        return extrema, radial_profile(gamma, PAPER.omega, PAPER.mu, PAPER.d, orbit.period, speed, 0.1)[2]
+
+    fewer, more = at(0.082), at(0.075)
+    assert abs(fewer[0] - more[0]) == 2
+    assert fewer[1] * more[1] < 0.0
