@@ -185,7 +185,7 @@ class Trajectory:
             flat - self.segment_starts[segment],
             rub_workspace(self.segment_amplitudes.shape[1]),
         )
-        return moved.reshape(*times.shape, -1), phases.reshape(times.shape)
+        return moved.reshape(*times.shape, moved.shape[1]), phases.reshape(times.shape)
 
     def forces(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Normal and friction force of lasting contact at given times, in ``m c_r Ω²``; zero in flight.

@@ -11,8 +11,9 @@ from carom.plots.files import save
 from carom.plots.histories import radius
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria_and_orbits
-from carom.plots.spectra import multipliers
+from carom.plots.spectra import multipliers, spectrum
 from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, applied
+from carom.plots.touchdowns import energies, forces, regimes, touchdown
 
 __all__ = [
     "LOOKS",
@@ -20,11 +21,16 @@ __all__ = [
     "TWO_COLUMNS",
     "Look",
     "applied",
+    "energies",
     "equilibria_and_orbits",
+    "forces",
     "motion",
     "multipliers",
     "orbit",
     "period_condition",
     "radius",
+    "regimes",
     "save",
+    "spectrum",
+    "touchdown",
 ]

@@ -1,4 +1,4 @@
-"""Multipliers of periodic orbits in the complex plane, next to the unit circle."""
+"""Spectra: multipliers of periodic orbits next to the unit circle, and the full spectrum of a motion."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.plots.plane import Complex, one_axes
-from carom.plots.style import LOOKS, ONE_COLUMN, styled
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_words
 
 if TYPE_CHECKING:
     from carom.orbits import Orbit
+    from carom.spectrum import FullSpectrum
 
-__all__ = ["multipliers"]
+__all__ = ["multipliers", "spectrum"]
 
 _SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p", "<", ">", "h", "*")
 _LINEAR_UP_TO = 2.0
@@ -159,3 +160,43 @@ def _dots(axes: Axes, values: Complex, count: int) -> None:
     look = LOOKS["virtual"]
     words = f"{count} orbits \N{EM DASH} {look.words}"
     axes.plot(values.real, values.imag, ".", markersize=2.5, color=look.colour, label=words, zorder=2, gid="virtual")
+
+
+@styled
+def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
+    """Draw the full spectrum of a motion: backward whirl at the left, forward whirl at the right.
+
+    Parameters
+    ----------
+    full : carom.spectrum.FullSpectrum
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into.  Default: a new figure, 180 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Amplitude in clearances, logarithmic, over the multiple of the shaft speed.
+    """
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.36 * TWO_COLUMNS))
+    sizes = np.abs(full.amplitudes)
+    floor = max(float(sizes.max()) * 1e-6, 1e-12)
+    for part, meaning, words in (
+        (full.orders <= 0, "backward", "backward whirl"),
+        (full.orders >= 0, "forward", "forward whirl"),
+    ):
+        look = LOOKS[meaning]
+        drawn.fill_between(
+            full.orders[part], floor, np.maximum(sizes[part], floor), color=look.colour, lw=0, label=words
+        )
+        drawn.plot(full.orders[part], np.maximum(sizes[part], floor), color="#333333", lw=0.4)
+    drawn.axvline(0.0, color="#1a1a1a", lw=0.5)
+    highest = int(np.floor(full.orders[-1] + 1e-9))
+    ticks = np.arange(-highest, highest + 1)
+    drawn.set_xticks(ticks, [f"{tick:+d}X".replace("-", "\N{MINUS SIGN}") if tick else "0" for tick in ticks])
+    drawn.set_xlim(full.orders[0], full.orders[-1])
+    drawn.set_ylim(floor, 2.0 * float(sizes.max()))
+    drawn.set_yscale("log")
+    drawn.set_xlabel("multiple of the shaft speed")
+    drawn.set_ylabel("amplitude (units of $c_r$)")
+    drawn.legend(loc="upper left")
+    return figure

@@ -37,7 +37,7 @@ from typing import ParamSpec
 import matplotlib.style
 from matplotlib.figure import Figure
 
-__all__ = ["LOOKS", "ONE_COLUMN", "TWO_COLUMNS", "ZONE_SHADES", "Look", "applied", "styled"]
+__all__ = ["LOOKS", "ONE_COLUMN", "REGIMES", "TWO_COLUMNS", "WORKS", "ZONE_SHADES", "Look", "applied", "styled"]
 
 Arguments = ParamSpec("Arguments")
 
@@ -63,7 +63,7 @@ class Look:
         Hexadecimal colour.
     words : str
         Legend text.
-    line : str
+    line : str or tuple
         Matplotlib line style; ``"none"`` where the meaning is a point.
     width : float
         Line width [pt].
@@ -73,7 +73,7 @@ class Look:
 
     colour: str
     words: str
-    line: str = "none"
+    line: str | tuple[float, tuple[float, ...]] = "none"
     width: float = 0.9
     marker: str = "none"
 
@@ -97,6 +97,26 @@ LOOKS = MappingProxyType(
     }
 )
 """Every meaning a figure can show (read-only)."""
+
+REGIMES = (
+    Look("#dfe5ec", "flight"),
+    Look("#cc79a7", "sliding, slip forward"),
+    Look("#7a4fa3", "sliding, slip backward"),
+    Look("#882255", "rolling"),
+)
+"""Colours of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
+
+WORKS = MappingProxyType(
+    {
+        "energy": Look("#1a1a1a", "energy of the rotor centre", line="-", width=1.3),
+        "drive": Look("#009e73", "work of the drive", line="-", width=0.9),
+        "impacts": Look("#d55e00", "work at the contact in impacts", line="--", width=0.9),
+        "friction": Look("#cc79a7", "work of friction in lasting contact", line="-.", width=0.9),
+        "damping": Look("#0072b2", "work of damping", line=":", width=1.1),
+        "unbalance": Look("#e69f00", "work of unbalance", line=(0, (6, 1, 1, 1)), width=0.9),
+    }
+)
+"""The accounts of an energy ledger."""
 
 
 @contextmanager

@@ -1,0 +1,214 @@
+"""What happens in a touchdown: radius, regime and whirl, forces and energies over the same time."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from carom.plots.histories import radius
+from carom.plots.plane import Floats, key, one_axes
+from carom.plots.style import LOOKS, REGIMES, TWO_COLUMNS, WORKS, styled
+from carom.plots.words import axis_time
+
+if TYPE_CHECKING:
+    from carom.ledger import EnergyLedger
+    from carom.parameters import Scales
+    from carom.trajectories import Trajectory
+
+__all__ = ["energies", "forces", "regimes", "touchdown"]
+
+_SAMPLES = 4000
+_WIDE_RANGE = 50.0
+"""Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
+
+
+@styled
+def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = None) -> Figure:
+    """Draw a touchdown as an engineer reads it: four panels over one time axis.
+
+    Parameters
+    ----------
+    trajectory : carom.trajectories.Trajectory
+    ledger : carom.ledger.EnergyLedger
+        Its energies.
+    title : str, optional
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        From top to bottom: distance from the centre; regime and whirl direction; impulses and contact forces; energies
+        and works.  180 mm wide.
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 1.16 * TWO_COLUMNS))
+    panels = figure.subplots(4, 1, sharex=True, height_ratios=[1.0, 0.32, 1.0, 1.0])
+    radius(trajectory, axes=panels[0])
+    for extra in (panels[0].get_legend(), *panels[0].child_axes):
+        if extra is not None:
+            extra.remove()
+    regimes(trajectory, axes=panels[1])
+    forces(trajectory, axes=panels[2])
+    energies(ledger, trajectory.rotor.scales, axes=panels[3])
+    for panel, letter in zip(panels, "abcd", strict=True):
+        if panel.get_legend() is not None:
+            panel.get_legend().remove()
+        panel.set_title(f"({letter})", loc="left")
+        panel.set_xlabel("")
+    panels[-1].set_xlabel(axis_time(trajectory.rotor.scales))
+    if title:
+        figure.suptitle(title)
+    key(figure, panels, columns=4)
+    return figure
+
+
+@styled
+def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
+    """Draw two ribbons over time: the regime (flight, sliding, rolling) and the direction of whirl.
+
+    Parameters
+    ----------
+    trajectory : carom.trajectories.Trajectory
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into.  Default: a new figure, 180 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.2 * TWO_COLUMNS))
+    ends = np.append(trajectory.segment_starts, trajectory.time)
+    changes = np.flatnonzero(np.diff(trajectory.segment_phases)) + 1
+    bounds = [0, *changes, len(trajectory.segment_phases)]
+    shown = {}
+    for first, last in itertools.pairwise(bounds):
+        regime = REGIMES[int(trajectory.segment_phases[first])]
+        _ribbon(drawn, ends[first], ends[last], 1.05, regime.colour)
+        shown[regime.words] = Patch(color=regime.colour, label=regime.words)
+    for start, end, forward in _whirl(trajectory):
+        look = LOOKS["forward" if forward else "backward"]
+        words = "forward whirl" if forward else "backward whirl"
+        _ribbon(drawn, start, end, 0.0, look.colour)
+        shown[words] = Patch(color=look.colour, label=words)
+    for patch in shown.values():
+        drawn.fill_between([], [], color=patch.get_facecolor(), lw=0, label=patch.get_label())
+    drawn.set_ylim(-0.1, 2.1)
+    drawn.set_yticks([0.475, 1.525], ["whirl", "regime"])
+    drawn.tick_params(axis="y", length=0)
+    drawn.set_xlim(0.0, trajectory.time)
+    drawn.set_xlabel(axis_time(trajectory.rotor.scales))
+    if axes is None:
+        key(figure, [drawn], columns=4)
+    return figure
+
+
+def _ribbon(axes: Axes, start: float, end: float, bottom: float, colour: str) -> None:
+    axes.fill_between([start, end], bottom, bottom + 0.95, color=colour, lw=0)
+
+
+def _whirl(trajectory: Trajectory) -> list[tuple[float, float, bool]]:
+    """Stretches of forward and backward whirl in the fixed frame: start, end, whether forward."""
+    times = trajectory.sample(_SAMPLES)
+    position, velocity = trajectory.at(times)
+    forward = (position.conj() * (velocity + 1j * position)).imag > 0.0
+    edges = [0, *(np.flatnonzero(np.diff(forward)) + 1), len(times) - 1]
+    return [
+        (float(times[first]), float(times[last]), bool(forward[first])) for first, last in itertools.pairwise(edges)
+    ]
+
+
+@styled
+def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
+    """Draw the normal and friction force of lasting contact over time, and the impulse of each impact.
+
+    Parameters
+    ----------
+    trajectory : carom.trajectories.Trajectory
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into.  Default: a new figure, 180 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Forces in N and impulses in N s (right axis) where the machine is known, else in ``m c_r Ω²`` and ``m c_r Ω``.
+    """
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    scales = trajectory.rotor.scales
+    times = _contact_times(trajectory)
+    normal, friction = (part * (scales.force if scales else 1.0) for part in trajectory.forces(times))
+    gaps = np.isnan(times)
+    for values, look, words in (
+        (normal, LOOKS["wall"], "normal force of lasting contact"),
+        (np.abs(friction), LOOKS["roll"], "friction force, size"),
+    ):
+        drawn.plot(times, np.where(gaps, np.nan, values), ls=look.line, color=look.colour, lw=0.9, label=words)
+    held = normal[~gaps & (normal > 0.0)]
+    if len(held) and held.max() > _WIDE_RANGE * np.median(held):
+        drawn.set_yscale("log")
+    else:
+        drawn.set_ylim(0.0, 1.1 * held.max() if len(held) else 1.0)
+    drawn.set_ylabel("contact force (N)" if scales else r"contact force ($m c_r \Omega^2$)")
+    drawn.set_xlabel(axis_time(scales))
+    drawn.set_xlim(0.0, trajectory.time)
+    if len(trajectory.contacts):
+        _impulses(drawn, trajectory, scales)
+    if axes is None:
+        key(figure, figure.axes, columns=3)
+    return figure
+
+
+def _contact_times(trajectory: Trajectory) -> Floats:
+    """Times to draw lasting contact at, a gap (nan) after each stretch."""
+    pieces = []
+    for span in trajectory.lasting_contacts:
+        count = max(50, int(_SAMPLES * (span.end - span.start) / trajectory.time))
+        inside = np.linspace(span.start, span.end, count + 1)[:-1]
+        pieces.append(np.append(inside, np.nan))
+    return np.concatenate(pieces) if pieces else np.zeros(0)
+
+
+def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
+    """Stems for the normal impulses, on an axis of their own at the right."""
+    beside = axes.twinx()
+    log = trajectory.contacts
+    heights = log.normal_impulse * (scales.impulse if scales else 1.0)
+    look = LOOKS["stable"]
+    beside.vlines(log.time, 0.0, heights, color=look.colour, lw=0.5)
+    beside.plot(log.time, heights, "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
+    beside.set_ylim(0.0, None)
+    beside.set_ylabel("impulse (N s)" if scales else r"impulse ($m c_r \Omega$)")
+    axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
+
+
+@styled
+def energies(ledger: EnergyLedger, scales: Scales | None = None, *, axes: Axes | None = None) -> Figure:
+    """Draw the energy of the rotor centre and the works that change it.
+
+    Parameters
+    ----------
+    ledger : carom.ledger.EnergyLedger
+    scales : carom.parameters.Scales, optional
+        Turns the energies into J.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into.  Default: a new figure, 180 mm wide.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    unit = scales.energy if scales else 1.0
+    drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
+    for name, look in WORKS.items():
+        drawn.plot(
+            ledger.times, unit * getattr(ledger, name), ls=look.line, color=look.colour, lw=look.width, label=look.words
+        )
+    drawn.set_xlim(0.0, float(ledger.times[-1]))
+    drawn.set_xlabel(axis_time(scales))
+    drawn.set_ylabel("energy, work since the start (J)" if scales else r"energy, work ($m c_r^2 \Omega^2$)")
+    if axes is None:
+        key(figure, [drawn], columns=3)
+    return figure

@@ -1,0 +1,78 @@
+"""Figures of a touchdown: what each panel must show."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+import carom
+from carom import plots
+from carom.ledger import energy_ledger
+from carom.spectrum import full_spectrum
+
+
+@pytest.fixture(scope="module")
+def rub(damped):
+    """A kick that ends in the stable rub."""
+    return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=45.0)
+
+
+def _words(figure) -> str:
+    texts = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+    return " | ".join(texts)
+
+
+def test_touchdown_tells_regimes_forces_and_energies_in_words_and_units(rub):
+    figure = plots.touchdown(rub, energy_ledger(rub), title="kick")
+    words = _words(figure)
+    for expected in (
+        "flight",
+        "sliding, slip forward",
+        "forward whirl",
+        "normal force",
+        "normal impulse",
+        "work of the drive",
+    ):
+        assert expected in words
+    labels = " ".join(axes.get_ylabel() for axes in figure.axes)
+    assert "(N)" in labels
+    assert "(N s)" in labels
+    assert "(J)" in labels
+
+
+def test_forces_are_drawn_in_contact_only_and_in_newtons(rub, damped):
+    figure = plots.forces(rub)
+    line = next(line for line in figure.axes[0].lines if "normal force" in line.get_label())
+    times, values = line.get_data()
+    shown = np.isfinite(values)
+    assert times[shown].min() >= rub.lasting_contacts[0].start
+    normal, _ = rub.forces(times[shown])
+    np.testing.assert_allclose(values[shown], normal * damped.scales.force)
+
+
+def test_forces_of_a_motion_without_lasting_contact_show_impulses_alone(bouncing):
+    figure = plots.forces(bouncing)
+    assert len(figure.axes) == 2
+    stems = figure.axes[1].collections[0].get_segments()
+    assert len(stems) == len(bouncing.contacts)
+
+
+def test_energies_draw_every_account(rub):
+    ledger = energy_ledger(rub)
+    figure = plots.energies(ledger)
+    drawn = {line.get_label(): line.get_ydata() for line in figure.axes[0].lines}
+    np.testing.assert_allclose(drawn["work of the drive"], ledger.drive)
+    assert len([label for label in drawn if not label.startswith("_")]) == 6
+
+
+def test_spectrum_marks_multiples_of_the_shaft_speed(bouncing):
+    figure = plots.spectrum(full_spectrum(bouncing, highest_order=3.0))
+    ticks = [tick.get_text() for tick in figure.axes[0].get_xticklabels()]
+    assert ticks == ["\N{MINUS SIGN}3X", "\N{MINUS SIGN}2X", "\N{MINUS SIGN}1X", "0", "+1X", "+2X", "+3X"]
+
+
+def test_user_settings_are_left_alone(rub):
+    before = dict(mpl.rcParams)
+    plots.touchdown(rub, energy_ledger(rub))
+    assert dict(mpl.rcParams) == before
