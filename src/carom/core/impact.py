@@ -44,7 +44,8 @@ def strike(position, velocity, friction, restitution, drive):
     sticks = tangential_change >= abs(slip)
     if sticks:
         tangential_change = abs(slip)
-    return normal * complex(-normal_change, -math.copysign(tangential_change, slip)), sticks
+    # Not copysign(tangential_change, slip): virtual orbits strike with ṙ⁻ < 0.
+    return normal * complex(-normal_change, -math.copysign(1.0, slip) * tangential_change), sticks
 
 
 @kernel
