@@ -1,6 +1,12 @@
 """What all tests share."""
 
-from hypothesis import settings
+import os
+
+# The matrices of this package are tiny: the threads of linear algebra only wait for each other, and long on a busy machine.
+for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
+
+from hypothesis import settings  # noqa: E402
 
 # Kernels compile on their first call, and a busy machine is slow: no test fails for the time it takes.
 settings.register_profile("carom", deadline=None)
