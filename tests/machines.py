@@ -10,21 +10,13 @@ import cmath
 import math
 
 import mpmath
-import numba
 import numpy as np
 from scipy.linalg import expm
 
 from carom import Parameters
 
-COMPILED = not numba.config.DISABLE_JIT
-
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 """The machine of the source paper at a damping in the middle of its range."""
-
-
-def fewer_without_compiler(count: int, share: float = 0.05) -> int:
-    """Size of a test; a share of it where kernels run as plain Python."""
-    return count if COMPILED else max(1, round(share * count))
 
 
 def random_parameters(random: np.random.Generator, **fixed: float) -> Parameters:
@@ -104,3 +96,54 @@ def exact_return(parameters: Parameters, period: float) -> tuple[mpmath.matrix, 
     flown = mpmath.expm(matrix * mpmath.mpf(period))
     inverse = (mpmath.eye(2) - flown) ** -1
     return flown * inverse, matrix * flown * inverse * inverse
+
+
+class ExactMotion:
+    """Free flight with many digits, from the eigenvalues; for distinct ones."""
+
+    def __init__(self, parameters: Parameters) -> None:
+        gamma, omega = mpmath.mpf(parameters.gamma), mpmath.mpf(parameters.omega)
+        root = mpmath.sqrt(mpmath.mpc(gamma**2 - 4 * omega**2, 0))
+        self.parameters = parameters
+        self.upper, self.lower = (-gamma - mpmath.mpc(0, 2) + root) / 2, (-gamma - mpmath.mpc(0, 2) - root) / 2
+        self.rest = (
+            mpmath.mpf(parameters.rho) * mpmath.expj(mpmath.mpf(parameters.phi)) / mpmath.mpc(omega**2 - 1, gamma)
+        )
+
+    def fly(self, position: mpmath.mpc, velocity: mpmath.mpc, time: mpmath.mpf) -> tuple[mpmath.mpc, mpmath.mpc]:
+        """State after a flight."""
+        change = position - self.rest
+        first = (velocity - self.lower * change) / (self.upper - self.lower)
+        parts = first * mpmath.exp(self.upper * time), (change - first) * mpmath.exp(self.lower * time)
+        return self.rest + sum(parts), self.upper * parts[0] + self.lower * parts[1]
+
+    def next_section(self, section: tuple, slip: int, duration: float) -> tuple:
+        """From ``(θ, ṙ, θ̇)`` before an impact with unlimited friction to those at the wall after about ``duration``."""
+        angle, radial, angular = section
+        parameters = self.parameters
+        friction = mpmath.mpf(parameters.mu) * (1 + mpmath.mpf(parameters.d)) * radial
+        start = mpmath.expj(angle)
+        after = mpmath.mpc(-mpmath.mpf(parameters.d) * radial, angular - slip * friction) * start
+        time = mpmath.mpf(duration)
+        for _ in range(60):
+            position, velocity = self.fly(start, after, time)
+            step = (abs(position) ** 2 - 1) / (2 * (mpmath.conj(position) * velocity).real)
+            time -= step
+            if abs(step) < mpmath.mpf(10) ** (-0.6 * mpmath.mp.dps):
+                break
+        position, velocity = self.fly(start, after, time)
+        local = mpmath.conj(position) * velocity
+        return mpmath.arg(position * mpmath.expj(-angle)) + angle, local.real, local.imag
+
+    def jacobian(self, section: tuple[float, float, float], slip: int, duration: float) -> np.ndarray:
+        """Derivative of :meth:`next_section` by central differences, exact to many more digits than a double."""
+        step = mpmath.mpf(10) ** (-mpmath.mp.dps // 3)
+        columns = []
+        for k in range(3):
+            ends = []
+            for sign in (1, -1):
+                moved = [mpmath.mpf(value) for value in section]
+                moved[k] += sign * step
+                ends.append(self.next_section(tuple(moved), slip, duration))
+            columns.append([float((high - low) / (2 * step)) for high, low in zip(*ends, strict=True)])
+        return np.array(columns).T

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import overload
 
 import numpy as np
 
-from carom.core.events import first_crossing
-from carom.core.impact import strike
+from carom.core.events import LEAVING, first_crossing
 from carom.core.layout import workspace
 from carom.maps import Section, section_jacobian
 from carom.outcome import InputError, Outcome
-from carom.periods import PeriodCondition
+from carom.periods import PeriodCondition, PeriodRoots
 from carom.rotors import Rotor
 from carom.stability import Multipliers, multipliers
 from carom.trajectories import State, Trajectory, simulate
@@ -39,6 +38,8 @@ class Orbit:
         In ``1/Ω``.
     section : Section
         State just before the impact.
+    slip : {1, -1}
+        Direction of the slip in the impact: forward or backward.
     multipliers : Multipliers
         The three non-trivial Floquet multipliers.
     reason : str
@@ -49,6 +50,7 @@ class Orbit:
     name: str
     period: float
     section: Section
+    slip: int
     multipliers: Multipliers
     reason: str
 
@@ -92,8 +94,7 @@ class Orbit:
         """State just after the impact."""
         before = self.section.state
         arrays = self.rotor.arrays
-        slip = arrays.drive[0] + self.angular_speed
-        grip = complex(1.0, np.copysign(arrays.friction[0], slip))
+        grip = complex(1.0, self.slip * arrays.friction[0])
         change = -(1.0 + arrays.restitution[0]) * grip * self.radial_speed * before.position
         return State(before.position, before.velocity + change)
 
@@ -129,6 +130,10 @@ class OrbitSet(Sequence[Orbit]):
         End of the searched range.
     complete : bool
         Whether there is provably no other root.
+    slip_stays_forward : bool
+        Whether it is proven that an orbit inside the wall slips forward all through its impacts.  Else orbits with
+        backward slip are listed too, but orbits whose impacts stop the slip are not searched; only a rotor about as small
+        as its clearance can have either.
     """
 
     rotor: Rotor
@@ -136,6 +141,7 @@ class OrbitSet(Sequence[Orbit]):
     periods: np.ndarray
     longest_period: float
     complete: bool
+    slip_stays_forward: bool
 
     @property
     def argument(self) -> str:
@@ -143,9 +149,12 @@ class OrbitSet(Sequence[Orbit]):
         count = len(self.periods)
         found = f"F1 has {count} root{'' if count == 1 else 's'} for 0 < T <= {self.longest_period:.4g}/Omega"
         search = f"{found}, isolated by a bound of its second derivative"
-        if self.complete:
-            return f"{search}; beyond, the decay of the free motion keeps F1 above zero."
-        return f"{search}; longer periods were not searched."
+        beyond = "beyond, the decay of the free motion keeps F1 above zero"
+        stopping = "an impact that stopped the slip would send the rotor out of the clearance"
+        return (
+            f"{search}; {beyond if self.complete else 'longer periods were not searched'}; "
+            f"{stopping if self.slip_stays_forward else 'orbits whose impacts stop the slip were not searched'}."
+        )
 
     def __len__(self) -> int:
         return len(self.members)
@@ -178,7 +187,8 @@ def single_impact_orbits(rotor: Rotor, longest_period: float | None = None) -> O
     With ``q = (1 + d)(1 + iμ)`` and the return of the flight to its start, ``a₁₂`` and ``a₂₂`` of
     :mod:`carom.periods`, the conditions of the source paper (4.3)–(4.5) are: the period is a root of
     ``F₁(T) = 1 + Re(q a₂₂)``; ``|1 + q a₁₂ ṙ|² = |U*|²`` gives two radial speeds; ``U₀ = U*/(1 + q a₁₂ ṙ)`` and
-    ``θ̇ = −Im(q a₂₂) ṙ``.  Orbits whose slip ``s + 1 + θ̇`` is backward solve the same with ``−μ``.
+    ``θ̇ = −Im(q a₂₂) ṙ``.  Orbits whose slip ``s + 1 + θ̇`` is backward solve the same with ``−μ``; they are searched unless the
+    rotor is so large that they cannot stay inside the wall.
 
     Parameters
     ----------
@@ -199,30 +209,68 @@ def single_impact_orbits(rotor: Rotor, longest_period: float | None = None) -> O
     """
     condition = PeriodCondition(rotor)
     roots = condition.roots(longest_period)
-    orbits = _orbits_at(rotor, condition, roots.periods, slip=1)
-    if rotor.arrays.friction[0] > 0.0:
+    orbits = _orbits_at(rotor, condition, roots, 1)
+    slip_stays_forward = _slip_stays_forward(rotor)
+    if not slip_stays_forward:
         backward = PeriodCondition(rotor, slip=-1)
-        reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period).periods, slip=-1)
-        orbits += [orbit for orbit in reversed_orbits if _slip_at(orbit) < 0.0 < orbit.radial_speed]
-    return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven)
+        reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
+        orbits += [orbit for orbit in reversed_orbits if _slip_speed(orbit) < 0.0 < orbit.radial_speed]
+    return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, slip_stays_forward)
 
 
-def _orbits_at(rotor: Rotor, condition: PeriodCondition, periods: np.ndarray, slip: int) -> list[Orbit]:
-    # F₁ starts positive (at (1 − d)/2) unless d = 1, when T = 0 is the shorter period of the first pair.
-    first = 0 if rotor.arrays.restitution[0] < 1.0 or len(periods) % 2 == 0 else 1
+def _slip_stays_forward(rotor: Rotor) -> bool:
+    """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
+
+    After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in the
+    fixed frame.  There stiffness and unbalance change its velocity by less than ``ρ + ω²`` a time.  So while it stays
+    inside, it has gone back after a time ``τ``, measured along the tangent at the impact, by more than
+    ``b(τ) = s(1 − e^{−γτ})/γ − (ρ + ω²)τ²/2``.  Let ``b`` reach one clearance at ``τ₁ ≤ π``.  A period above ``τ₁`` would take the
+    rotor through the wall, and a shorter one ends at the impact's place turned forward by the angle ``T``, where it cannot
+    be because ``b > 0``.
+    """
+    parameters = rotor.parameters
+    if parameters.mu == 0.0:
+        return True
+    if parameters.gamma <= 0.0:
+        return False
+    times = np.linspace(0.0, np.pi, 200)
+    gone = -parameters.radius_ratio * np.expm1(-parameters.gamma * times) / parameters.gamma
+    return bool((gone - 0.5 * (parameters.rho + parameters.omega**2) * times**2).max() > 1.0)
+
+
+def _orbits_at(rotor: Rotor, condition: PeriodCondition, roots: PeriodRoots, slip: int) -> list[Orbit]:
+    """Orbits at all roots, in the order of their pairs and letters."""
+    slipping = _slipping(rotor, slip)
+    levers = condition.factor * condition.a12(roots.periods)
+    turns = condition.factor * condition.a22(roots.periods)
+    # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
+    places = np.arange(len(levers)) + int(roots.starts_below)
     orbits = []
-    for index, period in enumerate(periods, start=first):
-        pair, longer = index // 2 + 1, index % 2
-        for high, speed in enumerate(_radial_speeds(rotor, condition, period)):
+    for place, period, lever, turn in zip(places, roots.periods, levers, turns, strict=True):
+        pair, longer = divmod(int(place), 2)
+        for high, speed in enumerate(_radial_speeds(rotor, complex(lever))):
+            position = rotor.equilibrium / (1.0 + complex(lever) * speed)
+            section = Section(cmath.phase(position), speed, -float(turn.imag) * speed)
+            jacobian = section_jacobian(slipping, section, float(period))
             letter = "abcd"[longer + 2 * high]
-            name = f"{'B' if slip > 0 else 'R'}{pair},{letter}"
-            orbits.append(_make_orbit(rotor, condition, name, float(period), speed))
-    return sorted(orbits, key=lambda orbit: orbit.name)
+            name = f"{'B' if slip > 0 else 'R'}{pair + 1},{letter}"
+            orbit = Orbit(rotor, name, float(period), section, slip, multipliers(jacobian), "")
+            orbits.append((pair, letter, replace(orbit, reason=_why_virtual(orbit))))
+    return [orbit for *_, orbit in sorted(orbits, key=lambda entry: entry[:2])]
 
 
-def _radial_speeds(rotor: Rotor, condition: PeriodCondition, period: float) -> tuple[float, ...]:
-    """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; none where they have coalesced."""
-    lever = condition.factor * complex(condition.a12(np.asarray(period)))
+def _slipping(rotor: Rotor, slip: int) -> Rotor:
+    """A rotor whose slip always runs in this direction, as that of an orbit is assumed to."""
+    arrays = rotor.arrays.copy()
+    arrays.drive[:] = slip * np.inf
+    return replace(rotor, arrays=arrays)
+
+
+def _radial_speeds(rotor: Rotor, lever: complex) -> tuple[float, ...]:
+    """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; none where they have coalesced.
+
+    ``lever`` is ``q a₁₂``.
+    """
     square, half = abs(lever) ** 2, lever.real
     constant = (1.0 - abs(rotor.equilibrium)) * (1.0 + abs(rotor.equilibrium))
     discriminant = half**2 - square * constant
@@ -234,18 +282,7 @@ def _radial_speeds(rotor: Rotor, condition: PeriodCondition, period: float) -> t
     return tuple(sorted((float(larger / square), float(constant / larger))))
 
 
-def _make_orbit(rotor: Rotor, condition: PeriodCondition, name: str, period: float, speed: float) -> Orbit:
-    at = np.asarray(period)
-    position = rotor.equilibrium / (1.0 + condition.factor * complex(condition.a12(at)) * speed)
-    angular_speed = -(condition.factor * complex(condition.a22(at))).imag * speed
-    section = Section(cmath.phase(position), float(speed), float(angular_speed))
-    jacobian = section_jacobian(rotor, section, period)
-    orbit = Orbit(rotor, name, period, section, multipliers(jacobian), "")
-    reason = _why_virtual(orbit)
-    return Orbit(rotor, name, period, section, orbit.multipliers, reason) if reason else orbit
-
-
-def _slip_at(orbit: Orbit) -> float:
+def _slip_speed(orbit: Orbit) -> float:
     return float(orbit.rotor.arrays.drive[0] + orbit.angular_speed)
 
 
@@ -253,15 +290,20 @@ def _why_virtual(orbit: Orbit) -> str:
     arrays = orbit.rotor.arrays
     if orbit.radial_speed <= 0.0:
         return "it would meet the wall from outside (radial speed not above 0)"
-    before = orbit.section.state
-    _, sticks = strike(before.position, before.velocity, arrays.friction[0], arrays.restitution[0], arrays.drive[0])
-    if sticks and arrays.friction[0] > 0.0:
-        return "friction would stop the slip during the impact"
+    if arrays.friction[0] > 0.0:
+        slip = orbit.slip * _slip_speed(orbit)
+        if slip < 0.0:
+            return "its slip would run the other way, and friction with it"
+        if arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed >= slip:
+            return "friction would stop the slip during the impact"
     departure = orbit.departure
     start = orbit.rotor.amplitudes(departure.position, departure.velocity)
-    code, time = first_crossing(arrays, orbit.rotor.table, 0, start, 1.5 * orbit.period, True, workspace(len(start)))
+    push = (departure.position.conjugate() * (start @ arrays.acceleration_rows[0])).real + abs(departure.velocity) ** 2
+    if arrays.restitution[0] == 0.0 and push >= 0.0:
+        return "it would stay on the wall: it does not rebound and is pressed outward"
+    code, time = first_crossing(arrays, orbit.rotor.table, 0, start, 1.5 * orbit.period, LEAVING, workspace(len(start)))
+    if code == Outcome.CLEAR or abs(time - orbit.period) <= ARRIVAL_TOLERANCE * orbit.period:
+        return ""
     if code == Outcome.GRAZING:
         return f"it grazes the wall at t = {time:.6g} after the impact"
-    if code == Outcome.CONTACT and abs(time - orbit.period) > ARRIVAL_TOLERANCE * orbit.period:
-        return f"it would cross the wall at t = {time:.6g}, before its period is over"
-    return ""
+    return f"it would cross the wall at t = {time:.6g}, before its period is over"

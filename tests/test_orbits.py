@@ -1,0 +1,518 @@
+"""Single-impact orbits against independent routes: matrix exponentials, simulation, many digits, dense sampling."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from machines import (
+    PAPER,
+    ExactMotion,
+    flight_matrix,
+    fly,
+    path,
+    random_parameters,
+    rest_position,
+    strike,
+)
+from scipy.linalg import expm
+from scipy.optimize import brentq, fsolve
+
+from carom import (
+    InputError,
+    Orbit,
+    OrbitSet,
+    Outcome,
+    Parameters,
+    Section,
+    State,
+    impact_map,
+    jeffcott,
+    simulate,
+    single_impact_orbits,
+)
+
+SETS = 200
+
+
+def orbits_of(parameters: Parameters) -> OrbitSet:
+    return single_impact_orbits(jeffcott(parameters))
+
+
+@st.composite
+def parameter_sets(draw: st.DrawFn) -> Parameters:
+    """Parameters at which orbits are not rare: light to strong damping, rough to smooth walls, small to large rotors."""
+
+    def power(low: float, high: float) -> float:
+        return 10.0 ** draw(st.floats(low, high))
+
+    return Parameters(
+        gamma=power(-2.0, 0.3),
+        omega=power(-1.0, 0.48),
+        rho=power(-1.5, 0.5),
+        phi=draw(st.floats(-math.pi, math.pi)),
+        mu=draw(st.one_of(st.just(0.0), st.floats(0.02, 2.0))),
+        d=draw(st.one_of(st.just(1.0), st.floats(0.0, 1.0), st.floats(0.8, 1.0))),
+        radius_ratio=power(-1.5, 2.5),
+    )
+
+
+def after_impact(orbit: Orbit, *, limited: bool) -> tuple[complex, complex]:
+    radial, angular = strike(
+        orbit.rotor.parameters, orbit.radial_speed, orbit.angular_speed, slip=orbit.slip, limited=limited
+    )
+    position = cmath.rect(1.0, orbit.angle)
+    return position, complex(radial, angular) * position
+
+
+def assert_returns_by_matrix_exponential(orbit: Orbit) -> None:
+    """The flight after the impact, taken for as long as the period, ends in the state before the impact."""
+    position, velocity = after_impact(orbit, limited=False)
+    end, speed = fly(orbit.rotor.parameters, position, velocity, orbit.period)
+    before = complex(orbit.radial_speed, orbit.angular_speed) * position
+    size = 1.0 + abs(velocity) + abs(rest_position(orbit.rotor.parameters))
+    assert abs(end - position) <= 1e-9 * size
+    assert abs(speed - before) <= 1e-9 * size
+
+
+def assert_returns_by_simulation(orbit: Orbit) -> None:
+    """The simulated motion strikes next after one period, in the same state."""
+    motion = simulate(orbit.rotor, State(*after_impact(orbit, limited=True)), 1.2 * orbit.period)
+    growth = max(1.0, orbit.multipliers.spectral_radius)
+    contacts = motion.contacts
+    assert len(contacts) >= 1
+    first = [values[0] for values in (contacts.time, contacts.radial_speed, contacts.angular_speed)]
+    exact = [orbit.period, orbit.radial_speed, orbit.angular_speed]
+    # An error of position at arrival is one of time divided by the radial speed.
+    np.testing.assert_allclose(first, exact, rtol=1e-9 * growth, atol=1e-9 * growth)
+    assert abs(cmath.exp(1j * (contacts.angle[0] - orbit.angle)) - 1.0) <= 1e-9 * growth
+    assert not contacts.sticks[0]
+    assert contacts.slip_before[0] * orbit.slip > 0 or orbit.rotor.parameters.mu == 0.0
+
+
+@settings(max_examples=SETS, derandomize=True, database=None)
+@given(parameter_sets())
+def test_orbits_agree_with_matrix_exponential_and_simulation(parameters):
+    for orbit in orbits_of(parameters)[:24]:
+        assert_returns_by_matrix_exponential(orbit)
+        if orbit.admissible:
+            assert_returns_by_simulation(orbit)
+
+
+def test_random_machines_have_orbits_of_both_kinds():
+    """What the previous test speaks about: many orbits, admissible and virtual, at any damping."""
+    random = np.random.default_rng(10)
+    count = {True: 0, False: 0}
+    overdamped = 0
+    for _ in range(SETS):
+        parameters = random_parameters(random)
+        for orbit in orbits_of(parameters)[:8]:
+            assert_returns_by_matrix_exponential(orbit)
+            if orbit.admissible:
+                assert_returns_by_simulation(orbit)
+            count[orbit.admissible] += 1
+            overdamped += parameters.gamma > 2.0 * parameters.omega
+    assert min(*count.values(), overdamped) >= 20
+
+
+# ------------------------------------------------------------------------------------------------ multipliers
+
+
+@pytest.mark.parametrize("gamma", [0.02, 0.065, 0.08, 0.1, 0.1779, 0.7])
+def test_multipliers_agree_with_many_digits(gamma):
+    for changes in ({}, {"omega": 1.3, "mu": 0.6}, {"radius_ratio": 0.4, "mu": 0.5}, {"d": 0.6, "mu": 1.5}):
+        assert_multipliers(orbits_of(PAPER.replace(gamma=gamma, **changes)))
+
+
+def test_multipliers_agree_with_many_digits_at_random_machines():
+    random = np.random.default_rng(11)
+    compared = sum(assert_multipliers(orbits_of(random_parameters(random))) for _ in range(100))
+    assert compared > 60
+
+
+def assert_multipliers(orbits: OrbitSet) -> int:
+    """Compare characteristic polynomials, which stay smooth where multipliers meet; virtual orbits too."""
+    with mpmath.workdps(50):
+        parameters = orbits.rotor.parameters
+        # The derivative of the matrix exponential needs distinct eigenvalues.
+        if parameters.gamma == 2.0 * parameters.omega:
+            return 0
+        motion = ExactMotion(parameters)
+        chosen = [orbit for orbit in orbits[:6] if 1e-6 < abs(orbit.radial_speed) < 1e6]
+        for orbit in chosen:
+            section = (orbit.angle, orbit.radial_speed, orbit.angular_speed)
+            exact = np.poly(motion.jacobian(section, orbit.slip, orbit.period))
+            found = np.poly(orbit.multipliers.values)
+            # Rounding of the orbit itself, magnified by the shear of the flow and by a slow arrival.
+            size = np.abs(exact).max() * (1.0 + 1e-3 / abs(orbit.radial_speed))
+            np.testing.assert_allclose(found, exact, rtol=0, atol=1e-9 * size, err_msg=str((parameters, orbit.name)))
+        return len(chosen)
+
+
+def test_multipliers_agree_with_differences_of_the_simulated_map():
+    """Richardson's extrapolation of central differences: error of the fourth order in steps of 1e-3."""
+    for gamma in (0.065, 0.08, 0.1, 0.15):
+        orbits = orbits_of(PAPER.replace(gamma=gamma))
+        for orbit in orbits:
+            if orbit.admissible and orbit.radial_speed > 0.1:
+                jacobian = (4.0 * central_differences(orbit, 5e-4) - central_differences(orbit, 1e-3)) / 3.0
+                np.testing.assert_allclose(np.poly(orbit.multipliers.values), np.poly(jacobian), atol=1e-6)
+
+
+def central_differences(orbit: Orbit, step: float) -> np.ndarray:
+    """Derivative of the simulated impact map."""
+
+    def image(point: np.ndarray) -> np.ndarray:
+        mapped = impact_map(orbit.rotor, Section(*point)).image
+        return np.array([mapped.angle, mapped.radial_speed, mapped.angular_speed])
+
+    section = np.array([orbit.angle, orbit.radial_speed, orbit.angular_speed])
+    moves = step * np.eye(3)
+    return np.array([(image(section + move) - image(section - move)) / (2.0 * step) for move in moves]).T
+
+
+# ----------------------------------------------------------------------------------------------- admissibility
+
+
+def highest_radius(orbit: Orbit) -> tuple[float, float]:
+    """Largest radius strictly inside the period, by dense sampling, and the radius soon after the impact.
+
+    Local maxima are those of parabolas through three points.
+    """
+    parameters = orbit.rotor.parameters
+    fastest = np.abs(np.linalg.eigvals(flight_matrix(parameters))).max()
+    times = np.linspace(0.0, orbit.period, int(2000 + 300 * fastest * orbit.period))
+    squares = np.abs(path(parameters, *after_impact(orbit, limited=False), times)) ** 2
+    left, middle, right = squares[:-2], squares[1:-1], squares[2:]
+    top = (middle >= left) & (middle >= right)
+    bend = left - 2.0 * middle + right
+    vertices = middle[top] - (right - left)[top] ** 2 / (8.0 * np.where(bend == 0, np.inf, bend)[top])
+    # Leaving through the wall at once is no local maximum.
+    return math.sqrt(max([*vertices, squares[1]])), math.sqrt(squares[1])
+
+
+def expected_reason(orbit: Orbit) -> str:
+    """Why an orbit cannot be a motion of the machine, from the laws of contact and from its path."""
+    parameters = orbit.rotor.parameters
+    if orbit.radial_speed <= 0.0:
+        return "meet the wall from outside"
+    if parameters.mu > 0.0:
+        slip = orbit.slip * (parameters.radius_ratio + 1.0 + orbit.angular_speed)
+        if slip < 0.0:
+            return "slip would run the other way"
+        if parameters.mu * (1.0 + parameters.d) * orbit.radial_speed >= slip:
+            return "friction would stop the slip"
+    highest, first = highest_radius(orbit)
+    if parameters.d == 0.0 and first > 1.0:
+        return "stay on the wall"
+    if abs(highest - 1.0) < 1e-9:
+        return "undecided"
+    return "cross the wall" if highest > 1.0 else ""
+
+
+def test_reasons_agree_with_the_laws_of_contact_and_dense_sampling():
+    random = np.random.default_rng(12)
+    seen = dict.fromkeys(
+        ["", "meet the wall", "slip would", "friction would", "cross the wall", "stay on", "undecided"], 0
+    )
+    machines = [random_parameters(random) for _ in range(200)]
+    machines += [PAPER.replace(radius_ratio=ratio, mu=mu) for ratio in (0.05, 0.3, 1.0) for mu in (0.3, 1.0, 2.0)]
+    for parameters in machines:
+        if abs(parameters.gamma / parameters.omega - 2.0) < 1e-6:
+            continue
+        for orbit in orbits_of(parameters)[:24]:
+            expected = expected_reason(orbit)
+            assert expected == "undecided" or expected in orbit.reason, (parameters, orbit.name)
+            assert orbit.admissible == (not orbit.reason)
+            if not expected:
+                assert orbit.admissible
+            seen[next(key for key in reversed(seen) if expected.startswith(key) or key in expected)] += 1
+    assert seen["undecided"] == 0
+    assert min(count for key, count in seen.items() if key != "undecided") >= 5, seen
+
+
+def test_small_rough_rotors_have_their_slip_limited():
+    """At ``R/c_r`` = 0.05 … 1 friction would stop or reverse the slip of most orbits, and that is said."""
+    for ratio in (0.05, 0.2, 1.0):
+        reasons = [
+            orbit.reason for orbit in orbits_of(PAPER.replace(radius_ratio=ratio, mu=1.0)) if orbit.radial_speed > 0
+        ]
+        assert any("friction would stop" in reason or "slip would run" in reason for reason in reasons)
+
+
+def grazing_damping() -> float:
+    """Damping at which the path of B1,d touches the wall between impacts, from sampled radii."""
+    return brentq(
+        lambda gamma: highest_radius(orbits_of(PAPER.replace(gamma=gamma))["B1,d"])[0] - 1.0, 0.06, 0.066, xtol=1e-15
+    )
+
+
+def test_admissibility_changes_exactly_at_grazing():
+    grazing = grazing_damping()
+    for distance in (1e-3, 1e-6, 1e-8):
+        assert orbits_of(PAPER.replace(gamma=grazing * (1.0 + distance)))["B1,d"].admissible
+        below = orbits_of(PAPER.replace(gamma=grazing * (1.0 - distance)))["B1,d"]
+        assert "would cross the wall at t = " in below.reason
+
+
+def test_reason_names_the_time_of_the_crossing():
+    orbit = orbits_of(PAPER.replace(gamma=0.05))["B1,d"]
+    times = np.linspace(0.0, orbit.period, 200_001)[1:]
+    outside = np.abs(path(orbit.rotor.parameters, *after_impact(orbit, limited=False), times)) > 1.0
+    stated = float(orbit.reason.split("t = ")[1].split(",")[0])
+    assert stated == pytest.approx(times[outside][0], abs=2e-5)
+
+
+# ------------------------------------------------------------------------------------------------ completeness
+
+
+def test_newton_from_anywhere_finds_no_other_orbit():
+    """Solve the return conditions from many random starts; every solution must be in the list."""
+    random = np.random.default_rng(13)
+    for parameters in (PAPER, PAPER.replace(gamma=0.05), PAPER.replace(mu=0.5, omega=1.2)):
+        orbits = orbits_of(parameters)
+        known = np.array([[orbit.period, orbit.radial_speed, orbit.angular_speed] for orbit in orbits])
+        found = set()
+        for _ in range(150):
+            guess = [
+                random.uniform(-3, 3),
+                random.normal(),
+                random.normal(),
+                random.uniform(0.2, orbits.longest_period),
+            ]
+            solution, info, status, _ = fsolve(misses, guess, (parameters,), full_output=True, xtol=1e-13)
+            if status != 1 or np.abs(info["fvec"]).max() > 1e-10 or solution[3] <= 1e-3 or abs(solution[1]) < 1e-8:
+                continue
+            distance = np.abs(known - [solution[3], solution[1], solution[2]]).max(axis=1)
+            assert distance.min() < 1e-6 * (1.0 + np.abs(solution).max()), solution
+            found.add(int(distance.argmin()))
+        assert len(found) >= min(4, len(orbits))
+
+
+def misses(unknowns: np.ndarray, parameters: Parameters) -> list[float]:
+    """By how much a flight of a given duration misses the state before the impact."""
+    angle, radial, angular, period = unknowns
+    position = cmath.rect(1.0, angle)
+    rebound = complex(*strike(parameters, radial, angular, slip=1, limited=False)) * position
+    end, speed = fly(parameters, position, rebound, period)
+    difference = end - position, speed - complex(radial, angular) * position
+    return [part for value in difference for part in (value.real, value.imag)]
+
+
+def test_the_argument_says_what_was_proven():
+    orbits = orbits_of(PAPER)
+    assert orbits.complete
+    assert orbits.slip_stays_forward
+    assert orbits.argument == (
+        f"F1 has 2 roots for 0 < T <= {orbits.longest_period:.4g}/Omega, isolated by a bound of its second derivative; "
+        "beyond, the decay of the free motion keeps F1 above zero; "
+        "an impact that stopped the slip would send the rotor out of the clearance."
+    )
+    some = single_impact_orbits(jeffcott(PAPER.replace(radius_ratio=0.3)), longest_period=1.0)
+    assert not some.complete
+    assert [orbit.name for orbit in some] == ["B1,a", "B1,c"]
+    assert "F1 has 1 root for 0 < T <= 1/Omega" in some.argument
+    assert "longer periods were not searched; orbits whose impacts stop the slip were not searched." in some.argument
+
+
+def test_without_damping_a_longest_period_is_needed():
+    with pytest.raises(InputError, match="longest_period must limit the orbits searched"):
+        orbits_of(PAPER.replace(gamma=0.0))
+    orbits = single_impact_orbits(jeffcott(PAPER.replace(gamma=-0.1)), longest_period=10.0)
+    assert not orbits.complete
+    for orbit in orbits:
+        assert_returns_by_matrix_exponential(orbit)
+
+
+def test_a_balanced_rotor_has_no_synchronous_orbits():
+    assert len(orbits_of(PAPER.replace(rho=0.0))) == 0
+
+
+# -------------------------------------------------------------------------------------- slip that does not run on
+
+
+def flight_return(parameters: Parameters, period: float) -> np.ndarray:
+    """``a(T) = E(1 − E)⁻¹`` with ``E = e^{AT}``."""
+    flown = expm(flight_matrix(parameters) * period)
+    back: np.ndarray = flown @ np.linalg.inv(np.eye(2) - flown)
+    return back
+
+
+def stopped_slip_orbit(parameters: Parameters, period: float) -> tuple[complex, float, float] | None:
+    """Orbit of a given period whose impacts, at ``U = 1``, stop the slip: the ``U*`` it needs, ``ṙ`` and ``θ̇``.
+
+    With the impulse ``J = (1 + d)ṙ + iv`` the return needs ``ṙ + iθ̇ = −a₂₂J``, linear in ``ṙ`` and ``v``, and ``U* = 1 + a₁₂J``.
+    """
+    back = flight_return(parameters, period)
+    drive, restored = parameters.radius_ratio + 1.0, 1.0 + parameters.d
+    alpha, beta = back[1, 1].real, back[1, 1].imag
+    radial, slip = np.linalg.solve([[1.0 + restored * alpha, -beta], [restored * beta, 1.0 + alpha]], [0.0, drive])
+    if radial <= 0.0 or parameters.mu * restored * radial < abs(slip):
+        return None
+    return 1.0 + back[0, 1] * complex(restored * radial, slip), radial, slip - drive
+
+
+def backward_slip_orbit(
+    parameters: Parameters, period: float, radial: float
+) -> tuple[Parameters, complex, float] | None:
+    """Orbit of a given period and radial speed whose slip runs backward: the machine and ``U*`` it needs, and ``θ̇``.
+
+    The friction is chosen to make the period a root of ``F₁``, the rotor radius to make the slip backward.
+    """
+    back = flight_return(parameters, period)
+    restored = 1.0 + parameters.d
+    friction = -(1.0 / restored + back[1, 1].real) / back[1, 1].imag
+    factor = restored * complex(1.0, -friction)
+    angular = -(factor * back[1, 1]).imag * radial
+    ratio = 0.9 * (-1.0 - angular - friction * restored * radial)
+    if not 0.0 < friction <= 10.0 or ratio <= 0.001:
+        return None
+    return parameters.replace(mu=friction, radius_ratio=ratio), 1.0 + factor * back[0, 1] * radial, angular
+
+
+def stays_inside(parameters: Parameters, rest: complex, velocity: complex, period: float) -> bool:
+    """Whether a flight from ``U = 1`` about this rest position keeps inside the wall until its end."""
+    times = np.linspace(0.0, period, 300)[1:-1]
+    change = path(parameters.replace(rho=0.0), 1.0 - rest, velocity, times)
+    return bool((np.abs(rest + change) < 1.0).all())
+
+
+def assert_not_claimed(parameters: Parameters, rest: complex) -> None:
+    """The rotor whose unbalance makes this the rest position is not said to keep its slip forward."""
+    stiffness = complex(parameters.omega**2 - 1.0, parameters.gamma)
+    machine = parameters.replace(rho=abs(rest * stiffness), phi=cmath.phase(rest * stiffness))
+    assert not single_impact_orbits(jeffcott(machine), longest_period=0.1).slip_stays_forward, machine
+
+
+def test_no_rotor_said_to_keep_its_slip_forward_can_have_it_stopped():
+    """Such orbits exist for rotors about as small as their clearance; none may contradict the proof."""
+    random = np.random.default_rng(14)
+    ratios = []
+    for _ in range(2500):
+        parameters = random_parameters(
+            random, radius_ratio=float(10 ** random.uniform(-1.5, 1.0)), d=random.uniform(0, 1)
+        )
+        period = float(random.uniform(0.05, 12.0))
+        orbit = stopped_slip_orbit(parameters, period)
+        if orbit is None or abs(parameters.gamma - 2.0 * parameters.omega) < 1e-3:
+            continue
+        rest, radial, _ = orbit
+        after = complex(-parameters.d * radial, -parameters.radius_ratio - 1.0)
+        if stays_inside(parameters, rest, after, period):
+            ratios.append(parameters.radius_ratio)
+            assert_not_claimed(parameters, rest)
+    assert len(ratios) >= 50
+    # The scan comes to rotors larger than their clearance.
+    assert max(ratios) > 1.0
+
+
+def test_no_rotor_said_to_keep_its_slip_forward_can_have_it_reversed():
+    """Admissible orbits with backward slip are rare: far above resonance, nearly lossless, tiny rotors."""
+    random = np.random.default_rng(15)
+    count = 0
+    for _ in range(1000):
+        parameters = PAPER.replace(
+            gamma=float(10 ** random.uniform(-2.3, -1.0)), omega=random.uniform(0.1, 0.25), d=random.uniform(0.99, 1.0)
+        )
+        period, radial = random.uniform(8.5, 9.3), random.uniform(0.1, 0.3)
+        orbit = backward_slip_orbit(parameters, period, radial)
+        if orbit is None:
+            continue
+        machine, rest, angular = orbit
+        after = complex(*strike(machine, radial, angular, slip=-1, limited=False))
+        if stays_inside(machine, rest, after, period):
+            count += 1
+            assert_not_claimed(machine, rest)
+    assert count >= 10
+
+
+def test_an_orbit_with_stopped_slip_exists_where_the_argument_leaves_room_for_it():
+    """The paper's machine with a rotor of 0.3 clearances: its motion strikes, sticks and repeats, stably."""
+    parameters = PAPER.replace(radius_ratio=0.3)
+
+    def mismatch(period: float) -> float:
+        orbit = stopped_slip_orbit(parameters, period)
+        assert orbit is not None
+        return abs(orbit[0]) - abs(rest_position(parameters))
+
+    period = brentq(mismatch, 2.6, 2.7, xtol=1e-14)
+    rest, radial, angular = stopped_slip_orbit(parameters, period)
+    position = rest_position(parameters) / rest
+    rotor = jeffcott(parameters)
+    assert not single_impact_orbits(rotor).slip_stays_forward
+    motion = simulate(
+        rotor, State(position, complex(-parameters.d * radial, -parameters.radius_ratio - 1.0) * position), 30.0
+    )
+    contacts = motion.contacts
+    assert contacts.sticks.all()
+    np.testing.assert_allclose(np.diff(contacts.time), period, rtol=1e-9)
+    np.testing.assert_allclose(contacts.radial_speed, radial, rtol=1e-9)
+    np.testing.assert_allclose(contacts.angular_speed, angular, rtol=1e-9)
+
+
+TINY_ROTOR = Parameters(gamma=0.0222, omega=0.176, rho=0.1293, phi=0.0, mu=0.021, d=1.0, radius_ratio=0.02)
+
+
+def test_an_orbit_with_backward_slip_is_a_motion_of_a_tiny_rotor():
+    orbits = orbits_of(TINY_ROTOR)
+    orbit = orbits["R1,d"]
+    assert orbit.admissible
+    assert orbit.slip == -1
+    assert_returns_by_matrix_exponential(orbit)
+    assert_returns_by_simulation(orbit)
+    assert orbit.trajectory(1.1).contacts.slip_before[0] < 0.0
+    assert all(orbit.slip == 1 for orbit in orbits if orbit.name.startswith("B"))
+
+
+# ------------------------------------------------------------------------------------------ names, look-up, views
+
+
+def test_names_follow_periods_and_speeds():
+    orbits = orbits_of(PAPER.replace(gamma=0.01))
+    assert len(orbits) == 60
+    assert [orbit.name for orbit in orbits] == [f"B{pair},{letter}" for pair in range(1, 16) for letter in "abcd"]
+    for pair in range(1, 16):
+        a, b, c, d = (orbits[f"B{pair},{letter}"] for letter in "abcd")
+        assert a.period == c.period == orbits.periods[2 * pair - 2]
+        assert b.period == d.period == orbits.periods[2 * pair - 1]
+        assert a.radial_speed < c.radial_speed
+        assert b.radial_speed < d.radial_speed
+
+
+def test_names_without_a_shorter_period():
+    """With ``d = 1`` the shorter root of the first pair may be ``T = 0``, which is no orbit."""
+    assert [orbit.name for orbit in orbits_of(PAPER.replace(d=1.0))] == ["B1,b", "B1,d"]
+
+
+def test_look_up():
+    orbits = orbits_of(PAPER)
+    assert len(orbits) == 4
+    assert orbits["B1,d"] is orbits[3] is orbits[-1] is list(orbits)[3]
+    assert [orbit.name for orbit in orbits[1:3]] == ["B1,b", "B1,c"]
+    with pytest.raises(InputError, match="orbit = B2,a: one of: B1,a, B1,b, B1,c, B1,d"):
+        orbits["B2,a"]
+    with pytest.raises(InputError, match="one of: none, there are no orbits"):
+        orbits_of(PAPER.replace(gamma=0.3))["B1,a"]
+    with pytest.raises(IndexError):
+        orbits[4]
+
+
+def test_views_of_an_orbit():
+    orbit = orbits_of(PAPER)["B1,d"]
+    position, velocity = after_impact(orbit, limited=True)
+    assert orbit.impacts == 1
+    assert orbit.position == pytest.approx(position, abs=1e-15)
+    assert orbit.departure.velocity == pytest.approx(velocity, abs=1e-14)
+    times = np.linspace(0.0, orbit.period, 50)[:-1]
+    expected = path(PAPER, position, velocity, times)
+    np.testing.assert_allclose(orbit.path(times), expected, atol=1e-13)
+    np.testing.assert_allclose(orbit.path(times + 3 * orbit.period), expected, atol=1e-12)
+    motion = orbit.trajectory(3.5)
+    assert motion.outcome is Outcome.TIME_REACHED
+    np.testing.assert_allclose(motion.contacts.time, orbit.period * np.arange(1, 4), rtol=1e-12)
+    np.testing.assert_allclose(motion.at(times)[0], expected, atol=1e-13)
