@@ -123,8 +123,9 @@ def orbit_of(cycle: Cycle, orbits: Sequence[Orbit]) -> Orbit | None:
 
 
 def _last_stretch(motion: Trajectory, cycle: Cycle) -> float:
-    """Start of the last period, or of the last turns of the shaft."""
-    return max(0.0, motion.time - (cycle.period or 2.0 * math.pi * TURNS))
+    """Start of the last period, or of the last turns of the shaft; the end itself if it is at rest there."""
+    span = 0.0 if cycle.synchronous else cycle.period or 2.0 * math.pi * TURNS
+    return max(0.0, motion.time - span)
 
 
 def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:

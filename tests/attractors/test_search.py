@@ -1,0 +1,273 @@
+"""Attractors of the source paper's machine and what becomes of its disturbances."""
+
+import numpy as np
+import pytest
+
+from carom.attractors import find_attractors, following
+from carom.attractors.starts import Start
+from carom.equilibria import equilibria
+from carom.orbits import single_impact_orbits
+from carom.outcome import InputError, Outcome
+from carom.parameters import Parameters
+from carom.rotors import jeffcott
+from carom.trajectories import State, kick, simulate
+
+SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+
+def random_starts(count, fastest, seed=0):
+    """Positions even over the clearance, velocities even over a disc."""
+    random = np.random.default_rng(seed)
+    points = np.sqrt(random.random((count, 2))) * np.exp(2j * np.pi * random.random((count, 2)))
+    return [State(complex(place), fastest * complex(velocity)) for place, velocity in points]
+
+
+def shares(rotor, starts):
+    found = find_attractors(rotor, starts, known=False)
+    return {member.name: member.share for member in found}
+
+
+@pytest.fixture(scope="module")
+def found():
+    return find_attractors(jeffcott(SOURCE))
+
+
+# ------------------------------------------------------------------------------------------------ the source's machine
+
+
+def test_all_attractors_of_the_source_machine(found):
+    orbit = single_impact_orbits(found.rotor)["B1,d"]
+    rub = equilibria(found.rotor)[1]
+
+    assert {member.name for member in found} == {"levitation", "B1,d", "synchronous rub", "rolling"}
+    bouncing = found["B1,d"]
+    assert (bouncing.outcome, bouncing.multiplicity) == (Outcome.BOUNCING, 1)
+    assert bouncing.period == pytest.approx(orbit.period, rel=1e-7)
+    assert bouncing.largest_impulse == pytest.approx(1.95 * orbit.radial_speed, rel=1e-7)
+    assert found["synchronous rub"].largest_force == pytest.approx(rub.normal_force, rel=1e-8)
+    assert found["rolling"].whirl == "backward"
+    assert found["levitation"].whirl == found["synchronous rub"].whirl == "forward"
+
+
+def test_motions_go_on_from_the_states_given(found):
+    for member in found:
+        motion = simulate(found.rotor, member.state, 1e5, settle=True)
+        assert (motion.outcome, motion.multiplicity) == (member.outcome, member.multiplicity)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
+    rotor = jeffcott(SOURCE.replace(gamma=0.2))
+
+    assert equilibria(rotor)[0].stable
+    assert shares(rotor, random_starts(100, 1.0, seed)) == {"synchronous rub": 1.0}
+
+
+@pytest.mark.parametrize("gamma", [0.05, 0.077])
+@pytest.mark.parametrize("fastest", [0.5, 1.0])
+def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
+    ends = shares(jeffcott(SOURCE.replace(gamma=gamma)), random_starts(100, fastest))
+
+    assert set(ends) <= {"rolling", "synchronous rub"}
+    assert ends["rolling"] > 0.9
+
+
+@pytest.mark.jit_only
+def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
+
+    impacts = np.array([ending.impacts for ending in found.endings])
+    assert {member.name for member in found} == {"rolling", "synchronous rub"}
+    assert 0.4 < (impacts > 1000).mean() < 0.9
+    assert impacts.max() > 3000
+
+
+@pytest.mark.jit_only
+def test_irregular_bouncing_at_gamma_0_082_lasts():
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.082)), random_starts(30, 0.5), known=False)
+    irregular = found["irregular bouncing"]
+    followed = [ending.impacts for ending in found.ending_on("irregular bouncing")]
+
+    assert irregular.share > 0.8
+    assert (irregular.multiplicity, irregular.period) == (0, None)
+    # A look ends just before its last impact.
+    assert sum(impacts >= 0.999 * found.patience for impacts in followed) >= following.FOLLOWED
+    assert min(followed) >= 1.99 * following.FIRST_PATIENCE
+
+
+def test_two_impacts_a_period_beyond_the_period_doubling():
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.0832)), count=40)
+
+    assert found["2-impact bouncing"].multiplicity == 2
+    assert "irregular bouncing" not in found
+
+
+# ------------------------------------------------------------------------------------------------ bookkeeping
+
+
+def test_counts_and_shares_add_up(found):
+    disturbances = [ending for ending in found.endings if ending.start.disturbance]
+
+    assert len(disturbances) == 200
+    assert sum(member.count for member in found) == 200
+    assert sum(member.share for member in found) == pytest.approx(1.0)
+    assert sum(member.known for member in found) == len(found.endings) - 200
+    for member in found:
+        assert len(found.ending_on(member.name)) == member.count + member.known > 0
+
+
+def test_same_arguments_give_the_same_attractors(found):
+    again = find_attractors(jeffcott(SOURCE))
+
+    def facts(attractors):
+        return [
+            (ending.attractor, ending.time, ending.impacts, ending.hardest_impulse) for ending in attractors.endings
+        ]
+
+    assert facts(again) == facts(found)
+
+
+def test_representative_is_the_gentlest_kick(found):
+    kicks = [e.start.speed for e in found.ending_on("B1,d") if e.start.kind == "kick"]
+
+    assert found["B1,d"].representative.kind == "kick"
+    assert found["B1,d"].representative.speed == min(kicks)
+    assert found.smallest_unrecovered_kick == min(
+        e.start.speed for e in found.endings if e.start.kind == "kick" and e.attractor != "levitation"
+    )
+
+
+def test_attractors_are_ordered_by_what_they_attract(found):
+    counts = [member.count for member in found]
+
+    assert counts == sorted(counts, reverse=True)
+    assert found.recovered == found["levitation"].share
+    assert {member.name for member in found.touching} == {"B1,d", "synchronous rub", "rolling"}
+
+
+def test_known_motion_is_found_though_no_disturbance_reaches_it():
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.4)))
+
+    assert found["rolling"].count == 0
+    assert found["rolling"].known == 2
+    assert found["rolling"].representative.kind == "whirl"
+    assert found["levitation"].share == 1.0
+    assert found.smallest_unrecovered_kick is None
+
+
+def test_given_starts_replace_the_sample():
+    found = find_attractors(jeffcott(SOURCE), [kick(0.001), State(0.9 + 0j, 1j)], known=False)
+
+    assert [ending.start.kind for ending in found.endings] == ["kick", "start"]
+    assert found.endings[0].outcome is Outcome.LEVITATED
+    assert found.fastest == 1.0
+
+
+def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
+    monkeypatch.setattr(following, "LONGEST", 5.0)
+    found = find_attractors(jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
+    last = found.members[-1]
+
+    assert last.name == "unresolved: time-reached"
+    assert (last.count, last.settled, last.touches) == (2, False, False)
+    assert found.members[0].name == "levitation"
+
+
+def test_unknown_attractor_names_the_known():
+    found = find_attractors(jeffcott(SOURCE), [kick(0.001)], known=False)
+
+    with pytest.raises(InputError, match="attractor = B9,z: one of: levitation"):
+        found["B9,z"]
+
+
+def test_nothing_to_follow_is_an_error():
+    with pytest.raises(InputError, match="count"):
+        find_attractors(jeffcott(SOURCE), [], known=False)
+
+
+def test_start_outside_the_wall_is_an_error():
+    with pytest.raises(InputError, match="inside the wall"):
+        find_attractors(jeffcott(SOURCE), [State(1.5 + 0j)])
+
+
+def test_progress_grows_to_one():
+    shares_done = []
+    find_attractors(jeffcott(SOURCE), count=12, progress=shares_done.append)
+
+    assert shares_done == sorted(shares_done)
+    assert shares_done[-1] == 1.0
+
+
+def test_argument_says_what_it_rests_on(found):
+    assert "200 disturbances of up to 2 c_r Omega (seed 0)" in found.argument
+    assert "evidence, not proof" in found.argument
+
+
+# ------------------------------------------------------------------------------------------------ growing patience
+
+
+class Fake:
+    """Stands in for a motion that stays irregular for so many impacts."""
+
+    def __init__(self, lives):
+        self.left = dict(enumerate(lives))
+        self.followed = dict.fromkeys(self.left, 0)
+
+    def __call__(self, rotor, state, until, *, settle, patience):
+        place = int(state.position.real)
+        irregular = self.followed[place] + patience < self.left[place]
+        impacts = patience if irregular else self.left[place] - self.followed[place]
+        self.followed[place] += impacts
+        log = type("Log", (), {"normal_impulse": np.ones(impacts)})
+        fields = {"outcome": Outcome.BOUNCING, "multiplicity": 0 if irregular else 1, "final": state, "time": impacts}
+        return type("Motion", (), {**fields, "contacts": log})
+
+
+def fates(monkeypatch, lives, patience=20_000):
+    fake = Fake(lives)
+    monkeypatch.setattr(following, "simulate", fake)
+    starts = [Start("start", State(complex(place)), "") for place in range(len(lives))]
+    names = {0: "irregular", 1: "periodic"}
+    progress = []
+    endings = following.endings_of(None, starts, patience, lambda motion: names[motion.multiplicity], progress.append)
+    assert progress == sorted(progress)
+    return [ending.attractor for ending in endings], [ending.impacts for ending in endings]
+
+
+FOREVER = 10**9
+
+
+def test_few_irregular_motions_are_all_followed_to_the_end(monkeypatch):
+    names, impacts = fates(monkeypatch, [FOREVER] * 3 + [500])
+
+    assert names == ["irregular"] * 3 + ["periodic"]
+    assert impacts == [20_000] * 3 + [500]
+
+
+def test_of_many_that_last_only_some_are_followed_to_the_end(monkeypatch):
+    names, impacts = fates(monkeypatch, [FOREVER] * 30)
+
+    assert names == ["irregular"] * 30
+    assert impacts == [20_000] * 10 + [2000] * 20
+
+
+def test_one_that_settles_late_makes_the_others_catch_up(monkeypatch):
+    names, impacts = fates(monkeypatch, [9000] + [FOREVER] * 10 + [5000] * 10)
+
+    assert names == ["periodic"] + ["irregular"] * 10 + ["periodic"] * 10
+    assert impacts == [9000] + [20_000] * 10 + [5000] * 10
+
+
+def test_all_that_settle_late_are_followed_there(monkeypatch):
+    lives = [1500 + 300 * place for place in range(40)]
+    names, impacts = fates(monkeypatch, lives)
+
+    assert names == ["periodic"] * 40
+    assert impacts == lives
+
+
+def test_patience_below_the_first_look_is_kept(monkeypatch):
+    names, impacts = fates(monkeypatch, [FOREVER, 50], patience=100)
+
+    assert names == ["irregular", "periodic"]
+    assert impacts == [100, 50]
