@@ -18,7 +18,7 @@ from carom.rotors import Rotor
 from carom.stability import Multipliers, multipliers
 from carom.trajectories import State, Trajectory, simulate
 
-__all__ = ["Orbit", "OrbitSet", "period_condition", "single_impact_orbits"]
+__all__ = ["Orbit", "OrbitSet", "orbit_at", "period_condition", "single_impact_orbits"]
 
 ARRIVAL_TOLERANCE = 1e-7
 """Relative difference of the certified first return and the period below which they are the same event."""
@@ -254,9 +254,31 @@ def _orbits_at(rotor: Rotor, condition: PeriodCondition, roots: PeriodRoots, sli
             jacobian = section_jacobian(slipping, section, float(period))
             letter = "abcd"[longer + 2 * high]
             name = f"{'B' if slip > 0 else 'R'}{pair + 1},{letter}"
-            orbit = Orbit(rotor, name, float(period), section, slip, multipliers(jacobian), "")
-            orbits.append((pair, letter, replace(orbit, reason=_why_virtual(orbit))))
+            orbits.append((pair, letter, orbit_at(rotor, name, float(period), section, multipliers(jacobian), slip)))
     return [orbit for *_, orbit in sorted(orbits, key=lambda entry: entry[:2])]
+
+
+def orbit_at(rotor: Rotor, name: str, period: float, section: Section, nontrivial: Multipliers, slip: int = 1) -> Orbit:
+    """A known orbit, with the certificate of its admissibility.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    name : str
+    period : float
+        In ``1/Ω``.
+    section : Section
+        State just before the impact, to which the flight returns after the period.
+    nontrivial : Multipliers
+    slip : {1, -1}
+        Direction of the slip in the impact: forward or backward.
+
+    Returns
+    -------
+    Orbit
+    """
+    orbit = Orbit(rotor, name, period, section, slip, nontrivial, "")
+    return replace(orbit, reason=_why_virtual(orbit))
 
 
 def _slipping(rotor: Rotor, slip: int) -> Rotor:
