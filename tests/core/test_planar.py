@@ -8,7 +8,7 @@ import pytest
 from machines import PAPER, exact_return, random_parameters
 
 from carom import jeffcott, single_impact_orbits
-from carom.core.planar import orbit_conditions, planar_exponents, radial_profile, returns
+from carom.core.planar import orbit_conditions, planar_exponents, radial_course, radial_profile, returns
 from carom.maps import section_jacobian
 from carom.periods import PeriodCondition
 
@@ -100,9 +100,9 @@ def test_radial_profile_agrees_with_dense_sampling():
             if orbit.slip < 0 or not 1e-3 < abs(orbit.radial_speed) < 30.0 or orbit.period < 1e-2:
                 continue
             speed = orbit.radial_speed
-            height, top, _, outward, excess = radial_profile(
-                parameters.gamma, parameters.omega, parameters.mu, parameters.d, orbit.period, speed, 0.4 * orbit.period
-            )
+            numbers = (parameters.gamma, parameters.omega, parameters.mu, parameters.d, orbit.period, speed)
+            height, top, _ = radial_profile(*numbers)
+            outward, excess = radial_course(*numbers, 0.4 * orbit.period)
             times = np.linspace(0.0, orbit.period, 20001)[1:-1]
             square = np.abs(orbit.path(times)) ** 2
             assert excess == pytest.approx(np.interp(0.4 * orbit.period, times, square) - 1.0, abs=1e-5 * square.max())
@@ -129,7 +129,7 @@ def test_a_pair_of_extrema_of_the_radius_is_born_where_the_flattest_slope_vanish
         square = np.abs(orbit.path(np.linspace(0.0, orbit.period, 4001)[:-1])) ** 2
         extrema = int((np.diff(np.sign(np.diff(square))) != 0).sum())
         speed = orbit.radial_speed
-        return extrema, radial_profile(gamma, PAPER.omega, PAPER.mu, PAPER.d, orbit.period, speed, 0.1)[2]
+        return extrema, radial_profile(gamma, PAPER.omega, PAPER.mu, PAPER.d, orbit.period, speed)[2]
 
     fewer, more = at(0.082), at(0.075)
     assert abs(fewer[0] - more[0]) == 2

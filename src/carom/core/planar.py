@@ -13,7 +13,7 @@ import numpy as np
 from carom.core.flow import complex_expm1, squared_modulus
 from carom.core.layout import kernel
 
-__all__ = ["orbit_conditions", "planar_exponents", "radial_profile", "returns"]
+__all__ = ["impact_jacobian", "orbit_conditions", "planar_exponents", "radial_course", "radial_profile", "returns"]
 
 # B₂ₖ/(2k)! of the Bernoulli numbers.
 _BERNOULLI = (
@@ -133,6 +133,15 @@ def orbit_conditions(gamma, omega, rho, mu, d, drive, period, speed):
 
 
 @kernel
+def impact_jacobian(gamma, omega, mu, d, period, speed):
+    """Derivative of the impact map on a single-impact orbit over ``(θ, ṙ, θ̇)``, shape (3, 3)."""
+    first, second = planar_exponents(gamma, omega)
+    a12, a22, _ = returns(first, second, period)
+    q = complex(1.0 + d, (1.0 + d) * mu)
+    return _jacobian(first, second, q, q * a12, q * a22, period, speed)
+
+
+@kernel
 def _jacobian(first, second, q, lever, turn, period, speed):
     """Derivative of the impact map over ``(θ, ṙ, θ̇)``, with the saltation term of the time of impact.
 
@@ -186,15 +195,21 @@ def _invariants(matrix):
 
 
 @kernel
-def radial_profile(gamma, omega, mu, d, period, speed, at):
+def radial_course(gamma, omega, mu, d, period, speed, time):
+    """``Re(Ū U̇)`` and ``r² − 1`` of a single-impact orbit at a time since the impact."""
+    first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
+    outward, _, _, excess = _radial(first, second, rest, driven, driving, time)
+    return outward, excess
+
+
+@kernel
+def radial_profile(gamma, omega, mu, d, period, speed):
     """How the radius runs between the impacts of a single-impact orbit.
 
     Parameters
     ----------
     gamma, omega, mu, d, period, speed : float
         As in :func:`orbit_conditions`.
-    at : float
-        A time since the impact.
 
     Returns
     -------
@@ -203,16 +218,8 @@ def radial_profile(gamma, omega, mu, d, period, speed, at):
     flattest : float
         Product over all inflections of ``r²`` of ``s/(1 + |s|)`` with the slope ``s`` there: changes sign through zero where a
         maximum and a minimum of the radius are born.
-    outward, excess : float
-        ``Re(Ū U̇)`` and ``r² − 1`` at the time ``at``.
     """
-    first, second = planar_exponents(gamma, omega)
-    a12, a22, _ = returns(first, second, period)
-    q = complex(1.0 + d, (1.0 + d) * mu)
-    rest = 1.0 + q * a12 * speed
-    driven = 1.0 - rest
-    driving = speed * (complex(1.0, -(q * a22).imag) - q) - second * driven
-    outward, _, _, excess = _radial(first, second, rest, driven, driving, at)
+    first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
     fastest = max(abs(first), abs(second))
     count = 48 + int(10.0 * fastest * period)
     step = period / count
@@ -238,7 +245,19 @@ def radial_profile(gamma, omega, mu, d, period, speed, at):
             if not tall <= height:
                 height, top = tall, place
         slope, bend = next_slope, next_bend
-    return height, top, flattest, outward, excess
+    return height, top, flattest
+
+
+@kernel
+def _flight(gamma, omega, mu, d, period, speed):
+    """Exponents, equilibrium and amplitudes (driven, driving) of the flight that follows the impact at ``U = 1``."""
+    first, second = planar_exponents(gamma, omega)
+    a12, a22, _ = returns(first, second, period)
+    q = complex(1.0 + d, (1.0 + d) * mu)
+    rest = 1.0 + q * a12 * speed
+    driven = 1.0 - rest
+    driving = speed * (complex(1.0, -(q * a22).imag) - q) - second * driven
+    return first, second, rest, driven, driving
 
 
 @kernel
