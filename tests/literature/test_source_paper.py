@@ -1,0 +1,364 @@
+"""The figures of the source paper, and which version of its misprinted formulas is right.
+
+Mora, Budd, Glendinning, Keogh: Non-smooth Hopf-type bifurcations arising from impact–friction contact events in rotating
+machinery, Proc. R. Soc. A 470 (2014).  Numbers that the paper prints are named with their place; the others are its numbers
+with more digits, each of them computed here from public functions and compared to half a unit of the last digit.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from decimal import Decimal
+
+import numpy as np
+import pytest
+from machines import PAPER, flight_matrix, rest_position
+from scipy.linalg import expm
+from scipy.optimize import bisect, brentq, minimize_scalar
+
+from carom import Orbit, OrbitSet, Scales, State, equilibria, jeffcott, period_condition, simulate, single_impact_orbits
+from carom.periods import PeriodCondition
+
+FINE = {"xtol": 1e-15, "rtol": 1e-14}
+
+
+def assert_prints(value: float, printed: str) -> None:
+    """The value, rounded to the digits printed, is what was printed."""
+    half_a_unit = 0.5 * 10.0 ** Decimal(printed).as_tuple().exponent
+    assert abs(value - float(printed)) <= 1.001 * half_a_unit, (value, printed)
+
+
+def orbits_at(gamma: float, omega: float = PAPER.omega) -> OrbitSet:
+    longest = None if gamma > 0 else 3.0
+    return single_impact_orbits(jeffcott(PAPER.replace(gamma=gamma, omega=omega)), longest)
+
+
+# --------------------------------------------------------------------------------------------- where things happen
+
+
+def boundary_damping(omega: float = PAPER.omega) -> float:
+    """``γ*``, at which the contact-free equilibrium lies on the wall."""
+
+    def beyond(gamma: float) -> float:
+        return equilibria(jeffcott(PAPER.replace(gamma=gamma, omega=omega)))[0].radius - 1.0
+
+    return brentq(beyond, 1e-3, 0.45, **FINE)
+
+
+def dip(gamma: float, omega: float = PAPER.omega) -> tuple[float, float]:
+    """Minimum of ``F₁`` near ``T = 1.6``: its value and place."""
+    condition = PeriodCondition(jeffcott(PAPER.replace(gamma=gamma, omega=omega)))
+    place = brentq(lambda period: float(condition.slope(np.asarray(period))), 1.2, 2.2, **FINE)
+    return float(condition.value(np.asarray(place))), place
+
+
+def fold_damping(omega: float = PAPER.omega) -> float:
+    """``γ_F1``, at which the two roots of the first pair meet."""
+    return brentq(lambda gamma: dip(gamma, omega)[0], 0.15, 0.2, **FINE)
+
+
+def test_boundary_equilibrium():
+    """Section 3b: ``γ* = √(ρ² − (1 − ω²)²)``; section 4: ``γ_DIB ≈ 0.072``."""
+    assert_prints(boundary_damping(), "0.072")
+    assert_prints(boundary_damping(), "0.0724686787")
+
+
+def test_fold_of_the_first_pair():
+    """Figure 3: ``γ_F1 ≈ 0.178``.  The period there is the root of the slope: a minimum's place hardly shows in values."""
+    gamma = fold_damping()
+    assert_prints(gamma, "0.178")
+    assert_prints(gamma, "0.1780277257")
+    assert_prints(dip(gamma)[1], "1.6408219835")
+    # Both pairs of orbits end there: B1,a meets B1,b and B1,c meets B1,d (Proposition 4.2).
+    below = orbits_at(gamma - 1e-9)
+    assert below["B1,a"].radial_speed == pytest.approx(below["B1,b"].radial_speed, rel=1e-3)
+    assert below["B1,c"].radial_speed == pytest.approx(below["B1,d"].radial_speed, rel=1e-3)
+    assert len(orbits_at(gamma + 1e-9)) == 0
+
+
+def highest_bounce(orbit: Orbit) -> float:
+    """Largest local maximum of the radius strictly inside the period."""
+
+    def depth(time: float) -> float:
+        return -float(np.abs(orbit.path(time)))
+
+    times = np.linspace(0.0, orbit.period, 400)
+    radii = np.abs(orbit.path(times))[:-1]
+    tops = np.flatnonzero((radii[1:-1] > radii[:-2]) & (radii[1:-1] > radii[2:])) + 1
+    brackets = [(times[top - 1], times[top], times[top + 1]) for top in tops]
+    return max(-minimize_scalar(depth, bracket=bracket, tol=1e-9).fun for bracket in brackets)
+
+
+def test_grazing():
+    """Figure 5b: B1,d grazes at ``γ ≈ 0.0636``."""
+    gamma = brentq(lambda gamma: highest_bounce(orbits_at(gamma)["B1,d"]) - 1.0, 0.062, 0.065, **FINE)
+    assert_prints(gamma, "0.0636")
+    assert_prints(gamma, "0.0636105609")
+    assert orbits_at(gamma + 1e-9)["B1,d"].admissible
+    assert not orbits_at(gamma - 1e-9)["B1,d"].admissible
+
+
+def test_period_doubling():
+    """Figure 6a: B1,d is stable above ``γ ≈ 0.0834``; what happens there is a multiplier −1, not a torus."""
+
+    def at_minus_one(gamma: float) -> float:
+        values = orbits_at(gamma)["B1,d"].multipliers.values
+        return float(np.prod(-1.0 - values).real)
+
+    gamma = brentq(at_minus_one, 0.08, 0.09, **FINE)
+    assert_prints(gamma, "0.0834")
+    assert_prints(gamma, "0.0833814175")
+    below, above = (orbits_at(gamma + step)["B1,d"].multipliers for step in (-1e-6, 1e-6))
+    assert above.stable
+    assert not below.stable
+    assert below.values[0].imag == 0.0
+    assert below.values[0].real < -1.0
+
+
+def test_codimension_two_point():
+    """Section 4b: the fold and the non-smooth Hopf curve meet at ``γ ≈ 0.178``, ``ω ≈ 0.781``."""
+    omega = brentq(lambda omega: fold_damping(omega) - boundary_damping(omega), 0.77, 0.79, xtol=1e-12)
+    assert_prints(omega, "0.781")
+    assert_prints(omega, "0.7811076")
+    assert_prints(boundary_damping(omega), "0.1779723")
+
+
+def test_coalescence_at_negative_damping():
+    """Figure 4a: B1,a and B1,c coalesce at ``γ ≈ −0.497``."""
+    gamma = bisect(lambda gamma: 1.0 if len(orbits_at(gamma)) else -1.0, -0.51, -0.48, xtol=1e-12)
+    assert_prints(gamma, "-0.497")
+    pair = orbits_at(gamma + 1e-9)
+    assert [orbit.name for orbit in pair] == ["B1,a", "B1,c"]
+    assert pair["B1,c"].radial_speed == pytest.approx(pair["B1,a"].radial_speed, rel=1e-3)
+    assert 0.1 < pair["B1,a"].period < 0.3
+
+
+def test_extra_extremum():
+    """Figure 5b: the number of local extrema of ``r`` on B1,d grows at ``γ ≈ 0.0785`` as ``γ`` falls."""
+
+    def extrema(gamma: float) -> int:
+        orbit = orbits_at(gamma)["B1,d"]
+        radii = np.abs(orbit.path(np.linspace(0.0, orbit.period, 40_001)[1:-1]))
+        return int(np.count_nonzero(np.diff(np.sign(np.diff(radii)))))
+
+    assert extrema(0.0786) == 1
+    assert extrema(0.0784) == 3
+    gamma = bisect(lambda gamma: extrema(gamma) - 2.0, 0.078, 0.079, xtol=1e-8)
+    assert_prints(gamma, "0.0785")
+
+
+def test_fold_of_the_rubs():
+    """``γ = ρ√(1 + μ²) − μ(1 − ω²)``: beyond it no synchronous rub exists."""
+    gamma = bisect(lambda gamma: len(equilibria(jeffcott(PAPER.replace(gamma=gamma)))) - 2.0, 0.36, 0.38, xtol=1e-14)
+    assert_prints(gamma, "0.3700060")
+
+
+# -------------------------------------------------------------------------------------------------- at γ = 0.1
+
+
+def test_orbits_in_the_middle_of_the_range():
+    """At ``γ = 0.1`` (figures 2 to 4): the roots of ``F₁``, and B1,d."""
+    orbits = orbits_at(0.1)
+    assert len(orbits.periods) == 2
+    assert_prints(orbits.periods[0], "0.7611785497")
+    assert_prints(orbits.periods[1], "2.8635671446")
+    orbit = orbits["B1,d"]
+    assert_prints(orbit.radial_speed, "0.7332305341")
+    assert_prints(orbit.angular_speed, "-1.3682985853")
+    for value, printed in zip(orbit.multipliers.values, ("0.84003604", "0.77841555", "0.77841555"), strict=True):
+        assert_prints(abs(value), printed)
+    np.testing.assert_allclose(period_condition(orbits.rotor, orbits.periods), 0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("gamma", [0.02, 0.05, 0.0725, 0.1, 0.14, 0.178])
+def test_stability_of_the_four_branches(gamma):
+    """Figure 6a: B1,a, B1,b and B1,c are unstable at any damping."""
+    orbits = orbits_at(gamma)
+    assert not any(orbits[f"B1,{letter}"].stable for letter in "abc")
+    assert orbits["B1,d"].stable == (gamma > 0.0834)
+
+
+@pytest.mark.parametrize("letter", ["a", "b"])
+def test_slow_orbits_are_born_at_the_boundary_equilibrium(letter):
+    """Proposition 4.3: the radial speeds of B1,a and B1,b cross zero at ``γ*``; the orbits shrink into the equilibrium."""
+    crossing = brentq(lambda gamma: orbits_at(gamma)[f"B1,{letter}"].radial_speed, 0.06, 0.09, **FINE)
+    assert crossing == pytest.approx(boundary_damping(), abs=1e-9)
+    orbit = orbits_at(boundary_damping() + 1e-8)[f"B1,{letter}"]
+    assert orbit.admissible
+    assert abs(orbit.position - orbit.rotor.equilibrium) < 1e-6
+
+
+def test_longer_pairs_are_virtual():
+    """Section 4: "fixed point pairs with high normal impact velocity with n > 1 are virtual"."""
+    orbits = orbits_at(0.01)
+    longer = [orbit for orbit in orbits if not orbit.name.startswith("B1,")]
+    assert len(longer) == 56
+    assert not any(orbit.admissible for orbit in longer)
+
+
+REGIONS = {
+    "R1": ((0.07, 0.76), "virtual", {"a": False, "b": False, "c": True, "d": True}),
+    "R2": ((0.2, 0.8), "virtual", {}),
+    "R3": ((0.3, 0.76), "admissible", {}),
+    "R4": ((0.1, 0.76), "admissible", {"a": True, "b": True, "c": True, "d": True}),
+}
+
+
+@pytest.mark.parametrize(("place", "status", "admissible"), REGIONS.values(), ids=REGIONS.keys())
+def test_regions(place, status, admissible):
+    """Section 4b and figure 6b: what exists, and what is admissible, on either side of the two curves."""
+    gamma, omega = place
+    orbits = orbits_at(gamma, omega)
+    assert equilibria(orbits.rotor)[0].status == status
+    assert {orbit.name: orbit.admissible for orbit in orbits} == {
+        f"B1,{key}": value for key, value in admissible.items()
+    }
+    # The place lies where the text puts the region.
+    assert (gamma > boundary_damping(omega)) == (status == "admissible")
+    assert (gamma < fold_damping(omega)) == bool(admissible)
+
+
+# --------------------------------------------------------------------------------------------------- misprints
+
+
+def exponents() -> tuple[complex, complex]:
+    """``λ±`` of (3.5)."""
+    root = cmath.sqrt(4.0 * PAPER.omega**2 - PAPER.gamma**2)
+    return (-PAPER.gamma + 1j * (-2.0 + root)) / 2.0, (-PAPER.gamma + 1j * (-2.0 - root)) / 2.0
+
+
+@pytest.mark.parametrize("period", [0.3, 0.7611785497, 2.8635671446, 9.0])
+def test_matrix_after_4_1(period):
+    """The diagonal of ``(e^{−AT} − 1)⁻¹`` needs ``(v₋ − v₊)e^{ΛT}`` where ``e^{AT}`` is printed."""
+    upper, lower = exponents()
+    corner = 1.0 - PAPER.omega**2 - 1j * PAPER.gamma
+    v_upper, v_lower = -upper / corner, -lower / corner
+    up, down = cmath.exp(upper * period), cmath.exp(lower * period)
+    kappa = 1.0 / ((1.0 - down) * (1.0 - up) * (v_lower - v_upper))
+
+    def matrix(last: complex) -> np.ndarray:
+        return kappa * np.array(
+            [
+                [v_lower * up - v_upper * down - last, v_upper * v_lower * (down - up)],
+                [up - down, v_lower * down - v_upper * up - last],
+            ]
+        )
+
+    exact = np.linalg.inv(expm(-flight_matrix(PAPER) * period) - np.eye(2))
+    np.testing.assert_allclose(matrix((v_lower - v_upper) * up * down), exact, atol=1e-12)
+    assert np.abs(matrix(up * down) - exact).max() > 0.1
+    condition = PeriodCondition(jeffcott(PAPER))
+    found = [condition.a12(np.asarray(period)), condition.a22(np.asarray(period))]
+    np.testing.assert_allclose(found, exact[:, 1], atol=1e-12)
+
+
+def second_form(periods: np.ndarray, share: float, sign_of_phase: int) -> np.ndarray:
+    """(4.6), second form, with ``cos(s₄T ± ζ)``, ``ζ = 2 arctan(s₅/(share s₃ + s₂))`` and an ``s₄`` free of ``T``."""
+    gamma, omega, mu = PAPER.gamma, PAPER.omega, PAPER.mu
+    s1 = math.sqrt(4.0 * omega**2 - gamma**2)
+    half = np.exp(gamma * periods / 2.0)
+    total = np.zeros_like(periods)
+    for sign in (-1, 1):
+        s2, s3 = 2.0 + sign * s1 + gamma * mu, math.sqrt((1.0 + mu**2) * (1.0 + omega**2 + sign * s1))
+        s4, s5 = (2.0 * sign + s1) / 2.0, -sign * gamma + (2.0 * sign + s1) * mu
+        zeta = sign_of_phase * 2.0 * math.atan(s5 / (share * s3 + s2))
+        top = s2 * half - 2.0 * s3 * half**2 * np.cos(s4 * periods + zeta)
+        total -= sign * top / (1.0 + half**2 - 2.0 * half * np.cos(s4 * periods))
+    return 1.0 + (1.0 + PAPER.d) / (2.0 * s1 * half) * total
+
+
+def test_first_form_of_4_6():
+    """The first form is ``1 + Re(q a₂₂)``."""
+    periods = np.linspace(0.05, 20.0, 400)
+    upper, lower = exponents()
+    parts = [value * np.exp(value * periods) / np.expm1(value * periods) for value in (upper, lower)]
+    factor = (1.0 + PAPER.d) * complex(1.0, PAPER.mu) / (upper - lower)
+    first = 1.0 - (factor * (parts[0] - parts[1])).real
+    np.testing.assert_allclose(period_condition(jeffcott(PAPER), periods), first, atol=1e-12)
+
+
+def test_second_form_of_4_6():
+    """Right is ``cos(s₄T − ζ)`` with ``ζ = 2 arctan(s₅/(2s₃ + s₂))``, as ``s₂² + s₅² = 4s₃²``.
+
+    Printed are ``+ζ`` and no factor 2, and the definition of ``s₄`` holds a ``T`` too many.
+    """
+    periods = np.linspace(0.05, 20.0, 400)
+    values = period_condition(jeffcott(PAPER), periods)
+    np.testing.assert_allclose(second_form(periods, 2.0, -1), values, atol=1e-12)
+    for share, sign in ((1.0, 1), (1.0, -1), (2.0, 1)):
+        assert np.abs(second_form(periods, share, sign) - values).max() > 0.1
+
+
+def test_velocity_in_4_2():
+    """The velocity at the impact is ``(ṙ + iθ̇)U₀``; printed is ``ṙ + iθ̇U₀``."""
+    orbit = orbits_at(0.1)["B1,d"]
+    step = 1e-6
+    before = orbit.path(np.array([orbit.period - 3 * step, orbit.period - 2 * step, orbit.period - step]))
+    # Parabola through the last three places, taken at the impact.
+    velocity = (before[0] - 4.0 * before[1] + 3.0 * before[2]) / (2.0 * step) + (
+        before[0] - 2.0 * before[1] + before[2]
+    ) / step
+    right = complex(orbit.radial_speed, orbit.angular_speed) * orbit.position
+    assert velocity == pytest.approx(right, abs=1e-8)
+    assert abs(velocity - (orbit.radial_speed + 1j * orbit.angular_speed * orbit.position)) > 0.01
+
+
+def test_number_of_orbits_in_proposition_4_1():
+    """``N`` pairs of periods make up to ``4N`` orbits, not ``2N``."""
+    orbits = orbits_at(0.05)
+    assert len(orbits.periods) == 4
+    assert len(orbits) == 8
+
+
+def test_speeds_of_4_9_and_admissibility_of_proposition_4_1():
+    """Below ``γ*`` the two speeds of each period have opposite signs; they are (4.9)."""
+    orbits = orbits_at(0.05)
+    condition = PeriodCondition(orbits.rotor)
+    rest = abs(rest_position(PAPER.replace(gamma=0.05)))
+    for low, high in ((orbits[f"B{n},{a}"], orbits[f"B{n},{c}"]) for n in (1, 2) for a, c in ("ac", "bd")):
+        a12 = complex(condition.a12(np.asarray(low.period)))
+        g = (1.0 + PAPER.d) * (a12.real - PAPER.mu * a12.imag)
+        square = abs(condition.factor) ** 2 * abs(a12) ** 2
+        root = math.sqrt(g**2 - square * (1.0 - rest**2))
+        assert low.radial_speed == pytest.approx((-g - root) / square, rel=1e-12)
+        assert high.radial_speed == pytest.approx((-g + root) / square, rel=1e-12)
+        assert low.radial_speed < 0.0 < high.radial_speed
+
+
+def test_condition_5_4():
+    """The period of the orbits that shrink into the boundary equilibrium solves ``1 + (1 + d)Re((1 + iμ)a₂₂) = 0``."""
+    parameters = PAPER.replace(gamma=boundary_damping())
+    orbit = orbits_at(parameters.gamma + 1e-9)["B1,a"]
+    a22 = np.linalg.inv(expm(-flight_matrix(parameters) * orbit.period) - np.eye(2))[1, 1]
+    change = (1.0 + PAPER.d) * (complex(1.0, PAPER.mu) * a22).real
+    assert 1.0 + change == pytest.approx(0.0, abs=1e-7)
+    assert 1.0 - change == pytest.approx(2.0, abs=1e-7)
+
+
+def test_normal_impulse_of_2_5():
+    """The normal impulse is ``m(1 + d)ṙ⁻``: the momentum that the rotor loses, in N s."""
+    scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+    rotor = jeffcott(PAPER.replace(scales=scales))
+    motion = simulate(rotor, State(0.3 + 0.1j, 0.9 - 0.2j), 20.0)
+    impulses, unit = motion.contacts.in_si(scales)["normal_impulse"]
+    assert unit == "N s"
+    assert len(impulses) > 5
+    times = motion.contacts.time
+    step = 1e-7
+    # Radial velocities in m/s from positions in m and times in s.
+    seconds = step / scales.speed
+    after = scales.clearance * (motion.radius(times + step) - 1.0) / seconds
+    before = scales.clearance * (1.0 - motion.radius(times - step)) / seconds
+    np.testing.assert_allclose(impulses, scales.mass * (before - after), rtol=1e-5)
+
+
+def test_slip_of_2_3():
+    """The slip velocity is ``RΩ + c_r Θ̇`` with the angular velocity in the fixed frame: ``s + 1 + θ̇`` in the co-rotating one."""
+    motion = simulate(jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.2j), 20.0)
+    contacts = motion.contacts
+    step = 1e-7
+    ends = [motion.position(contacts.time - share * step, frame="fixed") for share in (2.0, 1.0)]
+    fixed_angular_speed = np.angle(ends[1] / ends[0]) / step
+    np.testing.assert_allclose(contacts.slip_before, PAPER.radius_ratio + fixed_angular_speed, rtol=1e-6)
+    assert np.abs(contacts.slip_before - (PAPER.radius_ratio + contacts.angular_speed)).min() > 0.9
