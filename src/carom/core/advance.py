@@ -13,9 +13,11 @@ from carom.core.rub import (
     first_transition,
     lift_off,
     next_phase,
+    push_rounding,
     rest_on_wall,
     rub_series,
     rub_step,
+    speed_rounding,
     sum_series,
     turn_ahead,
     wall_push,
@@ -39,8 +41,8 @@ FLIGHT, ROLLING = int(Phase.FLIGHT), int(Phase.ROLLING)
 
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
-RESTING = 64 * 2.220446049250313e-16
-"""Radial speed, relative to the whole, that is rounding: the rotor rests on the wall."""
+RESTING = 4.0
+"""Radial speed, in rounding errors, up to which the rotor rests on the wall: a flight as low cannot be followed."""
 STALLED = 64
 """Events in a row without progress in time after which double precision cannot decide what follows."""
 SHORTEST = 1e-15
@@ -251,15 +253,15 @@ def _wall_reaction(rotor, plane, amplitudes, lifting):
     whole remaining geometric series of bounces, of duration ``2v/(N(1 − d))``, stays below CHATTER_HEIGHT and cannot
     outlast the push; and else flies (CLEAR), as it does where a contact has just lost its push (``lifting``).
     """
-    position = displacement(rotor, plane, amplitudes)
-    local = unit(position).conjugate() * velocity(rotor, plane, amplitudes)
-    push, rate, rounding = wall_push(rotor, plane, amplitudes)
-    rebound = -local.real
-    if abs(rebound) <= RESTING * (1.0 + abs(local.real) + abs(local.imag)):
-        pressed = push > 0.0 if abs(push) > rounding else rate > 0.0
-        return (LANDING if pressed and lifting == 0 else CLEAR), True
-    if rebound < 0.0:
+    normal = unit(displacement(rotor, plane, amplitudes))
+    rebound = -(normal.conjugate() * velocity(rotor, plane, amplitudes)).real
+    rest = RESTING * speed_rounding(rotor, plane, amplitudes)
+    if rebound < -rest:
         return CONTACT, False
+    push, rate = wall_push(rotor, plane, amplitudes)
+    if rebound <= rest:
+        pressed = push > 0.0 if abs(push) > push_rounding(rotor, plane, amplitudes) else rate > 0.0
+        return (LANDING if pressed and lifting == 0 else CLEAR), True
     if push <= 0.0 or rebound * rebound > 2.0 * push * CHATTER_HEIGHT:
         return CLEAR, False
     loss = max(1.0 - rotor.restitution[plane], LEAST_LOSS)

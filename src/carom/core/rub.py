@@ -32,9 +32,11 @@ __all__ = [
     "fly_or_rub_all",
     "lift_off",
     "next_phase",
+    "push_rounding",
     "rest_on_wall",
     "rub_series",
     "rub_step",
+    "speed_rounding",
     "sum_series",
     "turn_ahead",
     "wall_push",
@@ -50,10 +52,8 @@ LEAVING, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
 
 STEP_FRACTION = 0.135
 """Step over radius of convergence: ``0.135^ORDER`` is below rounding."""
-NO_SLIP = 1e-13
-"""Slip velocity, relative to the drive and the speed along the wall, that counts as none."""
-NO_PUSH = 1e-13
-"""Normal force, relative to its parts, that counts as none."""
+ROUNDING = 64 * 2.220446049250313e-16
+"""Rounding error of a sum over the modes, relative to the moduli of its terms."""
 NO_TURN = 1e-15
 """Distance along the wall that counts as none."""
 NEWTON_STEPS = 8
@@ -168,14 +168,14 @@ def first_transition(rotor, plane, phase, step, work):
     slip_stops : bool
     """
     friction = rotor.friction[plane]
-    push_rounding = _push_rounding(rotor, plane, work.series[0], work.speed[0])
-    first = _first_fall(work.push, step, push_rounding)
+    rounding = push_rounding(rotor, plane, work.series[0])
+    first = _first_fall(work.push, step, rounding)
     following = LEAVING if first < step else phase
     if phase == ROLLING:
         for k in range(ORDER + 1):
             work.first_margin[k] = friction * work.push[k] - work.grip[k]
             work.second_margin[k] = friction * work.push[k] + work.grip[k]
-        rounding = (1.0 + friction) * push_rounding
+        rounding *= 1.0 + friction
         backward = _first_fall(work.first_margin, first, rounding)
         forward = _first_fall(work.second_margin, backward, rounding)
         if forward < backward:
@@ -186,7 +186,7 @@ def first_transition(rotor, plane, phase, step, work):
     sign = -1.0 if phase == BACKWARD_SLIP else 1.0
     for k in range(ORDER + 1):
         work.first_margin[k] = sign * work.slip[k]
-    stop = _first_fall(work.first_margin, first, _slip_rounding(rotor, plane, work.speed[0]))
+    stop = _first_fall(work.first_margin, first, speed_rounding(rotor, plane, work.series[0]))
     if stop < first:
         return stop, phase, True
     return first, following, False
@@ -210,7 +210,7 @@ def lift_off(rotor, plane, amplitudes, horizon, work):
     step = min(rub_step(work), horizon)
     for k in range(ORDER + 1):
         work.first_margin[k] = -2.0 * work.push[k] / ((k + 1) * (k + 2))
-    time = _first_fall(work.first_margin, step, _push_rounding(rotor, plane, amplitudes, work.speed[0]))
+    time = _first_fall(work.first_margin, step, push_rounding(rotor, plane, amplitudes))
     sum_series(work, time, amplitudes)
     returned = time < step
     if returned:
@@ -294,23 +294,41 @@ def _value_and_slope(margin, time):
 
 
 @kernel
-def _push_rounding(rotor, plane, amplitudes, speed):
-    """Rounding error of the normal force."""
-    size = squared_modulus(speed)
+def speed_rounding(rotor, plane, amplitudes):
+    """Rounding error of the radial speed and the speed along the wall."""
+    speed = 1.0
     for m in range(amplitudes.shape[0]):
-        size += abs(rotor.acceleration_rows[plane, m] * amplitudes[m])
-    return NO_PUSH * size
+        speed += _size(rotor.rate_rows[plane, m] * amplitudes[m])
+    return ROUNDING * _spread(rotor, plane, amplitudes) * speed
 
 
 @kernel
-def _slip_rounding(rotor, plane, speed):
-    """Rounding error of the slip velocity."""
-    return NO_SLIP * (abs(rotor.drive[plane]) + math.sqrt(squared_modulus(speed)))
+def push_rounding(rotor, plane, amplitudes):
+    """Rounding error of the normal force."""
+    force = squared_modulus(velocity(rotor, plane, amplitudes))
+    for m in range(amplitudes.shape[0]):
+        force += _size(rotor.acceleration_rows[plane, m] * amplitudes[m])
+    return ROUNDING * _spread(rotor, plane, amplitudes) * force
+
+
+@kernel
+def _spread(rotor, plane, amplitudes):
+    """Sum of the sizes of the terms of a displacement on the wall, which is one: how far they cancel."""
+    spread = _size(rotor.offsets[plane])
+    for m in range(amplitudes.shape[0]):
+        spread += _size(rotor.rows[plane, m] * amplitudes[m])
+    return spread
+
+
+@kernel
+def _size(z):
+    """Bound of ``|z|``."""
+    return abs(z.real) + abs(z.imag)
 
 
 @kernel
 def wall_push(rotor, plane, amplitudes):
-    """Normal force that keeps a rotor at rest against the wall, its rate at zero force, and its rounding error."""
+    """Normal force that keeps a rotor at rest against the wall, and its rate at zero force."""
     position = unit(displacement(rotor, plane, amplitudes))
     speed = velocity(rotor, plane, amplitudes)
     free, jerk = 0j, 0j
@@ -323,7 +341,7 @@ def wall_push(rotor, plane, amplitudes):
     inward = (position.conjugate() * free).real
     turning = (position.conjugate() * speed).imag
     change = (position.conjugate() * jerk).real + 3.0 * (speed.conjugate() * free).real
-    return inward + turning * turning, change, _push_rounding(rotor, plane, amplitudes, speed)
+    return inward + turning * turning, change
 
 
 @kernel
@@ -336,12 +354,12 @@ def next_phase(rotor, plane, amplitudes, phase):
     position = unit(displacement(rotor, plane, amplitudes))
     speed = velocity(rotor, plane, amplitudes)
     slip = rotor.drive[plane] + (position.conjugate() * speed).imag
-    if abs(slip) > _slip_rounding(rotor, plane, speed):
+    if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    push, _, rounding = wall_push(rotor, plane, amplitudes)
+    push, _ = wall_push(rotor, plane, amplitudes)
     pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
     missing = abs(pull) - rotor.friction[plane] * max(push, 0.0)
-    if missing > rounding:
+    if missing > push_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if pull > 0.0 else BACKWARD_SLIP
     if rotor.friction[plane] > 0.0:
         return ROLLING
