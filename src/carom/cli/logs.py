@@ -31,7 +31,7 @@ def check_file(option: str, path: str) -> None:
         Naming the option.
     """
     target = Path(path)
-    if not path or target.is_dir():
+    if not path.strip() or "\0" in path or target.is_dir():
         raise InputError(option, path, "must be the path of a file to write, not a directory")
     if not target.parent.is_dir():
         raise InputError(option, path, "must lie in a directory that exists")

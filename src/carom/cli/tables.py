@@ -98,10 +98,8 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     if motion.multiplicity:
         console.print(f"It repeats after {counted(motion.multiplicity, 'impact')}.")
     turns = number(motion.time / (2.0 * math.pi), 3)
-    console.print(
-        f"Followed for {say.time(motion.time)} ({turns} turns of the shaft): {counted(len(log), 'impact')}, "
-        f"{counted(len(contacts), 'lasting contact')}."
-    )
+    followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
+    console.print(f"{followed}: {counted(len(log), 'impact')}, {counted(len(contacts), 'lasting contact')}.")
     if len(log):
         console.print(f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}.")
     if len(log) or contacts:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import secrets
 import shutil
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -36,13 +36,13 @@ def check_directory(path: str, option: str) -> Path:
     InputError
     """
     allowed = "must be a directory to write to, there or to be made"
-    if not path.strip():
+    if not path.strip() or "\0" in path:
         raise InputError(option, repr(path), allowed)
     directory = Path(path)
     try:
         nearest = next(place for place in (directory, *directory.absolute().parents) if place.exists())
-    except (OSError, ValueError) as problem:
-        raise InputError(option, path, f"{allowed} ({getattr(problem, 'strerror', None) or problem})") from None
+    except OSError as problem:
+        raise InputError(option, path, f"{allowed} ({problem.strerror})") from None
     if not nearest.is_dir():
         raise InputError(option, path, f"{allowed}; {nearest} is a file")
     if not os.access(nearest, os.W_OK | os.X_OK):
@@ -75,14 +75,10 @@ def filled_at_once(path: str, option: str) -> Iterator[Path]:
         The place cannot be written.
     """
     target = check_directory(path, option)
+    # Named before it is made, so that an interruption at any moment cleans up.
+    made = target.absolute().parent / f".{target.name}.{secrets.token_hex(4)}.part"
     try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        # With tempfile's own rights nobody else could read the report.
-        made = Path(tempfile.mkdtemp(prefix=f".{target.name}.", suffix=".part", dir=target.absolute().parent))
-        made.chmod(0o777 & ~_umask())
-    except OSError as problem:
-        raise InputError(option, path, f"cannot be written ({problem.strerror}); give another directory") from None
-    try:
+        made.mkdir(parents=True)
         yield made
         _move(made, target)
     except OSError as problem:
@@ -114,9 +110,3 @@ def _remove_stale_figures(target: Path, files: list[Path]) -> None:
         if len(file.parts) == 2 and file.parts[0] == FIGURES and file.parts[1] != ".." and file not in files:
             with suppress(OSError):
                 (target / file).unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

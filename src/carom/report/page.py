@@ -145,15 +145,16 @@ _METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
 _SIZE = re.compile(
     r'<svg([^>]*?) width="([\d.]+)pt" height="[\d.]+pt"|<svg([^>]*?) height="[\d.]+pt" width="([\d.]+)pt"'
 )
-_IDENTIFIER = re.compile(r'\bid="([^"]+)"')
+_IDENTIFIER = re.compile(r' id="([^"]+)"')
 _REFERENCE = re.compile(r'(xlink:href="#|url\(#)([^")]+)')
 
 
 def _inline(picture: Picture, text: str, prefix: str) -> InlineFigure:
     """Turn a figure file into a part of the page: it scales, and its identifiers are its own."""
     svg = _METADATA.sub("", _PROLOGUE.sub("", text))
-    # Identifiers must differ within a page, and every figure has an "axes_1".
-    svg = _IDENTIFIER.sub(lambda match: f'id="{prefix}{match[1]}"', svg)
+    # Identifiers must differ within a page, and every figure has an "axes_1": keep those that are referred to.
+    used = {match[2] for match in _REFERENCE.finditer(svg)}
+    svg = _IDENTIFIER.sub(lambda match: f' id="{prefix}{match[1]}"' if match[1] in used else "", svg)
     svg = _REFERENCE.sub(lambda match: f"{match[1]}{prefix}{match[2]}", svg)
     label = str(Markup.escape(picture.caption.split(". ")[0]))
 

@@ -27,6 +27,8 @@ MOST_SAMPLES = 60_000
 """Samples of ``F₁`` beyond which a parameter set is left out of the search."""
 ROUNDING = 2e-16
 """Rounding of ``F₁`` near its roots."""
+NOISE = 1e-14
+"""Depth below ``F₁(0)`` from which on a minimum is none of rounding."""
 GAIN_STEPS = 240
 NEARBY = 1e-6
 """Relative distance from a fold at which the number of roots is counted with proof."""
@@ -78,7 +80,10 @@ def single_impact_range(parameters: Parameters, gain: Gain, progress: Progress |
 
 
 def deepest_dip(parameters: Parameters, sign_only: bool = False) -> tuple[float, float]:
-    """Deepest local minimum of ``F₁`` over ``T > 0``.
+    """Deepest local minimum of ``F₁`` over ``T > 0`` that lies below ``F₁(0)``; others cannot reach zero.
+
+    With ``d = 1`` there is ``F₁(0) = 0``, and the slope there, if it is lower, stands for a minimum at ``T = 0``: where it
+    is negative, so is ``F₁`` at short periods.
 
     Parameters
     ----------
@@ -90,12 +95,22 @@ def deepest_dip(parameters: Parameters, sign_only: bool = False) -> tuple[float,
     Returns
     -------
     period, depth : float
-        Its place and value, the value to rounding; infinite where ``F₁`` has no minimum.
+        Its place and value, the value to rounding; infinite where there is none.
     """
     condition = PeriodCondition(jeffcott(parameters))
+    period, depth = _interior_dip(condition, sign_only)
+    if parameters.d == 1.0:
+        slope = float(condition.slope(np.zeros(1))[0])
+        if slope < depth:
+            return 0.0, slope
+    return period, depth
+
+
+def _interior_dip(condition: PeriodCondition, sign_only: bool) -> tuple[float, float]:
     times = _samples(condition)
     values = condition.value(times)
-    dips = np.flatnonzero((values[1:-1] <= values[:-2]) & (values[1:-1] < values[2:])) + 1
+    lower = np.minimum(values[:-2], values[0] - NOISE)
+    dips = np.flatnonzero((values[1:-1] <= lower) & (values[1:-1] < values[2:])) + 1
     if not len(dips):
         return math.inf, math.inf
     deepest = int(dips[np.argmin(values[dips])])
@@ -120,8 +135,10 @@ def _minimum(condition: PeriodCondition, low: float, high: float) -> float:
 
 
 def _samples(condition: PeriodCondition) -> np.ndarray:
+    """Even samples, and before the first of them geometric ones: nearly elastic impacts dip at very short periods."""
     longest = condition.longest_period()
-    return np.linspace(0.0, longest, _sample_count(condition, longest) + 1)[1:]
+    even = np.linspace(0.0, longest, _sample_count(condition, longest) + 1)[1:]
+    return np.concatenate([[0.0], even[0] * np.geomspace(1e-7, 1.0, 48)[:-1], even])
 
 
 def _sample_count(condition: PeriodCondition, longest: float) -> int:
@@ -219,4 +236,5 @@ def _edge(parameters: Parameters, gain: Gain, fold: _Point, roots_below: bool) -
         condition = PeriodCondition(jeffcott(parameters.replace(**{gain: fold.gain * factor})))
         counts.append(len(condition.roots().periods))
     below, above = counts if roots_below else reversed(counts)
-    return Edge(fold.gain, "fold", fold.period, certified=below > 0 and above == 0)
+    kind = "fold" if fold.period > 0 else "vanishing-period"
+    return Edge(fold.gain, kind, fold.period, certified=below > 0 and above == 0)

@@ -41,7 +41,8 @@ class Edge:
     value : float
         ``gamma`` or ``omega``; 0 and infinity are possible.
     kind : str
-        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"``, ``"fold"`` or ``"rolling-limit"``; empty where nothing does, at the end
+        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"``, ``"fold"``, ``"vanishing-period"`` or
+        ``"rolling-limit"``; empty where nothing does, at the end
         of the axis or of a search.
     period : float or None
         Of the orbit that is born at a fold, in ``1/Ω``.

@@ -95,6 +95,7 @@ _EVENTS = {
     "boundary-equilibrium": "the contact-free motion reaches the wall",
     "rub-fold": "a stable and an unstable rub meet (fold)",
     "fold": "two orbits meet (fold)",
+    "vanishing-period": "the period of an orbit shrinks to zero",
     "rolling-limit": "friction just keeps the rotor rolling",
 }
 

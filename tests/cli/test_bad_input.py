@@ -1,0 +1,264 @@
+"""Bad input: one line that names the field, the value and what is allowed; exit code 2; nothing written."""
+
+import pytest
+
+from carom.cli import main
+from carom.cli.app import BAD_INPUT, FAILURE, INTERRUPTED
+
+FIELDS = {
+    "mass": ("50 kg", "1 s"),
+    "damping": ("1400 N s/m", "1400 N/m"),
+    "stiffness": ("9.8e5 N/m", "9.8e5 N"),
+    "eccentricity": ("0.3 mm", "0.3 kg"),
+    "clearance": ("0.7 mm", "0.7 rad"),
+    "rotor_radius": ("40 mm", "40 N"),
+    "speed": ("184.2 rad/s", "184.2 m/s"),
+    "unbalance_phase": ("0.21 rad", "0.21 m"),
+    "friction": (0.15, "0.15 N"),
+    "restitution": (0.95, "0.95 m"),
+}
+UNSIGNED = [name for name in FIELDS if name != "unbalance_phase"]
+NEVER_ZERO = ["mass", "stiffness", "clearance", "rotor_radius", "speed"]
+
+
+def toml(values):
+    lines = ["[machine]"]
+    for name, value in values.items():
+        lines.append(f'{name} = "{value}"' if isinstance(value, str) else f"{name} = {value}")
+    return "\n".join(lines) + "\n"
+
+
+def good():
+    return {name: value for name, (value, _) in FIELDS.items()}
+
+
+def assert_refused(answer, *names):
+    code, out, err = answer
+    assert code == BAD_INPUT
+    assert out == ""
+    assert err.count("\n") == 1
+    assert err.startswith("carom: ")
+    assert "Traceback" not in err
+    for name in names:
+        assert name in err
+
+
+@pytest.fixture
+def refused(carom, tmp_path):
+    """Study a file with this text and check that it is refused and leaves no trace."""
+
+    def check(text, *names):
+        path = tmp_path / "machine.toml"
+        path.write_text(text, encoding="utf-8")
+        out = tmp_path / "out"
+        assert_refused(carom("study", path, "--out", out), *names)
+        assert sorted(entry.name for entry in tmp_path.iterdir()) == ["machine.toml"]
+
+    return check
+
+
+@pytest.mark.parametrize("name", FIELDS)
+def test_field_missing(refused, name):
+    refused(toml({field: value for field, value in good().items() if field != name}), name, "missing")
+
+
+@pytest.mark.parametrize("name", FIELDS)
+def test_field_misspelt(refused, name):
+    wrong = name[:-1] + "x"
+    refused(toml({(wrong if field == name else field): value for field, value in good().items()}), wrong, name)
+
+
+@pytest.mark.parametrize("name", FIELDS)
+def test_field_of_another_dimension(refused, name):
+    refused(toml(good() | {name: FIELDS[name][1]}), name, FIELDS[name][1])
+
+
+@pytest.mark.parametrize("name", UNSIGNED)
+def test_field_negative(refused, name):
+    refused(toml(good() | {name: -0.5}), name, "-0.5")
+
+
+@pytest.mark.parametrize("name", NEVER_ZERO)
+def test_field_zero(refused, name):
+    refused(toml(good() | {name: 0.0}), name, "> 0")
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf"])
+@pytest.mark.parametrize("name", FIELDS)
+def test_field_not_finite(refused, name, value):
+    refused(toml(good()).replace("[machine]\n", f"[machine]\n{name} = {value}\n", 1).replace(_line(name), ""), name)
+
+
+def _line(name):
+    return toml({name: good()[name]}).removeprefix("[machine]\n")
+
+
+@pytest.mark.parametrize("name", FIELDS)
+def test_field_huge(refused, name):
+    refused(toml(good() | {name: 1e300}), name, "1e+300")
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("", "empty"),
+        ("\n \n", "empty"),
+        ("mass = 1", "mass"),
+        ("[machine]", "missing"),
+        ("[machine\nmass=1", "TOML"),
+        ("[machines]\nmass=1", "machine"),
+        ("[machine]\nmass=1\n[dimensionless]\ngamma=1", "both"),
+        ("[zones]\nlimits=[0.1,0.2,0.3]", "neither"),
+    ],
+)
+def test_wrong_file(refused, content, words):
+    refused(content, words)
+
+
+def test_unreadable_files(carom, tmp_path):
+    binary = tmp_path / "binary.toml"
+    binary.write_bytes(b"\xff\xfe\x00")
+    for path in (tmp_path, tmp_path / "none.toml", binary, tmp_path / "a" / "b.toml", "\0", ""):
+        assert_refused(carom("study", path))
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        "",
+        "gamma",
+        "gamma=",
+        "=1",
+        "gamma=x",
+        "gamma=nan",
+        "gamma=1 kg",
+        "gama=1",
+        "damping=-1",
+        "damping=1 kg",
+        "phi=1e400",
+    ],
+)
+@pytest.mark.parametrize("command", ["study", "orbits", "simulate"])
+def test_nonsense_settings(carom, machine, command, setting):
+    more = ["--kick", "0.1"] if command == "simulate" else []
+    assert_refused(carom(command, machine, "--set", setting, *more), setting.partition("=")[0] or "--set")
+
+
+def test_settings_that_set_the_same_thing(carom, machine):
+    assert_refused(carom("orbits", machine, "--set", "gamma=0.1", "--set", "damping=1"), "gamma", "damping")
+    assert_refused(carom("orbits", machine, "--set", "gamma=0.1", "--set", "gamma=0.2"), "twice")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ((), "--start"),
+        (("--start", "0,0,0,0", "--kick", "1"), "--kick"),
+        (("--start", "1,2,3"), "RE,IM,VRE,VIM"),
+        (("--start", "0,0,0,0,0"), "RE,IM,VRE,VIM"),
+        (("--start", ",,,"), "RE,IM,VRE,VIM"),
+        (("--start", "a,0,0,0"), "--start = a"),
+        (("--start", "1.1,0,0,0"), "inside the wall"),
+        (("--start", "0.8 mm,0,0,0"), "inside the wall"),
+        (("--start", "nan,0,0,0"), "--start = nan"),
+        (("--start", "0,0,inf,0"), "--start = inf"),
+        (("--start", "1 s,0,0,0"), "--start = 1 s"),
+        (("--start", "0,0,1 mm,0"), "--start = 1 mm"),
+        (("--kick", "fast"), "--kick = fast"),
+        (("--kick", "1,2,3"), "SPEED"),
+        (("--kick", "nan"), "--kick = nan"),
+        (("--kick", "0.1", "--set", "gamma=0.01"), "--kick = 0.1"),
+        (("--kick", "1", "--until", "0"), "--until = 0"),
+        (("--kick", "1", "--until", "-1"), "--until = -1"),
+        (("--kick", "1", "--until", "nan"), "--until = nan"),
+        (("--kick", "1", "--until", "inf"), "--until = inf"),
+        (("--kick", "1", "--until", "2 m"), "--until = 2 m"),
+        (("--kick", "1", "--until", ""), "--until"),
+    ],
+)
+def test_wrong_start(carom, machine, arguments, words):
+    assert_refused(carom("simulate", machine, *arguments), words)
+
+
+def test_units_need_a_machine(carom, dimensionless):
+    for arguments in (("--start", "0.1 mm,0,0,0"), ("--kick", "1 mm/s"), ("--kick", "1", "--until", "1 s")):
+        assert_refused(carom("simulate", dimensionless, *arguments), "no scales")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("stdy",), "stdy"),
+        (("study",), "MACHINE"),
+        (("study", "a", "b"), "b"),
+        (("study", "a", "--nonsense"), "--nonsense"),
+        (("study", "a", "--set"), "--set"),
+        (("--nonsense",), "--nonsense"),
+        (("orbits", "MACHINE", "--longest-period", "long"), "--longest-period"),
+        (("orbits", "MACHINE", "--longest-period", "0"), "--longest-period"),
+        (("orbits", "MACHINE", "--longest-period", "nan"), "--longest-period"),
+    ],
+)
+def test_wrong_usage(carom, machine, arguments, words):
+    assert_refused(carom(*(machine if word == "MACHINE" else word for word in arguments)), words)
+
+
+@pytest.mark.parametrize("option", ["--csv", "--netcdf"])
+def test_logs_that_cannot_be_written(carom, machine, option, tmp_path):
+    for path in (tmp_path, tmp_path / "none" / "log", "", "a\0b"):
+        assert_refused(carom("simulate", machine, "--kick", "0.01", "--until", "1", option, path), option)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_directories_that_cannot_be_written(carom, machine, tmp_path):
+    file = tmp_path / "file"
+    file.write_text("mine", encoding="utf-8")
+    for path in (file, file / "below", "", " ", "a\0b"):
+        assert_refused(carom("study", machine, "--out", path), "--out")
+    assert file.read_text(encoding="utf-8") == "mine"
+    assert list(tmp_path.iterdir()) == [file]
+
+
+# ------------------------------------------------------------------------------------------------ other failures
+
+
+def _raise(error):
+    def fail(*_, **__):
+        raise error
+
+    return fail
+
+
+def test_unexpected_error_is_one_line(monkeypatch, carom, machine):
+    monkeypatch.setattr("carom.parameters.load_case", _raise(ZeroDivisionError("first\nsecond")))
+
+    code, out, err = carom("study", machine)
+
+    assert (code, out) == (FAILURE, "")
+    assert err == "carom: unexpected ZeroDivisionError, please report it (CAROM_DEBUG=1 shows more): first second\n"
+
+
+def test_unexpected_error_shows_more_on_demand(monkeypatch, machine):
+    monkeypatch.setattr("carom.parameters.load_case", _raise(ZeroDivisionError("why")))
+    monkeypatch.setenv("CAROM_DEBUG", "1")
+
+    with pytest.raises(ZeroDivisionError, match="why"):
+        main(["study", machine])
+
+
+def test_interrupt(monkeypatch, carom, machine):
+    monkeypatch.setattr("carom.parameters.load_case", _raise(KeyboardInterrupt))
+
+    code, out, err = carom("study", machine)
+
+    assert (code, out) == (INTERRUPTED, "")
+    assert err.count("\n") <= 1
+
+
+def test_file_system_error_is_one_line(monkeypatch, carom, machine):
+    monkeypatch.setattr("carom.parameters.load_case", _raise(OSError(28, "No space left on device")))
+
+    code, _, err = carom("study", machine)
+
+    assert code == FAILURE
+    assert err == "carom: cannot read or write: No space left on device\n"

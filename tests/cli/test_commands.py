@@ -1,0 +1,214 @@
+"""What the commands print."""
+
+import json
+
+import pytest
+
+from carom import __version__
+from carom.equilibria import equilibria
+from carom.orbits import single_impact_orbits
+from carom.parameters import load_case
+from carom.rotors import jeffcott
+
+pytestmark = pytest.mark.jit_only
+
+ORBIT_KEYS = {
+    "name",
+    "impacts",
+    "period",
+    "radial_speed",
+    "angle",
+    "angular_speed",
+    "multipliers",
+    "stable",
+    "admissible",
+    "reason",
+}
+
+
+def document(answer):
+    code, out, err = answer
+    assert code == 0, err
+    assert err == ""
+    value, end = json.JSONDecoder().raw_decode(out)
+    assert out[end:] == "\n"
+    assert isinstance(value, dict)
+    return value
+
+
+# ------------------------------------------------------------------------------------------------ orbits
+
+
+def test_orbits_as_json(carom, machine):
+    value = document(carom("orbits", machine, "--json"))
+    rotor = jeffcott(load_case(machine).parameters)
+
+    assert set(value) >= {"parameters", "equilibria", "orbits"}
+    assert all(set(entry) >= ORBIT_KEYS for entry in value["orbits"])
+    assert [entry["period"] for entry in value["orbits"]] == [orbit.period for orbit in single_impact_orbits(rotor)]
+    assert [entry["status"] for entry in value["equilibria"]] == [entry.status for entry in equilibria(rotor)]
+    assert value["complete"] is True
+
+
+def test_settings_change_the_machine(carom, machine):
+    value = document(carom("orbits", machine, "--set", "damping=2000 N s/m", "--set", "mu=0.1", "--json"))
+
+    assert value["parameters"]["gamma"] == pytest.approx(2000 / (50 * 184.2), rel=1e-15)
+    assert value["parameters"]["mu"] == 0.1
+    assert value["machine_si"]["damping"] == 2000.0
+
+
+def test_orbits_for_people(carom, dimensionless):
+    code, out, err = carom("orbits", dimensionless)
+
+    assert (code, err) == (0, "")
+    for words in ("B1,d", "2.863567145", "0.7332305341", "-1.368298585", "synchronous rub", "F1 has 2 roots"):
+        assert words in out
+
+
+def test_orbits_up_to_a_period(carom, machine):
+    short = document(carom("orbits", machine, "--longest-period", "2", "--json"))
+    same = document(carom("orbits", machine, "--longest-period", "10.857763 ms", "--json"))
+
+    assert {entry["name"] for entry in short["orbits"]} == {"B1,a", "B1,c"}
+    assert short["complete"] is False
+    assert same["longest_period"] == pytest.approx(2.0, rel=1e-6)
+    assert len(same["orbits"]) == 2
+
+
+def test_undamped_machine_is_told_as_incomplete(carom, machine):
+    value = document(carom("orbits", machine, "--set", "damping=0 N s/m", "--json"))
+
+    assert value["complete"] is False
+    assert "not searched" in value["argument"]
+
+
+# ------------------------------------------------------------------------------------------------ simulate
+
+
+def test_simulate_as_json(carom, dimensionless):
+    value = document(carom("simulate", dimensionless, "--start", "0.2,0.1,0.3,-0.2", "--until", "100", "--json"))
+
+    assert set(value) >= {"outcome", "time", "impacts", "contacts", "final"}
+    assert (value["outcome"], value["time"]) == ("time-reached", 100.0)
+    assert value["start"] == {"U": [0.2, 0.1], "V": [0.3, -0.2]}
+    assert value["impacts"]
+    for impact in value["impacts"]:
+        assert set(impact) >= {"time", "angle", "radial_speed", "angular_speed"}
+        assert impact["radial_speed"] > 0.0
+    assert set(value["final"]) == {"U", "V"}
+
+
+def test_simulate_follows_a_motion_to_its_end(carom, machine):
+    value = document(carom("simulate", machine, "--kick", "0.1,2", "--json"))
+
+    assert value["outcome"] == "forward-rub"
+    assert value["contacts"][-1]["kind"] == "slide"
+    assert value["contacts"][-1]["end"] == value["time"]
+
+
+def test_start_with_units_is_the_same_start(carom, machine):
+    speed = 0.7e-3 * 184.2
+    plain = f"0.5,-0.25,{0.02 / speed!r},0"
+    in_units = "0.35 mm,-175 um,2 cm/s,0 m/s"
+
+    first = document(carom("simulate", machine, "--start", plain, "--until", "36.84", "--json"))
+    second = document(carom("simulate", machine, "--start", in_units, "--until", "0.2 s", "--json"))
+
+    assert second["time"] == pytest.approx(first["time"], rel=1e-14)
+    assert len(second["impacts"]) == len(first["impacts"])
+    assert second["start"]["U"] == pytest.approx(first["start"]["U"], rel=1e-14)
+    assert second["start"]["V"] == pytest.approx(first["start"]["V"], rel=1e-14)
+
+
+def test_kick_with_units_is_the_same_kick(carom, machine):
+    first = document(carom("simulate", machine, "--kick", f"0.4,{3.141592653589793 / 6!r}", "--until", "50", "--json"))
+    second = document(
+        carom("simulate", machine, "--kick", f"{0.4 * 0.7 * 184.2!r} mm/s,30 deg", "--until", "50", "--json")
+    )
+
+    assert second["start"]["V"] == pytest.approx(first["start"]["V"], rel=1e-13)
+    assert second["start"]["U"] == first["start"]["U"]
+
+
+def test_simulate_for_people(carom, machine):
+    code, out, err = carom("simulate", machine, "--kick", "0.1,2")
+
+    assert (code, err) == (0, "")
+    for words in ("rubs along the touchdown bearing", "283 impacts", "forward slip", "N s", "more: --csv FILE has all"):
+        assert words in out
+
+
+def test_simulate_without_contact(carom, machine):
+    code, out, _ = carom("simulate", machine, "--kick", "0.001", "--until", "20")
+
+    assert code == 0
+    assert "0 impacts" in out
+
+
+# ------------------------------------------------------------------------------------------------ study
+
+
+def test_study_as_json(carom, machine):
+    value = document(carom("study", machine, "--json"))
+
+    assert set(value) >= {"name", "parameters", "equilibria", "orbits", "thresholds", "zone", "verdict", "disturbances"}
+    assert value["name"] == "keogh-cole"
+
+
+def test_study_for_people(carom, machine):
+    code, out, err = carom("study", machine)
+
+    assert (code, err) == (0, "")
+    for words in ("may not come back", "3,408 N s/m", "zone D", "B1,d", "901 N", "Not covered", "add --out DIR"):
+        assert words in out
+    assert "\x1b" not in out
+
+
+def test_study_of_a_dimensionless_file(carom, dimensionless):
+    code, out, _ = carom("study", dimensionless)
+
+    assert code == 0
+    assert "γ = 0.37000604" in out
+    assert "N s/m" not in out
+
+
+def test_study_writes_a_report(carom, machine, tmp_path):
+    code, out, _ = carom("study", machine, "--out", tmp_path / "deep" / "out")
+
+    assert code == 0
+    assert out.rstrip().endswith(str(tmp_path / "deep" / "out" / "report.html"))
+
+
+def test_json_with_a_report_stays_alone_on_standard_output(carom, dimensionless, tmp_path):
+    code, out, err = carom("study", dimensionless, "--set", "gamma=0.4", "--json", "--out", tmp_path)
+
+    assert code == 0
+    assert "report.html" in err
+    written = json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))
+    assert written == json.loads(out) | {"figures": written["figures"]}
+    assert all((tmp_path / name).is_file() for name in written["figures"])
+
+
+# ------------------------------------------------------------------------------------------------ help
+
+
+def test_version(carom):
+    assert carom("--version") == (0, f"carom {__version__}\n", "")
+
+
+@pytest.mark.parametrize("arguments", [(), ("--help",), ("-h",)])
+def test_help_lists_the_commands(carom, arguments):
+    code, out, err = carom(*arguments)
+
+    assert (code, err) == (0, "")
+    assert {"study", "simulate", "orbits"} <= set(out.split())
+
+
+@pytest.mark.parametrize("command", ["study", "simulate", "orbits"])
+def test_help_of_commands(carom, command):
+    code, out, _ = carom(command, "--help")
+
+    assert code == 0
+    assert "--set" in out
+    assert "--json" in out

@@ -1,0 +1,96 @@
+"""Contact logs as files hold what the motion has, in SI units, and appear whole or not at all."""
+
+import csv
+
+import numpy as np
+import pytest
+import xarray
+
+from carom.cli.logs import write_csv, write_netcdf
+from carom.outcome import InputError, Phase
+from carom.parameters import load_case
+from carom.rotors import jeffcott
+from carom.trajectories import kick, simulate
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.fixture
+def motion(machine):
+    return simulate(jeffcott(load_case(machine).parameters), kick(0.1, 2.0), 150.0)
+
+
+def rows_of(path):
+    with path.open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_csv_holds_impacts_and_lasting_contacts_in_order(motion, tmp_path):
+    write_csv(motion, str(tmp_path / "log.csv"))
+    rows = rows_of(tmp_path / "log.csv")
+    scales = motion.rotor.scales
+
+    impacts = [row for row in rows if row["kind"] == "impact"]
+    assert [float(row["time [s]"]) for row in impacts] == (motion.contacts.time * scales.time).tolist()
+    assert [float(row["normal_impulse [N s]"]) for row in impacts] == (
+        motion.contacts.normal_impulse * scales.impulse
+    ).tolist()
+    slides = [row for row in rows if row["kind"] == "slide (forward-slip)"]
+    assert len(slides) == len(motion.lasting_contacts) > 0
+    assert float(slides[-1]["end [s]"]) == motion.time * scales.time
+    times = [float(row["time [s]"]) for row in rows]
+    assert times == sorted(times)
+
+
+def test_csv_of_a_dimensionless_machine(dimensionless, tmp_path):
+    motion = simulate(jeffcott(load_case(dimensionless).parameters), kick(0.4, 0.2), 50.0)
+    write_csv(motion, str(tmp_path / "log.csv"))
+
+    rows = rows_of(tmp_path / "log.csv")
+    assert [float(row["radial_speed [c_r Omega]"]) for row in rows] == motion.contacts.radial_speed.tolist()
+
+
+def test_netcdf_holds_the_same_with_units(motion, tmp_path):
+    write_netcdf(motion, str(tmp_path / "log.nc"))
+
+    with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf") as read:
+        assert read["normal_impulse"].attrs["units"] == "N s"
+        assert np.array_equal(read["time"], motion.contacts.time * motion.rotor.scales.time)
+        assert read["contact_phase"].values.tolist() == [contact.phase for contact in motion.lasting_contacts]
+        meanings = dict(
+            zip(
+                np.atleast_1d(read["contact_phase"].attrs["flag_values"]).tolist(),
+                read["contact_phase"].attrs["flag_meanings"].split(),
+                strict=True,
+            )
+        )
+        assert meanings[Phase.FORWARD_SLIP] == "forward_slip"
+        assert read.attrs["outcome"] == motion.outcome.label
+        assert read.attrs["gamma"] == motion.rotor.parameters.gamma
+        assert read.attrs["end_time"] == motion.time * motion.rotor.scales.time
+
+
+def test_motion_without_contact(machine, tmp_path):
+    motion = simulate(jeffcott(load_case(machine).parameters), kick(0.001), 10.0)
+    write_csv(motion, str(tmp_path / "log.csv"))
+    write_netcdf(motion, str(tmp_path / "log.nc"))
+
+    assert rows_of(tmp_path / "log.csv") == []
+    with xarray.open_dataset(tmp_path / "log.nc", engine="h5netcdf") as read:
+        assert read.sizes == {"impact": 0, "contact": 0}
+
+
+def test_failed_write_leaves_the_old_file(motion, tmp_path, monkeypatch):
+    target = tmp_path / "log.nc"
+    target.write_text("old", encoding="utf-8")
+
+    def half(self, path, **_):
+        path.write_text("half", encoding="utf-8")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(xarray.Dataset, "to_netcdf", half)
+    with pytest.raises(InputError, match=r"--netcdf = .*log.nc: cannot be written \(No space left on device\)"):
+        write_netcdf(motion, str(target))
+
+    assert target.read_text(encoding="utf-8") == "old"
+    assert list(tmp_path.iterdir()) == [target]

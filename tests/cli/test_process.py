@@ -1,0 +1,101 @@
+"""The program as a process: exit codes, streams and what it loads."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+CAROM = [sys.executable, "-m", "carom"]
+
+
+def run(*arguments, **options):
+    return subprocess.run(
+        [*CAROM, *map(str, arguments)], capture_output=True, text=True, encoding="utf-8", check=False, **options
+    )
+
+
+@pytest.mark.jit_only
+def test_json_is_one_object(machine):
+    done = run("orbits", machine, "--json")
+
+    assert done.returncode == 0
+    assert done.stderr == ""
+    assert [orbit["name"] for orbit in json.loads(done.stdout)["orbits"]] == ["B1,a", "B1,b", "B1,c", "B1,d"]
+
+
+def test_bad_input_exits_with_2_and_one_line():
+    done = run("study", "no-such-file.toml", "--json")
+
+    assert (done.returncode, done.stdout) == (2, "")
+    assert (
+        done.stderr == "carom: machine file = no-such-file.toml: there is no such file; give the path of a TOML file\n"
+    )
+
+
+def test_help_loads_nothing_heavy():
+    code = (
+        "import sys; from carom.cli import main; main(['--help']); "
+        "print([name for name in ('numpy', 'numba', 'matplotlib', 'pint', 'pydantic', 'xarray', 'rich', 'jinja2') "
+        "if name in sys.modules], file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert done.stderr.strip() == "[]"
+
+
+def test_wrong_usage_loads_nothing_heavy():
+    code = "import sys; from carom.cli import main; main(['study']); assert 'numpy' not in sys.modules"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.jit_only
+def test_reader_that_leaves_early_is_no_error(machine):
+    command = [*CAROM, "orbits", machine, "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        errors = process.stderr.read()
+
+    assert errors == b""
+    assert process.returncode in (0, 1)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")  # noqa: PTH110
+def test_full_disk_is_one_line():
+    with open("/dev/full", "w") as full:  # noqa: PTH123
+        done = subprocess.run([*CAROM, "--version"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+
+    assert done.returncode == 1
+    assert done.stderr == "carom: cannot read or write: No space left on device\n"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="closes a stream as shells do")
+def test_closed_output_is_no_error():
+    done = subprocess.run(["sh", "-c", f"{sys.executable} -m carom --version >&-"], capture_output=True, check=False)
+
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
+@pytest.mark.jit_only
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_interrupt_leaves_nothing_behind(machine, tmp_path):
+    out = tmp_path / "out"
+    process = subprocess.Popen(
+        [*CAROM, "study", machine, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    # Interrupt while figures are being written, as soon as the directory beside the place is there.
+    while process.poll() is None and not any(tmp_path.iterdir()):
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate()
+
+    assert process.returncode == 130
+    assert output == ""
+    assert errors.count("\n") <= 1
+    assert "Traceback" not in errors
+    assert list(tmp_path.iterdir()) == []
