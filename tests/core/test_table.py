@@ -11,7 +11,7 @@ from flights import parameters
 from reference import Flight, plane_flight
 
 from carom.core import table as tables
-from carom.core.layout import DEGREE, rotor_record
+from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, rotor_record
 from carom.core.table import flight_table
 from carom.rotors import jeffcott
 
@@ -57,7 +57,7 @@ def arrays(request):
     return list(all_arrays())[request.param]
 
 
-def polynomial_of(arrays, table, amplitudes):
+def polynomial_of(arrays, table, depth, amplitudes):
     """Bernstein coefficients 0 … DEGREE of ``|y|² − 1`` on a block, and the bound of their error at its end.
 
     Written down from the sum in the docstring of the module, not from the kernel.
@@ -79,7 +79,7 @@ def polynomial_of(arrays, table, amplitudes):
             products += [pair.real, pair.imag]
     products = np.array(products)
     level = abs(start) ** 2 - 1.0
-    return np.append(level, level + products @ table.coefficients), np.abs(products) @ table.errors
+    return np.append(level, level + products @ table.coefficients[depth]), np.abs(products) @ table.errors[depth]
 
 
 def bernstein(coefficients, share):
@@ -94,43 +94,70 @@ def flight_of(arrays, amplitudes) -> Flight:
     return plane_flight(arrays.offsets[0], arrays.rows[0], arrays.exponents, driven, amplitudes)
 
 
-def test_the_polynomial_errs_by_less_than_its_bound(arrays):
+@pytest.mark.parametrize("depth", range(LEVELS))
+def test_the_polynomial_errs_by_less_than_its_bound(arrays, depth):
     """At any time of the block, in proportion to that time."""
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    duration = float(table.durations[depth])
     random = np.random.default_rng(5)
     modes = len(arrays.exponents)
     for _ in range(20):
         amplitudes = random.normal(size=modes) + 1j * random.normal(size=modes)
-        coefficients, error = polynomial_of(arrays, table, amplitudes)
+        coefficients, error = polynomial_of(arrays, table, depth, amplitudes)
         flight = flight_of(arrays, amplitudes)
-        rounding = 64 * EPSILON * flight.spread(float(table.duration)) ** 2
+        rounding = 64 * EPSILON * flight.spread(duration) ** 2
         for share in (*np.linspace(0.0, 1.0, 41), 1e-3, 1e-6, 1.0 - 1e-6):
-            exact = float(flight.level(share * float(table.duration))[0])
+            exact = float(flight.level(share * duration)[0])
             assert abs(bernstein(coefficients, share) - exact) <= error * share + rounding
 
 
-def test_each_row_errs_by_less_than_its_bound_and_not_by_much_less(arrays):
+@pytest.mark.parametrize("depth", range(LEVELS))
+def test_each_row_errs_by_less_than_its_bound_and_not_by_much_less(arrays, depth):
     """Rows that are not all rounding come within a factor of 100 of their bound: the bound is of use."""
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    duration = table.durations[depth]
     times = np.linspace(0.0, 1.0, 2001)[1:]
-    exact = tables._rows(arrays.exponents, arrays.driven.astype(bool), times * table.duration) * table.duration * times
+    exact = tables._rows(arrays.exponents, arrays.driven.astype(bool), times * duration) * duration * times
     j = np.arange(1, DEGREE + 1)
     binomials = np.array([math.comb(DEGREE, i) for i in j])
     basis = binomials * times[:, None] ** j * (1.0 - times[:, None]) ** (DEGREE - j)
-    worst = np.abs(basis @ table.coefficients.T - exact.T).max(axis=0)
-    assert np.all(worst <= table.errors)
-    telling = table.errors > 1e-9 * np.abs(exact).max(axis=1)
-    assert np.all(worst[telling] >= 0.01 * table.errors[telling])
+    worst = np.abs(basis @ table.coefficients[depth].T - exact.T).max(axis=0)
+    assert np.all(worst <= table.errors[depth])
+    telling = table.errors[depth] > 1e-9 * np.abs(exact).max(axis=1)
+    assert np.all(worst[telling] >= 0.01 * table.errors[depth][telling])
 
 
 def test_basis_functions_against_many_digits(arrays):
     driven = arrays.driven.astype(bool)
     table = flight_table(arrays.exponents, driven)
-    times = np.array([1e-6, 0.1, 0.6, 1.0]) * table.duration
+    times = np.array([1e-6, 0.1, 0.6, 1.0]) * table.durations[0]
     for k, values in enumerate(tables._basis(arrays.exponents, driven, times)):
         for time, value in zip(times, values, strict=True):
             exact = derivative_of_basis(arrays, k, 0, float(time))
             assert abs(value - exact) <= 32 * EPSILON * max(abs(exact), abs(arrays.exponents[k]) * time * abs(exact))
+
+
+def test_nodes_and_power_series_against_many_digits(arrays):
+    """At the nodes the basis functions and three derivatives; the power series reach rounding half a spacing away."""
+    driven = arrays.driven.astype(bool)
+    table = flight_table(arrays.exponents, driven)
+    fastest = np.abs(arrays.exponents).max()
+    assert math.frexp(table.spacing)[0] * 2**24 % 1.0 == 0.0
+    rest = 0.5 * float(table.spacing)
+    powers = rest ** np.arange(1, TERMS + 1)
+    for k, exponent in enumerate(arrays.exponents):
+        for order in range(4):
+            for node in (0, 1, 7, NODES // 2, NODES):
+                exact = derivative_of_basis(arrays, k, order, node * float(table.spacing))
+                size = max(abs(exact), fastest**order * min(1.0, fastest * node * float(table.spacing)))
+                assert abs(table.basis[node, order, k] - exact) <= 64 * EPSILON * size
+        assert np.all(table.basis[0, 0] == 0.0)
+        with mpmath.workdps(50):
+            growth = complex(mpmath.expm1(mpmath.mpc(complex(exponent)) * rest))
+        assert abs(powers @ table.growth_series[:, k] - growth) <= 4 * EPSILON * abs(growth)
+        exact = derivative_of_basis(arrays, k, 0, rest)
+        assert abs(powers @ table.basis_series[:, k] - exact) <= 4 * EPSILON * abs(exact)
+    assert np.allclose(table.growth[:, driven], table.basis[:, 0, driven], rtol=0, atol=4 * EPSILON)
 
 
 def derivative_of_basis(arrays, k: int, order: int, time: float) -> complex:
@@ -152,35 +179,37 @@ def test_derivative_bounds_bound(arrays):
     for k in range(len(arrays.exponents)):
         for order in (1, 2, 3):
             for share in np.linspace(0.0, 1.0, 21):
-                value = derivative_of_basis(arrays, k, order, share * float(table.duration))
+                value = derivative_of_basis(arrays, k, order, share * float(table.durations[0]))
                 assert abs(value) <= table.bounds[order - 1, k] * (1 + 4 * EPSILON)
 
 
-def test_the_computed_tail_is_the_whole_tail(arrays):
+@pytest.mark.parametrize("depth", range(LEVELS))
+def test_the_computed_tail_is_the_whole_tail(arrays, depth):
     """With twice as many Chebyshev points the error bounds do not change: nothing hides behind the last one."""
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    duration = float(table.durations[depth])
     points = 2 * tables.SAMPLES
     # Whole turns are taken off in whole numbers, which keeps the cosines exact to rounding.
     turns = np.outer(2 * np.arange(points) + 1, np.arange(points)) % (4 * points)
     cosines = np.cos(np.pi * turns / (2 * points))
-    times = (0.5 + 0.5 * cosines[:, 1]) * float(table.duration)
-    rows = tables._rows(arrays.exponents, arrays.driven.astype(bool), times) * float(table.duration)
+    times = (0.5 + 0.5 * cosines[:, 1]) * duration
+    rows = tables._rows(arrays.exponents, arrays.driven.astype(bool), times) * duration
     series = np.abs(rows @ cosines) * 2.0 / points
     tail = 2.0 * series[:, DEGREE:].sum(axis=1)
     # Each of the coefficients carries a rounding error of the whole; a real part that of its imaginary part, next to it.
     size = np.abs(rows).max(axis=1)
     size = np.max([size, np.roll(size, 1), np.roll(size, -1)], axis=0)
     rounding = 4.0 * points * EPSILON * size
-    assert np.all(np.abs(table.errors - tail) <= rounding + 2e-14 * series.sum(axis=1))
+    assert np.all(np.abs(table.errors[depth] - tail) <= rounding + 2e-14 * series.sum(axis=1))
 
 
 def test_blocks_are_short_enough_for_the_fastest_mode(arrays):
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
-    assert 0.0 < table.duration <= tables.LONGEST_BLOCK
-    assert np.abs(arrays.exponents).max() * table.duration <= tables.LARGEST_PHASE * (1 + EPSILON)
+    assert 0.0 < table.durations[0] <= tables.LONGEST_BLOCK
+    assert np.abs(arrays.exponents).max() * table.durations[0] <= tables.LARGEST_PHASE * (1 + EPSILON)
 
 
 def test_a_rotor_at_rest_has_a_table():
     table = flight_table(np.zeros(1, complex), np.zeros(1, bool))
-    assert table.duration == tables.LONGEST_BLOCK
+    assert table.durations[0] == tables.LONGEST_BLOCK
     assert not table.coefficients.any()

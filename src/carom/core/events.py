@@ -5,9 +5,10 @@ The search moves only over times that are proven free of a crossing.  Two proofs
 1. *Block.*  The Bernstein coefficients of ``f = |y|² − 1`` on a block, plus the bound of their error, are all negative:
    no crossing.  If instead they change sign once, the root is polished on the exact flight and accepted when
    ``f'² > 4 R M₂`` (``R`` error bound of the polynomial, ``M₂ ≥ |f''|``).  That proves it the first one: ``f`` rises all
-   along the last ``w = f'/M₂`` before the root, and at ``root − w`` the polynomial plus its error is negative.
-2. *Steps* for what a block leaves open: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so the first root of the right side is a time
-   that cannot be behind a crossing.  The steps converge to a transversal crossing quadratically.
+   along the last ``w = f'/M₂`` before the root, and at ``root − w`` the polynomial plus its error is negative.  What a
+   block leaves open is looked at again on shorter ones, whose polynomials are closer.
+2. *Steps* for what the shortest block leaves open: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so the first root of the right side
+   is a time that cannot be behind a crossing.  The steps converge to a transversal crossing quadratically.
 
 Where ``f`` comes to zero within its rounding and is not seen to rise above it, the outcome is ``grazing``.
 """
@@ -16,27 +17,36 @@ from __future__ import annotations
 
 import math
 
-from carom.core.flow import acceleration, displacement, flight_increments, nudge, squared_modulus, velocity
-from carom.core.layout import DEGREE, kernel
+from carom.core.block import (
+    derivatives,
+    load_polynomial,
+    load_products,
+    look_at_node,
+    move_to,
+    nearest_node,
+    rough_root,
+    sign_changes,
+)
+from carom.core.flow import copy, displacement, nudge, squared_modulus
+from carom.core.layout import LEVELS, kernel, part
 from carom.outcome import Outcome
 
-__all__ = ["INSIDE", "LEAVING", "basis_amplitudes", "first_crossing"]
+__all__ = ["INSIDE", "LEAVING", "first_crossing", "search"]
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 
 INSIDE, LEAVING = 0, 1
 """How a flight starts: inside the wall, or on it with inward velocity."""
 
-UNDECIDED = -1.0
-NO_ROOT = 2.0
 MARGIN = 4.4
 """The 4 of the acceptance test plus room for the rounding of both sides."""
 ROUNDING = 16 * 2.220446049250313e-16
-POLISHED = 1e-5
+POLISHED = 1e-4
 """Correction, in units of ``f'/M₂``, below which a Householder step and the cubic nudge are exact to rounding.
 
-With ``M₂ ≥ 2|ẏ|²`` and ``f' ≤ 2|ẏ|`` the error this leaves in ``f`` is of the order of ``POLISHED³`` at any speed.
+With ``M₂ ≥ 2|ẏ|²`` and ``f' ≤ 2|ẏ|`` the error this leaves in ``f`` is of the order of ``POLISHED⁴`` at any speed.
 """
+SIXTH = 1.0 / 6.0
 
 
 @kernel
@@ -63,119 +73,53 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
         ``CLEAR`` (time is the horizon), ``CONTACT`` or ``GRAZING``.
     time : float
     """
-    modes = amplitudes.shape[0]
-    for k in range(modes):
-        work.current[k] = amplitudes[k]
+    copy(amplitudes, work.current)
+    return search(rotor, table, plane, horizon, start, work)
+
+
+@part
+def search(rotor, table, plane, horizon, start, work):
+    """:func:`first_crossing` of the flight that starts from ``work.current``, which it moves along."""
     elapsed = 0.0
     while True:
-        origin = displacement(rotor, plane, work.current)
-        level = 0.0 if start != INSIDE else squared_modulus(origin) - 1.0
-        block = min(table.duration, horizon - elapsed)
-        spread = _spread(rotor, plane, work.current)
-        floor = ROUNDING * spread
-        remainder = _load_block(rotor, table, plane, origin, level, work)
-        guess = _guess_root(work.polynomial, level, floor, remainder)
-        outcome, time = CLEAR, block
-        if guess != NO_ROOT:
-            bounds = _bounds(table, work)
-            certified = False
-            if guess != UNDECIDED:
-                least_square = MARGIN * (floor + remainder) * bounds[0]
-                certified, time = _polish(
-                    rotor, plane, origin, level, guess * table.duration, bounds[0], least_square, work
-                )
-            if certified and time <= block:
-                return CONTACT, elapsed + time
-            # Past the end of the table's block the polynomial says nothing: a root there does not prove the block free.
-            if certified and time <= table.duration:
-                time = block
-            else:
-                outcome, time = _step_safely(rotor, plane, origin, level, start, spread, block, bounds, work)
-                if outcome != CLEAR:
-                    return outcome, elapsed + time
-        flight_increments(rotor, work.current, time, work.increments)
-        for k in range(modes):
-            work.arrival[k] = work.current[k] + work.increments[k]
+        outcome, time = _search_block(rotor, table, plane, horizon - elapsed, start, work)
         elapsed += time
+        if outcome != CLEAR:
+            return outcome, elapsed
+        move_to(rotor, table, time, work)
         if elapsed >= horizon:
             return CLEAR, horizon
-        for k in range(modes):
-            work.current[k] = work.arrival[k]
+        copy(work.arrival, work.current)
         start = INSIDE
 
 
-@kernel
-def _load_block(rotor, table, plane, origin, level, work):
-    """Write the polynomial of ``f`` on a block from ``work.current``; return the bound of its error."""
-    modes = work.current.shape[0]
-    basis_amplitudes(rotor, plane, work.current, work.amplitudes)
-    products = work.products
-    row = 0
-    for k in range(modes):
-        linear = origin.conjugate() * work.amplitudes[k]
-        products[row] = linear.real
-        products[row + 1] = linear.imag
-        row += 2
-    for j in range(modes):
-        first = work.amplitudes[j]
-        products[row] = squared_modulus(first)
-        row += 1
-        for k in range(j + 1, modes):
-            pair = first * work.amplitudes[k].conjugate()
-            products[row] = pair.real
-            products[row + 1] = pair.imag
-            row += 2
-    polynomial = work.polynomial
-    for j in range(DEGREE):
-        polynomial[j] = level
-    remainder = 0.0
-    for i in range(row):
-        factor = products[i]
-        remainder += abs(factor) * table.errors[i]
-        for j in range(DEGREE):
-            polynomial[j] += factor * table.coefficients[i, j]
-    return remainder
+@part
+def _search_block(rotor, table, plane, horizon, start, work):
+    """First crossing on a block from ``work.current``, or a time up to which there is none."""
+    origin = displacement(rotor, plane, work.current)
+    level = 0.0 if start != INSIDE else squared_modulus(origin) - 1.0
+    spread = _spread(rotor, plane, work.current)
+    floor = ROUNDING * spread
+    load_products(rotor, plane, origin, work)
+    bounds = _bounds(table, work)
+    duration = table.durations[0]
+    for depth in range(LEVELS):
+        duration = table.durations[depth]
+        remainder = load_polynomial(table, depth, level, work)
+        changes, first = sign_changes(work.polynomial, level, floor, remainder)
+        if changes == 0:
+            return CLEAR, min(duration, horizon)
+        if changes == 1:
+            guess = rough_root(work.polynomial, level, first) * duration
+            least_square = MARGIN * (floor + remainder) * bounds[0]
+            certified, time = _polish(rotor, table, plane, origin, level, guess, bounds[0], least_square, work)
+            # Past the end of the block the polynomial says nothing: a root there does not prove the block free.
+            if certified and time <= duration:
+                return (CONTACT, time) if time <= horizon else (CLEAR, horizon)
+    return _step_safely(rotor, table, plane, origin, level, start, spread, min(duration, horizon), bounds, work)
 
 
-@kernel
-def basis_amplitudes(rotor, plane, amplitudes, out):
-    """Factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a plane."""
-    modes = amplitudes.shape[0]
-    for k in range(modes):
-        out[k] = rotor.rows[plane, k] * amplitudes[k]
-        if rotor.driven[k]:
-            out[k] += rotor.rows[plane, k - 1] * amplitudes[k - 1]
-            out[k - 1] = (rotor.rows[plane, k] - rotor.gaps[k] * rotor.rows[plane, k - 1]) * amplitudes[k - 1]
-
-
-@kernel
-def _guess_root(polynomial, level, floor, remainder):
-    """Where on the block, in 0 … 1, the only root may be; or NO_ROOT (proven), or UNDECIDED.
-
-    The error grows from ``floor``, the rounding of ``f`` at the start, by ``remainder`` at the end.
-    """
-    if -floor <= level != 0.0:
-        return UNDECIDED
-    share = remainder / DEGREE
-    first = DEGREE
-    for j in range(DEGREE - 1, -1, -1):
-        if polynomial[j] + share * (j + 1) + floor >= 0.0:
-            first = j
-    if first == DEGREE:
-        return NO_ROOT
-    before = level
-    if first > 0:
-        before = polynomial[first - 1]
-    elif level >= 0.0:
-        return UNDECIDED
-    for j in range(first + 1, DEGREE):
-        if polynomial[j] - share * (j + 1) - floor <= 0.0:
-            return UNDECIDED
-    rise = polynomial[first] - before
-    return (first + min(1.0, -before / rise)) / DEGREE if rise > 0.0 else (first + 0.5) / DEGREE
-
-
-@kernel
+@part
 def _bounds(table, work):
     """Bounds of ``f''``, ``f'''`` and ``|ẏ|`` while ``|y| ≤ 1`` on the block whose amplitudes are loaded."""
     speed = 0.0
@@ -193,32 +137,37 @@ def _bounds(table, work):
     )
 
 
-@kernel
-def _measure(rotor, plane, origin, level, time, work):
-    """Move to ``time``: fill ``work.arrival``, return ``f``, ``f'`` and ``f''``."""
-    flight_increments(rotor, work.current, time, work.increments)
-    change = 0j
+@part
+def _measure(rotor, table, plane, origin, level, time, work):
+    """Move to ``time``: fill ``work.arrival``, return ``f`` and its first three derivatives."""
+    move_to(rotor, table, time, work)
+    change, speed, force, jerk = 0j, 0j, 0j, 0j
     for k in range(work.current.shape[0]):
         change += rotor.rows[plane, k] * work.increments[k]
-        work.arrival[k] = work.current[k] + work.increments[k]
-    value = level + (2.0 * (origin.conjugate() * change).real + squared_modulus(change))
-    position = origin + change
-    speed = velocity(rotor, plane, work.arrival)
-    force = acceleration(rotor, plane, work.arrival)
-    slope = 2.0 * (position.conjugate() * speed).real
-    bend = 2.0 * ((position.conjugate() * force).real + squared_modulus(speed))
-    return value, slope, bend
+        speed += rotor.rate_rows[plane, k] * work.arrival[k]
+        force += rotor.acceleration_rows[plane, k] * work.arrival[k]
+        jerk += rotor.jerk_rows[plane, k] * work.arrival[k]
+    return derivatives(origin, level, change, speed, force, jerk)
 
 
-@kernel
-def _polish(rotor, plane, origin, level, time, curvature, least_square, work):
-    """Householder steps to a root; certified when ``f'²`` there exceeds ``least_square``."""
+@part
+def _householder_step(value, slope, bend, third):
+    """Step towards a root, of fourth order."""
+    square, skew = slope * slope, value * bend
+    return -value * (square - 0.5 * skew) / (slope * (square - skew) + SIXTH * value * value * third)
+
+
+@part
+def _polish(rotor, table, plane, origin, level, time, curvature, least_square, work):
+    """Householder steps to a root, from the node nearest to a time; certified when ``f'²`` exceeds ``least_square``."""
+    node = nearest_node(table, time)
+    value, slope, bend, third = look_at_node(table, node, origin, level, work)
+    time = node * table.spacing + _householder_step(value, slope, bend, third)
     for _ in range(8):
-        value, slope, bend = _measure(rotor, plane, origin, level, time, work)
+        value, slope, bend, third = _measure(rotor, table, plane, origin, level, time, work)
         if slope * slope <= least_square or slope <= 0.0:
             return False, time
-        newton = value / slope
-        step = -newton / (1.0 - 0.5 * newton * bend / slope)
+        step = _householder_step(value, slope, bend, third)
         time += step
         if abs(step) * curvature < POLISHED * slope:
             nudge(rotor, work.arrival, step)
@@ -227,37 +176,46 @@ def _polish(rotor, plane, origin, level, time, curvature, least_square, work):
 
 
 @kernel
-def _step_safely(rotor, plane, origin, level, start, spread, block, bounds, work):
+def _probe(rotor, table, plane, origin, level, time, work):
+    """Move to ``time``: fill ``work.arrival``, return ``f``, ``f'`` and ``f''``."""
+    value, slope, bend, _ = _measure(rotor, table, plane, origin, level, time, work)
+    return value, slope, bend
+
+
+@kernel
+def _step_safely(rotor, table, plane, origin, level, start, spread, block, bounds, work):
     """Certified steps from the start of a block to its end or to the first crossing."""
     time = 0.0
     curvature, jerk, speed = bounds
     if start != INSIDE:
-        _, slope, bend = _measure(rotor, plane, origin, level, 0.0, work)
+        _, slope, bend = _probe(rotor, table, plane, origin, level, 0.0, work)
         time = _departure(min(slope, 0.0), bend, jerk)
         if time == 0.0:
             return GRAZING, time
     while time < block:
-        value, slope, bend = _measure(rotor, plane, origin, level, time, work)
+        value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
         # On the wall f is exact at the start, and the rounding of y there turns the change of y that follows.
         share = 1.0 if start == INSIDE else min(1.0, speed * time)
         rounding = ROUNDING * (spread * share + speed * time)
         if value >= -rounding:
             if slope <= 2.0 * math.sqrt(curvature * rounding):
-                return _decide(rotor, plane, origin, level, time, block, bounds, rounding, work)
+                return _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, work)
             step = -value / slope
             nudge(rotor, work.arrival, step)
             return CONTACT, time + step
         # A bound of f'' that holds for steps up to `reach` takes longer ones along a wall that is nearly followed.
-        reach = (-value / jerk) ** (1.0 / 3.0)
-        nearby = min(reach, _first_root(value, slope, bend + jerk * reach / 3.0))
-        step = max(nearby, _first_root(value, slope, curvature))
+        # Steps end where half the rounding is left to zero: none can pass a crossing that rounding hides.
+        top = value + 0.5 * rounding
+        reach = (-top / jerk) ** (1.0 / 3.0)
+        nearby = min(reach, _first_root(top, slope, bend + jerk * reach / 3.0))
+        step = max(nearby, _first_root(top, slope, curvature))
         if time + step == time:
             return (CONTACT if slope > 0.0 else GRAZING), time
         time += step
     return CLEAR, block
 
 
-@kernel
+@part
 def _spread(rotor, plane, amplitudes):
     """Sum of the sizes of the terms of a displacement: its rounding error in units of the spacing of doubles."""
     total = abs(rotor.offsets[plane].real) + abs(rotor.offsets[plane].imag)
@@ -267,7 +225,7 @@ def _spread(rotor, plane, amplitudes):
     return total
 
 
-@kernel
+@part
 def _first_root(value, slope, bend):
     """First positive root of ``value + slope τ + bend τ²/2`` with ``value < 0``; infinite where there is none."""
     square = slope * slope - 2.0 * bend * value
@@ -278,14 +236,14 @@ def _first_root(value, slope, bend):
 
 
 @kernel
-def _decide(rotor, plane, origin, level, time, block, bounds, rounding, work):
+def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, work):
     """Whether ``f``, zero to rounding at a time up to which nothing crosses, goes on to rise above its rounding.
 
     It is followed over stretches on which ``f' + f''τ − M₃τ²/2 > 0`` proves it rising, until the rise is beyond
     doubt; the root is then bisected, for a derivative as small as this one may be does not lead to it.
     """
     first = time
-    value, slope, bend = _measure(rotor, plane, origin, level, time, work)
+    value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
     while value <= rounding:
         if slope <= 0.0:
             return GRAZING, time
@@ -294,20 +252,20 @@ def _decide(rotor, plane, origin, level, time, block, bounds, rounding, work):
         if later == time:
             return (CLEAR if time == block else GRAZING), time
         time = later
-        value, slope, bend = _measure(rotor, plane, origin, level, time, work)
+        value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
     middle = 0.5 * (first + time)
     while first < middle < time:
-        value, _, _ = _measure(rotor, plane, origin, level, middle, work)
+        value, _, _ = _probe(rotor, table, plane, origin, level, middle, work)
         if value < 0.0:
             first = middle
         else:
             time = middle
         middle = 0.5 * (first + time)
-    _measure(rotor, plane, origin, level, time, work)
+    _probe(rotor, table, plane, origin, level, time, work)
     return CONTACT, time
 
 
-@kernel
+@part
 def _departure(slope, bend, jerk):
     """Time after leaving the wall, ``f' ≤ 0``, before which no return is possible; zero where that cannot be said.
 

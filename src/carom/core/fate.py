@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from carom.core.events import basis_amplitudes
+from carom.core.block import basis_amplitudes
 from carom.core.flow import squared_modulus
 from carom.core.layout import kernel, record
 

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from carom.core.layout import kernel
+from carom.core.layout import kernel, part
 
 __all__ = [
     "acceleration",
@@ -24,13 +24,16 @@ __all__ = [
 ]
 
 
-@kernel
+THIRD = 1.0 / 3.0
+
+
+@part
 def squared_modulus(z):
     """``|z|²``."""
     return z.real * z.real + z.imag * z.imag
 
 
-@kernel
+@part
 def complex_expm1(z):
     """``e^z − 1`` for complex ``z`` without cancellation at small ``|z|``."""
     growth = math.expm1(z.real)
@@ -39,7 +42,7 @@ def complex_expm1(z):
     return complex(growth + cosine_less_one * (1.0 + growth), 2.0 * (1.0 + growth) * sine * math.cos(0.5 * z.imag))
 
 
-@kernel
+@part
 def flight_increments(rotor, amplitudes, time, increments):
     """Write ``c(time) − c(0)`` of a flight that starts with these amplitudes.
 
@@ -73,19 +76,33 @@ def fly_all(rotor, amplitudes, times):
     return flown
 
 
-@kernel
+@part
 def nudge(rotor, amplitudes, time):
     """Advance amplitudes in place by a time so short that the fourth power of ``λ·time`` is below rounding."""
-    for k in range(amplitudes.shape[0] - 1, -1, -1):
-        z = rotor.exponents[k] * time
-        change = amplitudes[k] * z * (1.0 + 0.5 * z * (1.0 + z / 3.0))
-        if rotor.driven[k]:
-            w = rotor.exponents[k - 1] * time
-            change += amplitudes[k - 1] * time * (1.0 + 0.5 * (z + w) + (z * z + z * w + w * w) / 6.0)
-        amplitudes[k] += change
+    driving, driving_rate, driving_second = 0j, 0j, 0j
+    for k in range(amplitudes.shape[0]):
+        if not rotor.driven[k]:
+            driving, driving_rate, driving_second = 0j, 0j, 0j
+        exponent = rotor.exponents[k]
+        rate = exponent * amplitudes[k] + driving
+        second = exponent * rate + driving_rate
+        third = exponent * second + driving_second
+        driving, driving_rate, driving_second = amplitudes[k], rate, second
+        half, third_part = 0.5 * time, THIRD * time
+        amplitudes[k] += complex(
+            time * (rate.real + half * (second.real + third_part * third.real)),
+            time * (rate.imag + half * (second.imag + third_part * third.imag)),
+        )
 
 
-@kernel
+@part
+def copy(source, target):
+    """Copy amplitudes."""
+    for k in range(source.shape[0]):
+        target[k] = source[k]
+
+
+@part
 def displacement(rotor, plane, amplitudes):
     """Displacement ``y`` at a plane, in its clearance."""
     total = rotor.offsets[plane]
@@ -94,7 +111,7 @@ def displacement(rotor, plane, amplitudes):
     return total
 
 
-@kernel
+@part
 def velocity(rotor, plane, amplitudes):
     """Velocity ``ẏ`` at a plane."""
     total = 0j
@@ -103,7 +120,7 @@ def velocity(rotor, plane, amplitudes):
     return total
 
 
-@kernel
+@part
 def acceleration(rotor, plane, amplitudes):
     """Acceleration ``ÿ`` at a plane."""
     total = 0j

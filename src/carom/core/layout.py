@@ -15,7 +15,7 @@ import numpy as np
 from numba.core import config
 from platformdirs import user_cache_path
 
-__all__ = ["DEGREE", "ORDER", "kernel", "record", "rotor_record", "rub_workspace", "table_record", "workspace"]
+__all__ = ["DEGREE", "ORDER", "kernel", "part", "record", "rotor_record", "rub_workspace", "table_record", "workspace"]
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
@@ -23,6 +23,12 @@ ORDER = 20
 """Order of the Taylor series of lasting contact."""
 DEGREE = 8
 """Degree of the Bernstein polynomials that stand for ``|y|² − 1`` on a block of flight."""
+LEVELS = 3
+"""Blocks of different length, each a quarter of the one before."""
+NODES = 64
+"""Intervals of the longest block at whose ends the basis functions are tabulated."""
+TERMS = 8
+"""Terms of the Taylor series of the basis functions."""
 
 
 def rotor_record(
@@ -78,6 +84,7 @@ def rotor_record(
         gaps[k] = exponents[k] - exponents[k - 1]
     inverse_gaps = np.zeros(modes, np.complex128)
     np.divide(1.0, gaps, out=inverse_gaps, where=gaps != 0)
+    weights = (np.abs(rows) ** 2).sum(axis=1)
     return record(
         exponents=exponents,
         driven=np.asarray(driven, np.int8),
@@ -88,8 +95,10 @@ def rotor_record(
         rows=rows,
         rate_rows=rows @ generator,
         acceleration_rows=rows @ generator @ generator,
+        jerk_rows=rows @ generator @ generator @ generator,
         columns=columns,
-        weights=(np.abs(rows) ** 2).sum(axis=1),
+        weights=weights,
+        inverse_weights=1.0 / weights,
         friction=friction,
         restitution=restitution,
         drive=drive,
@@ -104,26 +113,56 @@ def _largest_response(exponents: np.ndarray, gaps: np.ndarray) -> np.ndarray:
     return np.where(decay >= 0, np.minimum(slow, apart), np.inf)
 
 
-def table_record(duration: float, coefficients: np.ndarray, errors: np.ndarray, bounds: np.ndarray) -> np.record:
+def table_record(
+    *,
+    spacing: float,
+    durations: np.ndarray,
+    coefficients: np.ndarray,
+    errors: np.ndarray,
+    basis: np.ndarray,
+    growth: np.ndarray,
+    basis_series: np.ndarray,
+    growth_series: np.ndarray,
+    bounds: np.ndarray,
+) -> np.record:
     """Constants of a block of flight that depend on the exponents alone; see :mod:`carom.core.table`.
 
     Parameters
     ----------
-    duration : float
-        Length of a block.
-    coefficients : ndarray, shape (Q, DEGREE), Q = 2N + N²
+    spacing : float
+        Time between nodes.
+    durations : ndarray, shape (LEVELS,)
+        Lengths of the blocks, the longest first; that one has NODES times ``spacing``.
+    coefficients : ndarray, shape (LEVELS, Q, DEGREE), Q = 2N + N²
         Bernstein coefficients 1 … DEGREE of the products of basis functions.
-    errors : ndarray, shape (Q,)
+    errors : ndarray, shape (LEVELS, Q)
         Bound of the approximation error at the end of the block, per row of ``coefficients``.
+    basis : ndarray of complex, shape (NODES + 1, 4, N)
+        Basis functions and their first three derivatives at the nodes.
+    growth : ndarray of complex, shape (NODES + 1, N)
+        ``e^{λτ} − 1`` at the nodes.
+    basis_series, growth_series : ndarray of complex, shape (TERMS, N)
+        Coefficients 1 … TERMS of the power series of both.
     bounds : ndarray, shape (3, N)
-        Largest modulus on the block of the first three derivatives of the basis functions.
+        Largest modulus on the longest block of the first three derivatives of the basis functions.
     """
-    return record(duration=np.asarray(duration), coefficients=coefficients, errors=errors, bounds=bounds)
+    return record(
+        spacing=np.asarray(spacing),
+        pace=np.asarray(1.0 / spacing),
+        durations=durations,
+        coefficients=coefficients,
+        errors=errors,
+        basis=basis,
+        growth=growth,
+        basis_series=basis_series,
+        growth_series=growth_series,
+        bounds=bounds,
+    )
 
 
 def workspace(modes: int) -> np.record:
     """Scratch arrays of a kernel call for that many modes; they carry nothing from one call to the next."""
-    vectors = ("current", "arrival", "nearest", "increments", "amplitudes")
+    vectors = ("current", "arrival", "departure", "nearest", "increments", "at_node", "amplitudes")
     return record(
         **{name: np.zeros(modes, np.complex128) for name in vectors},
         products=np.zeros(2 * modes + modes**2),
@@ -153,12 +192,21 @@ def record(**fields: np.ndarray) -> np.record:
 
 
 def kernel(function: Kernel) -> Kernel:
-    """Compile a kernel: no Python objects, IEEE arithmetic, kept in a disk cache.
+    """Compile a kernel: no Python objects, IEEE arithmetic but for the sign of zero, kept in a disk cache.
 
     Numba's own cache does not notice an edit in a callee of another file, so the cache directory is keyed by a hash of
     all of ``core/``.  Where no cache directory can be written the kernel is compiled anew in each process.
     """
-    options = {"nopython": True, "error_model": "numpy", "fastmath": {"contract"}}
+    return _compile(function, forceinline=False)
+
+
+def part(function: Kernel) -> Kernel:
+    """Compile a small kernel into each of its callers: no call, and what they need not is left out."""
+    return _compile(function, forceinline=True)
+
+
+def _compile(function: Kernel, forceinline: bool) -> Kernel:
+    options = {"nopython": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, "forceinline": forceinline}
     directory = _cache_directory()
     if directory is None:
         return numba.jit(**options)(function)

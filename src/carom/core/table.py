@@ -6,23 +6,29 @@ On a block, a flight that starts at ``y₀`` moves as ``y(τ) = y₀ + Σ_k α_k
 
     |y|² − 1 = |y₀|² − 1 + Σ_k 2 Re(ȳ₀ α_k ψ_k) + Σ_k |α_k|² |ψ_k|² + Σ_{j<k} 2 Re(α_j ᾱ_k ψ_j ψ̄_k)
 
-is linear in ``2N + N²`` real products, and so are its Bernstein coefficients: one fixed matrix, made here.
+is linear in ``2N + N²`` real products, and so are its Bernstein coefficients: one fixed matrix, made here for the block
+and for LEVELS − 1 shorter ones, whose polynomials are closer.
+
+The state at a time is found from the nearest of NODES + 1 nodes, where the basis functions are tabulated, and from there
+by power series: half a spacing is so short that TERMS terms reach rounding.
 """
 
 from __future__ import annotations
 
+import math
 from functools import cache
-from math import comb
 
 import numpy as np
 
-from carom.core.layout import DEGREE, table_record
+from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, table_record
 
 __all__ = ["flight_table"]
 
 LONGEST_BLOCK = 3.0
 LARGEST_PHASE = 5.3
 """Largest ``|λ|`` times the length of a block.  Measured: docs/decisions/002."""
+SHORTENING = 4.0
+"""Ratio of the lengths of successive blocks."""
 SAMPLES = 48
 """Chebyshev points at which the basis is sampled.
 
@@ -45,7 +51,34 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
         See :func:`~carom.core.layout.table_record`.
     """
     fastest = np.abs(exponents).max()
-    duration = min(LONGEST_BLOCK, LARGEST_PHASE / fastest) if fastest > 0 else LONGEST_BLOCK
+    spacing = _short_number(
+        min(LONGEST_BLOCK, LARGEST_PHASE / fastest) / NODES if fastest > 0 else LONGEST_BLOCK / NODES
+    )
+    durations = spacing * NODES / SHORTENING ** np.arange(LEVELS)
+    polynomials = [_polynomials(exponents, driven, duration) for duration in durations]
+    times = spacing * np.arange(NODES + 1)
+    growth_series, basis_series = _power_series(exponents, driven)
+    return table_record(
+        spacing=spacing,
+        durations=durations,
+        coefficients=np.array([coefficients for coefficients, _ in polynomials]),
+        errors=np.array([errors for _, errors in polynomials]),
+        basis=_derivatives(exponents, driven, times),
+        growth=_expm1(np.outer(times, exponents)),
+        basis_series=basis_series,
+        growth_series=growth_series,
+        bounds=_derivative_bounds(exponents, driven, durations[0]),
+    )
+
+
+def _short_number(value: float) -> float:
+    """The value rounded down to 24 binary digits: the times of all nodes are then exact."""
+    fraction, exponent = math.frexp(value)
+    return math.ldexp(math.floor(math.ldexp(fraction, 24)), exponent - 24)
+
+
+def _polynomials(exponents: np.ndarray, driven: np.ndarray, duration: float) -> tuple[np.ndarray, np.ndarray]:
+    """Bernstein coefficients of the products on a block, shape (Q, DEGREE), and the bounds of their error, shape (Q,)."""
     coarse = _chebyshev_points(DEGREE)
     fine = _chebyshev_points(SAMPLES)
     at_nodes = _rows(exponents, driven, coarse * duration) * duration
@@ -54,7 +87,7 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
     # Interpolation in DEGREE Chebyshev points errs by at most twice the tail of the series; the second term covers
     # the rounding of the coefficients themselves.
     errors = 2.0 * series[:, DEGREE:].sum(axis=1) + 1e-14 * series.sum(axis=1)
-    return table_record(duration, coefficients, errors, _derivative_bounds(exponents, driven, duration))
+    return coefficients, errors
 
 
 def _rows(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> np.ndarray:
@@ -81,6 +114,39 @@ def _basis(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> list
         else:
             basis.append(_expm1(exponent * times))
     return basis
+
+
+def _derivatives(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Basis functions and their first three derivatives, shape (len(times), 4, N); ``φ' = λ₋φ + e^{λ₊τ}``."""
+    values = np.empty((len(times), 4, len(exponents)), complex)
+    values[:, 0] = np.transpose(_basis(exponents, driven, times))
+    for n in range(3):
+        values[:, n + 1] = exponents * values[:, n]
+        if n == 0:
+            values[:, 1] += np.where(_drives(driven), 0.0, exponents)
+        for k in np.flatnonzero(driven):
+            values[:, n + 1, k - 1] += exponents[k] ** n * (1.0 + values[:, 0, k])
+    return values
+
+
+def _power_series(exponents: np.ndarray, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Power series without constant term of all ``e^{λτ} − 1`` and of all basis functions, each of shape (TERMS, N).
+
+    That of ``φ`` has the coefficients ``Σ_i λ₊ⁱ λ₋ⁿ⁻¹⁻ⁱ/n!``.
+    """
+    orders = np.arange(1, TERMS + 1)
+    factorials = np.array([float(math.factorial(n)) for n in orders])[:, None]
+    growth = exponents ** orders[:, None] / factorials
+    basis = growth.copy()
+    for k in np.flatnonzero(driven):
+        pair = [sum(exponents[k] ** i * exponents[k - 1] ** (n - 1 - i) for i in range(n)) for n in orders]
+        basis[:, k - 1] = pair / factorials[:, 0]
+    return growth, basis
+
+
+def _drives(driven: np.ndarray) -> np.ndarray:
+    """Which modes drive the next one."""
+    return np.append(np.asarray(driven, bool)[1:], False)
 
 
 def _expm1(z: np.ndarray) -> np.ndarray:
@@ -116,7 +182,7 @@ def _bernstein_from_nodes() -> np.ndarray:
     """Matrix from values at DEGREE Chebyshev points to Bernstein coefficients of degree DEGREE − 1."""
     x = _chebyshev_points(DEGREE)[:, None]
     j = np.arange(DEGREE)
-    binomials = np.array([comb(DEGREE - 1, i) for i in j])
+    binomials = np.array([math.comb(DEGREE - 1, i) for i in j])
     return np.linalg.inv(binomials * x**j * (1.0 - x) ** (DEGREE - 1 - j))
 
 

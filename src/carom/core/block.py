@@ -1,0 +1,161 @@
+"""A block of flight by the tables of :mod:`carom.core.table`: where ``f = |y|² − 1`` may vanish, and the state at a time.
+
+The flight starts from ``work.current``.  What is loaded for it here stays in the workspace until the next block.
+"""
+
+from __future__ import annotations
+
+from carom.core.flow import squared_modulus
+from carom.core.layout import DEGREE, NODES, TERMS, part
+
+__all__ = [
+    "basis_amplitudes",
+    "derivatives",
+    "load_polynomial",
+    "load_products",
+    "look_at_node",
+    "move_to",
+    "nearest_node",
+    "rough_root",
+    "sign_changes",
+]
+
+
+@part
+def load_products(rotor, plane, origin, work):
+    """Write the real products of amplitudes in which ``f`` is linear."""
+    modes = work.current.shape[0]
+    basis_amplitudes(rotor, plane, work.current, work.amplitudes)
+    row = 0
+    for k in range(modes):
+        linear = origin.conjugate() * work.amplitudes[k]
+        work.products[row] = linear.real
+        work.products[row + 1] = linear.imag
+        row += 2
+    for j in range(modes):
+        first = work.amplitudes[j]
+        work.products[row] = squared_modulus(first)
+        row += 1
+        for k in range(j + 1, modes):
+            pair = first * work.amplitudes[k].conjugate()
+            work.products[row] = pair.real
+            work.products[row + 1] = pair.imag
+            row += 2
+
+
+@part
+def basis_amplitudes(rotor, plane, amplitudes, out):
+    """Factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a plane."""
+    modes = amplitudes.shape[0]
+    for k in range(modes):
+        out[k] = rotor.rows[plane, k] * amplitudes[k]
+        if rotor.driven[k]:
+            out[k] += rotor.rows[plane, k - 1] * amplitudes[k - 1]
+            out[k - 1] = (rotor.rows[plane, k] - rotor.gaps[k] * rotor.rows[plane, k - 1]) * amplitudes[k - 1]
+
+
+@part
+def load_polynomial(table, depth, level, work):
+    """Write the Bernstein coefficients of ``f`` on a block of this depth; return the bound of their error at its end."""
+    for j in range(DEGREE):
+        work.polynomial[j] = level
+    remainder = 0.0
+    for i in range(table.errors.shape[1]):
+        factor = work.products[i]
+        remainder += abs(factor) * table.errors[depth, i]
+        for j in range(DEGREE):
+            work.polynomial[j] += factor * table.coefficients[depth, i, j]
+    return remainder
+
+
+@part
+def sign_changes(polynomial, level, floor, remainder):
+    """Sign changes of ``f`` on the block: their number (2: more, or unknown), and the coefficient after the first.
+
+    The error of the coefficients grows from ``floor``, the rounding of ``f`` at the start, by ``remainder`` at the end.
+    """
+    share = remainder / DEGREE
+    first, last = DEGREE, -1
+    for j in range(DEGREE):
+        error = floor + share * (j + 1)
+        if polynomial[j] + error >= 0.0:
+            first = min(first, j)
+        if polynomial[j] - error <= 0.0:
+            last = j
+    if -floor <= level != 0.0 or (first == 0 and level >= 0.0) or first < last:
+        return 2, first
+    return (1 if first < DEGREE else 0), first
+
+
+@part
+def rough_root(polynomial, level, after):
+    """Where the polynomial may vanish, in 0 … 1, from the coefficients on both sides of its sign change."""
+    before = level
+    if after > 0:
+        before = polynomial[after - 1]
+    rise = polynomial[after] - before
+    return (after + min(1.0, -before / rise)) / DEGREE if rise > 0.0 else (after + 0.5) / DEGREE
+
+
+@part
+def nearest_node(table, time):
+    """Number of the node nearest to a time."""
+    return min(max(int(time * table.pace + 0.5), 0), NODES)
+
+
+@part
+def look_at_node(table, node, origin, level, work):
+    """``f`` and its first three derivatives at a node."""
+    change, speed, force, jerk = 0j, 0j, 0j, 0j
+    for k in range(work.amplitudes.shape[0]):
+        amplitude = work.amplitudes[k]
+        change += table.basis[node, 0, k] * amplitude
+        speed += table.basis[node, 1, k] * amplitude
+        force += table.basis[node, 2, k] * amplitude
+        jerk += table.basis[node, 3, k] * amplitude
+    return derivatives(origin, level, change, speed, force, jerk)
+
+
+@part
+def derivatives(origin, level, change, speed, force, jerk):
+    """``f`` and its first three derivatives, from the change of ``y`` since the origin and the derivatives of ``y``."""
+    position = origin + change
+    value = level + (2.0 * (origin.conjugate() * change).real + squared_modulus(change))
+    slope = (position.conjugate() * speed).real
+    bend = (position.conjugate() * force).real + squared_modulus(speed)
+    third = (position.conjugate() * jerk).real + 3.0 * (speed.conjugate() * force).real
+    return value, 2.0 * slope, 2.0 * bend, 2.0 * third
+
+
+@part
+def move_to(rotor, table, time, work):
+    """Write ``work.arrival`` and ``work.increments``, ``c(time) − c(0)``: to the nearest node, on by power series."""
+    node = nearest_node(table, time)
+    rest = time - node * table.spacing
+    modes = work.current.shape[0]
+    for k in range(modes):
+        increment = table.growth[node, k] * work.current[k]
+        if rotor.driven[k]:
+            increment += table.basis[node, 0, k - 1] * work.current[k - 1]
+        work.increments[k] = increment
+        work.at_node[k] = work.current[k] + increment
+    for k in range(modes):
+        increment = _power_series(table.growth_series, k, rest) * work.at_node[k]
+        if rotor.driven[k]:
+            increment += _power_series(table.basis_series, k - 1, rest) * work.at_node[k - 1]
+        increment += work.increments[k]
+        work.increments[k] = increment
+        work.arrival[k] = work.current[k] + increment
+
+
+@part
+def _power_series(series, column, time):
+    """Sum of a power series without constant term: the odd and the even powers by Horner's scheme, side by side."""
+    square = time * time
+    odd, even = series[TERMS - 2, column], series[TERMS - 1, column]
+    odd_real, odd_imag, even_real, even_imag = odd.real, odd.imag, even.real, even.imag
+    for n in range(TERMS - 4, -1, -2):
+        odd, even = series[n, column], series[n + 1, column]
+        odd_real, odd_imag = odd_real * square + odd.real, odd_imag * square + odd.imag
+        even_real, even_imag = even_real * square + even.real, even_imag * square + even.imag
+    return complex(time * odd_real + square * even_real, time * odd_imag + square * even_imag)
