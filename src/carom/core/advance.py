@@ -196,8 +196,9 @@ def _land(rotor, plane, amplitudes):
 
     Over the rest of the chatter the bounces have the normal impulse ``N τ − v``, where lasting contact has ``N τ``, if
     ``v`` is the speed of the first rebound; both have the friction that goes with it.  An outward impulse ``v`` with its
-    share of friction makes up the difference, so what is left out is of the order ``v²/(N(1 − d))``, the height of the
-    first bounce over ``1 − d``.
+    share of friction makes up the difference.  With ``h = v²/(2N)``, the height of the first bounce, what is left out of
+    the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips and ``4hP/(N(1 − d²))`` where every impact
+    stops the slip against a force ``P`` along the wall; both to leading order in ``v``, for the planar rotor.
     """
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)
