@@ -44,7 +44,7 @@ coverage: $(TEST) ## run the tests with the compiler off and report what they co
 	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not jit_only" --cov --cov-report=term-missing:skip-covered $(ARGS)
 
 bench: $(TEST) ## time carom beside its peers
-	$(BIN)/pytest -p benchmark --benchmark-only benchmarks $(ARGS)
+	$(BIN)/pytest -p benchmark --benchmark-only -o pythonpath=benchmarks benchmarks $(ARGS)
 
 lock: ## lock the dependencies anew; ARGS=--upgrade takes the newest
 	tools/lock $(ARGS)
