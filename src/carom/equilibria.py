@@ -95,16 +95,16 @@ def _rubs(rotor: Rotor) -> list[Equilibrium]:
     grip = complex(1.0, arrays.friction[0])
     receptance = -complex(arrays.rows[0] @ np.linalg.solve(rotor.generator, arrays.columns[:, 0]))
     h = receptance * grip
-    discriminant = h.real**2 - abs(h) ** 2 * (1.0 - abs(rotor.equilibrium) ** 2)
-    if discriminant < 0.0:
+    reach = abs(h) * abs(rotor.equilibrium)
+    # Re(h)² − |h|²(1 − |U*|²), and below 1 + hN, in forms without cancellation.
+    discriminant = (reach - abs(h.imag)) * (reach + abs(h.imag))
+    if discriminant < 0.0 or reach == 0.0:
         return []
     rubs = []
     for root in (np.sqrt(discriminant), -np.sqrt(discriminant)):
         force = float((root - h.real) / abs(h) ** 2)
-        lever = 1.0 + h * force
-        if abs(lever) == 0.0:
-            continue
-        position = rotor.equilibrium / lever
+        position = rotor.equilibrium * h.conjugate() / complex(root, -h.imag)
+        position /= abs(position)
         eigenvalues = _eigenvalues_along_wall(rotor, position, force)
         stable = bool(eigenvalues.real.max() < 0.0 < force and arrays.restitution[0] < 1.0)
         rubs.append(Equilibrium("rub", position, force, _status(force), eigenvalues, stable))
