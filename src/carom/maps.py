@@ -11,7 +11,7 @@ from carom.core.fate import memory
 from carom.core.impact import strike
 from carom.core.layout import workspace
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
-from carom.outcome import Outcome, Phase
+from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
 from carom.trajectories import EventLog, State, Trajectory, follow, simulate
 
@@ -98,7 +98,14 @@ def impact_map(rotor: Rotor, section: Section, longest_flight: float = 1000.0) -
     Returns
     -------
     ImpactMap
+
+    Raises
+    ------
+    InputError
+        The rotor does not move toward the wall.
     """
+    if not section.radial_speed > 0.0:
+        raise InputError("radial speed", section.radial_speed, "above 0: the rotor must be about to strike the wall")
     state = section.state
     amplitudes = rotor.amplitudes(state.position, state.velocity)
     log = EventLog.empty(2, len(amplitudes))
