@@ -22,6 +22,14 @@ if TYPE_CHECKING:
     from carom.attractors import Attractor as Attractor
     from carom.attractors import AttractorSet as AttractorSet
     from carom.attractors import find_attractors as find_attractors
+    from carom.bifurcations import Diagram as Diagram
+    from carom.bifurcations import OrbitBranch as OrbitBranch
+    from carom.bifurcations import Plane as Plane
+    from carom.bifurcations import RegionMap as RegionMap
+    from carom.bifurcations import bifurcation_diagram as bifurcation_diagram
+    from carom.bifurcations import continue_curve as continue_curve
+    from carom.bifurcations import continue_orbit as continue_orbit
+    from carom.bifurcations import region_map as region_map
     from carom.boundary import BoundaryEquilibrium as BoundaryEquilibrium
     from carom.boundary import boundary_equilibria as boundary_equilibria
     from carom.equilibria import Equilibrium as Equilibrium
@@ -68,15 +76,19 @@ _HOMES = {
     "BoundaryEquilibrium": "boundary",
     "CaromError": "outcome",
     "Case": "parameters",
+    "Diagram": "bifurcations",
     "EnergyLedger": "ledger",
     "Equilibrium": "equilibria",
     "InputError": "outcome",
     "Machine": "parameters",
     "Orbit": "orbits",
+    "OrbitBranch": "bifurcations",
     "OrbitSet": "orbits",
     "Outcome": "outcome",
     "Parameters": "parameters",
     "Phase": "outcome",
+    "Plane": "bifurcations",
+    "RegionMap": "bifurcations",
     "Rolling": "whirl",
     "Rotor": "rotors",
     "Runaway": "whirl",
@@ -86,7 +98,10 @@ _HOMES = {
     "State": "trajectories",
     "Trajectory": "trajectories",
     "Zones": "parameters",
+    "bifurcation_diagram": "bifurcations",
     "boundary_equilibria": "boundary",
+    "continue_curve": "bifurcations",
+    "continue_orbit": "bifurcations",
     "energy_ledger": "ledger",
     "equilibria": "equilibria",
     "find_attractors": "attractors",
@@ -97,6 +112,7 @@ _HOMES = {
     "load_case": "parameters",
     "multipliers": "stability",
     "period_condition": "orbits",
+    "region_map": "bifurcations",
     "rolling": "whirl",
     "rub_limit": "whirl",
     "runaway_speed": "whirl",

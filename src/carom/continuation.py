@@ -244,7 +244,7 @@ class _Tracer:
     def correct(self, guess: np.ndarray, normal: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
         """Point of the branch in the hyperplane through ``guess``; ``None`` where it is not reached.
 
-        A Jacobian from nearby is used as long as the residual falls to a tenth with each iteration.
+        A Jacobian from nearby is used as long as the residual falls thirtyfold with each iteration.
         """
         x, previous, correction = guess, np.inf, np.inf
         for _ in range(self.steps.iterations):
@@ -253,7 +253,7 @@ class _Tracer:
             if not np.isfinite(size):
                 return None
             good = size <= self.steps.tolerance or correction <= self.steps.tolerance
-            if size > 0.1 * previous and not good:
+            if size > previous / 30.0 and not good:
                 jacobian = self.jacobian(x)
             change = _solved(jacobian, normal, np.append(-value, -(normal @ (x - guess))))
             if good:
@@ -369,7 +369,8 @@ class _Tracer:
 
         def value(distance: float) -> float:
             if distance not in values:
-                x = self.correct(here.x + distance * here.tangent, here.tangent, here.jacobian)
+                guess = here.x + distance / length * (there.x - here.x)
+                x = self.correct(guess, here.tangent, here.jacobian)
                 at[distance] = here.x if x is None else x
                 values[distance] = np.nan if x is None else self._watched_value(which, x, here)
             return values[distance]

@@ -1,0 +1,237 @@
+"""Branches of single-impact orbits along one parameter, with their bifurcations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.bifurcations.conditions import (
+    TESTS,
+    conditions_at,
+    is_admissible,
+    jacobian_at,
+    letter,
+    orbit_of,
+    profile_at,
+)
+from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
+from carom.orbits import Orbit
+from carom.outcome import InputError
+
+__all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]
+
+STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
+SMALL = 1e-4
+"""Radial speed of an orbit that stands for those that shrink to a point."""
+WATCHED = ("period-doubling", "neimark-sacker", "grazing", "radius-extremum", "non-smooth-hopf", "slip-stop")
+
+
+@dataclass(frozen=True, eq=False)
+class Bifurcation:
+    """A special point of a branch.
+
+    Attributes
+    ----------
+    kind : str
+        ``"fold"`` (two periods meet), ``"speed-fold"`` (two radial speeds of one period meet), ``"period-doubling"``,
+        ``"neimark-sacker"``, ``"grazing"``, ``"non-smooth-hopf"``, ``"slip-stop"`` (friction begins to stop the slip), or
+        ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
+    parameter : str
+    value : float
+        Of the parameter, in SI units if it is a physical one.
+    name : str
+        Of the orbit.
+    numbers : Numbers
+        Parameters there.
+    period, radial_speed : float
+    admissible : bool
+        Whether the orbits on at least one side are motions of the machine.
+    place : float
+        Where on the branch: index of the orbit before it plus the fraction of the step.
+    """
+
+    kind: str
+    parameter: str
+    value: float
+    name: str
+    numbers: Numbers
+    period: float
+    radial_speed: float
+    admissible: bool
+    place: float
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit there."""
+        return orbit_of(self.numbers, self.name.partition(",")[0], self.period, self.radial_speed)
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitBranch:
+    """Single-impact orbits along a parameter, admissible and virtual ones.
+
+    Attributes
+    ----------
+    axis : Axis
+        The parameter.
+    pair : str
+        ``"B1"`` for the first pair of periods.
+    numbers : tuple of Numbers
+        Parameters at the points of the branch.
+    values, period, radial_speed : ndarray, shape (m,)
+        The parameter, ``T`` and ``ṙ`` before the impact.
+    special : tuple of Bifurcation
+        In the order of the branch.
+    stops : tuple of two str
+        Why it ends at either end; see :class:`~carom.continuation.Branch`.
+    """
+
+    axis: Axis
+    pair: str
+    numbers: tuple[Numbers, ...]
+    values: np.ndarray
+    period: np.ndarray
+    radial_speed: np.ndarray
+    special: tuple[Bifurcation, ...]
+    stops: tuple[str, str]
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    @property
+    def parameter(self) -> str:
+        """Name of the parameter."""
+        return self.axis.name
+
+    @cached_property
+    def orbits(self) -> tuple[Orbit, ...]:
+        """Every orbit with its certificate of admissibility."""
+        return tuple(orbit_of(numbers, self.pair, period, speed) for numbers, period, speed in self._each)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the orbits; they change at folds."""
+        return tuple(f"{self.pair},{letter(conditions_at(*point))}" for point in self._each)
+
+    @cached_property
+    def admissible(self) -> np.ndarray:
+        """Which orbits are motions of the machine, bool, shape (m,); by the extrema of their radius."""
+        return np.array([is_admissible(*point) for point in self._each])
+
+    @cached_property
+    def multipliers(self) -> np.ndarray:
+        """Non-trivial Floquet multipliers, complex, shape (m, 3)."""
+        return np.linalg.eigvals(np.array([jacobian_at(*point) for point in self._each])).astype(complex)
+
+    @property
+    def stable(self) -> np.ndarray:
+        """Which orbits have all multipliers inside the unit circle, bool, shape (m,)."""
+        return np.abs(self.multipliers).max(axis=1) < 1.0
+
+    @cached_property
+    def angular_speed(self) -> np.ndarray:
+        """``θ̇`` before the impact, shape (m,)."""
+        return np.array([-conditions_at(*point).turn.imag * point[2] for point in self._each])
+
+    @property
+    def _each(self) -> list[tuple[Numbers, float, float]]:
+        return list(zip(self.numbers, self.period.tolist(), self.radial_speed.tolist(), strict=True))
+
+
+def continue_orbit(
+    orbit: Orbit, parameter: str, interval: tuple[float, float], steps: Steps | None = None
+) -> OrbitBranch:
+    """Follow an orbit along a parameter, through folds, into the virtual and back.
+
+    The unknowns are the period and the radial speed, the equations ``F₁(T) = 0`` and ``|1 + q a₁₂ ṙ|² = |U*|²`` (source
+    paper (4.3), (4.4)).
+
+    Parameters
+    ----------
+    orbit : Orbit
+        With forward slip.
+    parameter : str
+        Dimensionless (``"gamma"``) or physical (``"speed"``, SI units; needs scales).
+    interval : tuple of float
+        Range of the parameter; it must hold the orbit's own value.
+    steps : Steps, optional
+
+    Returns
+    -------
+    OrbitBranch
+
+    Raises
+    ------
+    InputError
+        Unknown parameter, an interval without the orbit, or an orbit with backward slip.
+    """
+    base = Numbers.of(orbit.rotor.parameters)
+    along = axis(orbit.rotor.parameters, parameter)
+    present = along.get(base)
+    if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
+        raise InputError(parameter, interval, f"an interval that holds the orbit's own value {present:.6g}")
+    if not orbit.name.startswith("B"):
+        raise InputError("orbit", orbit.name, "an orbit with forward slip (its name begins with B)")
+    pair = orbit.name.partition(",")[0]
+
+    def residual(u: np.ndarray, p: float) -> np.ndarray:
+        if u[0] <= 0.0:
+            return np.full(2, np.nan)
+        return np.array(conditions_at(along.set(base, p), float(u[0]), float(u[1]))[:2])
+
+    def watch(kind: str) -> Watch:
+        test = TESTS[kind]
+        return Watch(kind, lambda u, p: test(along.set(base, p), float(u[0]), float(u[1])))
+
+    size = max(abs(present), 0.1 * (interval[1] - interval[0]))
+    branch = continue_branch(
+        residual,
+        np.array([orbit.period, orbit.radial_speed]),
+        present,
+        interval,
+        watches=[watch(kind) for kind in WATCHED],
+        steps=steps or STEPS,
+        scales=np.array([1.0, 1.0, size]),
+    )
+    special = (_bifurcation(point, along, base, pair) for point in branch.special)
+    return OrbitBranch(
+        axis=along,
+        pair=pair,
+        numbers=tuple(along.set(base, p) for p in branch.parameters.tolist()),
+        values=branch.parameters,
+        period=branch.unknowns[:, 0],
+        radial_speed=branch.unknowns[:, 1],
+        special=tuple(point for point in special if point is not None),
+        stops=branch.stops,
+    )
+
+
+def _bifurcation(point: SpecialPoint, along: Axis, base: Numbers, pair: str) -> Bifurcation | None:
+    """The special point in terms of orbits; ``None`` if it is none.
+
+    A fold is no branch point, and two real multipliers with a product of one are no Neimark–Sacker bifurcation.
+    """
+    numbers = along.set(base, point.parameter)
+    at = numbers, float(point.unknowns[0]), float(point.unknowns[1])
+    conditions = conditions_at(*at)
+    kind = point.kind
+    if kind == "branch point" or (kind == "neimark-sacker" and abs(conditions.pair_sum) >= 2.0):
+        return None
+    if kind == "fold" and abs(conditions.speed_fold) < abs(conditions.period_fold):
+        kind = "speed-fold"
+    # Where two orbits meet, the point is named after the one with the longer period or the higher speed.
+    meet = {"fold": {"period_fold": 1.0}, "speed-fold": {"speed_fold": 1.0}}.get(kind, {})
+    name = f"{pair},{letter(conditions._replace(**meet))}"
+    return Bifurcation(kind, along.name, point.parameter, name, *at, _bounds_admissible(kind, *at), point.place)
+
+
+def _bounds_admissible(kind: str, numbers: Numbers, period: float, speed: float) -> bool:
+    """Whether the orbits next to a special point are motions of the machine, on one side at least."""
+    if kind == "non-smooth-hopf":
+        speed = SMALL
+    slips = kind == "slip-stop" or numbers.mu == 0.0 or conditions_at(numbers, period, speed).slip_stop > 0.0
+    inside = kind == "grazing" or not profile_at(numbers, period, speed).height >= 0.0
+    return speed > 0.0 and slips and inside

@@ -1,0 +1,137 @@
+"""Test functions of single-impact orbits and of equilibria: what vanishes at each bifurcation."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.bifurcations.axes import Numbers
+from carom.core import planar
+from carom.maps import Section
+from carom.orbits import Orbit, orbit_at
+from carom.rotors import jeffcott
+from carom.stability import multipliers
+
+__all__ = [
+    "TESTS",
+    "OrbitConditions",
+    "RadialProfile",
+    "conditions_at",
+    "grazing_equations",
+    "is_admissible",
+    "jacobian_at",
+    "letter",
+    "orbit_of",
+    "profile_at",
+    "rub_fold",
+]
+
+
+class OrbitConditions(NamedTuple):
+    """Equations and test functions of a single-impact orbit; see :func:`carom.core.planar.orbit_conditions`."""
+
+    closing: float
+    balance: float
+    period_fold: float
+    speed_fold: float
+    boundary: float
+    slip_stop: float
+    period_doubling: float
+    neimark_sacker: float
+    pair_sum: float
+    lever: complex
+    turn: complex
+
+
+class RadialProfile(NamedTuple):
+    """The radius between the impacts; see :func:`carom.core.planar.radial_profile`."""
+
+    height: float
+    top: float
+    flattest: float
+
+
+@lru_cache(maxsize=64)
+def conditions_at(numbers: Numbers, period: float, speed: float) -> OrbitConditions:
+    """Conditions of an orbit with forward slip, given by its period and radial speed."""
+    gamma, omega, rho, _, mu, d, radius_ratio, *_ = numbers
+    return OrbitConditions(*planar.orbit_conditions(gamma, omega, rho, mu, d, radius_ratio + 1.0, period, speed))
+
+
+@lru_cache(maxsize=8)
+def profile_at(numbers: Numbers, period: float, speed: float) -> RadialProfile:
+    """Extrema of the radius between the impacts."""
+    gamma, omega, _, _, mu, d, *_ = numbers
+    return RadialProfile(*planar.radial_profile(gamma, omega, mu, d, period, speed))
+
+
+def grazing_equations(numbers: Numbers, period: float, speed: float, time: float) -> tuple[float, float]:
+    """``Re(Ū U̇)`` and ``r² − 1`` at a time after the impact: both vanish where the orbit grazes the wall."""
+    gamma, omega, _, _, mu, d, *_ = numbers
+    course: tuple[float, float] = planar.radial_course(gamma, omega, mu, d, period, speed, time)
+    return course
+
+
+def jacobian_at(numbers: Numbers, period: float, speed: float) -> np.ndarray:
+    """Derivative of the impact map over ``(θ, ṙ, θ̇)``, shape (3, 3)."""
+    gamma, omega, _, _, mu, d, *_ = numbers
+    jacobian: np.ndarray = planar.impact_jacobian(gamma, omega, mu, d, period, speed)
+    return jacobian
+
+
+def is_admissible(numbers: Numbers, period: float, speed: float) -> bool:
+    """Whether the orbit stays inside the wall and slips forward, by its extrema of the radius.
+
+    The proof is left to the certified search of :attr:`carom.orbits.Orbit.admissible`.
+    """
+    if not speed > 0.0:
+        return False
+    slips = numbers.mu == 0.0 or conditions_at(numbers, period, speed).slip_stop > 0.0
+    return slips and not profile_at(numbers, period, speed).height >= 0.0
+
+
+def letter(conditions: OrbitConditions) -> str:
+    """Letter of the orbit's name: which period of its pair, and which of the two radial speeds there."""
+    return "abcd"[(conditions.period_fold > 0.0) + 2 * (conditions.speed_fold > 0.0)]
+
+
+def orbit_of(numbers: Numbers, pair: str, period: float, speed: float) -> Orbit:
+    """Orbit with its certificate of admissibility and its multipliers."""
+    conditions = conditions_at(numbers, period, speed)
+    stiffness = complex(numbers.omega**2 - 1.0, numbers.gamma)
+    angle = numbers.phi - cmath.phase(stiffness) - cmath.phase(1.0 + conditions.lever * speed)
+    section = Section(math.remainder(angle, math.tau), speed, -conditions.turn.imag * speed)
+    name, nontrivial = f"{pair},{letter(conditions)}", multipliers(jacobian_at(numbers, period, speed))
+    return orbit_at(jeffcott(numbers.parameters), name, period, section, nontrivial)
+
+
+def rub_fold(numbers: Numbers) -> float:
+    """``ρ²(1 + μ²) − (γ + μ(1 − ω²))²``: zero where the two synchronous rubs meet, negative without any.
+
+    From ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)`` (:func:`carom.equilibria.equilibria`), whose left side is at most
+    ``ρ√(1 + μ²)``.
+    """
+    needed = numbers.gamma + numbers.mu * (1.0 - numbers.omega**2)
+    return numbers.rho**2 * (1.0 + numbers.mu**2) - needed**2
+
+
+TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
+    "fold": lambda n, period, speed: conditions_at(n, period, speed).period_fold,
+    "speed-fold": lambda n, period, speed: conditions_at(n, period, speed).speed_fold,
+    "period-doubling": lambda n, period, speed: conditions_at(n, period, speed).period_doubling,
+    "neimark-sacker": lambda n, period, speed: conditions_at(n, period, speed).neimark_sacker,
+    "grazing": lambda n, period, speed: profile_at(n, period, speed).height,
+    "radius-extremum": lambda n, period, speed: profile_at(n, period, speed).flattest,
+    "slip-stop": lambda n, period, speed: conditions_at(n, period, speed).slip_stop,
+    "non-smooth-hopf": lambda n, period, speed: speed,
+    "boundary-equilibrium": lambda n, period, speed: n.rho**2 / ((n.omega**2 - 1.0) ** 2 + n.gamma**2) - 1.0,
+    "rub-fold": lambda n, period, speed: rub_fold(n),
+    "resonance 1:1": lambda n, period, speed: 2.0 - conditions_at(n, period, speed).pair_sum,
+    "resonance 1:2": lambda n, period, speed: 2.0 + conditions_at(n, period, speed).pair_sum,
+}
+"""Functions of the numbers, the period and the radial speed that vanish at each kind of special point."""

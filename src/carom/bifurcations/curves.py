@@ -1,0 +1,276 @@
+"""Curves of each bifurcation in the plane of two parameters, with the codimension-2 points on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.bifurcations.conditions import TESTS, conditions_at, grazing_equations, profile_at
+from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.outcome import InputError
+from carom.parameters import Parameters
+
+__all__ = ["KINDS", "Codimension2Point", "Curve", "Plane", "continue_curve"]
+
+STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
+EDGE = "edge of the plane"
+
+
+@dataclass(frozen=True)
+class Plane:
+    """Two parameters and their ranges.
+
+    Attributes
+    ----------
+    first, second : str
+        Names, dimensionless or physical.
+    first_range, second_range : tuple of float
+        Physical ones in SI units.
+
+    Raises
+    ------
+    InputError
+        The names are the same, or a range is empty or not finite.
+    """
+
+    first: str
+    second: str
+    first_range: tuple[float, float]
+    second_range: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        if self.first == self.second:
+            raise InputError("plane", f"{self.first},{self.second}", "two different parameters")
+        for name, limits in ((self.first, self.first_range), (self.second, self.second_range)):
+            if not (np.isfinite(limits).all() and limits[0] < limits[1]):
+                raise InputError(name, f"{limits[0]:g} to {limits[1]:g}", "a range of two growing finite values")
+
+    def axes(self, base: Parameters) -> tuple[Axis, Axis]:
+        """Both parameters, checked against what is known of the machine and its ranges."""
+        found = axis(base, self.first), axis(base, self.second)
+        for end in (0, 1):
+            self.at(base, self.first_range[end], self.second_range[end])
+        return found
+
+    def at(self, base: Parameters, x: float, y: float) -> Parameters:
+        """Parameters at a point of the plane."""
+        first, second = axis(base, self.first), axis(base, self.second)
+        return second.set(first.set(Numbers.of(base), x), y).parameters
+
+
+@dataclass(frozen=True)
+class Codimension2Point:
+    """A point where two bifurcations happen at once.
+
+    Attributes
+    ----------
+    kind : str
+        For example ``"fold + boundary-equilibrium"``.
+    value : tuple of float
+        In the plane.
+    period : float
+        Of the orbit; ``nan`` for equilibria.
+    admissible : bool
+        Whether it happens to a motion of the machine, or to one that just stops being one.
+    """
+
+    kind: str
+    value: tuple[float, float]
+    period: float
+    admissible: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A curve of one bifurcation.
+
+    Attributes
+    ----------
+    kind : str
+    plane : Plane
+    points : ndarray, shape (m, 2)
+    periods : ndarray, shape (m,)
+        Period of the orbit; ``nan`` for equilibria.
+    radial_speeds : ndarray, shape (m,)
+        ``ṙ`` of the orbit; ``nan`` for equilibria.
+    admissible : ndarray of bool, shape (m,)
+        Where it is a bifurcation of motions of the machine.
+    codimension2 : tuple of Codimension2Point
+    stops : tuple of two str
+        Why it ends at either end; see :class:`~carom.continuation.Branch`.
+    """
+
+    kind: str
+    plane: Plane
+    points: np.ndarray
+    periods: np.ndarray
+    radial_speeds: np.ndarray
+    admissible: np.ndarray
+    codimension2: tuple[Codimension2Point, ...]
+    stops: tuple[str, str]
+
+    @cached_property
+    def steps(self) -> np.ndarray:
+        """Distances of neighbouring points in widths of the plane, shape (m − 1,)."""
+        widths = np.ptp([self.plane.first_range, self.plane.second_range], axis=1)
+        return np.linalg.norm(np.diff(self.points, axis=0) / widths, axis=1)
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """What defines a bifurcation and what else to watch along its curve.
+
+    ``unknowns`` counts those besides the first parameter: none for equilibria, period and radial speed for orbits, and
+    the time of grazing.
+    """
+
+    unknowns: int
+    watched: tuple[str, ...]
+    ends: tuple[str, ...] = ()
+
+
+KINDS: dict[str, _Kind] = {
+    "fold": _Kind(2, ("boundary-equilibrium", "period-doubling", "grazing", "speed-fold", "slip-stop")),
+    "speed-fold": _Kind(2, ("fold", "grazing", "period-doubling")),
+    "period-doubling": _Kind(2, ("grazing", "fold", "speed-fold", "slip-stop", "boundary-equilibrium")),
+    "neimark-sacker": _Kind(2, ("grazing", "boundary-equilibrium"), ("resonance 1:1", "resonance 1:2")),
+    "grazing": _Kind(3, ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop")),
+    "slip-stop": _Kind(2, ("fold", "period-doubling", "grazing")),
+    "boundary-equilibrium": _Kind(0, ("rub-fold",)),
+    "rub-fold": _Kind(0, ("boundary-equilibrium",)),
+}
+"""Bifurcations that can be followed in two parameters."""
+
+
+def continue_curve(
+    kind: str,
+    parameters: Parameters,
+    plane: Plane,
+    unknowns: Sequence[float] = (),
+    steps: Steps | None = None,
+) -> Curve:
+    """Follow a bifurcation in the plane of two parameters.
+
+    The unknowns are the first parameter and, for an orbit, its period and radial speed; the equations those of the orbit
+    (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the radius is
+    largest as a further unknown, and ``Re(Ū U̇) = 0``, ``|U| = 1`` as equations: they stay regular on its virtual side.
+
+    Parameters
+    ----------
+    kind : str
+        One of :data:`KINDS`.
+    parameters : Parameters
+        At or near the bifurcation.
+    plane : Plane
+    unknowns : sequence of float
+        Period and radial speed of the orbit; none for equilibria.
+    steps : Steps, optional
+
+    Returns
+    -------
+    Curve
+
+    Raises
+    ------
+    InputError
+        Unknown kind, a start outside the plane, or the wrong number of unknowns.
+    CaromError
+        No such bifurcation near the start.
+    """
+    if kind not in KINDS:
+        raise InputError("kind", kind, f"one of: {', '.join(KINDS)}")
+    definition, base = KINDS[kind], Numbers.of(parameters)
+    if len(unknowns) != min(definition.unknowns, 2):
+        raise InputError("unknowns", unknowns, "period and radial speed of the orbit, or nothing for equilibria")
+    first, second = plane.axes(parameters)
+    start = np.array([first.get(base), second.get(base)])
+    lows, highs = np.transpose([plane.first_range, plane.second_range])
+    if not ((lows <= start) & (start <= highs)).all():
+        raise InputError("parameters", tuple(start), "a point of the plane")
+    guess = [float(value) for value in unknowns]
+    if kind == "grazing":
+        guess.append(profile_at(base, *guess).top)
+
+    def numbers(u: np.ndarray, p: float) -> Numbers:
+        return second.set(first.set(base, float(u[-1])), p)
+
+    def watch(name: str) -> Watch:
+        test = TESTS[name]
+        return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), name in definition.ends)
+
+    edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
+    sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
+    branch = continue_branch(
+        _equations(kind, numbers),
+        np.array([*guess, start[0]]),
+        float(start[1]),
+        plane.second_range,
+        watches=[edge, *(watch(name) for name in (*definition.watched, *definition.ends))],
+        steps=steps or STEPS,
+        scales=np.array([*np.ones(definition.unknowns), *sizes]),
+    )
+    return _curve(kind, plane, branch, numbers)
+
+
+def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:
+    """Period and radial speed among the unknowns; any where there is no orbit."""
+    return (float(unknowns[0]), float(unknowns[1])) if KINDS[kind].unknowns else (1.0, 0.0)
+
+
+def _equations(kind: str, numbers: Callable[[np.ndarray, float], Numbers]) -> Callable[[np.ndarray, float], np.ndarray]:
+    test = TESTS[kind]
+
+    def equilibrium(u: np.ndarray, p: float) -> np.ndarray:
+        return np.array([test(numbers(u, p), 1.0, 0.0)])
+
+    def grazing(u: np.ndarray, p: float) -> np.ndarray:
+        if not 0.0 < u[2] < u[0]:
+            return np.full(4, np.nan)
+        at = numbers(u, p), float(u[0]), float(u[1])
+        return np.array([*conditions_at(*at)[:2], *grazing_equations(*at, float(u[2]))])
+
+    def orbit(u: np.ndarray, p: float) -> np.ndarray:
+        if u[0] <= 0.0:
+            return np.full(3, np.nan)
+        at = numbers(u, p), float(u[0]), float(u[1])
+        return np.array([*conditions_at(*at)[:2], test(*at)])
+
+    return {0: equilibrium, 2: orbit, 3: grazing}[KINDS[kind].unknowns]
+
+
+def _curve(kind: str, plane: Plane, branch: Branch, numbers: Callable[[np.ndarray, float], Numbers]) -> Curve:
+    of_orbits = KINDS[kind].unknowns > 0
+
+    def happens(u: np.ndarray, p: float, slack: float) -> bool:
+        if not of_orbits:
+            return True
+        at, (period, speed) = numbers(u, p), _orbit(kind, u)
+        slips = at.mu == 0.0 or conditions_at(at, period, speed).slip_stop > -slack
+        return speed > -slack and slips and not profile_at(at, period, max(speed, 1e-4)).height >= slack
+
+    absent = np.full(len(branch), np.nan)
+    slack = 1e-9 if kind in ("grazing", "slip-stop") else 0.0
+    rows = list(zip(branch.unknowns, branch.parameters.tolist(), strict=True))
+    return Curve(
+        kind=kind,
+        plane=plane,
+        points=np.stack([branch.unknowns[:, -1], branch.parameters], axis=1),
+        periods=branch.unknowns[:, 0] if of_orbits else absent,
+        radial_speeds=branch.unknowns[:, 1] if of_orbits else absent,
+        admissible=np.array([happens(u, p, slack) for u, p in rows]),
+        codimension2=tuple(
+            Codimension2Point(
+                f"{kind} + {point.kind}",
+                (float(point.unknowns[-1]), point.parameter),
+                float(point.unknowns[0]) if of_orbits else np.nan,
+                happens(point.unknowns, point.parameter, 1e-6),
+            )
+            for point in branch.special
+            if point.kind in (*KINDS[kind].watched, *KINDS[kind].ends)
+        ),
+        stops=branch.stops,
+    )

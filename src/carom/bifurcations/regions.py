@@ -1,0 +1,278 @@
+"""Regions of a plane of two parameters in which the same motions coexist, and the curves between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.bifurcations.axes import Numbers, value_of, vary
+from carom.bifurcations.conditions import conditions_at, is_admissible, jacobian_at
+from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
+from carom.bifurcations.diagrams import LONGEST_PERIOD, Diagram, SpecialValue, bifurcation_diagram
+from carom.equilibria import equilibria
+from carom.outcome import CaromError
+from carom.parameters import Parameters
+from carom.periods import PeriodCondition
+from carom.rotors import jeffcott
+
+__all__ = ["Motions", "Region", "RegionMap", "motions_at", "region_map"]
+
+SAME_POINT = 1e-6
+"""Distance, in widths of the plane, below which codimension-2 points are the same."""
+
+
+@dataclass(frozen=True, order=True)
+class Motions:
+    """Which simple motions a machine has.
+
+    Attributes
+    ----------
+    contact_free : bool
+        Whether contact-free levitation is admissible.
+    orbits, stable_orbits : int
+        Admissible single-impact orbits, and the stable ones of them.
+    rub : bool
+        Whether a stable synchronous rub is admissible.
+    """
+
+    contact_free: bool
+    orbits: int
+    stable_orbits: int
+    rub: bool
+
+    @property
+    def source_region(self) -> str:
+        """Region of the source paper's figure 6b, which knows no rub: R1 … R4."""
+        if self.contact_free:
+            return "R4" if self.orbits else "R3"
+        return "R1" if self.orbits else "R2"
+
+    @property
+    def words(self) -> str:
+        """The motions in words."""
+        parts = ["contact-free levitation" if self.contact_free else "no contact-free levitation"]
+        if self.orbits:
+            parts.append(f"{self.orbits} impacting orbit{'s' * (self.orbits > 1)} ({self.stable_orbits} stable)")
+        else:
+            parts.append("no impacting orbit")
+        parts.append("stable rub" if self.rub else "no stable rub")
+        return ", ".join(parts)
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A connected set of grid points with the same motions.
+
+    Attributes
+    ----------
+    motions : Motions
+    point : tuple of float
+        A point well inside.
+    share : float
+        Fraction of the plane.
+    """
+
+    motions: Motions
+    point: tuple[float, float]
+    share: float
+
+
+@dataclass(frozen=True, eq=False)
+class RegionMap:
+    """Curves, codimension-2 points and regions of a plane.
+
+    Attributes
+    ----------
+    plane : Plane
+    curves : tuple of Curve
+    regions : tuple of Region
+        Largest first.
+    lost : tuple of str
+        Curves that could not be followed, each with the reason.
+    """
+
+    plane: Plane
+    curves: tuple[Curve, ...]
+    regions: tuple[Region, ...]
+    lost: tuple[str, ...] = ()
+
+    @property
+    def codimension2(self) -> tuple[Codimension2Point, ...]:
+        """Points where two curves meet, each once."""
+        widths = np.ptp([self.plane.first_range, self.plane.second_range], axis=1)
+        found: list[Codimension2Point] = []
+        for point in (point for curve in self.curves for point in curve.codimension2):
+            parts = set(point.kind.split(" + "))
+            if not any(
+                parts == set(other.kind.split(" + "))
+                and np.abs((np.subtract(point.value, other.value)) / widths).max() < SAME_POINT
+                for other in found
+            ):
+                found.append(point)
+        return tuple(found)
+
+
+def motions_at(parameters: Parameters) -> Motions:
+    """Count the simple motions at some parameters.
+
+    Single-impact orbits are those with forward slip; without damping, or with so little that there would be hundreds of
+    pairs, those with periods up to 60/Ω.
+    """
+    rotor = jeffcott(parameters)
+    contact_free, *rubs = equilibria(rotor)
+    numbers = Numbers.of(parameters)
+    orbits = [orbit for orbit in _orbits(parameters) if is_admissible(numbers, *orbit)]
+    radii = [np.abs(np.linalg.eigvals(jacobian_at(numbers, *orbit))).max() for orbit in orbits]
+    return Motions(
+        contact_free=contact_free.status == "admissible",
+        orbits=len(orbits),
+        stable_orbits=sum(bool(radius < 1.0) for radius in radii),
+        rub=any(rub.stable and rub.status == "admissible" for rub in rubs),
+    )
+
+
+def _orbits(parameters: Parameters) -> list[tuple[float, float]]:
+    """Period and radial speed of all single-impact orbits with forward slip and a positive radial speed."""
+    numbers, rotor = Numbers.of(parameters), jeffcott(parameters)
+    roots = PeriodCondition(rotor).roots(LONGEST_PERIOD if parameters.gamma < 0.05 else None).periods
+    gap = 1.0 - abs(rotor.equilibrium) ** 2
+    found = []
+    for period in roots.tolist():
+        lever = conditions_at(numbers, period, 0.0).lever
+        square, half = abs(lever) ** 2, lever.real
+        discriminant = half**2 - square * gap
+        if discriminant >= 0.0 and rotor.equilibrium != 0.0:
+            speeds = [(sign * np.sqrt(discriminant) - half) / square for sign in (-1.0, 1.0)]
+            found += [(period, float(speed)) for speed in speeds if speed > 0.0]
+    return found
+
+
+def region_map(
+    parameters: Parameters,
+    plane: Plane,
+    *,
+    grid: int = 24,
+    virtual: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> RegionMap:
+    """Draw the map of a plane: all curves through the bifurcations on its cross-sections, and the regions between.
+
+    The special points of both parameters' diagrams through the present parameters are continued; a curve that
+    passes a point already drawn is left out.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        A point of the plane.
+    plane : Plane
+    grid : int
+        Grid points a side at which motions are counted.
+    virtual : bool
+        Follow bifurcations of virtual orbits too.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    RegionMap
+
+    Raises
+    ------
+    InputError
+        Unknown parameters, or a range they cannot have.
+    """
+    plane.axes(parameters)
+    tell = progress or (lambda _: None)
+    curves: list[Curve] = []
+    lost: list[str] = []
+    for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
+        diagram = bifurcation_diagram(parameters, name, interval, virtual=virtual)
+        for point in _starts(diagram, virtual):
+            at = vary(parameters, diagram.parameter, point.value)
+            if not any(_passes(curve, at, point) for curve in curves):
+                try:
+                    curves.append(continue_curve(point.kind, at, plane, _unknowns(point)))
+                except CaromError as problem:
+                    lost.append(f"{point.kind} of {point.branch} at {name} = {point.value:.6g}: {problem}")
+        tell(share)
+    regions = _regions(parameters, plane, grid, lambda share: tell(0.3 + 0.7 * share))
+    return RegionMap(plane, tuple(curves), regions, tuple(lost))
+
+
+def _starts(diagram: Diagram, virtual: bool) -> list[SpecialValue]:
+    """Special points that lie on curves; a non-smooth Hopf point lies on that of the boundary equilibrium."""
+    return [point for point in diagram.points if point.kind in KINDS and (virtual or point.admissible)]
+
+
+def _unknowns(point: SpecialValue) -> tuple[float, ...]:
+    return () if point.period is None or point.radial_speed is None else (point.period, point.radial_speed)
+
+
+def _passes(curve: Curve, at: Parameters, start: SpecialValue) -> bool:
+    """Whether a curve passes the start: its nearest points, corrected, have the same orbit there."""
+    if curve.kind != start.kind:
+        return False
+    plane = curve.plane
+    sizes = np.ptp([plane.first_range, plane.second_range], axis=1)
+    place = np.array([value_of(at, plane.first), value_of(at, plane.second)]) / sizes
+    points = curve.points / sizes
+    ahead = np.diff(points, axis=0)
+    share = np.clip(((place - points[:-1]) * ahead).sum(axis=1) / np.maximum((ahead**2).sum(axis=1), 1e-300), 0.0, 1.0)
+    distance = np.linalg.norm(points[:-1] + share[:, None] * ahead - place, axis=1)
+    nearest = int(np.argmin(distance))
+    # Between points the curve bends off its chord by less than an eighth of the step.
+    if distance[nearest] > 0.125 * np.linalg.norm(ahead[nearest]) + 1e-9:
+        return False
+    if start.period is None:
+        return True
+    weights = np.array([1.0 - share[nearest], share[nearest]])
+    period = weights @ curve.periods[nearest : nearest + 2]
+    speed = weights @ curve.radial_speeds[nearest : nearest + 2]
+    return bool(abs(period - start.period) < 0.02 * start.period and abs(speed - (start.radial_speed or 0.0)) < 0.02)
+
+
+def _regions(parameters: Parameters, plane: Plane, grid: int, progress: Callable[[float], None]) -> tuple[Region, ...]:
+    xs = np.linspace(*plane.first_range, 2 * grid + 1)[1::2]
+    ys = np.linspace(*plane.second_range, 2 * grid + 1)[1::2]
+    found: dict[tuple[int, int], Motions] = {}
+    for i, x in enumerate(xs):
+        for j, y in enumerate(ys):
+            found[i, j] = motions_at(plane.at(parameters, float(x), float(y)))
+        progress((i + 1) / grid)
+    regions = []
+    for cells in _connected(found):
+        i, j = max(cells, key=lambda cell: _depth(cell, cells, grid))
+        regions.append(Region(found[i, j], (float(xs[i]), float(ys[j])), len(cells) / grid**2))
+    return tuple(sorted(regions, key=lambda region: -region.share))
+
+
+def _connected(found: dict[tuple[int, int], Motions]) -> list[set[tuple[int, int]]]:
+    """Groups of neighbouring cells with equal motions."""
+    left = set(found)
+    groups = []
+    while left:
+        group, border = set(), [left.pop()]
+        while border:
+            cell = border.pop()
+            group.add(cell)
+            for step in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+                other = (cell[0] + step[0], cell[1] + step[1])
+                if other in left and found[other] == found[cell]:
+                    left.remove(other)
+                    border.append(other)
+        groups.append(group)
+    return groups
+
+
+def _depth(cell: tuple[int, int], cells: set[tuple[int, int]], grid: int) -> int:
+    """Cells one can go in each direction without leaving the group."""
+    depth = 0
+    while all(
+        (cell[0] + i * (depth + 1), cell[1] + j * (depth + 1)) in cells for i, j in ((1, 0), (-1, 0), (0, 1), (0, -1))
+    ):
+        depth += 1
+        if depth > grid:
+            break
+    return depth

@@ -1,0 +1,192 @@
+"""Branches of orbits and their special points, each looked at again by another route."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER, random_parameters
+
+from carom import InputError, jeffcott, simulate, single_impact_orbits
+from carom.bifurcations import OrbitBranch, continue_orbit
+from carom.continuation import Steps
+from carom.maps import Section, impact_map
+from carom.periods import PeriodCondition
+from carom.trajectories import State
+
+
+@pytest.fixture(scope="module")
+def upper() -> OrbitBranch:
+    """B1,d and beyond its fold B1,c."""
+    return continue_orbit(single_impact_orbits(jeffcott(PAPER))["B1,d"], "gamma", (0.02, 0.3))
+
+
+@pytest.fixture(scope="module")
+def lower() -> OrbitBranch:
+    """B1,a and beyond its fold B1,b."""
+    return continue_orbit(single_impact_orbits(jeffcott(PAPER))["B1,a"], "gamma", (0.02, 0.3))
+
+
+def value(branch: OrbitBranch, kind: str) -> list[float]:
+    return sorted(point.value for point in branch.special if point.kind == kind)
+
+
+def test_special_points_of_the_source_papers_machine(upper, lower):
+    assert value(upper, "fold") == pytest.approx([0.1780277257], abs=5e-11)
+    assert value(upper, "period-doubling") == pytest.approx([0.0833814175], abs=5e-11)
+    assert value(upper, "grazing") == pytest.approx([0.0636105609], abs=5e-11)
+    assert value(upper, "radius-extremum") == pytest.approx([0.0785], abs=5e-5)
+    assert value(upper, "neimark-sacker") == []
+    assert value(lower, "fold") == pytest.approx([0.1780277257], abs=5e-11)
+    assert value(lower, "non-smooth-hopf") == pytest.approx([0.0724686787] * 2, abs=5e-11)
+    (fold,) = [point for point in upper.special if point.kind == "fold"]
+    # From F₁ = ∂F₁/∂T = 0 with 40 digits.
+    assert (fold.value, fold.period) == pytest.approx((0.17802772567072037, 1.6408219835236660), abs=2e-9)
+
+
+def test_orbits_of_a_branch_are_those_found_at_each_parameter(upper, lower):
+    for branch in (upper, lower):
+        for index in range(2, len(branch) - 2, 9):
+            orbits = single_impact_orbits(jeffcott(PAPER.replace(gamma=branch.values[index])))
+            orbit = orbits[branch.names[index]]
+            assert branch.period[index] == pytest.approx(orbit.period, abs=1e-10)
+            assert branch.radial_speed[index] == pytest.approx(orbit.radial_speed, abs=1e-10)
+            assert branch.angular_speed[index] == pytest.approx(orbit.angular_speed, abs=1e-10)
+            assert branch.admissible[index] == orbit.admissible
+            assert branch.stable[index] == orbit.stable
+            certified = branch.orbits[index]
+            assert (certified.name, certified.admissible) == (orbit.name, orbit.admissible)
+            assert abs(certified.position - orbit.position) < 1e-9
+            assert np.abs(np.abs(certified.multipliers.values) - np.abs(orbit.multipliers.values)).max() < 1e-8
+
+
+def test_fold_by_counting_roots(upper):
+    (fold,) = value(upper, "fold")
+
+    def count(gamma):
+        return len(PeriodCondition(jeffcott(PAPER.replace(gamma=gamma))).roots().periods)
+
+    assert (count(fold - 1e-10), count(fold + 1e-10)) == (2, 0)
+
+
+def test_grazing_by_the_certified_search(upper):
+    (grazing,) = value(upper, "grazing")
+
+    def admissible(gamma):
+        return single_impact_orbits(jeffcott(PAPER.replace(gamma=gamma)))["B1,d"].admissible
+
+    assert not admissible(grazing - 1e-9)
+    assert admissible(grazing + 1e-9)
+
+
+def test_period_doubling_by_simulation_of_a_disturbed_orbit(upper):
+    """Just at the point a small disturbance along the eigenvector comes back with its sign turned."""
+    (point,) = [special for special in upper.special if special.kind == "period-doubling"]
+    orbit = point.orbit
+    centre = np.array([orbit.angle, orbit.radial_speed, orbit.angular_speed])
+    jacobian = impact_map(orbit.rotor, orbit.section).jacobian
+    values, vectors = np.linalg.eig(jacobian)
+    leader = int(np.argmin(np.abs(values + 1.0)))
+    direction = vectors[:, leader].real / np.linalg.norm(vectors[:, leader].real)
+    ratios = []
+    for size in (1e-5, -1e-5):
+        image = impact_map(orbit.rotor, Section(*(centre + size * direction))).image
+        change = np.array([image.angle, image.radial_speed, image.angular_speed]) - centre
+        ratios.append(change @ direction / size)
+    assert np.mean(ratios) == pytest.approx(-1.0, abs=1e-6)
+
+
+def test_disturbances_grow_before_and_die_out_after_the_period_doubling(upper):
+    (point,) = [special for special in upper.special if special.kind == "period-doubling"]
+    for shift, grows in ((-0.002, True), (0.002, False)):
+        orbit = single_impact_orbits(jeffcott(PAPER.replace(gamma=point.value + shift)))["B1,d"]
+        start = State(orbit.departure.position, orbit.departure.velocity * (1.0 + 1e-6))
+        log = simulate(orbit.rotor, start, 100 * orbit.period).contacts
+        errors = np.abs(log.radial_speed[:80] - orbit.radial_speed)
+        assert bool(errors[70:80].max() > errors[5:15].max()) is grows
+
+
+def test_non_smooth_hopf_where_the_orbit_shrinks_into_the_equilibrium(lower):
+    for point in lower.special:
+        if point.kind == "non-smooth-hopf":
+            rotor = jeffcott(point.numbers.parameters)
+            assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-11)
+            assert PeriodCondition(rotor).value(np.array([point.period])) == pytest.approx(0.0, abs=1e-11)
+            assert point.radial_speed == pytest.approx(0.0, abs=1e-11)
+
+
+def test_radius_gains_extrema(upper):
+    (gamma,) = value(upper, "radius-extremum")
+
+    def extrema(at):
+        orbit = single_impact_orbits(jeffcott(PAPER.replace(gamma=at)))["B1,d"]
+        radius = np.abs(orbit.path(np.linspace(0.0, orbit.period, 20001)[1:-1]))
+        return int((np.diff(np.sign(np.diff(radius))) != 0).sum())
+
+    assert (extrema(gamma - 1e-4), extrema(gamma + 1e-4)) == (3, 1)
+
+
+def test_coalescence_of_two_speeds_at_negative_damping():
+    orbit = single_impact_orbits(jeffcott(PAPER))["B1,a"]
+    branch = continue_orbit(orbit, "gamma", (-0.6, 0.17), Steps(largest=0.1, sharpest_turn=0.3, most_points=150))
+    (point,) = [special for special in branch.special if special.kind == "speed-fold"]
+    assert point.value == pytest.approx(-0.4975, abs=5e-5)
+    parameters = point.numbers.parameters
+    below, above = (
+        [orbit.name for orbit in single_impact_orbits(jeffcott(parameters.replace(gamma=point.value + shift)), 2.0)]
+        for shift in (-1e-6, 1e-6)
+    )
+    assert ("B1,a" in below, "B1,a" in above) == (False, True)
+
+
+def test_physical_parameters_pass_the_same_points():
+    from carom import Machine
+    from carom.parameters import Scales
+
+    machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+    orbit = single_impact_orbits(jeffcott(machine.parameters))["B1,d"]
+    damping = continue_orbit(orbit, "damping", (500.0, 2500.0))
+    unit = 50.0 * 184.2
+    assert value(damping, "period-doubling") == pytest.approx([0.0833814175 * unit], rel=1e-9)
+    speed = continue_orbit(orbit, "speed", (150.0, 260.0))
+    for point in speed.special:
+        assert point.numbers.rho == PAPER.rho
+        assert point.numbers.gamma == pytest.approx(PAPER.gamma * 184.2 / point.value, rel=1e-13)
+        if point.kind == "fold":
+            roots = [
+                len(PeriodCondition(jeffcott(machine.replace(speed=point.value + shift).parameters)).roots().periods)
+                for shift in (-1e-6, 1e-6)
+            ]
+            assert abs(roots[0] - roots[1]) == 2
+
+
+def test_random_machines_end_with_a_stated_reason():
+    random = np.random.default_rng(40)
+    steps = Steps(first=0.02, largest=0.2, sharpest_turn=0.3, most_points=150)
+    followed = 0
+    for _ in range(50):
+        parameters = random_parameters(random)
+        orbits = [orbit for orbit in single_impact_orbits(jeffcott(parameters), 30.0) if orbit.slip > 0]
+        parameter = str(random.choice(["gamma", "omega", "rho", "mu", "d"]))
+        present = getattr(parameters, parameter)
+        interval = (0.0, 1.0) if parameter == "d" else (0.5 * present, 2.0 * present + 0.1)
+        for orbit in orbits[:2]:
+            branch = continue_orbit(orbit, parameter, interval, steps)
+            followed += 1
+            assert set(branch.stops) <= {
+                "parameter limit",
+                "end of domain",
+                "closed loop",
+                "step too small",
+                "most points",
+            }
+            assert ((interval[0] <= branch.values) & (branch.values <= interval[1])).all()
+            assert np.isfinite(branch.period).all()
+    assert followed > 30
+
+
+def test_inputs_that_cannot_be_used(upper):
+    orbit = single_impact_orbits(jeffcott(PAPER))["B1,d"]
+    with pytest.raises(InputError, match="interval that holds"):
+        continue_orbit(orbit, "gamma", (0.2, 0.3))
+    with pytest.raises(InputError, match="unknown name"):
+        continue_orbit(orbit, "dampening", (0.2, 0.3))

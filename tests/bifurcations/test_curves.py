@@ -1,0 +1,117 @@
+"""Curves in two parameters and the points on them where two bifurcations meet."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import InputError, jeffcott, single_impact_orbits
+from carom.bifurcations import KINDS, Curve, Plane, continue_curve, continue_orbit
+from carom.equilibria import equilibria
+from carom.periods import PeriodCondition
+
+PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
+
+
+@pytest.fixture(scope="module")
+def curves() -> dict[str, Curve]:
+    branch = continue_orbit(single_impact_orbits(jeffcott(PAPER))["B1,d"], "gamma", (0.02, 0.3))
+    found = {
+        point.kind: continue_curve(point.kind, point.numbers.parameters, PLANE, (point.period, point.radial_speed))
+        for point in branch.special
+        if point.kind in KINDS
+    }
+    found["boundary-equilibrium"] = continue_curve("boundary-equilibrium", PAPER.replace(gamma=0.0725), PLANE)
+    found["rub-fold"] = continue_curve("rub-fold", PAPER.replace(gamma=0.37), PLANE)
+    return found
+
+
+def test_all_curves_are_there_and_end_at_the_edge(curves):
+    assert set(curves) == {"fold", "period-doubling", "grazing", "boundary-equilibrium", "rub-fold"}
+    for curve in curves.values():
+        (low_x, low_y), (high_x, high_y) = np.transpose([PLANE.first_range, PLANE.second_range])
+        for x, y in curve.points[[0, -1]]:
+            assert min(abs(x - low_x), abs(x - high_x), abs(y - low_y), abs(y - high_y)) < 1e-9
+        assert set(curve.stops) <= {"parameter limit", "end of domain"}
+        assert curve.steps.max() < 0.16
+
+
+def test_fold_curve_is_where_roots_appear(curves):
+    for x, y in curves["fold"].points[1:-1:4]:
+        counts = [
+            len(PeriodCondition(jeffcott(PAPER.replace(gamma=x + shift, omega=y))).roots().periods)
+            for shift in (-1e-9, 1e-9)
+        ]
+        assert counts[0] - counts[1] == 2
+
+
+def test_grazing_curve_by_the_certified_search(curves):
+    curve = curves["grazing"]
+    for (x, y), period in list(zip(curve.points, curve.periods, strict=True))[1:-1:4]:
+        answers = []
+        for shift in (-1e-9, 1e-9):
+            orbits = single_impact_orbits(jeffcott(PAPER.replace(gamma=x + shift, omega=y)))
+            near = [orbit for orbit in orbits if abs(orbit.period - period) < 1e-6]
+            answers.append(sorted(orbit.admissible for orbit in near))
+        assert answers[0] != answers[1]
+
+
+def test_period_doubling_curve_by_the_multipliers_of_the_orbits(curves):
+    curve = curves["period-doubling"]
+    rows = list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))
+    for (x, y), period, speed in rows[1:-1:4]:
+        orbits = single_impact_orbits(jeffcott(PAPER.replace(gamma=x, omega=y)))
+        near = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed - speed))
+        assert np.abs(near.multipliers.values + 1.0).min() < 1e-7
+
+
+def test_equilibrium_curves_in_closed_form(curves):
+    x, y = curves["boundary-equilibrium"].points.T
+    assert x**2 + (1.0 - y**2) ** 2 == pytest.approx(PAPER.rho**2, abs=1e-12)
+    x, y = curves["rub-fold"].points.T
+    assert x + PAPER.mu * (1.0 - y**2) == pytest.approx(PAPER.rho * np.sqrt(1.0 + PAPER.mu**2), abs=1e-12)
+    for gamma, omega in curves["rub-fold"].points[1:-1:3]:
+        counts = [len(equilibria(jeffcott(PAPER.replace(gamma=gamma + s, omega=omega)))) for s in (-1e-9, 1e-9)]
+        assert counts == [3, 1]
+
+
+def test_fold_meets_the_boundary_equilibrium(curves):
+    (point,) = [point for point in curves["fold"].codimension2 if point.kind == "fold + boundary-equilibrium"]
+    assert point.value == pytest.approx((0.1779723, 0.7811076), abs=5e-8)
+    rotor = jeffcott(PAPER.replace(gamma=point.value[0], omega=point.value[1]))
+    assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-11)
+    condition = PeriodCondition(rotor)
+    assert condition.value(np.array([point.period])) == pytest.approx(0.0, abs=1e-11)
+    assert condition.slope(np.array([point.period])) == pytest.approx(0.0, abs=1e-10)
+
+
+def test_every_pair_of_parameters():
+    """Friction and restitution move the fold; unbalance does not, as ``F₁`` does not depend on it."""
+    orbit = single_impact_orbits(jeffcott(PAPER))["B1,d"]
+    branch = continue_orbit(orbit, "gamma", (0.02, 0.3))
+    (fold,) = [point for point in branch.special if point.kind == "fold"]
+    at, unknowns = fold.numbers.parameters, (fold.period, fold.radial_speed)
+    for name, limits in (("mu", (0.0, 0.4)), ("d", (0.8, 1.0)), ("omega", (0.7, 0.85))):
+        curve = continue_curve("fold", at, Plane("gamma", name, (0.01, 0.6), limits), unknowns)
+        x, y = curve.points[len(curve.points) // 2]
+        rotor = jeffcott(at.replace(gamma=x, **{name: y}))
+        count = len(PeriodCondition(jeffcott(rotor.parameters.replace(gamma=x - 1e-9))).roots().periods)
+        assert count - len(PeriodCondition(jeffcott(rotor.parameters.replace(gamma=x + 1e-9))).roots().periods) == 2
+    flat = continue_curve("fold", at, Plane("gamma", "rho", (0.01, 0.6), (0.42, 0.6)), unknowns)
+    assert np.ptp(flat.points[:, 0]) < 1e-12
+
+
+def test_inputs_that_cannot_be_used():
+    with pytest.raises(InputError, match="two different parameters"):
+        Plane("gamma", "gamma", (0.0, 1.0), (0.0, 1.0))
+    with pytest.raises(InputError, match="two growing finite values"):
+        Plane("gamma", "omega", (0.3, 0.1), (0.5, 1.0))
+    with pytest.raises(InputError, match="one of: fold"):
+        continue_curve("hopf", PAPER, PLANE)
+    with pytest.raises(InputError, match="a point of the plane"):
+        continue_curve("boundary-equilibrium", PAPER.replace(omega=0.5), PLANE)
+    with pytest.raises(InputError, match="period and radial speed"):
+        continue_curve("fold", PAPER, PLANE)
+    with pytest.raises(InputError, match="mass, clearance and speed"):
+        continue_curve("rub-fold", PAPER, Plane("speed", "omega", (100.0, 200.0), (0.6, 1.0)))

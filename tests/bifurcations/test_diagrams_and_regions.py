@@ -1,0 +1,119 @@
+"""Whole diagrams and maps of a plane."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import InputError, equilibria, jeffcott, single_impact_orbits
+from carom.bifurcations import Plane, bifurcation_diagram, motions_at, region_map
+
+
+@pytest.fixture(scope="module")
+def diagram():
+    return bifurcation_diagram(PAPER, "gamma", (0.05, 0.4))
+
+
+def test_points_of_the_source_papers_machine(diagram):
+    points = [(point.kind, point.value) for point in diagram.points]
+    expected = {
+        "grazing": [0.0636105609],
+        "boundary-equilibrium": [0.0724686787],
+        "non-smooth-hopf": [0.0724686787] * 2,
+        "period-doubling": [0.0833814175],
+        "fold": [0.1780277257] * 2,
+        "rub-fold": [0.3700060375],
+    }
+    for kind, values in expected.items():
+        assert [value for name, value in points if name == kind] == pytest.approx(values, abs=5e-11), kind
+    assert all(point.admissible for point in diagram.points)
+    assert [point.value for point in diagram.points] == sorted(point.value for point in diagram.points)
+
+
+def test_every_branch_is_followed_once(diagram):
+    assert len(diagram.orbits) == 2
+    for value in (0.0501, 0.09, 0.16):
+        orbits = [orbit for orbit in single_impact_orbits(jeffcott(PAPER.replace(gamma=value))) if orbit.admissible]
+        for orbit in orbits:
+            passing = [
+                branch
+                for branch in diagram.orbits
+                if np.abs(branch.period - orbit.period).min() < 0.1 and value <= branch.values.max()
+            ]
+            assert passing
+
+
+@pytest.mark.parametrize("edge", [0.1, 0.178])
+def test_branches_that_begin_on_the_edge_are_followed_once(edge):
+    found = bifurcation_diagram(PAPER, "gamma", (edge, 0.3))
+    assert len(found.orbits) == 2
+
+
+def test_equilibrium_branches(diagram):
+    kinds = {branch.kind: branch for branch in diagram.equilibria}
+    levitation, stable, saddle = kinds["contact-free"], kinds["stable rub"], kinds["saddle rub"]
+    assert (levitation.admissible == (levitation.values > 0.0724686787)).all()
+    assert np.isnan(stable.radius[stable.values > 0.3701]).all()
+    assert stable.stable[stable.values < 0.3699].all()
+    assert not saddle.stable.any()
+    for index in (10, 100):
+        at = equilibria(jeffcott(PAPER.replace(gamma=levitation.values[index])))
+        assert levitation.radius[index] == pytest.approx(at[0].radius)
+        assert stable.normal_force[index] == pytest.approx(at[1].normal_force)
+
+
+def test_regions_of_the_source_paper():
+    grid = {
+        "R1": (0.12, 0.9),
+        "R2": (0.26, 0.9),
+        "R3": (0.26, 0.7),
+        "R4": (0.13, 0.68),
+    }
+    for name, (gamma, omega) in grid.items():
+        motions = motions_at(PAPER.replace(gamma=gamma, omega=omega))
+        assert motions.source_region == name
+        assert motions.rub
+
+
+def test_region_of_levitation_alone_still_holds_the_rub():
+    """The refinement of R3: only beyond the fold of the rubs nothing but levitation is left."""
+    motions = motions_at(PAPER.replace(gamma=0.2))
+    assert (motions.source_region, motions.rub) == ("R3", True)
+    motions = motions_at(PAPER.replace(gamma=0.38))
+    assert (motions.source_region, motions.rub) == ("R3", False)
+    assert motions.words == "contact-free levitation, no impacting orbit, no stable rub"
+
+
+def test_motions_agree_with_certified_orbits():
+    random = np.random.default_rng(9)
+    for _ in range(40):
+        parameters = PAPER.replace(gamma=random.uniform(0.02, 0.3), omega=random.uniform(0.6, 1.0))
+        orbits = [orbit for orbit in single_impact_orbits(jeffcott(parameters), 60.0) if orbit.admissible]
+        motions = motions_at(parameters)
+        assert motions.orbits == len(orbits)
+        assert motions.stable_orbits == sum(orbit.stable for orbit in orbits)
+
+
+def test_map_of_the_source_papers_plane():
+    found = region_map(PAPER, Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.0)), grid=10)
+    assert found.lost == ()
+    kinds = [curve.kind for curve in found.curves]
+    assert sorted(set(kinds)) == ["boundary-equilibrium", "fold", "grazing", "period-doubling", "rub-fold"]
+    assert kinds.count("grazing") == kinds.count("period-doubling") == kinds.count("boundary-equilibrium") == 1
+    values = {point.kind: point.value for point in found.codimension2}
+    assert values["fold + boundary-equilibrium"] == pytest.approx((0.1779723, 0.7811076), abs=5e-8)
+    assert sum(region.share for region in found.regions) == pytest.approx(1.0)
+    assert {region.motions.source_region for region in found.regions} == {"R1", "R2", "R3", "R4"}
+    for region in found.regions:
+        gamma, omega = region.point
+        assert motions_at(PAPER.replace(gamma=gamma, omega=omega)) == region.motions
+
+
+def test_inputs_that_cannot_be_used():
+    with pytest.raises(InputError, match="two growing finite values"):
+        bifurcation_diagram(PAPER, "gamma", (0.3, 0.1))
+    with pytest.raises(InputError, match="d = "):
+        bifurcation_diagram(PAPER, "d", (0.5, 1.5))
+    with pytest.raises(InputError, match="mass, clearance and speed"):
+        bifurcation_diagram(PAPER, "speed", (100.0, 200.0))
