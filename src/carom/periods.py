@@ -27,7 +27,7 @@ from math import factorial, pi
 import numpy as np
 
 from carom.outcome import CaromError, InputError
-from carom.rotors import Rotor
+from carom.rotors import LinearRotor
 
 __all__ = ["PeriodCondition", "PeriodRoots"]
 
@@ -85,12 +85,12 @@ class PeriodCondition:
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Rotor, or anything with its ``arrays`` and ``generator``
     slip : {1, -1}
         Direction of the slip during impacts.
     """
 
-    def __init__(self, rotor: Rotor, slip: int = 1) -> None:
+    def __init__(self, rotor: LinearRotor, slip: int = 1) -> None:
         arrays = rotor.arrays
         row, column = arrays.rows[0], arrays.columns[:, 0]
         self.factor = complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -18,7 +18,19 @@ from carom.parameters import Parameters, Scales
 if TYPE_CHECKING:
     from carom.parameters import Machine
 
-__all__ = ["Rotor", "jeffcott"]
+__all__ = ["LinearRotor", "Rotor", "generator_of", "jeffcott", "second_order_record"]
+
+
+class LinearRotor(Protocol):
+    """What the conditions of periodic orbits need to know of a rotor."""
+
+    @property
+    def arrays(self) -> np.record:
+        """Modes, contact planes and contact law (:func:`~carom.core.layout.rotor_record`)."""
+
+    @property
+    def generator(self) -> np.ndarray:
+        """Matrix ``M`` of free flight ``ċ = M c``, shape (N, N)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +73,7 @@ class Rotor:
     @property
     def generator(self) -> np.ndarray:
         """Matrix ``M`` of free flight ``ċ = M c``, shape (2, 2)."""
-        exponents, driven = self.arrays.exponents, self.arrays.driven
-        return np.diag(exponents) + np.diag(driven[1:].astype(complex), -1)
+        return generator_of(self.arrays)
 
     def amplitudes(self, position: complex, velocity: complex) -> np.ndarray:
         """Mode amplitudes of a state.
@@ -128,16 +139,47 @@ def jeffcott(machine: Parameters | Machine) -> Rotor:
     """
     parameters = machine if isinstance(machine, Parameters) else machine.parameters
     gamma, omega = parameters.gamma, parameters.omega
-    exponents = np.array(planar_exponents(gamma, omega))
-    stiffness = complex(omega**2 - 1.0, gamma)
-    arrays = rotor_record(
-        exponents=exponents,
-        driven=np.array([False, True]),
-        offsets=np.array([cmath.rect(parameters.rho, parameters.phi) / stiffness]),
-        rows=np.array([[0.0, 1.0]], np.complex128),
-        columns=np.array([[1.0], [0.0]], np.complex128),
-        friction=np.array([parameters.mu]),
-        restitution=np.array([parameters.d]),
-        drive=np.array([parameters.radius_ratio + 1.0]),
+    arrays = second_order_record(
+        exponents=planar_exponents(gamma, omega),
+        equilibrium=cmath.rect(parameters.rho, parameters.phi) / complex(omega**2 - 1.0, gamma),
+        friction=parameters.mu,
+        restitution=parameters.d,
+        drive=parameters.radius_ratio + 1.0,
     )
     return Rotor(arrays, parameters)
+
+
+def second_order_record(
+    *,
+    exponents: tuple[complex, complex],
+    equilibrium: complex,
+    friction: float,
+    restitution: float,
+    drive: float,
+) -> np.record:
+    """Arrays of ``ü + αu̇ + βu = Γ``, whose displacement at the wall is ``u`` itself.
+
+    Parameters
+    ----------
+    exponents : tuple of complex
+        Roots ``λ₋, λ₊`` of ``λ² + αλ + β``, the one with the smaller real part first.
+    equilibrium : complex
+        ``Γ/β``.
+    friction, restitution, drive : float
+        As in :func:`~carom.core.layout.rotor_record`.
+    """
+    return rotor_record(
+        exponents=np.array(exponents, np.complex128),
+        driven=np.array([False, True]),
+        offsets=np.array([equilibrium], np.complex128),
+        rows=np.array([[0.0, 1.0]], np.complex128),
+        columns=np.array([[1.0], [0.0]], np.complex128),
+        friction=np.array([friction]),
+        restitution=np.array([restitution]),
+        drive=np.array([drive]),
+    )
+
+
+def generator_of(arrays: np.record) -> np.ndarray:
+    """Matrix ``M`` of free flight ``ċ = M c`` of these modes, shape (N, N)."""
+    return np.diag(arrays.exponents) + np.diag(arrays.driven[1:].astype(complex), -1)
