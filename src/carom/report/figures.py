@@ -10,11 +10,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from carom import plots
+from carom.attractors import Ending
 from carom.orbits import Orbit, OrbitSet, period_condition
 from carom.outcome import Outcome
 from carom.parameters import Zones
 from carom.study import Study
-from carom.study.disturbances import Disturbance, Ending
+from carom.study.endings import ending_words, shown_example
+from carom.trajectories import simulate
 
 __all__ = ["Picture", "pictures"]
 
@@ -24,6 +26,8 @@ MOST_ENDINGS = 5
 """Examples of disturbances with a figure."""
 MOST_VIRTUAL = 16
 """Virtual orbits beyond which the overview leaves them out."""
+LONGEST_SHOWN = 1000.0
+"""Time that an example shows at most, in ``1/Ω``."""
 SHOWN_TAIL = 4.0
 """Time constants of levitation that an example shows after its last contact."""
 
@@ -113,36 +117,29 @@ def _zones(study: Study, radii: np.ndarray) -> Zones | None:
 
 
 def _of_disturbances(study: Study) -> Iterator[Picture]:
-    for ending, group in list(study.disturbances.endings.items())[:MOST_ENDINGS]:
-        example = _example(group.members)
-        what = "a kick of the levitating rotor" if example.kind == "kick" else "a start within the clearance"
+    reached = [member for member in study.attractors if member.count]
+    for member in reached[:MOST_ENDINGS]:
+        example = shown_example(study.attractors, member)
+        what = "a kick of the levitating rotor" if example.start.kind == "kick" else "a start within the clearance"
         yield Picture(
-            f"disturbance-{_file_name(ending)}",
+            f"disturbance-{_file_name(member.name)}",
             "disturbances",
-            f"After {what} at {study.wording.velocity(example.speed)} the rotor ends: {ending.words}. "
-            f"So did {len(group)} of {len(study.disturbances)} disturbances.",
+            f"After {what} at {study.wording.velocity(example.start.speed)} the rotor ends: {ending_words(member.name)}. "
+            f"So did {member.count} of {len(study.attractors.disturbances)} disturbances.",
             lambda example=example: _history(study, example),  # type: ignore[misc]
         )
 
 
-def _example(members: tuple[Disturbance, ...]) -> Disturbance:
-    """The one with contacts that settles first, as the easiest to read."""
-    struck = [member for member in members if member.touches] or list(members)
-    return min(struck, key=lambda member: member.time)
+def _file_name(attractor: str) -> str:
+    return "".join(character if character.isalnum() else "-" for character in attractor.replace(",", "")).strip("-")
 
 
-def _file_name(ending: Ending) -> str:
-    parts = [ending.outcome.label, ending.orbit.replace(",", ""), str(ending.multiplicity or "")]
-    if ending.outcome is Outcome.BOUNCING and not ending.multiplicity:
-        parts[-1] = "aperiodic"
-    return "-".join(part for part in parts if part)
-
-
-def _history(study: Study, example: Disturbance) -> Figure:
+def _history(study: Study, example: Ending) -> Figure:
     """Radius over time until the motion has settled; for levitation a little longer, to show that it dies out."""
     decay = -float(study.rotor.eigenvalues.real.max())
-    tail = SHOWN_TAIL / decay if example.recovers and decay > 0 else 0.0
-    motion = example.trajectory(study.rotor, tail)
+    tail = SHOWN_TAIL / decay if example.outcome is Outcome.LEVITATED and decay > 0 else 0.0
+    end = min(example.time + tail, LONGEST_SHOWN)
+    motion = simulate(study.rotor, example.start.state, end)
     return plots.radius(motion, _zones(study, motion.radius(motion.sample())))
 
 

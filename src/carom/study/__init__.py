@@ -4,8 +4,9 @@
 ``assembly``        :func:`study` and the frozen :class:`Study`
 ``ranges``          for which damping and stiffness equilibria exist, in closed form
 ``folds``           for which damping and stiffness single-impact orbits exist, by search
-``disturbances``    simulated disturbances and where they end
+``endings``         what became of simulated disturbances
 ``verdict``         all of it in words
+``findings``        the paragraphs of the verdict
 ``wording``         numbers with units
 ``summaries``       its tables, as text
 ``document``        results as JSON
@@ -13,23 +14,19 @@
 """
 
 from carom.study.assembly import Study, all_orbits, study
-from carom.study.disturbances import Disturbance, Ending, Trials
 from carom.study.document import as_json, orbits_document, trajectory_document
-from carom.study.ranges import Edge, MotionRange, Span, Threshold
-from carom.study.verdict import NOT_COVERED, Finding, Verdict, free_spans
+from carom.study.ranges import Edge, MotionRange, Span, Threshold, free_spans
+from carom.study.verdict import NOT_COVERED, Finding, Verdict
 from carom.study.wording import Wording
 
 __all__ = [
     "NOT_COVERED",
-    "Disturbance",
     "Edge",
-    "Ending",
     "Finding",
     "MotionRange",
     "Span",
     "Study",
     "Threshold",
-    "Trials",
     "Verdict",
     "Wording",
     "all_orbits",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from carom.attractors import AttractorSet, find_attractors
 from carom.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.equilibria import Equilibrium, equilibria
 from carom.orbits import Orbit, OrbitSet, single_impact_orbits
@@ -14,7 +15,7 @@ from carom.outcome import InputError
 from carom.parameters import Case, Machine, Parameters, Zones
 from carom.periods import PeriodCondition
 from carom.rotors import Rotor, jeffcott
-from carom.study.disturbances import Trials, simulate_disturbances
+from carom.safety import SafeDamping, least_safe_damping
 from carom.study.document import study_document
 from carom.study.folds import single_impact_range
 from carom.study.ranges import Gain, Motion, MotionRange, Threshold, contact_free_range, rolling_range, rub_range
@@ -45,8 +46,10 @@ class Study:
         For which damping and which stiffness each motion exists, the other parameters fixed.
     boundaries : tuple of BoundaryEquilibrium
         Where, along damping and stiffness, the contact-free motion meets the wall, and what happens there.
-    disturbances : Trials
-        Simulated disturbances and where they end.
+    attractors : AttractorSet
+        Where simulated disturbances, and starts next to the known motions, end.
+    safe_damping : SafeDamping
+        The damping above which all disturbances came back, found by simulation at other dampings too.
     """
 
     case: Case
@@ -55,7 +58,8 @@ class Study:
     orbits: OrbitSet
     ranges: tuple[MotionRange, ...]
     boundaries: tuple[BoundaryEquilibrium, ...]
-    disturbances: Trials
+    attractors: AttractorSet
+    safe_damping: SafeDamping
 
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:
@@ -139,13 +143,15 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     rotor = jeffcott(parameters)
     orbits = all_orbits(rotor)
-    stable = [orbit for orbit in orbits if orbit.admissible and orbit.stable]
-    tell(0.3, "disturbances")
-    trials = simulate_disturbances(rotor, stable, lambda share: tell(0.3 + 0.1 * share, "disturbances"))
-    ranges = _ranges(parameters, lambda share: tell(0.4 + 0.5 * share, "thresholds of damping and stiffness"))
-    tell(0.9, "loss of levitation")
+    tell(0.15, "disturbances")
+    found = find_attractors(rotor, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
+    ranges = _ranges(parameters, lambda share: tell(0.3 + 0.2 * share, "thresholds of damping and stiffness"))
+    tell(0.5, "loss of levitation")
     boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
-    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, trials)
+    safe = least_safe_damping(
+        parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
+    )
+    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, found, safe)
 
 
 def all_orbits(rotor: Rotor) -> OrbitSet:

@@ -13,13 +13,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.attractors import Attractor, AttractorSet, Ending
 from carom.boundary import BoundaryEquilibrium
 from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
+from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
-from carom.study.disturbances import Disturbance, Ending, Trials
-from carom.study.ranges import MotionRange, Span, Threshold
-from carom.study.verdict import NOT_COVERED, free_spans
+from carom.safety import DampingLimit, SafeDamping
+from carom.study.endings import hardest_impulse, touching
+from carom.study.ranges import MotionRange, Span, Threshold, free_spans
+from carom.study.verdict import NOT_COVERED
 from carom.study.wording import Wording
 from carom.trajectories import State, Trajectory
 
@@ -94,7 +97,9 @@ def study_document(study: Study) -> dict[str, Any]:
         "ranges": [_range(entry) for entry in study.ranges],
         "boundaries": [_boundary(entry, say) for entry in study.boundaries],
         "levitation_alone": {gain: _free(study, gain) for gain in study.gains},
-        "disturbances": _trials(study.disturbances, case.parameters.scales),
+        "attractors": [_attractor(entry, case.parameters.scales) for entry in study.attractors],
+        "disturbances": _disturbances(study.attractors, case.parameters.scales),
+        "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
         "not_covered": list(NOT_COVERED),
     }
 
@@ -204,40 +209,78 @@ def _free(study: Study, gain: Any) -> list[list[float]] | None:
     return None if spans is None else [_span(span) for span in spans]
 
 
-def _trials(trials: Trials, scales: Scales | None) -> dict[str, Any]:
-    smallest = trials.smallest_unrecovered_kick
-    document = {
-        "seed": trials.seed,
-        "count": len(trials),
-        "recovered": trials.recovered,
-        "touching": len(trials.touching),
-        "touching_recovered": trials.touching.recovered,
-        "endings": [{**_ending(ending), "count": len(group)} for ending, group in trials.endings.items()],
-        "smallest_unrecovered_kick": smallest,
-        "trials": [_disturbance(entry) for entry in trials],
+def _attractor(entry: Attractor, scales: Scales | None) -> dict[str, Any]:
+    document: dict[str, Any] = {
+        "name": entry.name,
+        "outcome": entry.outcome.label,
+        "settled": entry.settled,
+        "multiplicity": entry.multiplicity,
+        "period": entry.period,
+        "whirl": entry.whirl,
+        "count": entry.count,
+        "share": entry.share,
+        "known_starts": entry.known,
+        "largest_impulse": entry.largest_impulse,
+        "largest_force": entry.largest_force,
     }
     if scales is not None:
-        document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
-        document["hardest_impulse_si"] = trials.hardest_impulse * scales.impulse
-        document["final_force_si"] = trials.final_force * scales.force
+        document["largest_impulse_si"] = entry.largest_impulse * scales.impulse
+        document["largest_force_si"] = entry.largest_force * scales.force
     return document
 
 
-def _ending(ending: Ending) -> dict[str, Any]:
-    return {"outcome": ending.outcome.label, "orbit": ending.orbit, "multiplicity": ending.multiplicity}
+def _disturbances(found: AttractorSet, scales: Scales | None) -> dict[str, Any]:
+    touched, smallest = touching(found), found.smallest_unrecovered_kick
+    document = {
+        "seed": found.seed,
+        "fastest": found.fastest,
+        "count": len(found.disturbances),
+        "recovered": _recovered(found.disturbances),
+        "touching": len(touched),
+        "touching_recovered": _recovered(touched),
+        "smallest_unrecovered_kick": smallest,
+        "starts": [_ending(ending) for ending in found.endings],
+    }
+    if scales is not None:
+        document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
+        document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
+    return document
 
 
-def _disturbance(entry: Disturbance) -> dict[str, Any]:
+def _recovered(endings: tuple[Ending, ...]) -> int:
+    return sum(ending.outcome is Outcome.LEVITATED for ending in endings)
+
+
+def _ending(entry: Ending) -> dict[str, Any]:
     return {
-        "kind": entry.kind,
-        "start": _state(entry.start),
-        **_ending(entry.ending),
+        "kind": entry.start.kind,
+        "start": _state(entry.start.state),
+        "attractor": entry.attractor,
         "time": entry.time,
         "impacts": entry.impacts,
-        "lasting_contacts": entry.lasting_contacts,
         "hardest_impulse": entry.hardest_impulse,
-        "final_force": entry.final_force,
     }
+
+
+def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
+    limits = {
+        "within_reach": safe.within_reach,
+        "at_all": safe.at_all,
+        "rub": safe.rub,
+        "orbits": safe.orbits,
+        "simulated": safe.simulated,
+        "rolling": safe.rolling,
+    }
+    documents = {name: _limit(limit, scales) if limit else None for name, limit in limits.items()}
+    return {**documents, "lowest": safe.lowest, "highest": safe.highest, "disturbances": safe.disturbances}
+
+
+def _limit(limit: DampingLimit, scales: Scales | None) -> dict[str, Any]:
+    document = {"motion": limit.motion, "gamma": limit.gamma, "above": limit.above, "evidence": limit.evidence}
+    if scales is not None:
+        document["gamma_si"] = limit.gamma * scales.damping
+        document["above_si"] = limit.above * scales.damping
+    return document
 
 
 def _plain(value: Any) -> Any:

@@ -23,6 +23,7 @@ __all__ = [
     "Threshold",
     "common",
     "contact_free_range",
+    "free_spans",
     "outside",
     "rolling_range",
     "rub_range",
@@ -148,6 +149,28 @@ def common(first: tuple[Span, ...], second: tuple[Span, ...]) -> tuple[Span, ...
 
 def _value(edge: Edge) -> float:
     return edge.value
+
+
+def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
+    """Where, along one gain, the contact-free motion exists and neither a rub nor a single-impact orbit does.
+
+    Parameters
+    ----------
+    ranges : tuple of MotionRange
+    gain : {"gamma", "omega"}
+
+    Returns
+    -------
+    tuple of Span, or None
+        Within what was searched for orbits; ``None`` if nothing was.
+    """
+    here = {entry.motion: entry for entry in ranges if entry.gain == gain}
+    orbits = here.get("single-impact")
+    if orbits is None or orbits.searched is None or "rub" not in here:
+        return None
+    searched = orbits.searched
+    quiet = common(outside(orbits.spans, searched), outside(here["rub"].spans, searched))
+    return common(quiet, here["contact-free"].spans)
 
 
 ZERO, INFINITE = Edge(0.0), Edge(math.inf)

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
-from carom.outcome import Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
-from carom.study.disturbances import Ending, Trials
-from carom.study.ranges import Edge, Motion
-from carom.study.verdict import free_spans
+from carom.study.endings import ending_words, kick_sizes
+from carom.study.ranges import Edge, Motion, free_spans
 from carom.study.wording import Wording, number
 
 if TYPE_CHECKING:
+    from carom.attractors import Attractor, AttractorSet
     from carom.study.assembly import Study
 
 __all__ = [
@@ -127,38 +126,33 @@ def motion_rows(study: Study, most_virtual: int = 8) -> list[MotionRow]:
     most_virtual : int
         Orbits that are not possible are left out if there are more of them.
     """
-    endings = study.disturbances.endings
-    rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.disturbances, most_virtual)
-    for ending, group in endings.items():
-        if ending.outcome not in (Outcome.LEVITATED, Outcome.FORWARD_RUB) and not ending.orbit:
-            rows.append(_seen(study.wording, ending, group, study.disturbances))
-    return rows
+    rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors, most_virtual)
+    simple = {"levitation", "synchronous rub", *(orbit.name for orbit in study.orbits)}
+    others = [member for member in study.attractors if member.name not in simple]
+    return rows + [_seen(study.wording, member, study.attractors) for member in others]
 
 
 def simple_motion_rows(
     equilibria: tuple[Equilibrium, ...],
     orbits: OrbitSet,
     say: Wording,
-    trials: Trials | None = None,
+    found: AttractorSet | None = None,
     most_virtual: int = 8,
 ) -> list[MotionRow]:
     """Equilibria and orbits; with the number of disturbances that ended there, if any were simulated."""
-    counts: dict[str, int] = {}
-    for member in trials or ():
-        outcome = member.ending.outcome
-        name = {Outcome.LEVITATED: "contact-free", Outcome.FORWARD_RUB: "rub"}.get(outcome, member.ending.orbit)
-        counts[name] = counts.get(name, 0) + 1
     rows = []
     for entry in equilibria:
-        count = counts.get(entry.kind, 0) if entry.kind == "contact-free" or entry.stable else 0
-        rows.append(_steady(entry, say, _share(count, trials)))
+        name = "levitation" if entry.kind == "contact-free" else "synchronous rub" if entry.stable else ""
+        rows.append(_steady(entry, say, _share(found, name)))
     virtual = [orbit for orbit in orbits if not orbit.admissible]
     shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]
-    return rows + [_bounce(orbit, say, _share(counts.get(orbit.name, 0), trials)) for orbit in shown]
+    return rows + [_bounce(orbit, say, _share(found, orbit.name)) for orbit in shown]
 
 
-def _share(count: int, trials: Trials | None) -> str:
-    return f"{count} of {len(trials)}" if count and trials else ""
+def _share(found: AttractorSet | None, name: str) -> str:
+    if found is None or name not in found or not found[name].count:
+        return ""
+    return f"{found[name].count} of {len(found.disturbances)}"
 
 
 def _steady(entry: Equilibrium, say: Wording, share: str) -> MotionRow:
@@ -195,14 +189,16 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     )
 
 
-def _seen(say: Wording, ending: Ending, group: Trials, trials: Trials) -> MotionRow:
-    force = group.final_force
+def _seen(say: Wording, member: Attractor, found: AttractorSet) -> MotionRow:
+    impulse, force = member.largest_impulse, member.largest_force
     return MotionRow(
-        ending.words,
-        "seen" if ending.outcome.settled else "undecided",
-        impulse="" if force > 0 else f"up to {say.impulse(group.hardest_impulse)}",
+        ending_words(member.name),
+        "seen" if member.settled else "undecided",
+        period=say.time(member.period) if member.period else "",
+        impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
         force=say.force(force) if force > 0 else "",
-        trials=_share(len(group), trials),
+        trials=_share(found, member.name),
+        remark="" if member.count else "from a start next to it",
     )
 
 
@@ -248,14 +244,8 @@ def range_rows(study: Study) -> list[tuple[str, ...]]:
 
 def kick_rows(study: Study) -> list[tuple[str, str, str]]:
     """For each size of kick: how many directions came back, and where the others ended."""
-    kicks = study.disturbances.of_kind("kick")
     rows = []
-    for speed in sorted({round(member.speed, 12) for member in kicks}):
-        alike = kicks.of_speed(speed)
-        lost = [
-            f"{len(group)} {ending.words}"
-            for ending, group in alike.endings.items()
-            if ending.outcome != Outcome.LEVITATED
-        ]
-        rows.append((study.wording.velocity(speed), f"{alike.recovered} of {len(alike)}", ", ".join(lost)))
+    for size in kick_sizes(study.attractors):
+        lost = [f"{count} {ending_words(name)}" for name, count in size.lost.items()]
+        rows.append((study.wording.velocity(size.speed), f"{size.recovered} of {size.directions}", ", ".join(lost)))
     return rows

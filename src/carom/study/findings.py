@@ -1,0 +1,282 @@
+"""The paragraphs of a verdict, one function for each topic."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from carom.outcome import Outcome
+from carom.study.endings import ending_words, hardest_impulse, kick_sizes, touching
+from carom.study.ranges import Gain, Motion, free_spans
+from carom.study.wording import counted, listed, number
+from carom.whirl import rolling, runaway_speed
+
+if TYPE_CHECKING:
+    from carom.equilibria import Equilibrium
+    from carom.orbits import Orbit
+    from carom.study.assembly import Study
+
+__all__ = ["FINDINGS", "names_of", "stable_rub"]
+
+GRAVITY = 9.80665
+"""Standard acceleration of free fall, m/s²."""
+MOST_NAMES = 8
+
+
+def stable_rub(study: Study) -> Equilibrium | None:
+    """The synchronous rub that can hold the rotor, if there is one."""
+    return next((rub for rub in study.rubs if rub.stable and rub.status == "admissible"), None)
+
+
+def _levitation(study: Study) -> str:
+    say, levitation = study.wording, study.equilibria[0]
+    limits = ", ".join(number(limit, 3) for limit in study.case.zones.limits)
+    if levitation.status == "virtual":
+        return (
+            f"The rotor cannot run without contact. Its whirl from unbalance would need a radius of "
+            f"{say.radius(levitation.radius)}, more than the clearance."
+        )
+    if levitation.status == "boundary":
+        return "The contact-free whirl from unbalance just touches the wall: the least disturbance brings contact."
+    text = (
+        f"The rotor levitates without contact at r = {say.radius(levitation.radius)}, zone {study.zone} "
+        f"(zone limits {limits} of the clearance). A gap of {say.length(1.0 - levitation.radius)} to the wall is left. "
+    )
+    decay = -float(levitation.eigenvalues.real.max())
+    if not levitation.stable:
+        return text + "But nothing damps it: a disturbance does not die out."
+    text += f"Disturbances that do not reach the wall die out, with a time constant of {say.time(1.0 / decay)}."
+    return " ".join([text, *_loss_of_levitation(study)])
+
+
+def _loss_of_levitation(study: Study) -> list[str]:
+    """How levitation ends if one gain is turned far enough from where it is."""
+    say = study.wording
+    places: dict[str, list[str]] = {}
+    for boundary in study.boundaries:
+        own = getattr(study.case.parameters, boundary.gain)
+        if (boundary.value < own) != (boundary.levitates == "above"):
+            continue  # beyond the range in which this machine levitates
+        moves = "falls" if boundary.levitates == "above" else "rises"
+        where = f"{say.gain_name(boundary.gain)} {moves} to {say.gain(boundary.gain, boundary.value)}"
+        places.setdefault(_LOSS[boundary.kind], []).append(where)
+    return [f"Where {' or '.join(where)}, {what}." for what, where in places.items()]
+
+
+_LOSS = {
+    "persistence": "it goes over into a synchronous rub that begins without force",
+    "non-smooth fold": "it meets an unstable synchronous rub and both vanish, so that the rotor must go somewhere else",
+    "degenerate": "it ends on the wall",
+}
+
+
+def _rub(study: Study) -> str:
+    rubs = [rub for rub in study.rubs if rub.status != "virtual"]
+    if not rubs:
+        return "No synchronous rub exists: the unbalance cannot keep the rotor pressed against the bearing."
+    stable = stable_rub(study)
+    if stable is None:
+        return (
+            "A synchronous rub exists. It is not stable in every direction, but it marks a way to stay in contact "
+            f"(bearing force {study.wording.force(rubs[0].normal_force)})."
+        )
+    start = "A synchronous rub exists and is stable"
+    if study.levitates:
+        start = "A synchronous rub coexists with levitation and is stable"
+    return (
+        f"{start}: once it has settled there the rotor stays pressed against the touchdown bearing. "
+        f"The bearing force would be {_rub_load(study, stable)}."
+    )
+
+
+def _rub_load(study: Study, rub: Equilibrium) -> str:
+    say, parameters = study.wording, study.case.parameters
+    friction = parameters.mu * rub.normal_force
+    slip = parameters.radius_ratio + 1.0
+    text = _with_weight(study, rub.normal_force)
+    if friction > 0:
+        text += (
+            f", and friction of {say.force(friction)} at a slip of {say.velocity(slip)} would heat the contact with "
+            f"{say.power(friction * slip)}"
+        )
+    return text
+
+
+def _bouncing(study: Study) -> str:
+    orbits = study.orbits
+    stable = study.stable_orbits
+    unstable = [orbit for orbit in orbits if orbit.admissible and not orbit.stable]
+    virtual = [orbit for orbit in orbits if not orbit.admissible]
+    sentences = [_stable_orbit(study, orbit) for orbit in stable]
+    if unstable:
+        one = len(unstable) == 1
+        sentences.append(
+            f"{counted(len(unstable), 'orbit')} with one impact a period {'is' if one else 'are'} unstable "
+            f"({names_of(unstable)}): the rotor does not stay there, but {'it takes' if one else 'they take'} part in "
+            "deciding which disturbances come back."
+        )
+    if virtual:
+        sentences.append(
+            f"{counted(len(virtual), 'orbit')} ({names_of(virtual)}) solve{'s' if len(virtual) == 1 else ''} the equations "
+            "but not the contact law, and so cannot happen."
+        )
+    if not len(orbits):
+        sentences.append("There is no orbit with one impact a period.")
+    if orbits.complete:
+        sentences.append("The list is complete: it is proven that no other orbit with one impact a period exists.")
+    else:
+        longest = study.wording.time(orbits.longest_period)
+        sentences.append(f"Only periods up to {longest} were searched; there may be more such orbits.")
+    return " ".join(sentences)
+
+
+def _stable_orbit(study: Study, orbit: Orbit) -> str:
+    say, parameters = study.wording, study.case.parameters
+    impulse = (1.0 + parameters.d) * orbit.radial_speed
+    whirl = "forward" if orbit.angular_speed > -1.0 else "backward"
+    return (
+        f"The rotor can bounce for ever on the stable orbit {orbit.name}: one impact every {say.time(orbit.period)} "
+        f"({say.per_second(orbit.period)}) at {say.velocity(orbit.radial_speed)} towards the wall, each with a normal "
+        f"impulse of {say.impulse(impulse)}, a mean force of {say.force(impulse / orbit.period)}, "
+        f"in {whirl} whirl."
+    )
+
+
+def names_of(orbits: list[Orbit]) -> str:
+    """List the names of orbits, not more than a few."""
+    names = [orbit.name for orbit in orbits]
+    few = MOST_NAMES - 1
+    return listed(names if len(names) <= MOST_NAMES else [*names[:few], f"{len(names) - few} more"])
+
+
+def _disturbances(study: Study) -> str:
+    say, found = study.wording, study.attractors
+    sizes = kick_sizes(found)
+    tried = len(found.disturbances)
+    kicks = sum(size.directions for size in sizes)
+    what = []
+    if sizes:
+        smallest, largest = say.velocity(sizes[0].speed), say.velocity(sizes[-1].speed)
+        what.append(f"{kicks} velocity kicks of the levitating rotor, {smallest} to {largest},")
+    what.append(f"{tried - kicks} starts spread over the clearance at up to {say.velocity(found.fastest)}")
+    text = f"{tried} were simulated to where they settle: {' and '.join(what)}. {_endings(study)}"
+    lost = next((size for size in sizes if size.lost), None)
+    if lost is not None:
+        text += (
+            f" The smallest kick tried that did not come back was {say.velocity(lost.speed)} "
+            f"({lost.directions - lost.recovered} of {lost.directions} directions)."
+        )
+    if hardest_impulse(found) > 0:
+        text += f" The hardest hit had a normal impulse of {say.impulse(hardest_impulse(found))}."
+    return text
+
+
+def _endings(study: Study) -> str:
+    found = study.attractors
+    counts = {member.name: member.count for member in found if member.count}
+    if list(counts) == ["levitation"]:
+        return "All of them came back to contact-free levitation."
+    parts = [f"{count} in {ending_words(name)}" for name, count in counts.items() if not _is_doing(name)]
+    parts += [f"{count} {ending_words(name)}" for name, count in counts.items() if _is_doing(name)]
+    text = f"They ended: {listed(parts)}."
+    touched = touching(found)
+    back = sum(ending.outcome is Outcome.LEVITATED for ending in touched)
+    if study.levitates and touched:
+        text += f" Of the {len(touched)} that touched the wall {back or 'none'} came back to levitation."
+    return text
+
+
+def _is_doing(name: str) -> bool:
+    return ending_words(name).startswith(("bouncing", "unresolved"))
+
+
+def _backward_whirl(study: Study) -> str:
+    say, gamma = study.wording, study.case.parameters.gamma
+    roll, runaway = rolling(study.rotor), runaway_speed(study.rotor)
+    bound = say.gain("gamma", roll.damping_bound)
+    if roll.damping_bound <= 0.0:
+        return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
+    if gamma > roll.damping_bound:
+        return f"Damping is so strong that no backward whirl in lasting contact sustains itself (that takes {bound})."
+    if not roll.holds:
+        return (
+            "The rotor cannot roll backward round the bearing for a whole turn, but backward whirl that slides for a part of "
+            f"each turn is not ruled out; {say.gain_name('gamma')} above {bound} would rule it out."
+        )
+    return (
+        f"Dry friction can drive the rotor backward round the bearing until it rolls there with "
+        f"{_with_weight(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
+        f"{bound} rules that out. It surely gets there if, in lasting contact, its centre moves backward faster than "
+        f"{say.velocity(runaway.certain)} ({number(runaway.certain, 3)} times the speed of the shaft), and may from about "
+        f"{say.velocity(runaway.average)} on."
+    )
+
+
+def _with_weight(study: Study, force: float) -> str:
+    """A force, and how many times the weight of the rotor that is."""
+    text, scales = study.wording.force(force), study.rotor.scales
+    if scales is None:
+        return text
+    return f"{text} ({number(force * scales.acceleration / GRAVITY, 3)} times the weight of the rotor)"
+
+
+def _remedies(study: Study) -> str:
+    lines = [" ".join(_remedies_along(study, gain)) for gain in study.gains]
+    lines[0] = f"{lines[0]} {_safe_damping(study)}"
+    return "\n".join(lines)
+
+
+def _remedies_along(study: Study, gain: Gain) -> list[str]:
+    say = study.wording
+    name, own = say.gain_name(gain), say.gain(gain, getattr(study.case.parameters, gain))
+    parts = []
+    for motion, words in _POSSIBLE.items():
+        entry = study.range_of(motion, gain)
+        if entry is not None:
+            parts.append(f"{words} {say.where(gain, entry.spans, entry.searched)}")
+    sentences = [f"{name[0].upper()}{name[1:]} (this machine: {own}): {'; '.join(parts)}."]
+    orbits, free = study.range_of("single-impact", gain), free_spans(study.ranges, gain)
+    aside = ", backward whirl aside," if _rolling_concerns(study, gain) else ""
+    if free is None or orbits is None:
+        sentences.append(f"Which {name} would leave levitation alone was not found out.")
+    elif free:
+        where = say.where(gain, free, orbits.searched)
+        sentences.append(f"Of these motions levitation alone{aside} is left {where}.")
+    else:
+        sentences.append(f"No {name} in the range searched leaves levitation alone.")
+    return sentences
+
+
+_POSSIBLE: dict[Motion, str] = {
+    "contact-free": "contact-free motion exists",
+    "rub": "a synchronous rub can hold the rotor",
+    "single-impact": "orbits with one impact a period are possible",
+}
+
+
+def _rolling_concerns(study: Study, gain: Gain) -> bool:
+    rolling = study.range_of("rolling", gain)
+    return rolling is not None and bool(rolling.spans)
+
+
+def _safe_damping(study: Study) -> str:
+    """What simulations at other dampings add to the ranges."""
+    say, safe = study.wording, study.safe_damping
+    limit, name = safe.within_reach, say.gain_name("gamma")
+    tried = f"(simulated at dampings up to {say.gain('gamma', safe.highest)})"
+    if limit is None:
+        return f"The disturbances came back at every {name} tried {tried}."
+    if limit.above > safe.highest:
+        return f"Some disturbances did not come back even at the largest {name} tried {tried}."
+    last = ending_words(limit.motion)
+    return f"All disturbances came back at every {name} tried above {say.gain('gamma', limit.above)} {tried}; the last motion to go is {last}."
+
+
+FINDINGS = {
+    "Levitation": _levitation,
+    "Rub": _rub,
+    "Bouncing": _bouncing,
+    "Backward whirl": _backward_whirl,
+    "Disturbances tried": _disturbances,
+    "What would change it": _remedies,
+}
+"""Topics in the order of the verdict, and what writes them."""
