@@ -1,0 +1,191 @@
+"""What must not matter: the direction of the axes, the units; and what an ideal machine conserves."""
+
+from __future__ import annotations
+
+import cmath
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from drawn_motions import MANY, machines, starts
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from machines import PAPER
+from scipy.integrate import solve_ivp
+
+from carom.parameters import Machine, Scales
+from carom.rotors import jeffcott
+from carom.trajectories import State, simulate
+
+EPSILON = 2.0**-52
+UNTIL = 6.0
+
+
+def states(motion, times):
+    """Positions and velocities, shape (2, n)."""
+    return np.array(motion.at(times))
+
+
+def growth(machine, start, times):
+    """By how much a small change of the start has grown, per unit, at given times; for motions where it is small."""
+    shift = 1e-8
+    rotor = jeffcott(machine)
+    nominal = simulate(rotor, start, UNTIL, max_events=300)
+    inward = 1.0 - shift
+    moved = simulate(rotor, State(start.position * inward, start.velocity * inward), UNTIL, max_events=300)
+    assume(nominal.time == moved.time == UNTIL)
+    assume(len(nominal.segment_starts) == len(moved.segment_starts))
+    assume(np.array_equal(nominal.segment_phases, moved.segment_phases))
+    # A slow impact magnifies changes by the inverse of its speed, which a shift of this size would not show.
+    assume(nominal.contacts.radial_speed.min(initial=1.0) > 1e-3)
+    # Near an impact a shift of time changes the velocity by its jump.
+    far = np.all(np.abs(times[:, None] - nominal.segment_starts[None, 1:]) > 1e-4, axis=1)
+    ratio = np.abs(states(nominal, times[far]) - states(moved, times[far])).max(initial=0.0) / shift
+    assume(ratio < 1e3)
+    return nominal, times[far], 1.0 + ratio
+
+
+@MANY
+@given(machines(), starts(), st.floats(-math.pi, math.pi))
+def test_turning_the_unbalance_and_the_start_turns_the_motion(machine, start, angle):
+    nominal, times, amplification = growth(machine, start, np.linspace(0.0, UNTIL, 60))
+    turn = cmath.rect(1.0, angle)
+    turned = simulate(
+        jeffcott(machine.replace(phi=machine.phi + angle)),
+        State(turn * start.position, turn * start.velocity),
+        UNTIL,
+        max_events=300,
+    )
+    assume(len(nominal.segment_starts) == len(turned.segment_starts))
+    size = 10.0 + machine.radius_ratio
+    error = np.abs(states(turned, times) - turn * states(nominal, times)).max(initial=0.0)
+    assert error <= 200 * EPSILON * size * amplification
+
+
+@MANY
+@given(
+    machines(),
+    starts(),
+    st.floats(1e-3, 1e3).map(lambda mass: Scales(mass=mass, clearance=3e-4, speed=500.0 / mass**0.2)),
+)
+def test_machines_with_the_same_parameters_move_alike(machine, start, scales):
+    """Through SI units and back: other mass, clearance and speed, the same motion in its own units."""
+    nominal, times, amplification = growth(machine, start, np.linspace(0.0, UNTIL, 60))
+    physical = Machine.from_parameters(machine, scales)
+    back = physical.parameters
+    for name, value in machine.as_dict().items():
+        assert getattr(back, name) == pytest.approx(value, rel=8 * EPSILON, abs=1e-300)
+    again = simulate(jeffcott(physical), start, UNTIL, max_events=300)
+    assume(len(nominal.segment_starts) == len(again.segment_starts))
+    size = 10.0 + machine.radius_ratio
+    error = np.abs(states(again, times) - states(nominal, times)).max(initial=0.0)
+    assert error <= 400 * EPSILON * size * amplification
+
+
+def test_the_same_motion_integrated_in_si_units():
+    """Newton's law in kilograms, metres and seconds in the fixed frame, by a general integrator with events."""
+    scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+    machine = dataclasses.replace(PAPER, scales=scales)
+    physical = Machine.from_parameters(machine)
+    start = State(0.3 + 0.1j, 0.9 - 0.4j)
+    motion = simulate(jeffcott(machine), start, 12.0)
+    columns = {name: values for name, (values, _) in motion.contacts.in_si(scales).items()}
+    position = start.position * physical.clearance
+    velocity = (start.velocity + 1j * start.position) * physical.clearance * physical.speed
+    time = 0.0
+    assert len(motion.contacts) >= 5
+    for index in range(5):
+        time, position, velocity = next_contact(physical, time, position, velocity)
+        assert time == pytest.approx(columns["time"][index], rel=1e-8)
+        normal = position / abs(position)
+        radial, tangential = (normal.conjugate() * velocity).real, (normal.conjugate() * velocity).imag
+        assert radial == pytest.approx(columns["radial_speed"][index], rel=1e-6)
+        impulse = physical.mass * (1.0 + physical.restitution) * radial
+        assert impulse == pytest.approx(columns["normal_impulse"][index], rel=1e-6)
+        slip = physical.rotor_radius * physical.speed + tangential
+        assert slip == pytest.approx(columns["slip_before"][index], rel=1e-8)
+        friction = -math.copysign(min(physical.friction * impulse, physical.mass * abs(slip)), slip)
+        assert friction == pytest.approx(columns["tangential_impulse"][index], rel=1e-6)
+        velocity += normal * complex(-impulse, friction) / physical.mass
+
+
+def next_contact(physical, time, position, velocity):
+    """Time, position and velocity where the rotor next reaches the clearance circle."""
+    unbalance = physical.mass * physical.eccentricity * physical.speed**2
+
+    def newton(moment, state):
+        place, speed = complex(state[0], state[1]), complex(state[2], state[3])
+        force = unbalance * cmath.exp(1j * (physical.speed * moment + physical.unbalance_phase))
+        push = (force - physical.damping * speed - physical.stiffness * place) / physical.mass
+        return [speed.real, speed.imag, push.real, push.imag]
+
+    def gap(moment, state):
+        return math.hypot(state[0], state[1]) / physical.clearance - 1.0
+
+    gap.terminal, gap.direction = True, 1.0
+    solved = solve_ivp(
+        newton,
+        (time, time + 1.0),
+        [position.real, position.imag, velocity.real, velocity.imag],
+        method="DOP853",
+        events=gap,
+        rtol=1e-12,
+        atol=1e-15,
+        max_step=1e-3,
+    )
+    x, y, vx, vy = solved.y[:, -1]
+    return solved.t[-1], complex(x, y), complex(vx, vy)
+
+
+def energies(machine, motion, times):
+    """Energy and angular momentum in the fixed frame, and Jacobi's integral in the co-rotating one."""
+    position, velocity = motion.at(times)
+    fixed = velocity + 1j * position
+    energy = 0.5 * np.abs(fixed) ** 2 + 0.5 * machine.omega**2 * np.abs(position) ** 2
+    momentum = (position.conj() * fixed).imag
+    pull = (cmath.rect(machine.rho, -machine.phi) * position).real
+    jacobi = 0.5 * np.abs(velocity) ** 2 + 0.5 * (machine.omega**2 - 1.0) * np.abs(position) ** 2 - pull
+    return energy, momentum, jacobi
+
+
+def drift(values):
+    return np.abs(values - values[0]).max()
+
+
+@MANY
+@given(machines(gamma=0.0, mu=0.0, d=1.0, rho=0.0), starts())
+def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(machine, start):
+    motion = simulate(jeffcott(machine), start, 20.0, max_events=500)
+    times = motion.sample(300)
+    energy, momentum, _ = energies(machine, motion, times)
+    rounding = 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * (1.0 + energy[0])
+    assert drift(energy) <= rounding
+    assert drift(momentum) <= rounding
+
+
+@MANY
+@given(machines(gamma=0.0, mu=0.0, d=1.0), starts())
+def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
+    rotor = jeffcott(machine)
+    motion = simulate(rotor, start, 20.0, max_events=500)
+    times = motion.sample(300)
+    energy, _, jacobi = energies(machine, motion, times)
+    size = (1.0 + energy.max()) * (1.0 + abs(rotor.equilibrium)) ** 2
+    assert drift(jacobi) <= 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * size
+
+
+@MANY
+@given(machines(mu=0.0, rho=0.0), starts())
+def test_without_unbalance_and_friction_energy_only_falls(machine, start):
+    motion = simulate(jeffcott(machine), start, 20.0, max_events=500)
+    energy, _, _ = energies(machine, motion, motion.sample(300))
+    assert np.all(np.diff(energy) <= 64 * EPSILON * (10.0 + motion.time) * (1.0 + energy[0]))
+
+
+def test_times_and_speeds_scale_with_the_shaft_speed():
+    slow, fast = (Scales(mass=50.0, clearance=0.7e-3, speed=speed) for speed in (100.0, 300.0))
+    log = simulate(jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.4j), 10.0).contacts
+    assert np.allclose(log.in_si(slow)["time"][0], 3.0 * log.in_si(fast)["time"][0], rtol=1e-15, atol=0)
+    energy = [log.in_si(scales)["contact_work"][0] for scales in (slow, fast)]
+    assert np.allclose(9.0 * energy[0], energy[1], rtol=1e-14, atol=0)
