@@ -14,7 +14,7 @@ from carom.attractors.groups import Groups
 from carom.attractors.search import PATIENCE, orbits_within_reach
 from carom.attractors.starts import DISTURBANCES, FASTEST, Start, disturbances
 from carom.outcome import InputError, Outcome
-from carom.parameters import Parameters
+from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.rotors import Rotor, jeffcott
 from carom.trajectories import Trajectory
 from carom.whirl import Rolling, Runaway, rolling, rub_limit, runaway_speed
@@ -210,7 +210,7 @@ def least_safe_damping(
     unit = max(1.0, parameters.omega)
     lowest = LOWEST * unit
     if highest is None:
-        highest = HIGHEST * max(unit, parameters.gamma)
+        highest = min(HIGHEST * max(unit, parameters.gamma), DIMENSIONLESS_FIELDS["gamma"].highest)
     if not (math.isfinite(highest) and highest > lowest):
         raise InputError("highest", highest, f"a finite damping above {lowest:g}")
     grid = np.geomspace(highest, lowest, GRID)

@@ -316,3 +316,12 @@ def test_scales_alone_give_si_units_too():
 
     assert "N s/m" in result.verdict.text
     assert result.to_dict()["scales_si"]["force"] == pytest.approx(1187.5, rel=1e-3)
+
+
+@pytest.mark.parametrize("changes", [{"gamma": 1e3}, {"omega": 1e3}, {"gamma": 1e3, "omega": 1e3}, {"mu": 10.0}])
+def test_machine_at_the_end_of_the_allowed_range_has_a_study(changes):
+    # The damping searched must not leave the range that parameters may have.
+    result = study(SOURCE.replace(**changes))
+
+    assert result.safe_damping.highest <= 1e3
+    assert result.levitates
