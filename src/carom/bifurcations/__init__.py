@@ -1,6 +1,6 @@
 """Bifurcations of equilibria and single-impact orbits: branches, diagrams, curves in two parameters, regions."""
 
-from carom.bifurcations.axes import Axis, value_of, vary
+from carom.bifurcations.axes import Axis, Numbers, axis, value_of, vary
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
 from carom.bifurcations.diagrams import Diagram, EquilibriumBranch, SpecialValue, bifurcation_diagram
@@ -15,11 +15,13 @@ __all__ = [
     "Diagram",
     "EquilibriumBranch",
     "Motions",
+    "Numbers",
     "OrbitBranch",
     "Plane",
     "Region",
     "RegionMap",
     "SpecialValue",
+    "axis",
     "bifurcation_diagram",
     "continue_curve",
     "continue_orbit",

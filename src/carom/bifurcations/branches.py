@@ -23,7 +23,7 @@ from carom.outcome import InputError
 
 __all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]
 
-STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
+STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
 SMALL = 1e-4
 """Radial speed of an orbit that stands for those that shrink to a point."""
 WATCHED = ("period-doubling", "neimark-sacker", "grazing", "radius-extremum", "non-smooth-hopf", "slip-stop")

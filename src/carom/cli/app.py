@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from carom.cli.bifurcations import bifurcations, regions
 from carom.cli.orbits import orbits
 from carom.cli.simulate import simulate
 from carom.cli.study import study
@@ -34,6 +35,8 @@ app = typer.Typer(
 app.command("study", help=study.__doc__)(study)
 app.command("simulate", help=simulate.__doc__)(simulate)
 app.command("orbits", help=orbits.__doc__)(orbits)
+app.command("bifurcations", help=bifurcations.__doc__)(bifurcations)
+app.command("regions", help=regions.__doc__)(regions)
 
 
 def _print_version(wanted: bool) -> None:

@@ -1,0 +1,109 @@
+"""Diagrams and maps as plain data for JSON; what is not known or not finite becomes ``null`` when it is written."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from carom.bifurcations.axes import Axis
+from carom.bifurcations.branches import OrbitBranch
+from carom.bifurcations.diagrams import Diagram, EquilibriumBranch
+from carom.bifurcations.regions import RegionMap
+from carom.parameters import Parameters
+
+__all__ = ["diagram_document", "regions_document"]
+
+
+def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]:
+    """Special points and branches along a parameter.
+
+    Values of a physical parameter are in the SI unit given under ``"unit"``; periods are in ``1/Ω``, radial speeds in
+    ``c_r Ω``.
+    """
+    return {
+        "parameters": parameters.as_dict(),
+        **_axis("parameter", diagram.axis),
+        "interval": list(diagram.interval),
+        "points": [
+            {
+                "kind": point.kind,
+                "branch": point.branch,
+                "parameter": point.parameter,
+                "value": point.value,
+                "period": point.period,
+                "radial_speed": point.radial_speed,
+                "admissible": point.admissible,
+            }
+            for point in diagram.points
+        ],
+        "branches": [_orbit_branch(branch) for branch in diagram.orbits],
+        "equilibria": [_equilibrium_branch(branch) for branch in diagram.equilibria],
+    }
+
+
+def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]:
+    """Curves, points where two bifurcations meet, and regions of a plane of two parameters."""
+    plane = found.plane
+    first, second = plane.axes(parameters)
+    return {
+        "parameters": parameters.as_dict(),
+        "plane": [
+            {**_axis("parameter", axis), "range": list(limits)}
+            for axis, limits in ((first, plane.first_range), (second, plane.second_range))
+        ],
+        "curves": [
+            {
+                "kind": curve.kind,
+                "points": curve.points.tolist(),
+                "periods": curve.periods.tolist(),
+                "radial_speeds": curve.radial_speeds.tolist(),
+                "admissible": curve.admissible.tolist(),
+                "ends": list(curve.stops),
+            }
+            for curve in found.curves
+        ],
+        "codim2": [
+            {"kind": point.kind, "value": list(point.value), "period": point.period, "admissible": point.admissible}
+            for point in found.codimension2
+        ],
+        "regions": [
+            {
+                "words": region.motions.words,
+                "contact_free": region.motions.contact_free,
+                "orbits": region.motions.orbits,
+                "stable_orbits": region.motions.stable_orbits,
+                "rub": region.motions.rub,
+                "source_region": region.motions.source_region,
+                "point": list(region.point),
+                "share": region.share,
+            }
+            for region in found.regions
+        ],
+        "lost": list(found.lost),
+    }
+
+
+def _axis(key: str, axis: Axis) -> dict[str, Any]:
+    return {key: axis.name, "unit": axis.field.unit}
+
+
+def _orbit_branch(branch: OrbitBranch) -> dict[str, Any]:
+    return {
+        "names": list(branch.names),
+        "values": branch.values.tolist(),
+        "period": branch.period.tolist(),
+        "radial_speed": branch.radial_speed.tolist(),
+        "admissible": branch.admissible.tolist(),
+        "stable": branch.stable.tolist(),
+        "ends": list(branch.stops),
+    }
+
+
+def _equilibrium_branch(branch: EquilibriumBranch) -> dict[str, Any]:
+    return {
+        "kind": branch.kind,
+        "values": branch.values.tolist(),
+        "radius": branch.radius.tolist(),
+        "normal_force": branch.normal_force.tolist(),
+        "admissible": branch.admissible.tolist(),
+        "stable": branch.stable.tolist(),
+    }

@@ -1,0 +1,229 @@
+"""``carom bifurcations`` and ``carom regions``: where motions appear, vanish and change."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.outcome import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from carom.bifurcations import Axis, Diagram, RegionMap
+    from carom.parameters import Parameters
+
+__all__ = ["bifurcations", "regions"]
+
+Out = Annotated[
+    str | None, typer.Option(metavar="DIR", help="Write the figure and the JSON document to this directory.")
+]
+Virtual = Annotated[
+    bool, typer.Option("--virtual", help="Follow orbits of higher pairs too that are virtual wherever looked at.")
+]
+NEAR = (0.25, 2.5)
+"""Default range of a parameter, in its present value."""
+
+
+def bifurcations(
+    machine: MachineFile,
+    along: Annotated[
+        str, typer.Option(metavar="NAME", help="Parameter to vary, such as gamma, speed, damping or stiffness.")
+    ],
+    start: Annotated[str, typer.Option("--from", metavar="A", help="Its first value, dimensionless or with a unit.")],
+    end: Annotated[str, typer.Option("--to", metavar="B", help="Its last value.")],
+    settings: Settings = None,
+    virtual: Virtual = False,
+    out: Out = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find the bifurcations along one parameter.
+
+    Follows all equilibria and all orbits with one impact a period; lists folds, period doublings, Neimark-Sacker
+    points, grazing, boundary equilibria, non-smooth Hopf points and folds of rubs.
+    """
+    from carom.bifurcations import Numbers, axis, bifurcation_diagram
+    from carom.bifurcations.documents import diagram_document
+    from carom.parameters import load_case
+
+    parameters = load_case(machine, settings or ()).parameters
+    varied = axis(parameters, along.strip())
+    interval = _value(varied, start), _value(varied, end)
+    directory = _directory(out)
+    with progress("following orbits (the kernels are compiled on first use)") as tell:
+        diagram = bifurcation_diagram(
+            parameters,
+            varied.name,
+            interval,
+            virtual=virtual,
+            progress=lambda share: tell(share, "following orbits"),
+        )
+    document = diagram_document(parameters, diagram)
+    if directory is not None:
+        from carom.plots.diagrams import bifurcation_diagram as draw
+
+        _write(directory, f"bifurcations-{varied.name}", draw(diagram), document)
+    if as_json:
+        print_document(document)
+        return
+    present = varied.get(Numbers.of(parameters))
+    _print_diagram(diagram, present)
+
+
+def regions(
+    machine: MachineFile,
+    plane: Annotated[
+        str, typer.Option(metavar="NAME,NAME", help="The two parameters, such as gamma,omega or speed,damping.")
+    ] = "gamma,omega",
+    x: Annotated[
+        str | None, typer.Option("--x", metavar="A,B", help="Range of the first, by default around it.")
+    ] = None,
+    y: Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second.")] = None,
+    settings: Settings = None,
+    grid: Annotated[int, typer.Option(metavar="N", min=2, max=400, help="Points a side that decide the regions.")] = 24,
+    virtual: Virtual = False,
+    out: Out = None,
+    as_json: AsJson = False,
+) -> None:
+    """Map the plane of two parameters: curves of bifurcations, where they meet, and the regions between.
+
+    The curves are those that pass the bifurcations met on the two lines through the machine as it is.
+    """
+    from carom.bifurcations import Plane, axis, region_map
+    from carom.bifurcations.documents import regions_document
+    from carom.parameters import load_case
+
+    parameters = load_case(machine, settings or ()).parameters
+    names = [name.strip() for name in plane.split(",")]
+    if len(names) != 2:
+        raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")
+    axes = axis(parameters, names[0]), axis(parameters, names[1])
+    ranges = [
+        _range(parameters, varied, option, given)
+        for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
+    ]
+    directory = _directory(out)
+    with progress("following curves (the kernels are compiled on first use)") as tell:
+        found = region_map(
+            parameters,
+            Plane(axes[0].name, axes[1].name, *ranges),
+            grid=grid,
+            virtual=virtual,
+            progress=lambda share: tell(share, "counting motions"),
+        )
+    document = regions_document(parameters, found)
+    if directory is not None:
+        from carom.plots.diagrams import region_map as draw
+
+        _write(directory, f"regions-{axes[0].name}-{axes[1].name}", draw(found, axes), document)
+    if as_json:
+        print_document(document)
+        return
+    _print_map(found, axes)
+
+
+def _value(varied: Axis, given: str) -> float:
+    from carom.parameters import read_quantity
+
+    return read_quantity(varied.field, given, bare=True)
+
+
+def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
+    """Range of a parameter: as given, or around its present value."""
+    from carom.bifurcations import Numbers
+
+    if given is not None:
+        parts = given.split(",")
+        if len(parts) != 2:
+            raise InputError(option, given, f"two values of {varied.name} with a comma between them")
+        return _value(varied, parts[0]), _value(varied, parts[1])
+    present = varied.get(Numbers.of(parameters))
+    if not present > 0.0:
+        raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")
+    return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)
+
+
+def _directory(out: str | None) -> Path | None:
+    if out is None:
+        return None
+    from carom.report.directory import check_directory
+
+    return check_directory(out, "--out")
+
+
+def _write(directory: Path, stem: str, figure: Figure, document: dict[str, Any]) -> None:
+    from carom.plots import save
+    from carom.study import as_json
+
+    written = save(figure, directory / stem)
+    target = directory / f"{stem}.json"
+    target.write_text(as_json(document) + "\n", encoding="utf-8")
+    console(errors=True).print(f"Written: {', '.join(str(path) for path in (*written, target))}", soft_wrap=True)
+
+
+def _shown(varied: Axis, value: float) -> str:
+    """A value with its unit; a shaft speed in rpm too."""
+    import math
+
+    text = f"{value:.10g}" + (f" {varied.field.unit}" if varied.field.unit else "")
+    return f"{text} ({value * 30.0 / math.pi:.6g} rpm)" if varied.name == "speed" else text
+
+
+def _print_diagram(diagram: Diagram, present: float) -> None:
+    from rich import box
+    from rich.table import Table
+
+    screen = console()
+    ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
+    screen.print(f"Bifurcations for {diagram.axis.field.words} {diagram.parameter} = {ends}; now {present:.6g}")
+    table = Table(box=box.SIMPLE_HEAD)
+    for heading in (diagram.parameter, "what happens", "to", "period (1/Ω)", "radial speed (c_r Ω)", ""):
+        table.add_column(heading)
+    for point in diagram.points:
+        table.add_row(
+            _shown(diagram.axis, point.value),
+            point.kind,
+            point.branch,
+            "" if point.period is None else f"{point.period:.8g}",
+            "" if point.radial_speed is None else f"{point.radial_speed + 0.0:.6f}",
+            "" if point.admissible else "virtual",
+            style="" if point.admissible else "dim",
+        )
+    screen.print(table if diagram.points else "No bifurcation on this range.")
+    for branch in diagram.orbits:
+        screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
+
+
+def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
+    from rich import box
+    from rich.table import Table
+
+    screen = console()
+    curves = Table(box=box.SIMPLE_HEAD, title="Curves", title_justify="left")
+    for heading in ("bifurcation", "points", "from", "to", "ends"):
+        curves.add_column(heading)
+    for curve in found.curves:
+        first, last = (", ".join(f"{value:.6g}" for value in curve.points[end]) for end in (0, -1))
+        curves.add_row(curve.kind, str(len(curve.points)), first, last, ", ".join(curve.stops))
+    screen.print(f"Plane of {axes[0].field.words} ({axes[0].name}) and {axes[1].field.words} ({axes[1].name})")
+    screen.print(curves)
+    if found.codimension2:
+        meetings = Table(box=box.SIMPLE_HEAD, title="Where two happen at once", title_justify="left")
+        for heading in ("kinds", axes[0].name, axes[1].name, ""):
+            meetings.add_column(heading)
+        for point in found.codimension2:
+            at = (f"{value:.8g}" for value in point.value)
+            meetings.add_row(point.kind, *at, "" if point.admissible else "virtual")
+        screen.print(meetings)
+    listed = Table(box=box.SIMPLE_HEAD, title="Regions", title_justify="left")
+    for heading in ("share", "for example at", "motions"):
+        listed.add_column(heading)
+    for region in found.regions:
+        place = ", ".join(f"{value:.6g}" for value in region.point)
+        listed.add_row(f"{100 * region.share:.1f} %", place, region.motions.words)
+    screen.print(listed)
+    for words in found.lost:
+        screen.print(f"Not followed: {words}")

@@ -1,0 +1,262 @@
+"""Bifurcation diagrams along one parameter, and maps of the plane of two.
+
+Conventions of the field: stable solid, unstable dashed, virtual faint; every kind of special point has its own marker.
+"""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
+
+if TYPE_CHECKING:
+    from carom.bifurcations import Axis, Curve, Diagram, EquilibriumBranch, OrbitBranch, RegionMap
+
+__all__ = ["bifurcation_diagram", "region_map"]
+
+POINTS = MappingProxyType(
+    {
+        "fold": Look("#1a1a1a", "fold of two orbits", marker=">"),
+        "speed-fold": Look("#1a1a1a", "fold of two radial speeds", marker="<"),
+        "period-doubling": Look("#d55e00", "period doubling", marker="s"),
+        "neimark-sacker": Look("#56b4e9", "Neimark–Sacker bifurcation", marker="h"),
+        "grazing": Look("#0072b2", "grazing", marker="v"),
+        "radius-extremum": Look("#808080", "new extremum of the radius", marker="D"),
+        "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
+        "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
+        "boundary-equilibrium": Look("#009e73", "levitation meets the wall", marker="p"),
+        "rub-fold": Look("#cc79a7", "fold of rub equilibria", marker="X"),
+    }
+)
+"""Markers of special points (read-only)."""
+
+CURVES = MappingProxyType(
+    {
+        "fold": Look("#1a1a1a", "fold of two orbits", line="-", width=1.1),
+        "speed-fold": Look("#1a1a1a", "fold of two radial speeds", line="-.", width=0.9),
+        "period-doubling": Look("#d55e00", "period doubling", line="--", width=1.1),
+        "neimark-sacker": Look("#56b4e9", "Neimark–Sacker bifurcation", line="-.", width=1.1),
+        "grazing": Look("#0072b2", "grazing", line=(0.0, (6.0, 1.5, 1.0, 1.5)), width=1.1),
+        "slip-stop": Look("#e69f00", "friction stops the slip", line=":", width=1.1),
+        "boundary-equilibrium": Look("#009e73", "levitation meets the wall", line="-", width=1.4),
+        "rub-fold": Look("#cc79a7", "fold of rub equilibria", line="--", width=1.4),
+    }
+)
+"""Lines of curves in two parameters (read-only)."""
+
+_EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
+
+
+@styled
+def bifurcation_diagram(diagram: Diagram) -> Figure:
+    """Draw all equilibria and single-impact orbits along a parameter, with their special points.
+
+    Parameters
+    ----------
+    diagram : carom.bifurcations.Diagram
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        180 mm wide.  Above the radial speed of the orbits at the impact; below what keeps the equilibria admissible: the
+        clearance left to contact-free levitation and the normal force of the rubs.  The shaft speed is shown in rpm.
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 0.75 * TWO_COLUMNS), layout="constrained")
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
+    unit = _unit(diagram.axis)
+    for branch in diagram.orbits:
+        _orbit_branch(upper, branch, unit)
+    upper.axhline(0.0, color="#1a1a1a", lw=0.5)
+    for equilibrium in diagram.equilibria:
+        _equilibrium_branch(lower, equilibrium, unit)
+    lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
+    for point in diagram.points:
+        place = point.value / unit
+        if point.radial_speed is None:
+            _mark(lower, point.kind, place, _height(diagram, point.branch, point.value), point.admissible)
+        else:
+            _mark(upper, point.kind, place, point.radial_speed, point.admissible)
+    upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
+    lower.set_ylabel("gap left; force of rub\n" r"($c_r$; $m c_r\Omega^2$)")
+    lower.set_xlabel(_label(diagram.axis))
+    lower.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
+    lower.set_ylim(-0.25, max(0.6, float(np.nanmax([_top(branch) for branch in diagram.equilibria]))))
+    upper.set_ylim(*_limits(diagram))
+    figure.legend(handles=_diagram_key(diagram), loc="outside lower center", ncols=4)
+    return figure
+
+
+def _unit(axis: Axis) -> float:
+    """What the values are divided by: a shaft speed is shown in rpm."""
+    return np.pi / 30.0 if axis.name == "speed" else 1.0
+
+
+def _label(axis: Axis) -> str:
+    field = axis.field
+    unit = "rpm" if axis.name == "speed" else field.unit
+    symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
+        field.symbol, field.symbol
+    )
+    return rf"{field.words} ${symbol}$" + (f" ({unit})" if unit else "")
+
+
+def _orbit_branch(axes: Axes, branch: OrbitBranch, unit: float) -> None:
+    """Draw a branch; its look changes at its special points."""
+    looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
+    places = np.concatenate([np.arange(len(branch)), [point.place for point in branch.special]])
+    values = np.concatenate([branch.values, [point.value for point in branch.special]]) / unit
+    speeds = np.concatenate([branch.radial_speed, [point.radial_speed for point in branch.special]])
+    special = np.arange(len(places)) >= len(branch)
+    order = np.argsort(places, kind="stable")
+    places, values, speeds, special = places[order], values[order], speeds[order], special[order]
+    # A stretch has the look of the regular point it touches.
+    nearest = np.where(special[1:], np.floor(places[:-1]), np.ceil(places[1:])).astype(int)
+    stretches = looks[np.minimum(nearest, len(looks) - 1)]
+    for first, last, look in _runs(np.append(stretches, stretches[-1:])):
+        style = LOOKS[look]
+        axes.plot(
+            values[first : last + 1],
+            speeds[first : last + 1],
+            color=style.colour,
+            ls=style.line,
+            lw=style.width,
+            alpha=0.6 if look == "virtual" else 1.0,
+        )
+
+
+def _runs(looks: np.ndarray) -> list[tuple[int, int, str]]:
+    """Stretches of equal looks, each reaching to the first point of the next."""
+    changes = np.flatnonzero(looks[1:] != looks[:-1]) + 1
+    starts = [0, *changes.tolist()]
+    ends = [*changes.tolist(), len(looks) - 1]
+    return [(first, last, str(looks[first])) for first, last in zip(starts, ends, strict=True)]
+
+
+def _equilibrium_branch(axes: Axes, branch: EquilibriumBranch, unit: float) -> None:
+    look = LOOKS[_EQUILIBRIA[branch.kind]]
+    height = _heights(branch)
+    for allowed, alpha in ((branch.admissible, 1.0), (~branch.admissible, 0.35)):
+        shown = np.where(allowed, height, np.nan)
+        axes.plot(
+            branch.values / unit,
+            shown,
+            color=look.colour if alpha == 1.0 else LOOKS["virtual"].colour,
+            ls="--" if branch.kind == "saddle rub" else "-",
+            lw=1.1,
+            alpha=alpha,
+        )
+
+
+def _heights(branch: EquilibriumBranch) -> np.ndarray:
+    return 1.0 - branch.radius if branch.kind == "contact-free" else branch.normal_force
+
+
+def _top(branch: EquilibriumBranch) -> float:
+    heights = _heights(branch)[branch.admissible]
+    return 1.1 * float(heights.max()) if len(heights) else 0.0
+
+
+def _height(diagram: Diagram, branch: str, value: float) -> float:
+    """Where an equilibrium's special point lies: levitation ends at zero, the rubs meet at their common force."""
+    if branch == "contact-free":
+        return 0.0
+    rubs = [entry for entry in diagram.equilibria if entry.kind == "stable rub"]
+    known = np.isfinite(rubs[0].normal_force)
+    nearest = int(np.argmin(np.where(known, np.abs(rubs[0].values - value), np.inf)))
+    saddle = next(entry for entry in diagram.equilibria if entry.kind == "saddle rub")
+    return float(np.nanmean([rubs[0].normal_force[nearest], saddle.normal_force[nearest]]))
+
+
+def _mark(axes: Axes, kind: str, x: float, y: float, admissible: bool) -> None:
+    look = POINTS[kind]
+    face = look.colour if admissible else "none"
+    axes.plot([x], [y], ls="none", marker=look.marker, ms=5.0, mfc=face, mec=look.colour, mew=0.8, zorder=5)
+
+
+def _limits(diagram: Diagram) -> tuple[float, float]:
+    """Range that shows what is admissible, with a margin of the virtual."""
+    speeds = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
+    shown = np.concatenate([*speeds, [0.0]]) if speeds else np.zeros(1)
+    high = float(shown.max()) or 1.0
+    return -0.12 * high, 1.1 * high
+
+
+def _diagram_key(diagram: Diagram) -> list[Line2D]:
+    entries = []
+    if diagram.orbits:
+        for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
+            style = LOOKS[look]
+            entries.append(Line2D([], [], color=style.colour, ls=style.line, lw=style.width, label=words))
+    entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free levitation: gap"))
+    for line, words in (("-", "stable rub: normal force"), ("--", "saddle rub: normal force")):
+        entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
+    present = {point.kind for point in diagram.points}
+    return entries + [_marker(look) for kind, look in POINTS.items() if kind in present]
+
+
+def _marker(look: Look) -> Line2D:
+    return Line2D([], [], ls="none", marker=look.marker, ms=5.0, color=look.colour, label=look.words)
+
+
+@styled
+def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
+    """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
+
+    Parameters
+    ----------
+    found : carom.bifurcations.RegionMap
+    axes : tuple of carom.bifurcations.Axis
+        The two parameters, for their names and units.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        180 mm wide; curves of virtual orbits are faint.
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS), layout="constrained")
+    drawn = figure.subplots()
+    units = np.array([_unit(axis) for axis in axes])
+    for curve in found.curves:
+        _curve(drawn, curve, units)
+    for point in found.codimension2:
+        x, y = np.array(point.value) / units
+        face = "#1a1a1a" if point.admissible else "none"
+        drawn.plot([x], [y], ls="none", marker="o", ms=4.5, mfc=face, mec="#1a1a1a", zorder=6)
+    for number, region in enumerate(found.regions, start=1):
+        if region.share > 0.004:
+            x, y = np.array(region.point) / units
+            drawn.annotate(str(number), (x, y), ha="center", va="center", fontsize=8, color="#3d4f66")
+    drawn.set_xlabel(_label(axes[0]))
+    drawn.set_ylabel(_label(axes[1]))
+    drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
+    drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
+    present = {curve.kind for curve in found.curves}
+    lines = [
+        Line2D([], [], color=look.colour, ls=look.line, lw=look.width, label=look.words)
+        for kind, look in CURVES.items()
+        if kind in present
+    ]
+    if found.codimension2:
+        lines.append(Line2D([], [], ls="none", marker="o", ms=4.5, color="#1a1a1a", label="two at once"))
+    numbered = [
+        Line2D([], [], ls="none", label=f"{number}: {region.motions.words}")
+        for number, region in enumerate(found.regions, start=1)
+        if region.share > 0.004
+    ]
+    figure.legend(handles=lines, loc="outside upper center", ncols=3)
+    figure.legend(handles=numbered, loc="outside lower center", ncols=2, handlelength=0.0, fontsize=6.5)
+    return figure
+
+
+def _curve(axes: Axes, curve: Curve, units: np.ndarray) -> None:
+    look = CURVES[curve.kind]
+    x, y = (curve.points / units).T
+    for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):
+        alpha = 1.0 if real == "real" else 0.3
+        axes.plot(x[first : last + 1], y[first : last + 1], color=look.colour, ls=look.line, lw=look.width, alpha=alpha)

@@ -1,0 +1,87 @@
+"""``carom bifurcations`` and ``carom regions`` as a user calls them."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from carom.cli import main
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PAPER = str(EXAMPLES / "source-paper.toml")
+MACHINE = str(EXAMPLES / "keogh-cole.toml")
+
+
+def test_points_as_json(capsys):
+    assert main(["bifurcations", PAPER, "--along", "gamma", "--from", "0.05", "--to", "0.4", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    points = {(point["kind"], point["branch"]): point for point in document["points"]}
+    assert points["grazing", "B1,d"]["value"] == pytest.approx(0.0636105609, abs=5e-11)
+    assert points["period-doubling", "B1,d"]["value"] == pytest.approx(0.0833814175, abs=5e-11)
+    assert points["fold", "B1,d"]["period"] == pytest.approx(1.64082198, abs=5e-9)
+    assert points["rub-fold", "rub"]["value"] == pytest.approx(0.370006037, abs=5e-10)
+    assert {point["parameter"] for point in document["points"]} == {"gamma"}
+    for branch in document["branches"]:
+        assert len(branch["values"]) == len(branch["admissible"]) == len(branch["names"])
+
+
+def test_table_and_files(capsys, tmp_path):
+    words = ["bifurcations", MACHINE, "--along", "speed", "--from", "1000 rpm", "--to", "3000 rpm"]
+    assert main([*words, "--out", str(tmp_path / "out")]) == 0
+    shown = capsys.readouterr().out
+    assert "non-smooth-hopf" in shown
+    assert "rpm" in shown
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert names == {f"bifurcations-speed.{ending}" for ending in ("svg", "png", "json")}
+    document = json.loads((tmp_path / "out" / "bifurcations-speed.json").read_text())
+    assert (document["parameter"], document["unit"]) == ("speed", "rad/s")
+    assert document["interval"] == pytest.approx([104.71975512, 314.15926536])
+
+
+def test_plane_as_json(capsys):
+    words = ["regions", PAPER, "--plane", "gamma,omega", "--x", "0.02,0.4", "--y", "0.6,1.0", "--grid", "6", "--json"]
+    assert main(words) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert {curve["kind"] for curve in document["curves"]} >= {"fold", "grazing", "period-doubling", "rub-fold"}
+    (point,) = [entry for entry in document["codim2"] if entry["kind"] == "fold + boundary-equilibrium"]
+    assert point["value"] == pytest.approx([0.1779723, 0.7811076], abs=5e-8)
+    assert sum(region["share"] for region in document["regions"]) == pytest.approx(1.0)
+
+
+def test_plane_as_tables_around_the_machine(capsys, tmp_path):
+    out = str(tmp_path)
+    assert main(["regions", MACHINE, "--plane", "speed,damping", "--grid", "3", "--out", out]) == 0
+    shown = capsys.readouterr().out
+    assert "Curves" in shown
+    assert "Regions" in shown
+    assert (tmp_path / "regions-speed-damping.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["--along", "gama", "--from", "0.1", "--to", "0.2"], "did you mean gamma"),
+        (["--along", "gamma", "--from", "0.2", "--to", "0.1"], "two growing finite values"),
+        (["--along", "gamma", "--from", "x", "--to", "0.1"], "does not start with a number"),
+        (["--along", "d", "--from", "0.5", "--to", "1.5"], "coefficient of restitution|d = 1.5"),
+        (["--along", "speed", "--from", "100", "--to", "200"], "mass, clearance and speed"),
+        (["--along", "gamma", "--from", "0.1", "--to", "0.2", "--out", "\0"], "directory"),
+    ],
+)
+def test_inputs_that_cannot_be_used(capsys, words, complaint):
+    assert main(["bifurcations", PAPER, *words]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert len(captured.err.strip().splitlines()) == 1
+    assert re.search(complaint, captured.err)
+
+
+@pytest.mark.parametrize(
+    "words", [["--plane", "gamma"], ["--plane", "gamma,gamma"], ["--x", "0.1"], ["--x", "0.2,0.1"], ["--plane", "a,b"]]
+)
+def test_planes_that_cannot_be_used(capsys, words):
+    assert main(["regions", PAPER, *words]) == 2
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1

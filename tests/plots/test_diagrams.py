@@ -1,0 +1,68 @@
+"""Diagrams of bifurcations: what is drawn, in which look, and under which words."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import Machine, bifurcations
+from carom.parameters import Scales
+from carom.plots import diagrams
+from carom.plots.style import LOOKS
+
+
+def legend_words(figure):
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def test_looks_change_at_the_special_points():
+    found = bifurcations.bifurcation_diagram(PAPER, "gamma", (0.03, 0.4))
+    figure = diagrams.bifurcation_diagram(found)
+    upper, lower = figure.axes
+    stable = [line for line in upper.lines if line.get_color() == LOOKS["stable"].colour and len(line.get_xdata()) > 2]
+    ends = sorted(end for line in stable for end in (line.get_xdata()[0], line.get_xdata()[-1]))
+    assert ends == pytest.approx([0.0833814175, 0.1780277257], abs=1e-9)
+    assert all(line.get_linestyle() == "-" for line in stable)
+    words = legend_words(figure)
+    for expected in (
+        "stable orbit",
+        "unstable orbit",
+        "virtual",
+        "period doubling",
+        "grazing",
+        "fold of rub equilibria",
+    ):
+        assert expected in words
+    assert "Neimark–Sacker bifurcation" not in words
+    assert "damping" in lower.get_xlabel()
+    assert lower.get_xlim() == pytest.approx((0.03, 0.4))
+
+
+def test_markers_of_special_points_differ():
+    looks = [(look.marker, look.colour) for look in diagrams.POINTS.values()]
+    assert len({marker for marker, _ in looks}) == len(looks)
+    lines = [(look.colour, look.line) for look in diagrams.CURVES.values()]
+    assert len(set(lines)) == len(lines)
+
+
+def test_run_up_is_drawn_over_revolutions_per_minute():
+    parameters = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2)).parameters
+    found = bifurcations.bifurcation_diagram(parameters, "speed", (100.0, 330.0))
+    figure = diagrams.bifurcation_diagram(found)
+    assert "rpm" in figure.axes[1].get_xlabel()
+    assert figure.axes[0].get_xlim() == pytest.approx((100.0 * 30 / np.pi, 330.0 * 30 / np.pi))
+
+
+def test_map_of_a_plane():
+    plane = bifurcations.Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.0))
+    found = bifurcations.region_map(PAPER, plane, grid=6)
+    figure = diagrams.region_map(found, plane.axes(PAPER))
+    (axes,) = figure.axes
+    words = legend_words(figure)
+    for expected in ("grazing", "period doubling", "levitation meets the wall", "two at once"):
+        assert expected in words
+    assert any("stable rub" in word for word in words)
+    assert axes.get_xlim() == pytest.approx(plane.first_range)
+    drawn = np.concatenate([line.get_xdata() for line in axes.lines])
+    assert np.abs(drawn - 0.1779723).min() < 1e-7
