@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from carom import plots
 from carom.attractors import Ending
+from carom.ledger import energy_ledger
 from carom.orbits import Orbit, OrbitSet, period_condition
 from carom.outcome import Outcome
 from carom.parameters import Zones
@@ -26,6 +27,10 @@ MOST_ENDINGS = 5
 """Examples of disturbances with a figure."""
 MOST_VIRTUAL = 16
 """Virtual orbits beyond which the overview leaves them out."""
+PANELS = (
+    " From top to bottom: distance from the bearing centre; kind of contact and direction of whirl; load on the bearing; "
+    "energies and works."
+)
 LONGEST_SHOWN = 1000.0
 """Time that an example shows at most, in ``1/Ω``."""
 SHOWN_TAIL = 4.0
@@ -125,7 +130,8 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
             f"disturbance-{_file_name(member.name)}",
             "disturbances",
             f"After {what} at {study.wording.velocity(example.start.speed)} the rotor ends: {ending_words(member.name)}. "
-            f"So did {member.count} of {len(study.attractors.disturbances)} disturbances.",
+            f"So did {member.count} of {len(study.attractors.disturbances)} disturbances."
+            f"{PANELS if example.impacts else ''}",
             lambda example=example: _history(study, example),  # type: ignore[misc]
         )
 
@@ -135,11 +141,13 @@ def _file_name(attractor: str) -> str:
 
 
 def _history(study: Study, example: Ending) -> Figure:
-    """Radius over time until the motion has settled; for levitation a little longer, to show that it dies out."""
+    """The motion until it has settled, with forces and energies; of levitation a little longer, as it dies out."""
     decay = -float(study.rotor.eigenvalues.real.max())
     tail = SHOWN_TAIL / decay if example.outcome is Outcome.LEVITATED and decay > 0 else 0.0
     end = min(example.time + tail, LONGEST_SHOWN)
     motion = simulate(study.rotor, example.start.state, end)
+    if len(motion.contacts) or motion.lasting_contacts:
+        return plots.touchdown(motion, energy_ledger(motion))
     return plots.radius(motion, _zones(study, motion.radius(motion.sample())))
 
 

@@ -131,13 +131,13 @@ _SUBSCRIPT = re.compile(r"\b([ce])_([rc])\b|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
 
 
 def _with_subscripts(text: str) -> Markup:
-    """Write ``c_r``, ``B1,d`` and ``F1`` as formulas."""
+    """Write ``c_r``, ``B1,d``, ``F1`` and ``Omega`` as formulas."""
 
     def formula(match: re.Match[str]) -> str:
         letter, index = (part for part in match.groups() if part)
         return f"{letter}<sub>{index}</sub>"
 
-    return Markup(_SUBSCRIPT.sub(formula, str(Markup.escape(text))))  # escaped above
+    return Markup(_SUBSCRIPT.sub(formula, str(Markup.escape(text)).replace("Omega", "Ω")))  # escaped above
 
 
 _PROLOGUE = re.compile(r"^.*?(?=<svg)", re.DOTALL)
