@@ -1,0 +1,41 @@
+"""Curves of bifurcations against AUTO-07p, which follows the same bifurcations as algebraic problems of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import jeffcott, single_impact_orbits
+from carom.bifurcations import Plane, continue_curve, continue_orbit
+
+from .auto_equations import follow, why_missing
+
+pytestmark = pytest.mark.skipif(bool(why_missing()), reason=why_missing() or "installed")
+
+LIMITS = (0.65, 0.95)
+
+
+@pytest.mark.parametrize("kind", ["fold", "period-doubling"])
+def test_curve_is_that_of_auto(kind, tmp_path):
+    branch = continue_orbit(single_impact_orbits(jeffcott(PAPER))["B1,d"], "gamma", (0.05, 0.2))
+    (point,) = [special for special in branch.special if special.kind == kind]
+    unknowns = [point.period, point.value] if kind == "fold" else [point.period, point.radial_speed, point.value]
+    followed = follow(kind, PAPER, unknowns, LIMITS, tmp_path)
+    assert len(followed) > 20
+    assert followed[:, 0].min() < 0.66
+    assert followed[:, 0].max() > 0.94
+    start = (point.period, point.radial_speed)
+    curve = continue_curve(kind, point.numbers.parameters, Plane("gamma", "omega", (0.01, 0.4), LIMITS), start)
+    order = np.argsort(curve.points[:, 1])
+    for omega, *values in followed[:: max(1, len(followed) // 12)]:
+        # Ours at exactly this frequency: begin next to it and let the corrector do the rest.
+        x, period, speed = (
+            np.interp(omega, curve.points[order, 1], column[order])
+            for column in (curve.points[:, 0], curve.periods, curve.radial_speeds)
+        )
+        plane = Plane("gamma", "omega", (0.01, 0.4), (omega, omega + 1e-3))
+        here = continue_curve(kind, PAPER.replace(gamma=float(x), omega=omega), plane, (float(period), float(speed)))
+        nearest = int(np.argmin(np.abs(here.points[:, 1] - omega)))
+        assert here.points[nearest, 0] == pytest.approx(values[-1], abs=2e-9)
+        assert here.periods[nearest] == pytest.approx(values[0], abs=2e-8)
