@@ -4,7 +4,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from carom.boundary import boundary_equilibria
+from carom.boundary import SMALL_GAP, boundary_equilibria
 from carom.equilibria import equilibria
 from carom.orbits import single_impact_orbits
 from carom.outcome import InputError, Outcome
@@ -46,7 +46,10 @@ def gap_of(boundary, value):
 @given(parameters=machines, gain=st.sampled_from(["gamma", "omega"]))
 def test_equilibria_on_both_sides_are_as_classified(parameters, gain):
     for boundary in boundary_equilibria(jeffcott(parameters), gain):
-        assume(abs(1.0 / boundary.force_rate) > 0.05 and boundary.value > 0.05 and boundary.parameters.gamma > 0.05)
+        at = boundary.parameters
+        assume(abs(1.0 / boundary.force_rate) > 0.05 and at.gamma > 0.05)
+        # Where the gain only touches the boundary, a gap is not proportional to a change of the gain.
+        assume(abs(1.0 - at.omega) > 0.05 and at.omega > 0.05)
         for gap in (1e-6, -1e-6):
             rotor = at_gap(boundary, gap)
             levitation, *rubs = equilibria(rotor)
@@ -64,6 +67,7 @@ def test_equilibria_on_both_sides_are_as_classified(parameters, gain):
                 assert not small.stable
 
 
+@pytest.mark.jit_only
 @settings(max_examples=25, deadline=None)
 @given(parameters=machines)
 def test_side_of_small_orbits_follows_from_the_linearised_condition(parameters):
@@ -71,12 +75,14 @@ def test_side_of_small_orbits_follows_from_the_linearised_condition(parameters):
         condition = PeriodCondition(jeffcott(boundary.parameters))
         for orbit in boundary.orbits:
             lever = condition.factor * complex(condition.a12(orbit.period))
-            assume(abs(lever.real) > 1e-2)
+            # The next order of |1 + q a₁₂ ṙ| = |U*|, relative to the first.
+            next_order = SMALL_GAP * (abs(lever) / lever.real) ** 2
+            assume(next_order < 0.05)
             gap = 1.0 if orbit.levitating_side else -1.0
 
             assert orbit.levitating_side == (lever.real < 0.0)
             assert (orbit.name[-1] in "ab") == orbit.levitating_side
-            assert orbit.speed_rate == pytest.approx(-gap / lever.real, rel=1e-2)
+            assert orbit.speed_rate == pytest.approx(-gap / lever.real, rel=next_order + 1e-6)
 
 
 def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_cycles():
@@ -105,6 +111,7 @@ def test_small_orbits_of_the_source_machine_are_those_near_the_boundary():
     assert not any(virtual[orbit.name].admissible for orbit in boundary.orbits)
 
 
+@pytest.mark.jit_only
 def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
     below, above = boundary_equilibria(jeffcott(SOURCE), "omega")
 

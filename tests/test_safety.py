@@ -10,6 +10,8 @@ from carom.rotors import jeffcott
 from carom.safety import least_safe_damping
 from carom.whirl import rolling, runaway_speed
 
+pytestmark = pytest.mark.jit_only
+
 SOURCE = Parameters(
     gamma=0.1,
     omega=0.76,

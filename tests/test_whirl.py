@@ -43,6 +43,7 @@ def whirl_speeds(motion, count=400):
 # ------------------------------------------------------------------------------------------------ runaway
 
 
+@pytest.mark.jit_only
 @settings(max_examples=60, deadline=None)
 @given(parameters=damped, angle=st.floats(-3.2, 3.2), share=st.floats(0.001, 0.999))
 def test_whirl_beyond_the_certain_speed_gains_speed_until_it_rolls(parameters, angle, share):
@@ -61,6 +62,7 @@ def test_whirl_beyond_the_certain_speed_gains_speed_until_it_rolls(parameters, a
     assert (np.diff(speeds) > -1e-9 * speeds[:-1]).all()
 
 
+@pytest.mark.jit_only
 @settings(max_examples=40, deadline=None)
 @given(parameters=damped, angle=st.floats(-3.2, 3.2))
 def test_rotor_faster_than_rolling_slows_to_it_where_rolling_holds(parameters, angle):
@@ -118,6 +120,7 @@ def test_threshold_solves_its_equation_for_either_sign_of_damping(gamma):
 # ------------------------------------------------------------------------------------------------ rolling
 
 
+@pytest.mark.jit_only
 @settings(max_examples=60, deadline=None)
 @given(parameters=damped, angle=st.floats(-3.2, 3.2))
 def test_forces_of_rolling(parameters, angle):
@@ -162,6 +165,7 @@ def test_rolling_ends_at_the_largest_damping(factor, rolls_on):
     assert rolling(rotor).holds == rolls_on
 
 
+@pytest.mark.jit_only
 def test_interrupted_rolling_lives_between_the_limits_only():
     parameters = SOURCE.replace(radius_ratio=5.0, rho=1.0)
     roll = rolling(jeffcott(parameters))

@@ -13,6 +13,7 @@ from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.rotors import jeffcott
 from carom.trajectories import State, simulate
+from carom.whirl import rolling
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -52,6 +53,7 @@ def test_a_period_counted_twice_is_counted_once(bouncing):
     assert same_cycle(twice, cycle_of(bouncing))
 
 
+@pytest.mark.jit_only
 def test_two_impacts_a_period_are_the_same_from_either_impact(doubled):
     cycles = [cycle_of(motion) for motion in doubled]
     first = [cycle.velocities[0] for cycle in cycles]
@@ -62,6 +64,7 @@ def test_two_impacts_a_period_are_the_same_from_either_impact(doubled):
     assert orbit_of(cycles[0], single_impact_orbits(doubled[0].rotor)) is None
 
 
+@pytest.mark.jit_only
 def test_cycle_of_two_impacts_closes(doubled):
     cycle = cycle_of(doubled[0])
     before = State(complex(cycle.positions[0]), complex(cycle.velocities[0]))
@@ -77,6 +80,7 @@ def test_cycle_of_two_impacts_closes(doubled):
     assert abs(log.radial_speed[1] - log.radial_speed[0]) > 1e-2
 
 
+@pytest.mark.jit_only
 def test_different_orbits_are_different_cycles(bouncing, doubled):
     assert not same_cycle(cycle_of(bouncing), cycle_of(doubled[0]))
     other = dataclasses.replace(cycle_of(bouncing), velocities=cycle_of(bouncing).velocities * (1.0 + 1e-4))
@@ -89,6 +93,7 @@ def test_impulse_on_an_orbit_is_that_of_its_impact(bouncing):
     assert forces_on(bouncing, cycle_of(bouncing)) == pytest.approx((1.95 * orbit.radial_speed, 0.0), rel=1e-7)
 
 
+@pytest.mark.jit_only
 def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
     rotor = jeffcott(SOURCE.replace(gamma=0.2))
     rub = equilibria(rotor)[1]
@@ -110,6 +115,27 @@ def test_rolling_goes_backward_with_its_closed_form_force():
     assert cycle.period == pytest.approx(2.0 * math.pi / (1.0 + 400 / 7), rel=1e-12)
     assert forces_on(motion, cycle)[1] == pytest.approx((400 / 7) ** 2 - 0.76**2 + 3 / 7, rel=1e-12)
     assert whirl_of(motion, cycle) == "backward"
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("ratio", [5.0, 400 / 7])
+def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
+    # Damping halfway between that up to which rolling holds and that beyond which no backward whirl can.
+    parameters = SOURCE.replace(radius_ratio=ratio, rho=1.0)
+    limits = rolling(jeffcott(parameters))
+    rotor = jeffcott(parameters.replace(gamma=0.5 * (limits.largest_damping + limits.damping_bound)))
+    motion = settled(rotor, State(1.0 + 0j, -1j * (1.0 + ratio)))
+    cycle = cycle_of(motion)
+
+    assert (cycle.outcome, cycle.synchronous) == (Outcome.BACKWARD_WHIRL, False)
+    assert cycle.period > limits.period
+    again = simulate(rotor, motion.final, cycle.period).final
+    assert again.position == pytest.approx(motion.final.position, abs=1e-8)
+    assert again.velocity == pytest.approx(motion.final.velocity, abs=1e-8 * ratio)
+    assert whirl_of(motion, cycle) == "backward"
+    impulse, force = forces_on(motion, cycle)
+    assert impulse == 0.0
+    assert limits.least_force < force <= limits.largest_force
 
 
 def test_levitation_is_at_rest_and_touches_nothing():

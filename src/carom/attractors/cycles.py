@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -73,7 +74,8 @@ def cycle_of(motion: Trajectory) -> Cycle:
         return Cycle(outcome, False, rolling(motion.rotor).period, none, none)
     if outcome not in (Outcome.BOUNCING, Outcome.MIXED):
         resting = outcome is Outcome.LEVITATED or (outcome is Outcome.FORWARD_RUB and abs(motion.final.velocity) < SAME)
-        return Cycle(outcome, resting, None, none, none)
+        whirling = outcome is Outcome.BACKWARD_WHIRL or (outcome is Outcome.FORWARD_RUB and not resting)
+        return Cycle(outcome, resting, _turn_time(motion) if whirling else None, none, none)
     count = motion.multiplicity
     if count == 0:
         return Cycle(outcome, False, None, none, none)
@@ -85,6 +87,24 @@ def cycle_of(motion: Trajectory) -> Cycle:
         if count % part == 0 and _distance(positions, velocities, *_turned(positions, velocities, part)) < SAME:
             return Cycle(outcome, False, period * part / count, positions[:part], velocities[:part])
     return Cycle(outcome, False, period, positions, velocities)
+
+
+def _turn_time(motion: Trajectory) -> float | None:
+    """Time of the last turn along the wall in the co-rotating frame; ``None`` where it has not made one."""
+    end = motion.final.position
+    speed = abs((end.conjugate() * motion.final.velocity).imag)
+    span = 2.0 * math.pi * min(TURNS, 4.0 / speed if speed > 0.0 else TURNS)
+    times = np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
+    angles = np.unwrap(np.angle(motion.at(times)[0] / end))
+    turned = np.flatnonzero(np.abs(angles - angles[-1]) >= 2.0 * math.pi * (1.0 - SAME))
+    if not len(turned):
+        return None
+    start = float(times[turned[-1]])
+    for _ in range(4):  # Newton steps from within a sample's width
+        position, velocity = motion.at(np.array(start))
+        start -= cmath.phase(complex(position) / end) / (complex(position).conjugate() * complex(velocity)).imag
+        start = max(0.0, start)
+    return motion.time - start
 
 
 def _turned(positions: np.ndarray, velocities: np.ndarray, places: int) -> tuple[np.ndarray, np.ndarray]:
