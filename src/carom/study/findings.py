@@ -121,8 +121,13 @@ def _bouncing(study: Study) -> str:
         )
     if not len(orbits):
         sentences.append("There is no orbit with one impact a period.")
-    if orbits.complete:
+    if orbits.complete and orbits.slip_stays_forward:
         sentences.append("The list is complete: it is proven that no other orbit with one impact a period exists.")
+    elif orbits.complete:
+        sentences.append(
+            "The list is complete for impacts that do not stop the slip; orbits whose impacts stop it, which only a rotor "
+            "about as small as its clearance can have, were not searched."
+        )
     else:
         longest = study.wording.time(orbits.longest_period)
         sentences.append(f"Only periods up to {longest} were searched; there may be more such orbits.")
