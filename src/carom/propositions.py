@@ -1,0 +1,158 @@
+"""Propositions 4.1 to 4.3 of the source paper as computations, each with what holds of its claim for a machine.
+
+They are about single-impact orbits along the damping ``γ``, with ``γ* = √(ρ² − (1 − ω²)²)`` where the contact-free
+equilibrium meets the wall and ``N`` pairs of periods.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from carom.bifurcations import Bifurcation, continue_orbit
+from carom.local import ContactSystem, LocalCycle, non_smooth_hopf
+from carom.orbits import single_impact_orbits
+from carom.outcome import CaromError, InputError
+from carom.parameters import Parameters
+from carom.rotors import jeffcott
+
+__all__ = ["FixedPoints", "HopfSide", "SimultaneousFolds", "fixed_points", "hopf_side", "simultaneous_folds"]
+
+
+@dataclass(frozen=True)
+class FixedPoints:
+    """Number and admissibility of the fixed points of the impact map (Proposition 4.1).
+
+    Attributes
+    ----------
+    pairs : int
+        ``N``.
+    total : int
+        Fixed points, virtual ones included: ``4N`` unless two radial speeds have coalesced (the text says ``2N``).
+    outward : int
+        Those with a positive radial speed: ``2N`` where the contact-free equilibrium is virtual, for then the two
+        speeds of a period have opposite signs.
+    admissible : int
+        Those that are motions of the machine.  The text takes all outward ones for admissible; some leave the wall.
+    levitates : bool
+        Whether the contact-free equilibrium is admissible.
+    """
+
+    pairs: int
+    total: int
+    outward: int
+    admissible: int
+    levitates: bool
+
+    @property
+    def words(self) -> str:
+        """What holds, in a sentence."""
+        return (
+            f"{self.pairs} pair{'s' * (self.pairs != 1)} of periods give {self.total} fixed points, of which "
+            f"{self.outward} meet the wall from inside and {self.admissible} stay inside it between impacts"
+        )
+
+
+@dataclass(frozen=True)
+class SimultaneousFolds:
+    """Two folds of a pair at one damping (Proposition 4.2).
+
+    Attributes
+    ----------
+    pair : int
+    lower, upper : Bifurcation
+        Where ``a`` meets ``b`` and ``c`` meets ``d``.
+    """
+
+    pair: int
+    lower: Bifurcation
+    upper: Bifurcation
+
+    @property
+    def distance(self) -> float:
+        """How far apart they are in ``γ``: rounding, as ``F₁`` does not depend on the radial speed."""
+        return abs(self.lower.value - self.upper.value)
+
+
+@dataclass(frozen=True)
+class HopfSide:
+    """The non-smooth Hopf bifurcation at ``γ*`` and its side (Proposition 4.3).
+
+    Attributes
+    ----------
+    gamma : float
+        ``γ*``.
+    cycles : tuple of LocalCycle
+        The cycles that are born, with their slopes along ``γ`` and their criticality.
+    """
+
+    gamma: float
+    cycles: tuple[LocalCycle, ...]
+
+    @property
+    def subcritical(self) -> bool:
+        """Whether there are cycles and all live where the rotor levitates, as the text has it."""
+        return bool(self.cycles) and all(cycle.criticality == "subcritical" for cycle in self.cycles)
+
+
+def fixed_points(parameters: Parameters) -> FixedPoints:
+    """Count the fixed points of the impact map with forward slip, and the admissible ones among them."""
+    rotor = jeffcott(parameters)
+    found = single_impact_orbits(rotor)
+    orbits = [orbit for orbit in found if orbit.slip > 0]
+    return FixedPoints(
+        pairs=(len(found.periods) + 1) // 2,
+        total=len(orbits),
+        outward=sum(orbit.radial_speed > 0.0 for orbit in orbits),
+        admissible=sum(orbit.admissible for orbit in orbits),
+        levitates=abs(rotor.equilibrium) < 1.0,
+    )
+
+
+def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFolds:
+    """Find where the orbits of a pair vanish as the damping grows.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        With a damping at which the pair exists.
+    pair : int
+
+    Raises
+    ------
+    InputError
+        No such pair at this damping.
+    CaromError
+        The pair does not end in two folds.
+    """
+    orbits = single_impact_orbits(jeffcott(parameters))
+    names = [orbit.name for orbit in orbits]
+    if not {f"B{pair},b", f"B{pair},d"} <= set(names):
+        raise InputError(
+            "pair", pair, f"a pair with orbits at gamma = {parameters.gamma:g}: {', '.join(names) or 'none'}"
+        )
+    interval = (parameters.gamma, 2.0 * parameters.gamma + 10.0)
+    folds = []
+    for letter in "bd":
+        branch = continue_orbit(orbits[f"B{pair},{letter}"], "gamma", interval)
+        found = [point for point in branch.special if point.kind == "fold"]
+        if not found:
+            raise CaromError(f"B{pair},{letter} meets no other orbit up to gamma = {interval[1]:g}")
+        folds.append(found[0])
+    return SimultaneousFolds(pair, *folds)
+
+
+def hopf_side(parameters: Parameters) -> HopfSide:
+    """Find the cycles born where levitation meets the wall as the damping varies, and their side.
+
+    Raises
+    ------
+    InputError
+        The unbalance is too small: the equilibrium meets the wall at no damping.
+    """
+    square = parameters.rho**2 - (1.0 - parameters.omega**2) ** 2
+    if not square > 0.0:
+        raise InputError("rho", parameters.rho, f"above |1 - omega^2| = {abs(1.0 - parameters.omega**2):.6g}")
+    system = ContactSystem.of_rotor(parameters.replace(gamma=math.sqrt(square)))
+    hopf = non_smooth_hopf(system, -1j * system.equilibrium / system.stiffness)
+    return HopfSide(math.sqrt(square), hopf.cycles)

@@ -1,0 +1,73 @@
+"""What holds of Propositions 4.1 to 4.3 of the source paper."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import InputError, jeffcott, single_impact_orbits
+from carom.propositions import fixed_points, hopf_side, simultaneous_folds
+
+
+@pytest.mark.parametrize("gamma", [0.03, 0.06, 0.1, 0.17, 0.2])
+def test_four_fixed_points_a_pair(gamma):
+    found = fixed_points(PAPER.replace(gamma=gamma))
+    assert found.total == 4 * found.pairs
+    assert found.levitates == (gamma > 0.0724686787)
+    assert found.outward == (4 if found.levitates else 2) * found.pairs
+    assert found.admissible <= found.outward
+    assert (found.pairs == 0) == (gamma > 0.1780277257)
+
+
+def test_outward_orbits_need_not_stay_inside():
+    """Below the grazing of B1,d the text's claim that all outward orbits are admissible fails."""
+    found = fixed_points(PAPER.replace(gamma=0.06))
+    assert found.admissible < found.outward
+    assert "1 pair of periods give 4 fixed points" in found.words
+
+
+def test_both_folds_of_a_pair_are_at_one_damping():
+    folds = simultaneous_folds(PAPER)
+    assert folds.distance < 1e-11
+    assert folds.upper.value == pytest.approx(0.1780277257, abs=5e-11)
+    assert folds.lower.radial_speed < folds.upper.radial_speed
+    second = simultaneous_folds(PAPER.replace(gamma=0.03), pair=2)
+    assert second.distance < 1e-10
+    count = [
+        len(single_impact_orbits(jeffcott(PAPER.replace(gamma=second.lower.value + s))).periods) for s in (-1e-9, 1e-9)
+    ]
+    assert count[0] - count[1] == 2
+    with pytest.raises(InputError, match="pair = 2"):
+        simultaneous_folds(PAPER, pair=2)
+
+
+def test_cycles_are_born_on_the_levitating_side():
+    side = hopf_side(PAPER)
+    assert side.gamma == pytest.approx(0.0724686787, abs=5e-11)
+    assert side.subcritical
+    for cycle in side.cycles:
+        orbits = single_impact_orbits(jeffcott(PAPER.replace(gamma=side.gamma + 1e-4)))
+        near = min(orbits, key=lambda orbit: abs(orbit.period - cycle.period) + 10 * abs(orbit.radial_speed))
+        assert near.admissible
+        assert near.radial_speed == pytest.approx(1e-4 * cycle.radial_slope, rel=1e-2)
+    with pytest.raises(InputError, match="above"):
+        hopf_side(PAPER.replace(rho=0.4))
+
+
+def test_the_side_is_a_result_not_a_constant():
+    """Elsewhere the cycles live where the equilibrium is outside the wall, and exact orbits are found there."""
+    random = np.random.default_rng(2)
+    sides = set()
+    for _ in range(60):
+        omega = random.uniform(0.3, 1.8)
+        rho = abs(1.0 - omega**2) + random.uniform(0.001, 0.3)
+        machine = PAPER.replace(omega=omega, rho=rho)
+        side = hopf_side(machine)
+        for cycle in side.cycles:
+            sides.add(cycle.criticality)
+            shift = 1e-7 if cycle.criticality == "subcritical" else -1e-7
+            orbits = single_impact_orbits(jeffcott(machine.replace(gamma=side.gamma + shift)), 1.1 * cycle.period)
+            small = [o for o in orbits if abs(o.period - cycle.period) < 1e-3 and abs(o.radial_speed) < 1e-2]
+            assert any(orbit.radial_speed > 0.0 for orbit in small)
+    assert sides == {"subcritical", "supercritical"}
