@@ -304,10 +304,11 @@ def speed_rounding(rotor, plane, amplitudes):
 
 @kernel
 def push_rounding(rotor, plane, amplitudes):
-    """Rounding error of the normal force."""
+    """Rounding error of the normal force, that of the place on the wall included: near the equilibrium it is most of it."""
     force = squared_modulus(velocity(rotor, plane, amplitudes))
     for m in range(amplitudes.shape[0]):
-        force += _size(rotor.acceleration_rows[plane, m] * amplitudes[m])
+        row = rotor.acceleration_rows[plane, m]
+        force += _size(row * amplitudes[m]) + _size(row * rotor.rows[plane, m]) / rotor.weights[plane]
     return ROUNDING * _spread(rotor, plane, amplitudes) * force
 
 
