@@ -14,6 +14,8 @@ from carom.trajectories import State
 
 MANY = settings(max_examples=15 if config.DISABLE_JIT else 150)
 """How many motions to draw; fewer without the compiler."""
+EVENTS = 50 if config.DISABLE_JIT else 500
+"""Events to follow each through."""
 
 
 @st.composite

@@ -104,7 +104,7 @@ def test_a_sample_holds_each_event_and_the_instant_before(motion):
 
 def test_no_time_of_a_sample_is_outside_the_wall(motion, rubbing):
     for path in (motion, rubbing):
-        assert path.radius(path.sample(5000)).max() <= 1.0 + 1e-12
+        assert path.radius(path.sample(300)).max() <= 1.0 + 1e-12
 
 
 class TestContactLog:
@@ -207,7 +207,7 @@ class TestStarts:
         normal = cmath.exp(0.3j)
         motion = simulate(rotor, State(radius * normal, 0.5 * normal), 1.0)
         assert motion.contacts.time[0] == 0.0
-        assert motion.radius(motion.sample(500)).max() <= 1.0 + 1e-12
+        assert motion.radius(motion.sample(100)).max() <= 1.0 + 1e-12
         assert abs(motion.at(0.0)[0]) == pytest.approx(1.0, abs=4e-16)
 
     def test_just_inside_the_wall(self, rotor):

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import pytest
-from drawn_motions import MANY, machines, starts
+from drawn_motions import EVENTS, MANY, machines, starts
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from machines import PAPER
@@ -31,9 +31,9 @@ def growth(machine, start, times):
     """By how much a small change of the start has grown, per unit, at given times; for motions where it is small."""
     shift = 1e-8
     rotor = jeffcott(machine)
-    nominal = simulate(rotor, start, UNTIL, max_events=300)
+    nominal = simulate(rotor, start, UNTIL, max_events=EVENTS)
     inward = 1.0 - shift
-    moved = simulate(rotor, State(start.position * inward, start.velocity * inward), UNTIL, max_events=300)
+    moved = simulate(rotor, State(start.position * inward, start.velocity * inward), UNTIL, max_events=EVENTS)
     assume(nominal.time == moved.time == UNTIL)
     assume(len(nominal.segment_starts) == len(moved.segment_starts))
     assume(np.array_equal(nominal.segment_phases, moved.segment_phases))
@@ -55,7 +55,7 @@ def test_turning_the_unbalance_and_the_start_turns_the_motion(machine, start, an
         jeffcott(machine.replace(phi=machine.phi + angle)),
         State(turn * start.position, turn * start.velocity),
         UNTIL,
-        max_events=300,
+        max_events=EVENTS,
     )
     assume(len(nominal.segment_starts) == len(turned.segment_starts))
     size = 10.0 + machine.radius_ratio
@@ -76,7 +76,7 @@ def test_machines_with_the_same_parameters_move_alike(machine, start, scales):
     back = physical.parameters
     for name, value in machine.as_dict().items():
         assert getattr(back, name) == pytest.approx(value, rel=8 * EPSILON, abs=1e-300)
-    again = simulate(jeffcott(physical), start, UNTIL, max_events=300)
+    again = simulate(jeffcott(physical), start, UNTIL, max_events=EVENTS)
     assume(len(nominal.segment_starts) == len(again.segment_starts))
     size = 10.0 + machine.radius_ratio
     error = np.abs(states(again, times) - states(nominal, times)).max(initial=0.0)
@@ -156,7 +156,7 @@ def drift(values):
 @MANY
 @given(machines(gamma=0.0, mu=0.0, d=1.0, rho=0.0), starts())
 def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(machine, start):
-    motion = simulate(jeffcott(machine), start, 20.0, max_events=500)
+    motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
     times = motion.sample(300)
     energy, momentum, _ = energies(machine, motion, times)
     rounding = 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * (1.0 + energy[0])
@@ -168,7 +168,7 @@ def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(
 @given(machines(gamma=0.0, mu=0.0, d=1.0), starts())
 def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
     rotor = jeffcott(machine)
-    motion = simulate(rotor, start, 20.0, max_events=500)
+    motion = simulate(rotor, start, 20.0, max_events=EVENTS)
     times = motion.sample(300)
     energy, _, jacobi = energies(machine, motion, times)
     size = (1.0 + energy.max()) * (1.0 + abs(rotor.equilibrium)) ** 2
@@ -178,7 +178,7 @@ def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
 @MANY
 @given(machines(mu=0.0, rho=0.0), starts())
 def test_without_unbalance_and_friction_energy_only_falls(machine, start):
-    motion = simulate(jeffcott(machine), start, 20.0, max_events=500)
+    motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
     energy, _, _ = energies(machine, motion, motion.sample(300))
     assert np.all(np.diff(energy) <= 64 * EPSILON * (10.0 + motion.time) * (1.0 + energy[0]))
 
