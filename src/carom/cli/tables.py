@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import fields
 from pathlib import Path
@@ -36,6 +37,8 @@ FIRST_EVENTS, LAST_EVENTS = 20, 8
 """Contacts shown of a long log."""
 TEXT_WIDTH = 110
 """Columns beyond which running text is hard to read."""
+NARROW = 116
+"""Columns below which remarks have to give way."""
 _STYLES = {
     "stable": "bold",
     "seen": "bold",
@@ -60,7 +63,7 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
         console.print(Text(finding.topic, style="bold"))
         console.print(Padding(Text(finding.text), (0, 0, 0, 2), expand=False), width=min(console.width, TEXT_WIDTH))
     console.print()
-    console.print(_motions(motion_rows(study), "Motions"))
+    console.print(_motions(motion_rows(study), "Motions", console.width))
     _print_left_out(console, study.orbits)
     console.print()
     console.print(_thresholds(study))
@@ -81,7 +84,7 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
     console.print(Text(f"{case.name}: {values}"))
     console.print()
     rows = simple_motion_rows(equilibria, orbits, Wording(case.parameters.scales), most_virtual=40)
-    console.print(_motions(rows, "Equilibria and orbits with one impact a period"))
+    console.print(_motions(rows, "Equilibria and orbits with one impact a period", console.width))
     _print_left_out(console, orbits, most_virtual=40)
     if len(orbits):
         console.print()
@@ -117,8 +120,10 @@ def _table(title: str) -> Table:
     return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
 
 
-def _motions(rows: list[MotionRow], title: str) -> Table:
+def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
     table = _table(title)
+    if width < NARROW and all(row.state != "not possible" for row in rows):
+        rows = [dataclasses.replace(row, remark="") for row in rows]
     headings = {
         "name": "motion",
         "state": "state",
@@ -131,7 +136,7 @@ def _motions(rows: list[MotionRow], title: str) -> Table:
     }
     used = [entry.name for entry in fields(MotionRow) if any(getattr(row, entry.name) for row in rows)]
     for name in used:
-        table.add_column(headings[name], no_wrap=name != "remark", overflow="fold")
+        table.add_column(headings[name], no_wrap=name in ("state", "period", "impulse"))
     for row in rows:
         table.add_row(*(Text(getattr(row, name)) for name in used), style=_STYLES[row.state])
     return table
@@ -146,7 +151,8 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
 def _orbit_numbers(orbits: OrbitSet) -> Table:
     table = _table("Orbits in the units of the equations, just before the impact")
     for heading in ("orbit", "period T", "ṙ", "θ", "θ̇", "multipliers"):
-        table.add_column(heading, justify="left" if heading in ("orbit", "multipliers") else "right")
+        words = heading in ("orbit", "multipliers")
+        table.add_column(heading, justify="left" if words else "right", no_wrap=not words)
     shown = [orbit for orbit in orbits if orbit.admissible] if len(orbits) > 40 else list(orbits)
     for orbit in shown:
         numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
