@@ -28,13 +28,15 @@ from carom.trajectories import Trajectory
 
 if TYPE_CHECKING:
     from carom.equilibria import Equilibrium
-    from carom.orbits import OrbitSet
+    from carom.orbits import Orbit, OrbitSet
     from carom.parameters import Case
 
 __all__ = ["print_motion", "print_orbits", "print_study"]
 
 FIRST_EVENTS, LAST_EVENTS = 20, 8
 """Contacts shown of a long log."""
+MOST_NUMBERS = 40
+"""Orbits beyond which virtual ones are left out of the tables of numbers."""
 TEXT_WIDTH = 110
 """Columns beyond which running text is hard to read."""
 NARROW = 116
@@ -86,9 +88,10 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
     rows = simple_motion_rows(equilibria, orbits, Wording(case.parameters.scales), most_virtual=40)
     console.print(_motions(rows, "Equilibria and orbits with one impact a period", console.width))
     _print_left_out(console, orbits, most_virtual=40)
-    if len(orbits):
+    shown = [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS]
+    for table in (_orbit_numbers(shown), _multipliers(shown)) if shown else ():
         console.print()
-        console.print(_orbit_numbers(orbits))
+        console.print(table)
     console.print()
     console.print(orbits.argument)
 
@@ -148,18 +151,25 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
         console.print(f"{virtual} orbits that are not possible are left out; --json lists them.")
 
 
-def _orbit_numbers(orbits: OrbitSet) -> Table:
+def _orbit_numbers(shown: list[Orbit]) -> Table:
     table = _table("Orbits in the units of the equations, just before the impact")
-    for heading in ("orbit", "period T", "ṙ", "θ", "θ̇", "multipliers"):
-        words = heading in ("orbit", "multipliers")
-        table.add_column(heading, justify="left" if words else "right", no_wrap=not words)
-    shown = [orbit for orbit in orbits if orbit.admissible] if len(orbits) > 40 else list(orbits)
+    for heading in ("orbit", "period T", "ṙ", "θ", "θ̇"):
+        table.add_column(heading, justify="left" if heading == "orbit" else "right", no_wrap=True)
     for orbit in shown:
         numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
-        values = "  ".join(_complex(value, 6) for value in orbit.multipliers.values)
-        table.add_row(
-            orbit.name, *(f"{value:.10g}" for value in numbers), values, style="" if orbit.admissible else "dim"
-        )
+        style = "" if orbit.admissible else "dim"
+        table.add_row(orbit.name, *(f"{value:.10g}" for value in numbers), style=style)
+    return table
+
+
+def _multipliers(shown: list[Orbit]) -> Table:
+    table = _table("Multipliers: a small disturbance is multiplied by these from impact to impact")
+    for heading in ("orbit", "largest modulus", "multipliers"):
+        table.add_column(heading, justify="right" if heading == "largest modulus" else "left")
+    for orbit in shown:
+        values = "   ".join(_complex(value, 6) for value in orbit.multipliers.values)
+        style = "" if orbit.admissible else "dim"
+        table.add_row(orbit.name, f"{orbit.multipliers.spectral_radius:.6g}", values, style=style)
     return table
 
 
