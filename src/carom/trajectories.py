@@ -198,7 +198,7 @@ class Trajectory:
         amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
         arrays = self.rotor.arrays
         position, velocity = self.rotor.state(amplitudes)
-        local = position.conj() * (amplitudes @ arrays.acceleration_rows[0])
+        local = position.conj() * np.einsum("...k,k->...", amplitudes, arrays.acceleration_rows[0])
         push = local.real + np.abs(velocity) ** 2
         slip_sign = np.where(phases == Phase.FORWARD_SLIP, 1.0, -1.0)
         grip = np.where(phases == Phase.ROLLING, -local.imag, -slip_sign * arrays.friction[0] * push)
