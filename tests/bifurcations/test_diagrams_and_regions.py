@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, random_parameters
 
 from carom import InputError, equilibria, jeffcott, single_impact_orbits
 from carom.bifurcations import Plane, bifurcation_diagram, motions_at, region_map
@@ -108,6 +108,26 @@ def test_map_of_the_source_papers_plane():
     for region in found.regions:
         gamma, omega = region.point
         assert motions_at(PAPER.replace(gamma=gamma, omega=omega)) == region.motions
+
+
+def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
+    random = np.random.default_rng(77)
+    curves = 0
+    for _ in range(50):
+        machine = random_parameters(random)
+        gamma, omega = machine.gamma, machine.omega
+        plane = Plane("gamma", "omega", (0.5 * gamma, 2.0 * gamma), (0.7 * omega, 1.3 * omega))
+        found = region_map(machine, plane, grid=2)
+        assert found.lost == ()
+        for curve in found.curves:
+            curves += 1
+            assert set(curve.stops) <= {"parameter limit", "end of domain", "closed loop"}
+            assert np.isfinite(curve.points).all()
+            (low_x, low_y), (high_x, high_y) = np.transpose([plane.first_range, plane.second_range])
+            x, y = curve.points.T
+            slack = 1e-9 * gamma
+            assert ((low_x - slack <= x) & (x <= high_x + slack) & (low_y <= y) & (y <= high_y)).all()
+    assert curves > 10
 
 
 def test_inputs_that_cannot_be_used():

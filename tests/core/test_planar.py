@@ -46,6 +46,12 @@ def test_returns_keep_their_digits_at_any_damping_and_period():
         assert np.abs(np.subtract(got, exact) / exact).max() < 5e-14 * turned / min(1.0, distance) ** 2
 
 
+def test_returns_vanish_at_periods_where_the_free_motion_has_died_out():
+    for gamma, omega in ((3.0, 0.5), (1.0, 2.0), (8.0, 4.0)):
+        for period in (300.0, 800.0, 1e5):
+            assert np.abs(returns(*planar_exponents(gamma, omega), period)).max() < 1e-8
+
+
 def test_returns_agree_with_the_general_rotor():
     periods = np.linspace(0.05, 12.0, 40)
     for parameters in machines(20, 6):

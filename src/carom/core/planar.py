@@ -55,15 +55,15 @@ def returns(first, second, period):
     the first; the third follows from ``g' = g(1 + g)``.  At short periods the poles of ``g`` cancel in the last two, which
     are summed there from the Bernoulli series of ``z g(z) + 1``.
     """
+    _, response, _ = _propagator(first, second, period)
     if squared_modulus(first) < squared_modulus(second):
         first, second = second, first
-    gap = first - second
-    lag = complex_expm1(-gap * period) / gap if gap != 0.0 else complex(-period, 0.0)
     z, w = first * period, second * period
-    x, y = complex_expm1(-z), complex_expm1(-w)
-    a12 = -(1.0 + y) * lag / (x * y)
+    x, y = complex_expm1(z), complex_expm1(w)
+    a12 = response / (x * y)
     if squared_modulus(z) > 1.0:
-        g, h = 1.0 / x, 1.0 / y
+        # Never from e^{−z}, which overflows at long periods.
+        g, h = -cmath.exp(z) / x, -cmath.exp(w) / y
         a22 = g + second * a12
         rate = (first + second) * h * (1.0 + h) + first * first * a12 * (1.0 + g + h)
         return a12, a22, rate
