@@ -384,3 +384,8 @@ def test_a_shorter_search_finds_the_roots_up_to_its_end():
 def test_hopeless_searches_are_refused():
     with pytest.raises(CaromError, match="too many to search; give a shorter longest_period"):
         condition_of(PAPER.replace(gamma=1e-9)).roots()
+
+
+def test_a_search_that_resonance_makes_endless_is_refused_in_bounded_work():
+    with pytest.raises(CaromError, match="too near resonance; give a shorter longest_period"):
+        condition_of(PAPER.replace(gamma=0.152, omega=0.001)).roots(593.0)

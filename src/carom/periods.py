@@ -269,6 +269,10 @@ class PeriodCondition:
             # Without damping F₁ has poles.  What rounding makes of F₁ next to one is large, and no root is there.
             doubtful.append(intervals[lost & (noise < 1.0)])
             split = undecided & ~steady & ~lost & (half > ROUNDING * middle)
+            if split.sum() > MOST_INTERVALS // 4:
+                raise CaromError(
+                    f"periods up to {grid[-1]:.3g}/Omega are too near resonance; give a shorter longest_period"
+                )
             left = np.concatenate([left[split], middle[split]])
             right = np.concatenate([middle[split], right[split]])
         return np.concatenate(monotone), np.concatenate(doubtful)
