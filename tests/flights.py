@@ -39,8 +39,9 @@ class Tally:
     examples: list[str] = field(default_factory=list)
 
     def as_property(self) -> dict[str, object]:
-        """Plain values for the report of the test run."""
-        return {name: value for name, value in asdict(self).items() if name != "examples"}
+        """Plain Python values for the report of the test run, as parallel runs can send no others."""
+        values = {name: value for name, value in asdict(self).items() if name != "examples"}
+        return {name: value.item() if isinstance(value, np.generic) else value for name, value in values.items()}
 
     def check(self) -> None:
         """Fail if any flight went wrong."""
