@@ -1,0 +1,47 @@
+"""Energy ledger: every energy is booked, through ten thousand contacts and through each kind of contact."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import carom
+from carom.ledger import energy_ledger
+
+
+def _rotor(gamma: float) -> carom.Rotor:
+    return carom.jeffcott(
+        carom.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+    )
+
+
+@pytest.mark.jit_only
+def test_energy_closes_over_ten_thousand_impacts():
+    motion = carom.simulate(_rotor(0.0834), carom.State(0.3 + 0j, 0.4j), until=3e4)
+    assert len(motion.contacts) > 10_000
+    assert energy_ledger(motion).imbalance < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("gamma", "start", "phases"),
+    [
+        (0.2, carom.State(0.2 + 0.1j, 0.5 + 0.3j), {carom.Phase.FORWARD_SLIP}),
+        (0.07, carom.State(0.2 + 0.1j, 0.3j), {carom.Phase.FORWARD_SLIP, carom.Phase.ROLLING}),
+        (0.4, carom.State(0.2 + 0.1j, 0.5 + 0.3j), set()),
+    ],
+)
+def test_energy_closes_through_chatter_sliding_and_rolling(gamma, start, phases):
+    motion = carom.simulate(_rotor(gamma), start, until=400.0, settle=True)
+    assert {contact.phase for contact in motion.lasting_contacts} >= phases
+    ledger = energy_ledger(motion)
+    assert ledger.imbalance < 1e-9
+    assert np.diff(ledger.impacts).max() <= 0.0
+    assert ledger.times[0] == 0.0
+    assert ledger.times[-1] == motion.time
+
+
+def test_a_missing_account_would_show():
+    motion = carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0)
+    ledger = energy_ledger(motion)
+    without_drive = np.abs(ledger.energy - ledger.energy[0] - ledger.supplied + ledger.drive).max()
+    assert without_drive > 1e-2 * np.abs(ledger.drive).max()
