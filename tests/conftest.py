@@ -14,13 +14,19 @@ settings.load_profile("carom")
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Say how many flights were tried against the high-precision reference, and how many went wrong."""
-    totals = {}
+    """Say how many flights were tried against the high-precision reference and went wrong, and where motions ended."""
+    totals, outcomes = {}, {}
     reports = [report for key in ("passed", "failed") for report in terminalreporter.stats.get(key, [])]
     for report in reports:
         for name, value in getattr(report, "user_properties", []):
             if name == "flights" and report.when == "call":
                 _add(totals.setdefault(value["scenario"], {}), value)
+            if name == "outcomes" and report.when == "call":
+                _add(outcomes, value)
+    if outcomes:
+        terminalreporter.section("outcomes of random starts")
+        counts = ", ".join(f"{count} {label}" for label, count in sorted(outcomes.items()))
+        terminalreporter.write_line(f"{sum(outcomes.values())} starts: {counts}")
     if totals:
         terminalreporter.section("flights against the high-precision reference")
     for scenario, total in totals.items():

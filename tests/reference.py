@@ -121,6 +121,13 @@ class Flight:
         """Largest modulus of an exponent."""
         return max([abs(rate) for _, rate in self._mode_sizes] + [abs(lower) for _, _, lower, _ in self._pair_sizes])
 
+    @property
+    def longest_step(self) -> float:
+        """Step over which growing modes grow by no more than e."""
+        rates = [rate.real for _, rate in self._mode_sizes]
+        rates += [rate.real for _, upper, lower, _ in self._pair_sizes for rate in (upper, lower)]
+        return 1.0 / max(1.0, *rates)
+
     def third_bound(self, time: float, span: float) -> float:
         """Bound of ``|f'''| = |2 Re(3 ẏ* ÿ + y* y⃛)|`` on ``time … time + span`` while ``|y| ≤ 1``."""
         first, second, third = self.derivative_bounds(time, span)
@@ -214,7 +221,7 @@ def _departure(flight: Flight, radial_speed: float) -> float:
     ``f/τ ≤ f' + (f'' + M₃ h/3) τ/2`` with ``f' = 2ṙ``, so it is half the root of that where there is one.
     """
     bend = _upper(flight.level(0.0)[2])
-    span = 1.0
+    span = flight.longest_step
     while span > 1e-30:
         steepest = bend + flight.third_bound(0.0, span) * span / 3.0
         root = math.inf if steepest <= 0.0 else -4.0 * radial_speed / steepest
@@ -226,7 +233,7 @@ def _departure(flight: Flight, radial_speed: float) -> float:
 
 def _step(flight: Flight, now: float, height: float, rate: float, bend: float) -> float:
     """Longest step found that the bound allows: ``τ`` with first root of the quadratic for ``h = τ`` not below ``τ``."""
-    span = 1.0
+    span = flight.longest_step
     third = flight.third_bound(now, span) / 3.0
     reach = _root(height, rate, bend + third * span)
     if reach >= span:

@@ -117,6 +117,29 @@ def test_high_speeds(record_property):
     tally.check()
 
 
+def test_extreme_parameters(record_property):
+    """Damping and stiffness over six decades, some of the damping negative, starts as fast as the modes."""
+    tally = Tally("extreme parameters")
+    rng = np.random.default_rng(550)
+    while tally.tried < count(5_000):
+        omega = 10.0 ** rng.uniform(-3.0, 3.0)
+        gamma = 10.0 ** rng.uniform(-3.0, 3.0) * rng.choice([1.0, 1.0, 1.0, -0.05])
+        stiffness = abs(complex(omega**2 - 1.0, gamma))
+        rotor = jeffcott(parameters(gamma, omega, rho=min(2.0 * rng.uniform() * stiffness, 1e3)))
+        fastest = np.abs(rotor.eigenvalues).max()
+        for _ in range(4):
+            position, velocity = math.sqrt(rng.uniform()), fastest * 10.0 ** rng.uniform(-3.0, 1.0)
+            turn = np.exp(2j * math.pi * rng.uniform(size=2))
+            task = task_from_state(rotor, complex(position * turn[0]), complex(velocity * turn[1]))
+            compare(task, 10.0 / fastest, tally)
+            leaving = -fastest * 10.0 ** rng.uniform(-6.0, 1.0)
+            task = wall_task(rotor, 2.0 * math.pi * rng.uniform(), leaving, fastest * rng.normal())
+            compare(task, 10.0 / fastest, tally)
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert min(tally.contact, tally.clear) > 0.1 * tally.tried
+
+
 def general_rotor(rng, kind):
     """Four modes, two planes: free-standing, paired, all but degenerate and degenerate, one growing; one is forcing."""
     exponents = rng.uniform(-1.0, 0.0, 4) + 1j * rng.uniform(-3.0, 3.0, 4)
