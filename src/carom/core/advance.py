@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from carom.core.events import INSIDE, LEAVING, first_crossing
+from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import NEAR, approaches_turn, forget_rub, levitates, near_rub, recurs, same_state
-from carom.core.flow import displacement, velocity
-from carom.core.impact import set_on_wall, strike, unit
-from carom.core.layout import kernel
+from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
+from carom.core.impact import move_plane, rebound, set_on_wall, unit
+from carom.core.layout import kernel, passage
 from carom.core.rub import (
     first_transition,
     lift_off,
@@ -83,111 +83,126 @@ def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes
     plane : int
         Plane whose wall the end lies on, or −1.
     """
+    state = work.current
+    copy(amplitudes, state)
     time = 0.0
     events, stalled = 0, 0
-    while events < times.shape[0]:
+    outcome = CONTACT
+    while outcome == CONTACT and events < times.shape[0]:
         if phase == FLIGHT:
-            outcome, duration, phase, plane = _fly(
-                rotor, table, amplitudes, until - time, plane, before[events], memory, work, rub
-            )
+            outcome, duration, phase, plane = _fly(rotor, table, until - time, plane, memory, work, rub)
         else:
-            outcome, duration, phase = _rub(rotor, plane, amplitudes, phase, until - time, memory, rub)
-            before[events, :] = amplitudes
+            outcome, duration, phase = _rub(rotor, plane, state, phase, until - time, memory, rub)
+            copy(state, work.arrival)
         time = until if outcome == TIME_REACHED else time + duration
-        if outcome != CONTACT:
-            return outcome, time, events, phase, plane
-        times[events], phases[events], planes[events] = time, phase, plane
-        after[events, :] = amplitudes
-        events += 1
-        stalled = stalled + 1 if duration <= SHORTEST else 0
-        if stalled == STALLED:
-            return GRAZING, time, events, phase, plane
-    return EVENT_LIMIT, time, events, phase, plane
+        if outcome == CONTACT:
+            times[events], phases[events], planes[events] = time, phase, plane
+            for k in range(state.shape[0]):
+                before[events, k] = work.arrival[k]
+                after[events, k] = state[k]
+            events += 1
+            stalled = stalled + 1 if duration <= SHORTEST else 0
+            if stalled == STALLED:
+                outcome = GRAZING
+    copy(state, amplitudes)
+    return (EVENT_LIMIT if outcome == CONTACT else outcome), time, events, phase, plane
 
 
-@kernel
-def _fly(rotor, table, amplitudes, horizon, plane, arrival, memory, work, rub):
-    """One flight and the impact or landing at its end, in place.
+@passage
+def _fly(rotor, table, horizon, plane, memory, work, rub):
+    """One flight from ``work.current`` and the impact or landing at its end, which leads to a new ``work.current``.
 
     Returns the outcome (CONTACT: it goes on), the duration, the phase that follows and the plane touched.
-    ``arrival`` receives the amplitudes just before the impact.
+    ``work.arrival`` is the state just before the impact.
     """
+    state = work.current
     elapsed = 0.0
     settle = memory.patience > 0
     while True:
         reaction, at_rest = CLEAR, False
         if plane >= 0:
-            reaction, at_rest = _wall_reaction(rotor, plane, amplitudes, memory.lifting)
+            reaction, at_rest = _wall_reaction(rotor, plane, state, memory.lifting)
             memory.lifting = 0
-        if reaction == CLEAR:
-            if settle and levitates(rotor, amplitudes, work):
-                return LEVITATED, elapsed, FLIGHT, plane
-            leap = min(horizon - elapsed, memory.recheck) if settle else horizon - elapsed
-            reaction, duration, plane = _leap(rotor, table, amplitudes, leap, plane, at_rest, work, rub)
-            elapsed += duration
-        if reaction == GRAZING:
-            return GRAZING, elapsed, FLIGHT, plane
+        if reaction != CLEAR:
+            copy(state, work.arrival)
+            break
+        if settle and levitates(rotor, state, work):
+            return LEVITATED, elapsed, FLIGHT, plane
+        leap = min(horizon - elapsed, memory.recheck) if settle else horizon - elapsed
+        reaction, duration, plane = _leap(rotor, table, leap, plane, at_rest, work, rub)
+        elapsed += duration
         if reaction != CLEAR:
             break
+        copy(work.arrival, state)
         if elapsed >= horizon:
             return TIME_REACHED, horizon, FLIGHT, plane
-    set_on_wall(rotor, plane, amplitudes)
-    arrival[:] = amplitudes
     if reaction == CONTACT:
-        if settle and recurs(memory, amplitudes):
-            return (MIXED if memory.rubbed > 0 else BOUNCING), elapsed, FLIGHT, plane
-        _apply_strike(rotor, plane, amplitudes)
-        return CONTACT, elapsed, FLIGHT, plane
+        return _meet(rotor, plane, memory, work), elapsed, FLIGHT, plane
+    if reaction == LANDING:
+        set_on_wall(rotor, plane, work.arrival)
+    copy(work.arrival, state)
+    if reaction == GRAZING:
+        return GRAZING, elapsed, FLIGHT, plane
     if memory.stop_at_landing:
         return CHATTER, elapsed, FLIGHT, plane
-    _land(rotor, plane, amplitudes)
+    _land(rotor, plane, state)
     memory.rubbed = 1
     forget_rub(memory)
-    return CONTACT, elapsed, next_phase(rotor, plane, amplitudes, FLIGHT), plane
+    return CONTACT, elapsed, next_phase(rotor, plane, state, int(FLIGHT)), plane
 
 
-@kernel
-def _leap(rotor, table, amplitudes, horizon, plane, at_rest, work, rub):
-    """Fly on, in place, to the next contact or the horizon, or just off the wall from a start at rest on it.
+@passage
+def _leap(rotor, table, horizon, plane, at_rest, work, rub):
+    """Fly from ``work.current`` to the next contact or the horizon, or just off the wall from a start at rest on it.
 
-    Returns the reaction of the wall (CLEAR: the flight goes on), the duration and the plane touched.
+    Returns the reaction of the wall (CLEAR: the flight goes on), the duration and the plane touched; ``work.arrival``
+    holds the state there.
     """
     if at_rest:
-        duration, returned = lift_off(rotor, plane, amplitudes, horizon, rub)
+        copy(work.current, work.arrival)
+        duration, returned = lift_off(rotor, plane, work.arrival, horizon, rub)
         if duration == 0.0:
             return LANDING, duration, plane
         return CLEAR, duration, plane if returned else INSIDE_ALL
-    start = LEAVING if plane >= 0 else INSIDE
-    reaction, duration, target = _next_contact(rotor, table, amplitudes, horizon, plane, start, work)
-    amplitudes[:] = work.nearest
-    return reaction, duration, target
+    return _next_contact(rotor, table, horizon, plane, work)
 
 
-@kernel
-def _next_contact(rotor, table, amplitudes, horizon, touched, start, work):
-    """Earliest contact over all planes; ``work.nearest`` holds the amplitudes there."""
-    outcome = CLEAR
-    target = -1
+@passage
+def _next_contact(rotor, table, horizon, touched, work):
+    """Earliest contact over all planes of the flight from ``work.current``; ``work.arrival`` holds the state there."""
+    outcome, target = CLEAR, INSIDE_ALL
+    several = rotor.rows.shape[0] > 1
+    if several:
+        copy(work.current, work.departure)
     for plane in range(rotor.rows.shape[0]):
-        found, time = first_crossing(
-            rotor, table, plane, amplitudes, horizon, start if plane == touched else INSIDE, work
-        )
-        if found != CLEAR or target < 0:
-            for k in range(amplitudes.shape[0]):
-                work.nearest[k] = work.arrival[k]
+        if several:
+            copy(work.departure, work.current)
+        found, time = search(rotor, table, plane, horizon, LEAVING if plane == touched else INSIDE, work)
+        if several and (found != CLEAR or plane == 0):
+            copy(work.arrival, work.nearest)
         if found != CLEAR:
             outcome, horizon, target = found, time, plane
+    if several:
+        copy(work.nearest, work.arrival)
     return outcome, horizon, target
 
 
-@kernel
-def _apply_strike(rotor, plane, amplitudes):
-    """Apply the impact law in place."""
-    position = displacement(rotor, plane, amplitudes)
-    speed = velocity(rotor, plane, amplitudes)
-    change, _ = strike(position, speed, rotor.friction[plane], rotor.restitution[plane], rotor.drive[plane])
-    for k in range(amplitudes.shape[0]):
-        amplitudes[k] += rotor.columns[k, plane] * change
+@passage
+def _meet(rotor, plane, memory, work):
+    """Impact of the arriving state; CONTACT, or how the motion has settled."""
+    normal, speed = displacement(rotor, plane, work.arrival), velocity(rotor, plane, work.arrival)
+    # The rounding error of |y| = 1, to its first power, is removed from the state; the law does not need that.
+    excess = 0.5 * (squared_modulus(normal) - 1.0)
+    move_plane(rotor, plane, complex(-excess * normal.real, -excess * normal.imag), work.arrival)
+    if memory.patience > 0 and recurs(memory, work.arrival):
+        copy(work.arrival, work.current)
+        return MIXED if memory.rubbed > 0 else BOUNCING
+    local = normal.conjugate() * speed
+    change, _ = rebound(local, rotor.friction[plane], rotor.restitution[plane], rotor.drive[plane])
+    change = normal * change
+    for k in range(work.current.shape[0]):
+        work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
+    return CONTACT
 
 
 @kernel
@@ -246,7 +261,7 @@ def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
     return CONTACT, duration, following
 
 
-@kernel
+@passage
 def _wall_reaction(rotor, plane, amplitudes, lifting):
     """What a state on the wall does next, and whether it is at rest there.
 
@@ -255,16 +270,18 @@ def _wall_reaction(rotor, plane, amplitudes, lifting):
     outlast the push; and else flies (CLEAR), as it does where a contact has just lost its push (``lifting``).
     """
     normal = unit(displacement(rotor, plane, amplitudes))
-    rebound = -(normal.conjugate() * velocity(rotor, plane, amplitudes)).real
+    local = normal.conjugate() * velocity(rotor, plane, amplitudes)
+    departure = -local.real
     rest = RESTING * speed_rounding(rotor, plane, amplitudes)
-    if rebound < -rest:
+    if departure < -rest:
         return CONTACT, False
+    push = (normal.conjugate() * acceleration(rotor, plane, amplitudes)).real + local.imag * local.imag
+    if departure > rest and (push <= 0.0 or departure * departure > 2.0 * push * CHATTER_HEIGHT):
+        return CLEAR, False
     push, rate = wall_push(rotor, plane, amplitudes)
-    if rebound <= rest:
+    if departure <= rest:
         pressed = push > 0.0 if abs(push) > push_rounding(rotor, plane, amplitudes) else rate > 0.0
         return (LANDING if pressed and lifting == 0 else CLEAR), True
-    if push <= 0.0 or rebound * rebound > 2.0 * push * CHATTER_HEIGHT:
-        return CLEAR, False
     loss = max(1.0 - rotor.restitution[plane], LEAST_LOSS)
-    brief = 2.0 * rebound * abs(rate) < 0.5 * push * push * loss
+    brief = 2.0 * departure * abs(rate) < 0.5 * push * push * loss
     return (LANDING if brief else CLEAR), False

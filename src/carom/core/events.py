@@ -28,7 +28,7 @@ from carom.core.block import (
     sign_changes,
 )
 from carom.core.flow import copy, displacement, nudge, squared_modulus
-from carom.core.layout import LEVELS, kernel, part
+from carom.core.layout import LEVELS, kernel, part, passage
 from carom.outcome import Outcome
 
 __all__ = ["INSIDE", "LEAVING", "first_crossing", "search"]
@@ -93,7 +93,7 @@ def search(rotor, table, plane, horizon, start, work):
         start = INSIDE
 
 
-@part
+@passage
 def _search_block(rotor, table, plane, horizon, start, work):
     """First crossing on a block from ``work.current``, or a time up to which there is none."""
     origin = displacement(rotor, plane, work.current)

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 
 from carom.core.flow import displacement, squared_modulus
-from carom.core.layout import kernel
+from carom.core.layout import part
 
-__all__ = ["set_on_wall", "strike", "strike_variation", "unit"]
+__all__ = ["move_plane", "rebound", "set_on_wall", "strike", "strike_variation", "unit"]
 
 
-@kernel
+@part
 def unit(z):
     """``z/|z|``."""
     scale = 1.0 / math.sqrt(squared_modulus(z))
     return complex(scale * z.real, scale * z.imag)
 
 
-@kernel
+@part
 def strike(position, velocity, friction, restitution, drive):
     """Change of velocity in an impact with Newton restitution and slip-limited Coulomb friction.
 
@@ -37,7 +37,13 @@ def strike(position, velocity, friction, restitution, drive):
         Whether the slip was stopped.
     """
     normal = unit(position)
-    local = normal.conjugate() * velocity
+    change, sticks = rebound(normal.conjugate() * velocity, friction, restitution, drive)
+    return normal * change, sticks
+
+
+@part
+def rebound(local, friction, restitution, drive):
+    """:func:`strike` in the frame of the contact: change of ``ṙ + iθ̇`` and whether the slip was stopped."""
     slip = drive + local.imag
     normal_change = (1.0 + restitution) * local.real
     tangential_change = friction * normal_change
@@ -45,10 +51,10 @@ def strike(position, velocity, friction, restitution, drive):
     if sticks:
         tangential_change = abs(slip)
     # Not copysign(tangential_change, slip): virtual orbits strike with ṙ⁻ < 0.
-    return normal * complex(-normal_change, -math.copysign(1.0, slip) * tangential_change), sticks
+    return complex(-normal_change, -math.copysign(1.0, slip) * tangential_change), sticks
 
 
-@kernel
+@part
 def strike_variation(position, velocity, friction, restitution, drive, position_change, velocity_change):
     """Directional derivative of the change of velocity in :func:`strike` (real-linear in the two changes)."""
     normal = unit(position)
@@ -69,11 +75,17 @@ def strike_variation(position, velocity, friction, restitution, drive, position_
     return normal * (variation + 1j * turn * change)
 
 
-@kernel
+@part
 def set_on_wall(rotor, plane, amplitudes):
-    """Remove the rounding error of ``|y| = 1`` by the smallest change of the amplitudes."""
+    """Move a plane to the nearest point of the wall by the smallest change of the amplitudes."""
     position = displacement(rotor, plane, amplitudes)
-    shift = unit(position) - position
+    move_plane(rotor, plane, unit(position) - position, amplitudes)
+
+
+@part
+def move_plane(rotor, plane, shift, amplitudes):
+    """Move a plane by the smallest change of the amplitudes."""
     scale = 1.0 / rotor.weights[plane]
+    scaled = complex(scale * shift.real, scale * shift.imag)
     for k in range(amplitudes.shape[0]):
-        amplitudes[k] += rotor.rows[plane, k].conjugate() * shift * scale
+        amplitudes[k] += rotor.rows[plane, k].conjugate() * scaled

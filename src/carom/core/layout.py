@@ -15,7 +15,21 @@ import numpy as np
 from numba.core import config
 from platformdirs import user_cache_path
 
-__all__ = ["DEGREE", "ORDER", "kernel", "part", "record", "rotor_record", "rub_workspace", "table_record", "workspace"]
+__all__ = [
+    "DEGREE",
+    "LEVELS",
+    "NODES",
+    "ORDER",
+    "TERMS",
+    "kernel",
+    "part",
+    "passage",
+    "record",
+    "rotor_record",
+    "rub_workspace",
+    "table_record",
+    "workspace",
+]
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
@@ -84,7 +98,6 @@ def rotor_record(
         gaps[k] = exponents[k] - exponents[k - 1]
     inverse_gaps = np.zeros(modes, np.complex128)
     np.divide(1.0, gaps, out=inverse_gaps, where=gaps != 0)
-    weights = (np.abs(rows) ** 2).sum(axis=1)
     return record(
         exponents=exponents,
         driven=np.asarray(driven, np.int8),
@@ -97,8 +110,7 @@ def rotor_record(
         acceleration_rows=rows @ generator @ generator,
         jerk_rows=rows @ generator @ generator @ generator,
         columns=columns,
-        weights=weights,
-        inverse_weights=1.0 / weights,
+        weights=(np.abs(rows) ** 2).sum(axis=1),
         friction=friction,
         restitution=restitution,
         drive=drive,
@@ -196,17 +208,24 @@ def kernel(function: Kernel) -> Kernel:
 
     Numba's own cache does not notice an edit in a callee of another file, so the cache directory is keyed by a hash of
     all of ``core/``.  Where no cache directory can be written the kernel is compiled anew in each process.
+
+    A literal number handed to a kernel makes a version of its own: hand on a variable, or ``int(LITERAL)``.
     """
-    return _compile(function, forceinline=False)
+    return _compile(function)
 
 
 def part(function: Kernel) -> Kernel:
-    """Compile a small kernel into each of its callers: no call, and what they need not is left out."""
+    """Compile a small kernel into each of its callers: no call, and what they do not need is left out."""
     return _compile(function, forceinline=True)
 
 
-def _compile(function: Kernel, forceinline: bool) -> Kernel:
-    options = {"nopython": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, "forceinline": forceinline}
+def passage(function: Kernel) -> Kernel:
+    """Compile a passage of a kernel, named for the reader, as if it were written where it is called, in one place."""
+    return _compile(function, inline="always")
+
+
+def _compile(function: Kernel, **more: bool | str) -> Kernel:
+    options = {"nopython": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
     directory = _cache_directory()
     if directory is None:
         return numba.jit(**options)(function)

@@ -24,7 +24,7 @@ import numpy as np
 
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import set_on_wall, unit
-from carom.core.layout import ORDER, kernel
+from carom.core.layout import ORDER, kernel, part
 from carom.outcome import Phase
 
 __all__ = [
@@ -206,7 +206,7 @@ def lift_off(rotor, plane, amplitudes, horizon, work):
     returned : bool
         Whether it is back on the wall.
     """
-    rub_series(rotor, plane, amplitudes, LEAVING, work)
+    rub_series(rotor, plane, amplitudes, int(LEAVING), work)
     step = min(rub_step(work), horizon)
     for k in range(ORDER + 1):
         work.first_margin[k] = -2.0 * work.push[k] / ((k + 1) * (k + 2))
@@ -293,7 +293,7 @@ def _value_and_slope(margin, time):
     return value, slope
 
 
-@kernel
+@part
 def speed_rounding(rotor, plane, amplitudes):
     """Rounding error of the radial speed and the speed along the wall."""
     speed = 1.0
@@ -312,7 +312,7 @@ def push_rounding(rotor, plane, amplitudes):
     return ROUNDING * _spread(rotor, plane, amplitudes) * force
 
 
-@kernel
+@part
 def _spread(rotor, plane, amplitudes):
     """Sum of the sizes of the terms of a displacement on the wall, which is one: how far they cancel."""
     spread = _size(rotor.offsets[plane])
@@ -321,7 +321,7 @@ def _spread(rotor, plane, amplitudes):
     return spread
 
 
-@kernel
+@part
 def _size(z):
     """Bound of ``|z|``."""
     return abs(z.real) + abs(z.imag)
