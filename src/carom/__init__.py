@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from carom.bifurcations import region_map as region_map
     from carom.boundary import BoundaryEquilibrium as BoundaryEquilibrium
     from carom.boundary import boundary_equilibria as boundary_equilibria
+    from carom.ensembles import Endings as Endings
+    from carom.ensembles import settle_all as settle_all
     from carom.equilibria import Equilibrium as Equilibrium
     from carom.equilibria import equilibria as equilibria
     from carom.ledger import EnergyLedger as EnergyLedger
@@ -77,6 +79,7 @@ _HOMES = {
     "CaromError": "outcome",
     "Case": "parameters",
     "Diagram": "bifurcations",
+    "Endings": "ensembles",
     "EnergyLedger": "ledger",
     "Equilibrium": "equilibria",
     "InputError": "outcome",
@@ -116,6 +119,7 @@ _HOMES = {
     "rolling": "whirl",
     "rub_limit": "whirl",
     "runaway_speed": "whirl",
+    "settle_all": "ensembles",
     "simulate": "trajectories",
     "single_impact_orbits": "orbits",
     "study": "study",

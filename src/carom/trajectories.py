@@ -21,7 +21,7 @@ from carom.equilibria import equilibria
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
 
-__all__ = ["EventLog", "Kick", "State", "Trajectory", "follow", "kick", "simulate"]
+__all__ = ["WALL_TOLERANCE", "EventLog", "Kick", "State", "Trajectory", "follow", "fresh_memory", "kick", "simulate"]
 
 WALL_TOLERANCE = 1e-12
 """A start this near to ``|U| = 1`` lies on the wall."""
@@ -269,13 +269,7 @@ def simulate(
     if max_events < 1:
         raise InputError("max_events", max_events, "a whole number of at least 1")
     modes = len(amplitudes)
-    recollection = memory(
-        modes,
-        rub_position=_attracting_rub(rotor) if settle else 0j,
-        patience=patience if settle else 0,
-        recheck=_recheck_time(rotor),
-        stop_at_landing=stop_at_chatter,
-    )
+    recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter)
     first = amplitudes.copy()
     logs: list[EventLog] = []
     reached, events, outcome, phase = 0.0, 0, Outcome.EVENT_LIMIT, int(Phase.FLIGHT)
@@ -319,6 +313,17 @@ def follow(
         rub_workspace(modes),
     )
     return Outcome(code), *rest
+
+
+def fresh_memory(rotor: Rotor, patience: int, stop_at_chatter: bool = False) -> np.record:
+    """Memory of a motion that is to begin, for :func:`follow`; with a ``patience`` of zero it settles to nothing."""
+    return memory(
+        len(rotor.eigenvalues),
+        rub_position=_attracting_rub(rotor) if patience > 0 else 0j,
+        patience=patience,
+        recheck=_recheck_time(rotor),
+        stop_at_landing=stop_at_chatter,
+    )
 
 
 def _attracting_rub(rotor: Rotor) -> complex:

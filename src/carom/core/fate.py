@@ -20,7 +20,7 @@ from carom.core.block import basis_amplitudes
 from carom.core.flow import squared_modulus
 from carom.core.layout import kernel, record
 
-__all__ = ["NEAR", "approaches_turn", "forget_rub", "levitates", "memory", "near_rub", "recurs", "same_state"]
+__all__ = ["NEAR", "approaches_turn", "forget", "forget_rub", "levitates", "memory", "near_rub", "recurs", "same_state"]
 
 NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
@@ -158,6 +158,14 @@ def approaches_turn(memory, position, amplitudes, speed):
         memory.turning = ROUND
         return False
     return memory.turning == ROUND and ahead.imag * speed < 0.0
+
+
+@kernel
+def forget(memory):
+    """Make a memory ready for another motion."""
+    memory.events, memory.renewal, memory.since = 0, 1, 0
+    memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
+    memory.turning = NO_TURN
 
 
 @kernel

@@ -206,6 +206,8 @@ def record(**fields: np.ndarray) -> np.record:
 def kernel(function: Kernel) -> Kernel:
     """Compile a kernel: no Python objects, IEEE arithmetic but for the sign of zero, kept in a disk cache.
 
+    It runs without Python's lock, so threads run side by side.
+
     Numba's own cache does not notice an edit in a callee of another file, so the cache directory is keyed by a hash of
     all of ``core/``.  Where no cache directory can be written the kernel is compiled anew in each process.
 
@@ -225,7 +227,7 @@ def passage(function: Kernel) -> Kernel:
 
 
 def _compile(function: Kernel, **more: bool | str) -> Kernel:
-    options = {"nopython": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
+    options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
     directory = _cache_directory()
     if directory is None:
         return numba.jit(**options)(function)

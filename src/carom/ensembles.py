@@ -1,0 +1,223 @@
+"""Ensembles: many starts followed to where they settle, on all cores."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.core.advance import INSIDE_ALL
+from carom.core.ensemble import follow_each
+from carom.core.layout import rub_workspace, workspace
+from carom.outcome import InputError, Outcome
+from carom.rotors import Rotor
+from carom.trajectories import WALL_TOLERANCE, EventLog, fresh_memory
+
+__all__ = ["Endings", "settle_all"]
+
+LONGEST = 2e5
+"""Time after which a motion that has not settled is given up, in ``1/Ω``."""
+PATIENCE = 20_000
+MOST_EVENTS = 1_000_000
+PORTION = 2048
+"""Starts of one machine that a thread takes at a time: some milliseconds to a second of work."""
+LOGGED = 256
+"""Events a kernel logs before it is asked to go on: few, to stay in the cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class Endings:
+    """Where the motions of an ensemble end; every array has the shape of the starts.
+
+    Attributes
+    ----------
+    outcomes : ndarray of int8
+        Codes of :class:`~carom.outcome.Outcome`.
+    times : ndarray
+        When that was known, in ``1/Ω``.
+    impacts : ndarray of int64
+        Impacts until then.
+    multiplicities : ndarray of int64
+        Impacts in a period of periodic bouncing; zero otherwise (of bouncing: aperiodic).
+    positions, velocities : ndarray of complex
+        State at that time, co-rotating frame.
+    """
+
+    outcomes: np.ndarray
+    times: np.ndarray
+    impacts: np.ndarray
+    multiplicities: np.ndarray
+    positions: np.ndarray
+    velocities: np.ndarray
+
+    def count(self, outcome: Outcome) -> int:
+        """Return how many motions end so."""
+        return int(np.count_nonzero(self.outcomes == outcome))
+
+    @property
+    def recovered(self) -> np.ndarray:
+        """Which motions come back to levitation for good."""
+        recovered: np.ndarray = self.outcomes == Outcome.LEVITATED
+        return recovered
+
+
+def settle_all(
+    rotor: Rotor | Sequence[Rotor],
+    positions: np.ndarray,
+    velocities: np.ndarray,
+    *,
+    which: np.ndarray | None = None,
+    until: float = LONGEST,
+    settle: bool = True,
+    patience: int = PATIENCE,
+    max_events: int = MOST_EVENTS,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Endings:
+    """Follow many starts, each as :func:`~carom.trajectories.simulate` would, and keep how they end.
+
+    The result does not depend on the number of threads, to the last bit: no motion knows of another.
+
+    Parameters
+    ----------
+    rotor : Rotor or sequence of Rotor
+        The machine, or machines of which each start has one.
+    positions, velocities : array_like of complex
+        Starts in the co-rotating frame, of one shape after broadcasting; ``|U| ≤ 1``.
+    which : array_like of int, optional
+        With a sequence: the machine of each start, of the same shape.
+    until : float
+        Time after which a motion that has not settled is given up, in ``1/Ω``.
+    settle : bool
+        End each motion as soon as it is known where it ends (criteria in :mod:`carom.core.fate`); otherwise at ``until``.
+    patience : int
+        With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
+    max_events : int
+        Impacts and steps of lasting contact after which a motion is given up.
+    threads : int, optional
+        By default as many as there are cores at hand.
+    progress : callable, optional
+        Called now and then with the share of starts done.
+
+    Returns
+    -------
+    Endings
+
+    Raises
+    ------
+    InputError
+        A start lies outside the wall or is not finite, or ``which`` names no machine.
+    """
+    rotors, which = _machines(rotor, which)
+    positions, velocities, which = np.broadcast_arrays(
+        np.asarray(positions, complex), np.asarray(velocities, complex), which
+    )
+    _check(positions, velocities, until, max_events, threads)
+    shape = positions.shape
+    impacts, multiplicities = np.empty((2, positions.size), np.int64)
+    endings = Endings(
+        outcomes=np.empty(positions.size, np.int8),
+        times=np.empty(positions.size),
+        impacts=impacts,
+        multiplicities=multiplicities,
+        positions=positions.ravel().copy(),
+        velocities=velocities.ravel().copy(),
+    )
+    limits = _Limits(until, settle, patience, max_events)
+    portions = list(_portions(which.ravel(), len(rotors)))
+    with ThreadPoolExecutor(threads or available_cores()) as pool:
+        work = [pool.submit(_settle_portion, rotors[machine], places, endings, limits) for machine, places in portions]
+        done = 0
+        try:
+            for portion in as_completed(work):
+                done += portion.result()
+                if progress:
+                    progress(done / positions.size)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return Endings(*(values.reshape(shape) for values in vars(endings).values()))
+
+
+def available_cores() -> int:
+    """Cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@dataclass(frozen=True)
+class _Limits:
+    until: float
+    settle: bool
+    patience: int
+    max_events: int
+
+
+def _machines(rotor: Rotor | Sequence[Rotor], which: np.ndarray | None) -> tuple[Sequence[Rotor], np.ndarray]:
+    if isinstance(rotor, Rotor):
+        if which is not None:
+            raise InputError("which", which, "left out where there is one machine")
+        return [rotor], np.zeros((), np.int64)
+    if which is None:
+        raise InputError("which", which, "the machine of each start, where there are several")
+    chosen = np.asarray(which)
+    if not np.issubdtype(chosen.dtype, np.integer) or chosen.min() < 0 or chosen.max() >= len(rotor):
+        raise InputError("which", chosen, f"whole numbers from 0 to {len(rotor) - 1}")
+    return rotor, chosen
+
+
+def _check(positions: np.ndarray, velocities: np.ndarray, until: float, max_events: int, threads: int | None) -> None:
+    for name, values in (("position", positions), ("velocity", velocities)):
+        wrong = ~np.isfinite(values)
+        if wrong.any():
+            raise InputError(f"start {name}", values[wrong].flat[0], "finite numbers")
+    outside = np.abs(positions) > 1.0 + WALL_TOLERANCE
+    if outside.any():
+        raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")
+    if not (np.isfinite(until) and until > 0):
+        raise InputError("until", until, "a finite time above 0, in 1/Omega")
+    if max_events < 1:
+        raise InputError("max_events", max_events, "a whole number of at least 1")
+    if threads is not None and threads < 1:
+        raise InputError("threads", threads, "a whole number of at least 1")
+
+
+def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, np.ndarray]]:
+    """Machine and places of starts that make one piece of work."""
+    order = np.argsort(which, kind="stable")
+    ends = np.searchsorted(which[order], np.arange(machines + 1))
+    for machine in range(machines):
+        for first in range(ends[machine], ends[machine + 1], PORTION):
+            yield machine, order[first : min(first + PORTION, ends[machine + 1])]
+
+
+def _settle_portion(rotor: Rotor, places: np.ndarray, endings: Endings, limits: _Limits) -> int:
+    """Follow some starts of one machine and note their endings; return their number."""
+    positions, velocities = endings.positions[places], endings.velocities[places]
+    planes = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, 0, INSIDE_ALL)
+    modes = len(rotor.eigenvalues)
+    notes = (
+        np.empty(len(places), np.int8),
+        np.empty(len(places)),
+        np.empty(len(places), np.int64),
+        np.empty(len(places), np.int64),
+    )
+    follow_each(
+        rotor.arrays,
+        rotor.table,
+        positions,
+        velocities,
+        planes,
+        limits.until,
+        limits.max_events,
+        notes,
+        tuple(EventLog.empty(LOGGED, modes)),
+        fresh_memory(rotor, limits.patience if limits.settle else 0),
+        workspace(modes),
+        rub_workspace(modes),
+    )
+    endings.outcomes[places], endings.times[places], endings.impacts[places], endings.multiplicities[places] = notes
+    endings.positions[places], endings.velocities[places] = positions, velocities
+    return len(places)

@@ -1,0 +1,107 @@
+"""Many motions in one call end as each does alone, whatever the threads."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import carom
+from carom.ensembles import Endings, settle_all
+from carom.outcome import InputError, Outcome
+
+SAME = ("outcomes", "times", "impacts", "multiplicities", "positions", "velocities")
+
+
+def starts(count: int, seed: int = 3) -> tuple[np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    positions = np.sqrt(rng.uniform(0, 1, count)) * np.exp(2j * np.pi * rng.uniform(0, 1, count))
+    positions[::7] /= np.abs(positions[::7])
+    velocities = 2 * np.sqrt(rng.uniform(0, 1, count)) * np.exp(2j * np.pi * rng.uniform(0, 1, count))
+    return positions, velocities
+
+
+def assert_same(first: Endings, second: Endings) -> None:
+    for name in SAME:
+        np.testing.assert_array_equal(getattr(first, name), getattr(second, name), err_msg=name)
+
+
+@pytest.fixture
+def machine() -> carom.Parameters:
+    return carom.Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+
+def test_each_ends_as_it_does_alone(machine):
+    rotor = carom.jeffcott(machine)
+    positions, velocities = starts(24)
+    together = settle_all(rotor, positions, velocities)
+    for place in range(len(positions)):
+        alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 2e5, settle=True)
+        assert together.outcomes[place] == alone.outcome
+        assert together.times[place] == pytest.approx(alone.time, rel=1e-13)
+        assert together.impacts[place] == len(alone.contacts)
+        assert together.multiplicities[place] == alone.multiplicity
+        assert together.positions[place] == pytest.approx(alone.final.position, abs=1e-13)
+        assert together.velocities[place] == pytest.approx(alone.final.velocity, abs=1e-13)
+    assert len(np.unique(together.outcomes)) == 3
+
+
+def test_threads_and_company_change_nothing(machine):
+    rotor = carom.jeffcott(machine)
+    positions, velocities = starts(40)
+    one = settle_all(rotor, positions, velocities, threads=1)
+    assert_same(one, settle_all(rotor, positions, velocities, threads=3))
+    half = settle_all(rotor, positions[::2], velocities[::2])
+    for name in SAME:
+        np.testing.assert_array_equal(getattr(one, name)[::2], getattr(half, name), err_msg=name)
+
+
+def test_starts_may_have_machines_of_their_own(machine):
+    rotors = [carom.jeffcott(machine.replace(gamma=gamma)) for gamma in (0.1, 0.3, 0.6)]
+    positions, velocities = starts(30)
+    which = np.arange(30) % 3
+    mixed = settle_all(rotors, positions, velocities, which=which)
+    for number, rotor in enumerate(rotors):
+        alone = settle_all(rotor, positions[which == number], velocities[which == number])
+        for name in SAME:
+            np.testing.assert_array_equal(getattr(mixed, name)[which == number], getattr(alone, name), err_msg=name)
+
+
+def test_arrays_keep_their_shape(machine):
+    endings = settle_all(carom.jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
+    assert endings.outcomes.shape == endings.velocities.shape == (2, 3)
+    assert endings.count(Outcome.LEVITATED) == endings.recovered.sum()
+
+
+def test_without_settling_motions_reach_the_time(machine):
+    endings = settle_all(carom.jeffcott(machine), *starts(8), until=5.0, settle=False)
+    assert (endings.outcomes == Outcome.TIME_REACHED).all()
+    np.testing.assert_array_equal(endings.times, 5.0)
+
+
+def test_progress_ends_at_one(machine):
+    told: list[float] = []
+    settle_all(carom.jeffcott(machine), *starts(8), until=5.0, progress=told.append)
+    assert told[-1] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"positions": [0.1, 1.5]}, "start position = .*inside the wall"),
+        ({"positions": [0.1, np.nan]}, "start position = .*finite"),
+        ({"velocities": [np.inf, 0.0]}, "start velocity = .*finite"),
+        ({"until": -1.0}, "until = -1.0"),
+        ({"max_events": 0}, "max_events = 0"),
+        ({"threads": 0}, "threads = 0"),
+        ({"which": [0, 0]}, "which = "),
+    ],
+)
+def test_bad_input_is_named(machine, changes, words):
+    arguments = {"positions": [0.1, 0.2], "velocities": [0.0, 0.0], **changes}
+    with pytest.raises(InputError, match=words):
+        settle_all(carom.jeffcott(machine), **arguments)
+
+
+def test_a_start_needs_a_machine_that_exists(machine):
+    with pytest.raises(InputError, match="whole numbers from 0 to 0"):
+        settle_all([carom.jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
