@@ -82,6 +82,58 @@ def test_kernels_run_where_the_home_cannot_be_written(tmp_path):
     assert Path(directory).is_relative_to(tmp_path / "chosen")
 
 
+@pytest.fixture
+def shared(tmp_path, monkeypatch):
+    """The cache in a shared directory of temporary files, where the home cannot be written; not made yet."""
+    blocked = tmp_path / "file"
+    blocked.touch()
+    monkeypatch.setattr(layout, "user_cache_path", lambda _: blocked / "cache")
+    monkeypatch.setattr(layout.tempfile, "gettempdir", lambda: str(tmp_path))
+    monkeypatch.setattr(config, "CACHE_DIR", "")
+    monkeypatch.delenv("CAROM_CACHE_DIR", raising=False)
+    return tmp_path / f"carom-{layout._user()}"
+
+
+posix = pytest.mark.skipif(os.name != "posix", reason="owners and modes of POSIX")
+
+
+@posix
+def test_a_cache_among_temporary_files_is_for_its_owner_alone(shared):
+    mask = os.umask(0)
+    try:
+        directory = layout._cache_directory.__wrapped__()
+    finally:
+        os.umask(mask)
+    assert directory.is_relative_to(shared)
+    assert shared.stat().st_mode & 0o777 == 0o700
+    assert layout._cache_directory.__wrapped__() == directory
+
+
+@posix
+@pytest.mark.parametrize("mode", [0o777, 0o770, 0o701])
+def test_a_cache_that_others_may_enter_is_not_used(shared, mode):
+    shared.mkdir()
+    shared.chmod(mode)
+    assert layout._cache_directory.__wrapped__() is None
+    assert list(shared.iterdir()) == []
+
+
+@posix
+def test_a_cache_that_others_own_is_not_used(shared, monkeypatch):
+    shared.mkdir(mode=0o700)
+    monkeypatch.setattr(layout.os, "getuid", lambda: shared.stat().st_uid + 1)
+    monkeypatch.setattr(layout, "_user", lambda: shared.name.removeprefix("carom-"))
+    assert layout._cache_directory.__wrapped__() is None
+
+
+@posix
+def test_a_link_is_no_cache(shared, tmp_path):
+    (tmp_path / "elsewhere").mkdir(mode=0o700)
+    shared.symlink_to(tmp_path / "elsewhere")
+    assert layout._cache_directory.__wrapped__() is None
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+
+
 @compiled
 def test_an_unusable_choice_falls_back(tmp_path):
     blocked = tmp_path / "file"

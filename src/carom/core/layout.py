@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import stat
 import tempfile
 from collections.abc import Callable
 from functools import cache
@@ -241,15 +242,27 @@ def _compile(function: Kernel, **more: bool | str) -> Kernel:
 
 @cache
 def _cache_directory() -> Path | None:
+    """Directory of compiled kernels: the one chosen, the user's, or one in the directory of temporary files.
+
+    Whoever can write there can have their own code run.  The directory of temporary files is shared, and the name in it
+    can be guessed: what is there already is taken only if it belongs to this user and nobody else may enter.
+    """
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.read_bytes())
-    roots = [user_cache_path("carom"), Path(tempfile.gettempdir()) / f"carom-{_user()}"]
+    shared = Path(tempfile.gettempdir()) / f"carom-{_user()}"
+    roots = [user_cache_path("carom"), shared]
     if chosen := os.environ.get("CAROM_CACHE_DIR") or config.CACHE_DIR:
         roots.insert(0, Path(chosen))
     for root in roots:
         directory = root / "kernels" / digest.hexdigest()[:16]
         try:
+            if root == shared:
+                root.mkdir(exist_ok=True, mode=0o700)
+                place = root.lstat()  # not of what a link leads to
+                foreign = os.name == "posix" and (place.st_uid != os.getuid() or place.st_mode & 0o077)
+                if foreign or not stat.S_ISDIR(place.st_mode):
+                    continue
             directory.mkdir(parents=True, exist_ok=True, mode=0o700)
             with tempfile.TemporaryFile(dir=directory):
                 return directory
