@@ -121,7 +121,12 @@ def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
         assert found.lost == ()
         for curve in found.curves:
             curves += 1
-            assert set(curve.stops) <= {"parameter limit", "end of domain", "closed loop"}
+            assert set(curve.stops) <= {
+                "edge of the plane",
+                "grazing meets the impact",
+                "period vanishes",
+                "closed loop",
+            }
             assert np.isfinite(curve.points).all()
             (low_x, low_y), (high_x, high_y) = np.transpose([plane.first_range, plane.second_range])
             x, y = curve.points.T

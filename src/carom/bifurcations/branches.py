@@ -26,7 +26,15 @@ __all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]
 STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
 SMALL = 1e-4
 """Radial speed of an orbit that stands for those that shrink to a point."""
-WATCHED = ("period-doubling", "neimark-sacker", "grazing", "radius-extremum", "non-smooth-hopf", "slip-stop")
+WATCHED = (
+    "period-doubling",
+    "neimark-sacker",
+    "grazing",
+    "radius-extremum",
+    "non-smooth-hopf",
+    "slip-stop",
+    "contact-onset",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +45,8 @@ class Bifurcation:
     ----------
     kind : str
         ``"fold"`` (two periods meet), ``"speed-fold"`` (two radial speeds of one period meet), ``"period-doubling"``,
-        ``"neimark-sacker"``, ``"grazing"``, ``"non-smooth-hopf"``, ``"slip-stop"`` (friction begins to stop the slip), or
+        ``"neimark-sacker"``, ``"grazing"``, ``"non-smooth-hopf"``, ``"slip-stop"`` (friction begins to stop the slip),
+        ``"contact-onset"`` (without rebound, ``d = 0``: the rotor begins to stay on the wall after the impact), or
         ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
     parameter : str
     value : float
@@ -233,5 +242,5 @@ def _bounds_admissible(kind: str, numbers: Numbers, period: float, speed: float)
     if kind == "non-smooth-hopf":
         speed = SMALL
     slips = kind == "slip-stop" or numbers.mu == 0.0 or conditions_at(numbers, period, speed).slip_stop > 0.0
-    inside = kind == "grazing" or not profile_at(numbers, period, speed).height >= 0.0
+    inside = kind in ("grazing", "contact-onset") or not profile_at(numbers, period, speed).height >= 0.0
     return speed > 0.0 and slips and inside

@@ -27,6 +27,7 @@ __all__ = [
     "jacobian_at",
     "letter",
     "orbit_of",
+    "pressed_on",
     "profile_at",
     "rub_fold",
 ]
@@ -110,6 +111,19 @@ def orbit_of(numbers: Numbers, pair: str, period: float, speed: float) -> Orbit:
     return orbit_at(jeffcott(numbers.parameters), name, period, section, nontrivial)
 
 
+def pressed_on(numbers: Numbers, period: float, speed: float) -> float:
+    """Normal force, in ``m c_r Ω²``, with which the rotor would be pressed on the wall just after the impact.
+
+    It is ``Re(Ū Ü) + |U̇|²`` with the velocity after the impact, in the frame that has the impact at ``U = 1``.  Where
+    the rotor does not rebound (``d = 0``) lasting contact begins as it grows through zero.
+    """
+    conditions = conditions_at(numbers, period, speed)
+    damping, stiffness = complex(numbers.gamma, 2.0), complex(numbers.omega**2 - 1.0, numbers.gamma)
+    factor = (1.0 + numbers.d) * complex(1.0, numbers.mu)
+    velocity = speed * (complex(1.0, -conditions.turn.imag) - factor)
+    return float((stiffness * conditions.lever * speed - damping * velocity).real + abs(velocity) ** 2)
+
+
 def rub_fold(numbers: Numbers) -> float:
     """``ρ²(1 + μ²) − (γ + μ(1 − ω²))²``: zero where the two synchronous rubs meet, negative without any.
 
@@ -133,5 +147,8 @@ TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "rub-fold": lambda n, period, speed: rub_fold(n),
     "resonance 1:1": lambda n, period, speed: 2.0 - conditions_at(n, period, speed).pair_sum,
     "resonance 1:2": lambda n, period, speed: 2.0 + conditions_at(n, period, speed).pair_sum,
+    "resonance 1:3": lambda n, period, speed: 1.0 + conditions_at(n, period, speed).pair_sum,
+    "resonance 1:4": lambda n, period, speed: conditions_at(n, period, speed).pair_sum,
+    "contact-onset": lambda n, period, speed: pressed_on(n, period, speed) if n.d == 0.0 else math.nan,
 }
 """Functions of the numbers, the period and the radial speed that vanish at each kind of special point."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
@@ -18,6 +19,8 @@ __all__ = ["KINDS", "Codimension2Point", "Curve", "Plane", "continue_curve"]
 
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 EDGE = "edge of the plane"
+VANISHING = 1e-2
+"""Period, or part of a period, that has shrunk to nothing where the equations end."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +104,10 @@ class Curve:
         Where it is a bifurcation of motions of the machine.
     codimension2 : tuple of Codimension2Point
     stops : tuple of two str
-        Why it ends at either end; see :class:`~carom.continuation.Branch`.
+        Why it ends at either end: ``"edge of the plane"``, ``"closed loop"``, the codimension-2 point where the bifurcation
+        ceases (``"resonance 1:1"`` or ``"1:2"`` of a Neimark–Sacker curve), ``"grazing meets the impact"`` (the time of
+        grazing reaches an end of the period), ``"period vanishes"``, or why the continuation gave up
+        (:class:`~carom.continuation.Branch`).
     """
 
     kind: str
@@ -137,9 +143,14 @@ KINDS: dict[str, _Kind] = {
     "fold": _Kind(2, ("boundary-equilibrium", "period-doubling", "grazing", "speed-fold", "slip-stop")),
     "speed-fold": _Kind(2, ("fold", "grazing", "period-doubling")),
     "period-doubling": _Kind(2, ("grazing", "fold", "speed-fold", "slip-stop", "boundary-equilibrium")),
-    "neimark-sacker": _Kind(2, ("grazing", "boundary-equilibrium"), ("resonance 1:1", "resonance 1:2")),
+    "neimark-sacker": _Kind(
+        2,
+        ("grazing", "boundary-equilibrium", "slip-stop", "resonance 1:3", "resonance 1:4"),
+        ("resonance 1:1", "resonance 1:2"),
+    ),
     "grazing": _Kind(3, ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop")),
     "slip-stop": _Kind(2, ("fold", "period-doubling", "grazing")),
+    "contact-onset": _Kind(2, ("fold", "period-doubling", "grazing", "slip-stop")),
     "boundary-equilibrium": _Kind(0, ("rub-fold",)),
     "rub-fold": _Kind(0, ("boundary-equilibrium",)),
 }
@@ -272,5 +283,23 @@ def _curve(kind: str, plane: Plane, branch: Branch, numbers: Callable[[np.ndarra
             for point in branch.special
             if point.kind in (*KINDS[kind].watched, *KINDS[kind].ends)
         ),
-        stops=branch.stops,
+        stops=(_stop(kind, branch, 0), _stop(kind, branch, -1)),
     )
+
+
+def _stop(kind: str, branch: Branch, end: Literal[0, -1]) -> str:
+    """Why a curve ends at its first or last point."""
+    reason = branch.stops[end]
+    if reason == "parameter limit":
+        return EDGE
+    if reason != "end of domain":
+        return reason
+    for point in branch.special:
+        if point.kind in (EDGE, *KINDS[kind].ends) and np.array_equal(point.unknowns, branch.unknowns[end]):
+            return point.kind
+    unknowns = branch.unknowns[end]
+    if KINDS[kind].unknowns and unknowns[0] < VANISHING:
+        return "period vanishes"
+    if kind == "grazing" and min(unknowns[2], unknowns[0] - unknowns[2]) < VANISHING * unknowns[0]:
+        return "grazing meets the impact"
+    return reason

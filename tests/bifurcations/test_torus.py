@@ -1,0 +1,110 @@
+"""Neimark–Sacker bifurcations: where a pair of complex multipliers leaves the unit circle and a torus is born."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import jeffcott, simulate, single_impact_orbits
+from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
+from carom.orbits import Orbit
+from carom.trajectories import State
+
+SOFT = PAPER.replace(omega=0.35, rho=0.2)
+"""The source paper's rotor on a softer bearing and better balanced: B1,d loses stability through a pair at 80 degrees."""
+PLANE = Plane("gamma", "omega", (0.02, 0.15), (0.15, 0.6))
+
+
+def orbit_at(gamma: float) -> Orbit:
+    return single_impact_orbits(jeffcott(SOFT.replace(gamma=gamma)))["B1,d"]
+
+
+@pytest.fixture(scope="module")
+def torus() -> Bifurcation:
+    branch = continue_orbit(orbit_at(0.1), "gamma", (0.05, 0.13))
+    (point,) = [point for point in branch.special if point.kind == "neimark-sacker"]
+    return point
+
+
+@pytest.fixture(scope="module")
+def curve(torus) -> Curve:
+    return continue_curve("neimark-sacker", torus.numbers.parameters, PLANE, (torus.period, torus.radial_speed))
+
+
+def test_a_complex_pair_is_on_the_unit_circle(torus):
+    assert torus.admissible
+    assert torus.value == pytest.approx(0.077229, abs=1e-6)
+    first, second, third = torus.orbit.multipliers.values
+    assert abs(first) == pytest.approx(1.0, abs=1e-10)
+    assert second == pytest.approx(first.conjugate(), abs=1e-10)
+    assert np.degrees(np.angle(first)) == pytest.approx(80.1, abs=0.1)
+    # A section of the flow contracts by d² e^{−2γT} in all.
+    expected = SOFT.d**2 * np.exp(-2.0 * torus.value * torus.period)
+    assert abs(third) == pytest.approx(expected, abs=1e-10)
+
+
+def growth_an_impact(gamma: float) -> tuple[float, float]:
+    """Modulus and angle by which a simulated disturbance of the orbit grows and turns from impact to impact.
+
+    A linear recurrence over three terms is fitted to the radial speeds: its roots are the multipliers.
+    """
+    orbit = orbit_at(gamma)
+    start = State(orbit.departure.position, orbit.departure.velocity * (1.0 + 1e-7))
+    speeds = simulate(orbit.rotor, start, 90.0 * orbit.period).contacts.radial_speed
+    # By then the third multiplier has died out.
+    errors = speeds[25:80] - orbit.radial_speed
+    rows = np.stack([errors[1:-1], errors[:-2]], axis=1)
+    trace, product = np.linalg.lstsq(rows, errors[2:], rcond=None)[0]
+    root = np.roots([1.0, -trace, -product])[0]
+    return abs(root), abs(np.angle(root))
+
+
+def test_disturbances_spiral_out_before_and_in_after(torus):
+    """By simulation alone: the disturbance turns by the angle of the pair, and grows on one side only."""
+    angle = abs(np.angle(torus.orbit.multipliers.values[0]))
+    for shift, grows in ((-0.002, True), (0.002, False)):
+        modulus, turn = growth_an_impact(torus.value + shift)
+        assert bool(modulus > 1.0) is grows
+        assert modulus == pytest.approx(orbit_at(torus.value + shift).multipliers.spectral_radius, abs=1e-6)
+        assert turn == pytest.approx(angle, abs=0.05)
+    # The modulus found by simulation passes 1 where the point was located.
+    low, high = (growth_an_impact(torus.value + shift)[0] - 1.0 for shift in (-1e-4, 1e-4))
+    assert torus.value - 1e-4 + 2e-4 * low / (low - high) == pytest.approx(torus.value, abs=2e-6)
+
+
+def test_curve_by_the_multipliers_of_the_orbits(curve):
+    assert len(curve.points) > 10
+    assert curve.steps.max() < 0.16
+    for (x, y), period, speed in list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))[1:-1:3]:
+        orbits = single_impact_orbits(jeffcott(SOFT.replace(gamma=x, omega=y)))
+        near = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed - speed))
+        leader = near.multipliers.values[0]
+        assert abs(leader) == pytest.approx(1.0, abs=1e-8)
+        assert abs(leader.imag) > 1e-3
+
+
+def test_curve_ends_in_a_resonance_or_at_the_edge(curve):
+    assert set(curve.stops) <= {"edge of the plane", "resonance 1:2"}
+    for kind, angle in (("1:3", 120.0), ("1:4", 90.0), ("1:2", 180.0)):
+        for point in curve.codimension2:
+            if point.kind.endswith(kind):
+                x, y = point.value
+                orbits = single_impact_orbits(jeffcott(SOFT.replace(gamma=x, omega=y)))
+                near = min(orbits, key=lambda orbit: np.abs(np.abs(orbit.multipliers.values[:2]) - 1.0).max())
+                leader = np.exp(1j * np.radians(angle))
+                # Two multipliers that meet at −1 are a square root apart from what rounding makes of the place.
+                assert np.abs(near.multipliers.values - leader).min() < (1e-3 if kind == "1:2" else 1e-7)
+    assert any("1:4" in point.kind for point in curve.codimension2)
+
+
+@pytest.mark.parametrize(("name", "limits"), [("mu", (0.05, 0.3)), ("d", (0.85, 1.0)), ("rho", (0.1, 0.3))])
+def test_curve_in_other_parameters(torus, name, limits):
+    plane = Plane("gamma", name, (0.01, 0.2), limits)
+    found = continue_curve("neimark-sacker", torus.numbers.parameters, plane, (torus.period, torus.radial_speed))
+    x, y = found.points[len(found.points) // 2]
+    near = min(
+        single_impact_orbits(jeffcott(SOFT.replace(gamma=x, **{name: y}))),
+        key=lambda orbit: abs(orbit.multipliers.spectral_radius - 1.0),
+    )
+    assert near.multipliers.spectral_radius == pytest.approx(1.0, abs=1e-8)
