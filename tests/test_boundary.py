@@ -8,7 +8,7 @@ from carom.boundary import SMALL_GAP, boundary_equilibria
 from carom.equilibria import equilibria
 from carom.orbits import single_impact_orbits
 from carom.outcome import InputError, Outcome
-from carom.parameters import Parameters
+from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.periods import PeriodCondition
 from carom.rotors import jeffcott
 from carom.trajectories import State, simulate
@@ -147,6 +147,19 @@ def test_undamped_rotor_is_classified_without_its_orbits():
 
     assert [boundary.kind for boundary in boundaries] == ["non-smooth fold", "persistence"]
     assert not any(boundary.orbits or boundary.complete for boundary in boundaries)
+
+
+@pytest.mark.parametrize("gain", ["gamma", "omega"])
+def test_largest_unbalance_allowed_is_classified_too(gain):
+    """A gap away from the boundary, where small orbits are looked up, the unbalance must not leave its range."""
+    highest = DIMENSIONLESS_FIELDS["rho"].highest
+    (boundary,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=highest)), gain)
+    (lower,) = boundary_equilibria(jeffcott(SOURCE.replace(rho=0.999 * highest)), gain)
+
+    assert (boundary.kind, boundary.levitates) == ("persistence", "above")
+    assert boundary.value == pytest.approx(lower.value, rel=2e-3)
+    assert boundary.force_rate == pytest.approx(lower.force_rate, rel=5e-3)
+    assert [orbit.name for orbit in boundary.orbits] == [orbit.name for orbit in lower.orbits]
 
 
 def test_unknown_gain_is_named():

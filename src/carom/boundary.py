@@ -19,27 +19,25 @@ the source paper): from ``|1 + q a₁₂ ṙ| = |U*|``,
 
 Where ``Re(q a₁₂) < 0`` the orbit (``a``, ``b``) lives on the side where the rotor levitates, and bounds which disturbances
 come back; else (``c``, ``d``) it takes over on the other.  ``F₁`` does not depend on ``ρ``: the orbits are looked up a small
-gap away, reached by scaling ``ρ``, where the general search decides whether they stay inside between impacts.
+gap away, reached by moving ``U*`` along its radius as ``ρ`` does, where the general search decides whether they stay inside
+between impacts.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
-from carom.orbits import Orbit, single_impact_orbits
+from carom.orbits import Orbit, orbits_within_reach
 from carom.outcome import InputError
 from carom.parameters import Parameters
-from carom.periods import PeriodCondition
 from carom.rotors import Rotor, jeffcott
 
 __all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria"]
 
 SMALL_GAP = 1e-5
 """Gap at which small orbits are looked at: what is left out is of this order, rounding of ``1e-16/1e-5``."""
-MOST_RADIANS = 1500.0
-"""How far the fastest mode may turn, or decay, within the longest period searched."""
 DEGENERATE = 1e-12
 
 
@@ -183,17 +181,21 @@ def _small_orbits(at: Parameters) -> tuple[tuple[SmallOrbit, ...], bool]:
     """Orbits near the boundary equilibrium on both sides, and whether all were searched."""
     if at.gamma <= 0.0:
         return (), False
-    condition = PeriodCondition(jeffcott(at))
-    limit = MOST_RADIANS / float(abs(condition.exponents).max())
-    longest = None if condition.longest_period() <= limit else limit
     found = []
     complete = True
     for inside in (True, False):
-        rho = at.rho * (1.0 - SMALL_GAP if inside else 1.0 + SMALL_GAP)
-        orbits = single_impact_orbits(jeffcott(at.replace(rho=rho)), longest)
+        orbits = orbits_within_reach(_at_gap(at, SMALL_GAP if inside else -SMALL_GAP))
         complete = complete and orbits.complete
         found += [_small_orbit(orbit, inside) for orbit in _smallest(tuple(orbits)) if orbit.radial_speed > 0.0]
     return tuple(sorted(found, key=lambda orbit: orbit.name)), complete
+
+
+def _at_gap(at: Parameters, gap: float) -> Rotor:
+    """Rotor at a boundary equilibrium with its equilibrium moved inward; its ``ρ`` may be the largest there is."""
+    rotor = jeffcott(at)
+    arrays = rotor.arrays.copy()
+    arrays.offsets[:] *= 1.0 - gap
+    return replace(rotor, arrays=arrays)
 
 
 def _smallest(orbits: tuple[Orbit, ...]) -> list[Orbit]:

@@ -18,8 +18,10 @@ from carom.rotors import Rotor
 from carom.stability import Multipliers, multipliers
 from carom.trajectories import State, Trajectory, simulate
 
-__all__ = ["Orbit", "OrbitSet", "orbit_at", "period_condition", "single_impact_orbits"]
+__all__ = ["Orbit", "OrbitSet", "orbit_at", "orbits_within_reach", "period_condition", "single_impact_orbits"]
 
+MOST_RADIANS = 1500.0
+"""How far the fastest mode may turn, or decay, within the longest period of the orbits looked up: some hundred orbits."""
 ARRIVAL_TOLERANCE = 1e-7
 """Relative difference of the certified first return and the period below which they are the same event."""
 
@@ -216,6 +218,23 @@ def single_impact_orbits(rotor: Rotor, longest_period: float | None = None) -> O
         reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
         orbits += [orbit for orbit in reversed_orbits if _slip_speed(orbit) < 0.0 < orbit.radial_speed]
     return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, slip_stays_forward)
+
+
+def orbits_within_reach(rotor: Rotor) -> OrbitSet:
+    """All single-impact orbits; with little or no damping, when they are too many, only those of shorter period.
+
+    Parameters
+    ----------
+    rotor : Rotor
+
+    Returns
+    -------
+    OrbitSet
+        Its ``complete`` and ``argument`` tell whether the list was cut.
+    """
+    condition = PeriodCondition(rotor)
+    limit = MOST_RADIANS / float(abs(condition.exponents).max())
+    return single_impact_orbits(rotor, None if condition.longest_period() <= limit else limit)
 
 
 def _slip_stays_forward(rotor: Rotor) -> bool:

@@ -11,8 +11,9 @@ import numpy as np
 
 from carom.attractors.following import endings_of
 from carom.attractors.groups import Groups
-from carom.attractors.search import PATIENCE, orbits_within_reach
+from carom.attractors.search import PATIENCE
 from carom.attractors.starts import DISTURBANCES, FASTEST, Start, disturbances
+from carom.orbits import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.rotors import Rotor, jeffcott

@@ -8,18 +8,15 @@ from dataclasses import dataclass
 from carom.attractors.following import Ending, endings_of
 from carom.attractors.groups import Attractor, Groups
 from carom.attractors.starts import DISTURBANCES, FASTEST, Start, disturbances, known_starts
-from carom.orbits import Orbit, single_impact_orbits
+from carom.orbits import orbits_within_reach
 from carom.outcome import InputError, Outcome
-from carom.periods import PeriodCondition
 from carom.rotors import Rotor
 from carom.trajectories import Kick, State
 
-__all__ = ["PATIENCE", "AttractorSet", "find_attractors", "orbits_within_reach"]
+__all__ = ["PATIENCE", "AttractorSet", "find_attractors"]
 
 PATIENCE = 20_000
 """Impacts without recurrence after which bouncing counts as irregular; irregular transients of thousands are common."""
-MOST_RADIANS = 1500.0
-"""How far the fastest mode may turn, or decay, within the longest period of the orbits looked up."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +140,7 @@ def find_attractors(
     else:
         sample = tuple(_given(rotor, start) for start in starts)
         fastest = max((start.speed for start in sample), default=0.0)
-    orbits = orbits_within_reach(rotor)
+    orbits = tuple(orbits_within_reach(rotor))
     sample += known_starts(rotor, orbits) if known else ()
     if not sample:
         raise InputError("count", count, "at least one start to follow")
@@ -153,13 +150,6 @@ def find_attractors(
     members = tuple(groups.attractor(name, endings) for name in groups.names)
     ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
     return AttractorSet(rotor, tuple(ordered), endings, seed, fastest, patience)
-
-
-def orbits_within_reach(rotor: Rotor) -> tuple[Orbit, ...]:
-    """Single-impact orbits; with little damping, when they are too many, those of shorter period; else none."""
-    condition = PeriodCondition(rotor)
-    limit = MOST_RADIANS / float(abs(condition.exponents).max())
-    return tuple(single_impact_orbits(rotor, None if condition.longest_period() <= limit else limit))
 
 
 def _given(rotor: Rotor, start: State | Kick) -> Start:

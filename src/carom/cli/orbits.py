@@ -34,13 +34,13 @@ def orbits(
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)"):
         from carom.equilibria import equilibria
-        from carom.orbits import single_impact_orbits
+        from carom.orbits import orbits_within_reach, single_impact_orbits
         from carom.rotors import jeffcott
-        from carom.study import all_orbits, orbits_document
+        from carom.study import orbits_document
 
         rotor = jeffcott(case.parameters)
         steady = equilibria(rotor)
-        found = all_orbits(rotor) if longest is None else single_impact_orbits(rotor, longest)
+        found = orbits_within_reach(rotor) if longest is None else single_impact_orbits(rotor, longest)
     if as_json:
         print_document(orbits_document(case.parameters, steady, found, case.machine))
         return

@@ -13,7 +13,7 @@
 ==================  ==================================================================================
 """
 
-from carom.study.assembly import Study, all_orbits, study
+from carom.study.assembly import Study, study
 from carom.study.document import as_json, orbits_document, trajectory_document
 from carom.study.ranges import Edge, MotionRange, Span, Threshold, free_spans
 from carom.study.verdict import NOT_COVERED, Finding, Verdict
@@ -29,7 +29,6 @@ __all__ = [
     "Threshold",
     "Verdict",
     "Wording",
-    "all_orbits",
     "as_json",
     "free_spans",
     "orbits_document",

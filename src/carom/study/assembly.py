@@ -10,10 +10,9 @@ from typing import Any
 from carom.attractors import AttractorSet, find_attractors
 from carom.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.equilibria import Equilibrium, equilibria
-from carom.orbits import Orbit, OrbitSet, single_impact_orbits
+from carom.orbits import Orbit, OrbitSet, orbits_within_reach
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Parameters, Zones
-from carom.periods import PeriodCondition
 from carom.rotors import Rotor, jeffcott
 from carom.safety import SafeDamping, least_safe_damping
 from carom.study.document import study_document
@@ -22,10 +21,7 @@ from carom.study.ranges import Gain, Motion, MotionRange, Threshold, contact_fre
 from carom.study.verdict import Verdict, verdict
 from carom.study.wording import Wording
 
-__all__ = ["Study", "all_orbits", "study"]
-
-MOST_RADIANS = 600.0
-"""How far the fastest mode may turn, or decay, within the longest period searched: some hundred orbits."""
+__all__ = ["Study", "study"]
 
 Progress = Callable[[float, str], None]
 
@@ -142,7 +138,7 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     parameters = case.parameters
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     rotor = jeffcott(parameters)
-    orbits = all_orbits(rotor)
+    orbits = orbits_within_reach(rotor)
     tell(0.15, "disturbances")
     found = find_attractors(rotor, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
     ranges = _ranges(parameters, lambda share: tell(0.3 + 0.2 * share, "thresholds of damping and stiffness"))
@@ -152,23 +148,6 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
         parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
     )
     return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, found, safe)
-
-
-def all_orbits(rotor: Rotor) -> OrbitSet:
-    """All single-impact orbits; with little or no damping, when they are too many, only those of shorter period.
-
-    Parameters
-    ----------
-    rotor : Rotor
-
-    Returns
-    -------
-    OrbitSet
-        Its ``complete`` and ``argument`` tell whether the list was cut.
-    """
-    condition = PeriodCondition(rotor)
-    limit = MOST_RADIANS / float(abs(condition.exponents).max())
-    return single_impact_orbits(rotor, None if condition.longest_period() <= limit else limit)
 
 
 def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:
