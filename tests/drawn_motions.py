@@ -5,16 +5,16 @@ from __future__ import annotations
 import cmath
 import math
 
+from compilation import sized
 from hypothesis import settings
 from hypothesis import strategies as st
-from numba.core import config
 
 from carom.parameters import Parameters
 from carom.trajectories import State
 
-MANY = settings(max_examples=15 if config.DISABLE_JIT else 150)
+MANY = settings(max_examples=sized(150, 15))
 """How many motions to draw; fewer without the compiler."""
-EVENTS = 50 if config.DISABLE_JIT else 500
+EVENTS = sized(500, 50)
 """Events to follow each through."""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import InputError, equilibria, jeffcott, single_impact_orbits
@@ -113,7 +114,7 @@ def test_map_of_the_source_papers_plane():
 def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
     random = np.random.default_rng(77)
     curves = 0
-    for _ in range(50):
+    for _ in range(sized(50, 4)):
         machine = random_parameters(random)
         gamma, omega = machine.gamma, machine.omega
         plane = Plane("gamma", "omega", (0.5 * gamma, 2.0 * gamma), (0.7 * omega, 1.3 * omega))
@@ -132,7 +133,7 @@ def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
             x, y = curve.points.T
             slack = 1e-9 * gamma
             assert ((low_x - slack <= x) & (x <= high_x + slack) & (low_y <= y) & (y <= high_y)).all()
-    assert curves > 10
+    assert curves > sized(10, 1)
 
 
 def test_inputs_that_cannot_be_used():

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from compilation import COMPILED
 from flights import (
     Tally,
     Task,
@@ -18,7 +19,6 @@ from flights import (
     task_from_state,
     wall_task,
 )
-from numba.core import config
 from reference import plane_flight
 
 from carom.core import events
@@ -28,7 +28,7 @@ from carom.outcome import Outcome
 from carom.rotors import jeffcott
 
 HORIZON = 15.0
-SHARE = 0.05 if config.DISABLE_JIT else 1.0
+SHARE = 1.0 if COMPILED else 0.05
 """Without the compiler a sample is enough to go through every line."""
 
 

@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from compilation import COMPILED
 from numba.core import config
 
 from carom.core import layout
 
-compiled = pytest.mark.skipif(bool(config.DISABLE_JIT), reason="the compiler is off")
+compiled = pytest.mark.skipif(not COMPILED, reason="the compiler is off")
 
 SQUARE = """
 import pathlib, sys

@@ -5,6 +5,7 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
+from compilation import sized
 from machines import PAPER, exact_return, random_parameters
 
 from carom import jeffcott, single_impact_orbits
@@ -101,7 +102,7 @@ def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
 
 def test_radial_profile_agrees_with_dense_sampling():
     seen = 0
-    for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(30, 8)]:
+    for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(sized(30, 3), 8)]:
         for orbit in single_impact_orbits(jeffcott(parameters), 15.0):
             if orbit.slip < 0 or not 1e-3 < abs(orbit.radial_speed) < 30.0 or orbit.period < 1e-2:
                 continue

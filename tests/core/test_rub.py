@@ -9,6 +9,7 @@ from functools import partial
 import mpmath
 import numpy as np
 import pytest
+from compilation import sized
 from machines import PAPER, fly, random_parameters
 from scipy.integrate import solve_ivp
 
@@ -522,7 +523,7 @@ def _follow_slide(parameters, angle, rate, phase):
 
 
 def test_lift_off_leaves_as_the_cube_of_time():
-    for parameters, amplitudes in departures(20):
+    for parameters, amplitudes in departures(sized(20, 5)):
         rotor = jeffcott(parameters).arrays
         push, change = wall_push(rotor, 0, amplitudes)
         assert abs(push) < 2 * push_rounding(rotor, 0, amplitudes)

@@ -12,19 +12,18 @@ import math
 from collections import Counter
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 import pytest
+from compilation import sized
 
 from carom import Parameters, jeffcott
 from carom.outcome import Phase
 from carom.rotors import Rotor
 from carom.trajectories import State, Trajectory, simulate
 
-COMPILED = not numba.config.DISABLE_JIT
 MACHINES = 50
-STARTS = 2000 if COMPILED else 1
-PATIENCE = 1000 if COMPILED else 30
+STARTS = sized(2000, 1)
+PATIENCE = sized(1000, 30)
 MOST_EVENTS = 200_000
 UNTIL = 1e6
 STEPS_PER_ANGLE = 5.0

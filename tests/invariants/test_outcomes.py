@@ -6,15 +6,15 @@ import math
 
 import numpy as np
 import pytest
+from compilation import sized
 from drawn_motions import EVENTS
-from numba.core import config
 
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.rotors import jeffcott
 from carom.trajectories import State, simulate
 
-MACHINES = 2 if config.DISABLE_JIT else 150
+MACHINES = sized(150, 2)
 STOPPED = {Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING}
 
 

@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from compilation import sized
 from drawn_motions import EVENTS, MANY, machines, starts
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -20,6 +21,7 @@ from carom.trajectories import State, simulate
 
 EPSILON = 2.0**-52
 UNTIL = 6.0
+SAMPLES = sized(300, 40)
 
 
 def states(motion, times):
@@ -157,7 +159,7 @@ def drift(values):
 @given(machines(gamma=0.0, mu=0.0, d=1.0, rho=0.0), starts())
 def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(machine, start):
     motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
-    times = motion.sample(300)
+    times = motion.sample(SAMPLES)
     energy, momentum, _ = energies(machine, motion, times)
     rounding = 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * (1.0 + energy[0])
     assert drift(energy) <= rounding
@@ -169,7 +171,7 @@ def test_without_losses_and_unbalance_energy_and_angular_momentum_are_conserved(
 def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
     rotor = jeffcott(machine)
     motion = simulate(rotor, start, 20.0, max_events=EVENTS)
-    times = motion.sample(300)
+    times = motion.sample(SAMPLES)
     energy, _, jacobi = energies(machine, motion, times)
     size = (1.0 + energy.max()) * (1.0 + abs(rotor.equilibrium)) ** 2
     assert drift(jacobi) <= 32 * EPSILON * (10.0 + len(motion.segment_starts) + motion.time) * size
@@ -179,7 +181,7 @@ def test_without_losses_the_integral_of_jacobi_is_conserved(machine, start):
 @given(machines(mu=0.0, rho=0.0), starts())
 def test_without_unbalance_and_friction_energy_only_falls(machine, start):
     motion = simulate(jeffcott(machine), start, 20.0, max_events=EVENTS)
-    energy, _, _ = energies(machine, motion, motion.sample(300))
+    energy, _, _ = energies(machine, motion, motion.sample(SAMPLES))
     assert np.all(np.diff(energy) <= 64 * EPSILON * (10.0 + motion.time) * (1.0 + energy[0]))
 
 

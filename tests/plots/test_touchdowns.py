@@ -5,6 +5,7 @@ from __future__ import annotations
 import matplotlib as mpl
 import numpy as np
 import pytest
+from compilation import COMPILED
 
 import carom
 from carom import plots
@@ -18,13 +19,24 @@ def rub(damped):
     return carom.simulate(damped.rotor, carom.kick(0.1, angle=0.2), until=45.0)
 
 
+@pytest.fixture(autouse=True)
+def _coarse_without_the_compiler(monkeypatch):
+    if not COMPILED:
+        monkeypatch.setattr("carom.plots.touchdowns._SAMPLES", 100)
+
+
+@pytest.fixture(scope="module")
+def ledger(rub):
+    return energy_ledger(rub)
+
+
 def _words(figure) -> str:
     texts = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
     return " | ".join(texts)
 
 
-def test_touchdown_tells_regimes_forces_and_energies_in_words_and_units(rub):
-    figure = plots.touchdown(rub, energy_ledger(rub), title="kick")
+def test_touchdown_tells_regimes_forces_and_energies_in_words_and_units(rub, ledger):
+    figure = plots.touchdown(rub, ledger, title="kick")
     words = _words(figure)
     for expected in (
         "flight",
@@ -58,8 +70,7 @@ def test_forces_of_a_motion_without_lasting_contact_show_impulses_alone(bouncing
     assert len(stems) == len(bouncing.contacts)
 
 
-def test_energies_draw_every_account(rub):
-    ledger = energy_ledger(rub)
+def test_energies_draw_every_account(ledger):
     figure = plots.energies(ledger)
     drawn = {line.get_label(): line.get_ydata() for line in figure.axes[0].lines}
     np.testing.assert_allclose(drawn["work of the drive"], ledger.drive)
@@ -72,7 +83,7 @@ def test_spectrum_marks_multiples_of_the_shaft_speed(bouncing):
     assert ticks == ["\N{MINUS SIGN}3X", "\N{MINUS SIGN}2X", "\N{MINUS SIGN}1X", "0", "+1X", "+2X", "+3X"]
 
 
-def test_user_settings_are_left_alone(rub):
+def test_user_settings_are_left_alone(rub, ledger):
     before = dict(mpl.rcParams)
-    plots.touchdown(rub, energy_ledger(rub))
+    plots.touchdown(rub, ledger)
     assert dict(mpl.rcParams) == before
