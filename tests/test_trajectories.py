@@ -72,6 +72,13 @@ def test_position_and_velocity_at_given_times(motion):
     assert empty.shape == (0,)
 
 
+@pytest.mark.parametrize("frame", ["Fixed", "inertial", "", None])
+def test_frames_that_are_none_are_refused(motion, frame):
+    with pytest.raises(InputError, match="must be 'rotating' or 'fixed'") as caught:
+        motion.position(np.zeros(1), frame=frame)
+    assert caught.value.field == "frame"
+
+
 def test_frames(motion):
     times = np.linspace(0.0, 30.0, 50)
     rotating, fixed = motion.position(times), motion.position(times, frame="fixed")

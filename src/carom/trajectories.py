@@ -212,7 +212,15 @@ class Trajectory:
         return np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
 
     def position(self, times: np.ndarray, frame: Literal["rotating", "fixed"] = "rotating") -> np.ndarray:
-        """Position in clearances, ``U`` in the co-rotating or ``Z = U e^{it}`` in the fixed frame."""
+        """Position in clearances, ``U`` in the co-rotating or ``Z = U e^{it}`` in the fixed frame.
+
+        Raises
+        ------
+        InputError
+            The frame is another.
+        """
+        if frame not in ("rotating", "fixed"):
+            raise InputError("frame", repr(frame), "must be 'rotating' or 'fixed'")
         rotating, _ = self.at(times)
         return rotating if frame == "rotating" else rotating * np.exp(1j * np.asarray(times))
 
