@@ -209,6 +209,42 @@ def test_a_balanced_rotor_rests_in_the_middle_and_has_no_rub():
     assert rubs == ()
 
 
+@pytest.mark.parametrize("omega", [0.76, 1.2])
+@pytest.mark.parametrize(("gamma", "mu"), [(0.0, 0.0), (0.0, 0.15), (0.1, 0.0)])
+def test_a_balanced_rotor_has_no_isolated_rub(omega, gamma, mu):
+    """Without any force along the wall it may rest at every angle; no two of these places are its rubs."""
+    parameters = PAPER.replace(rho=0.0, omega=omega, gamma=gamma, mu=mu)
+    assert found(parameters)[1] == ()
+    if gamma == mu == 0.0 and omega < 1.0:
+        # Pressed outward with N = 1 − ω², and at rest wherever it is put.
+        for place in np.exp(1j * np.linspace(0.0, 6.0, 7)):
+            motion = simulate(jeffcott(parameters), State(place), 50.0)
+            assert motion.final.position == pytest.approx(place, abs=1e-13)
+            assert motion.forces(np.array([25.0]))[0] == pytest.approx(1.0 - omega**2, abs=1e-13)
+
+
+@pytest.mark.parametrize("rho", [1e-300, 1e-200, 1e-17])
+def test_the_least_unbalance_singles_out_two_places(rho):
+    """Without damping and friction a rub lies where the unbalance points, ``sin x = 0``, however small it is."""
+    _, rubs = found(PAPER.replace(rho=rho, gamma=0.0, mu=0.0))
+    assert len(rubs) == 2
+    for rub in rubs:
+        assert math.sin(rub.angle - PAPER.phi) == pytest.approx(0.0, abs=1e-12)
+        assert rub.normal_force == pytest.approx(1.0 - PAPER.omega**2, abs=1e-12)
+        assert not rub.stable
+
+
+def test_without_damping_and_friction_no_rub_attracts():
+    """Along the wall it is a pendulum: exponents ``±i√ρ`` and ``±√ρ``, whatever rounding makes of their real parts."""
+    random = np.random.default_rng(22)
+    for _ in range(200):
+        parameters = random_parameters(random, gamma=0.0, mu=0.0)
+        for rub in found(parameters)[1]:
+            assert not rub.stable
+            assert not rub.attracts_sliding
+            np.testing.assert_allclose(np.abs(rub.eigenvalues), math.sqrt(parameters.rho), rtol=1e-6, atol=1e-12)
+
+
 def test_a_hardly_unbalanced_rub_lies_on_the_wall():
     """The direction comes out of a small difference; the radius must not."""
     parameters = PAPER.replace(rho=1e-8, mu=0.0, gamma=3e-9)

@@ -16,6 +16,8 @@ Status = Literal["admissible", "boundary", "virtual"]
 
 BOUNDARY = 1e-12
 """Distance from the wall (in clearances) or normal force (in ``m c_r Ω²``) that counts as none."""
+NEUTRAL = 64 * np.finfo(float).eps
+"""Rounding error of the exponents along the wall, relative to the largest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +53,11 @@ class Equilibrium:
         return abs(self.position)
 
     @property
+    def attracts_sliding(self) -> bool:
+        """Whether a rub attracts, as long as nothing lifts the rotor off the wall."""
+        return self.kind == "rub" and self.status == "admissible" and _dies_out(self.eigenvalues)
+
+    @property
     def angle(self) -> float:
         """``arg U*`` in rad."""
         return float(np.angle(self.position))
@@ -65,6 +72,9 @@ def equilibria(rotor: Rotor) -> tuple[Equilibrium, ...]:
     receptance ``H = −W M⁻¹ B`` of the contact plane, so ``e^{iθ}(1 + hN) = U*`` with ``h = H(1 + iμ)``, and
     ``|h|²N² + 2 Re(h) N + 1 − |U*|² = 0``.  For the planar rotor ``H = 1/(ω² − 1 + iγ)``, which is
     ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``.
+
+    A balanced rotor (``ρ = 0``) has no place where it would rub rather than anywhere else, and none is listed: with
+    ``γ + μ(1 − ω²) = 0``, as without damping and friction, it may rest at any angle, and else nowhere.
 
     Parameters
     ----------
@@ -96,19 +106,24 @@ def _rubs(rotor: Rotor) -> list[Equilibrium]:
     receptance = -complex(arrays.rows[0] @ np.linalg.solve(rotor.generator, arrays.columns[:, 0]))
     h = receptance * grip
     reach = abs(h) * abs(rotor.equilibrium)
-    # Re(h)² − |h|²(1 − |U*|²), and below 1 + hN, in forms without cancellation.
-    discriminant = (reach - abs(h.imag)) * (reach + abs(h.imag))
-    if discriminant < 0.0 or reach == 0.0:
+    if reach < abs(h.imag) or reach == 0.0:
         return []
+    # The root of Re(h)² − |h|²(1 − |U*|²), and below 1 + hN, in forms that neither cancel nor underflow.
+    distance = float(np.sqrt(reach - abs(h.imag)) * np.sqrt(reach + abs(h.imag)))
     rubs = []
-    for root in (np.sqrt(discriminant), -np.sqrt(discriminant)):
+    for root in (distance, -distance):
         force = float((root - h.real) / abs(h) ** 2)
         position = rotor.equilibrium * h.conjugate() / complex(root, -h.imag)
         position /= abs(position)
         eigenvalues = _eigenvalues_along_wall(rotor, position, force)
-        stable = bool(eigenvalues.real.max() < 0.0 < force and arrays.restitution[0] < 1.0)
+        stable = _dies_out(eigenvalues) and force > 0.0 and bool(arrays.restitution[0] < 1.0)
         rubs.append(Equilibrium("rub", position, force, _status(force), eigenvalues, stable))
     return sorted(rubs, key=lambda rub: not rub.stable)
+
+
+def _dies_out(eigenvalues: np.ndarray) -> bool:
+    """Whether disturbances along the wall die out by more than rounding errors can feign."""
+    return bool(eigenvalues.real.max() < -NEUTRAL * np.abs(eigenvalues).max())
 
 
 def _eigenvalues_along_wall(rotor: Rotor, position: complex, force: float) -> np.ndarray:

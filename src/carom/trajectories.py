@@ -268,8 +268,13 @@ def simulate(
     Raises
     ------
     InputError
-        The start lies outside the wall, or a number is not finite.
+        The start lies outside the wall, a number is not finite, or the rotor has more than one contact plane.
     """
+    planes = len(rotor.arrays.rows)
+    if planes != 1:
+        raise InputError(
+            "contact planes", planes, "1: lasting contact is followed at one plane, the others not watched"
+        )
     state = start.state(rotor) if isinstance(start, Kick) else start
     amplitudes, plane = _checked_start(rotor, state)
     if not (np.isfinite(until) and until > 0):
@@ -337,7 +342,7 @@ def fresh_memory(rotor: Rotor, patience: int, stop_at_chatter: bool = False) -> 
 def _attracting_rub(rotor: Rotor) -> complex:
     """Position of the synchronous rub that attracts sliding; with ``d = 1`` too, where it does not attract bounces."""
     for rub in equilibria(rotor):
-        if rub.kind == "rub" and rub.status == "admissible" and rub.eigenvalues.real.max() < 0.0:
+        if rub.attracts_sliding:
             return rub.position
     return 0j
 
