@@ -54,6 +54,29 @@ def test_wrong_usage_loads_nothing_heavy():
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--start", "2,0,0,0"),
+        ("--start", "a,0,0,0"),
+        ("--start", "0,0,0,0", "--until", "soon"),
+        ("--kick", "fast"),
+        ("--kick", "1,north"),
+        (),
+        ("--kick", "1", "--csv", "."),
+    ],
+)
+def test_what_cannot_be_simulated_is_refused_before_kernels_are_loaded(machine, arguments):
+    code = (
+        "import sys; from carom.cli import main; code = main(sys.argv[1:]); "
+        "print(code, [name for name in ('numba', 'matplotlib', 'xarray') if name in sys.modules])"
+    )
+    command = [sys.executable, "-c", code, "simulate", machine, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+
+    assert done.stdout == "2 []\n", done.stderr
+
+
 @pytest.mark.jit_only
 def test_reader_that_leaves_early_is_no_error(machine):
     command = [*CAROM, "orbits", machine, "--json"]

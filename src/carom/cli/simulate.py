@@ -11,7 +11,8 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.parameters import Case
-    from carom.trajectories import State, Trajectory
+    from carom.rotors import Rotor
+    from carom.trajectories import Kick, State, Trajectory
 
 __all__ = ["simulate"]
 
@@ -62,7 +63,8 @@ def simulate(
         for option, path in targets.items():
             check_file(option, path)
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        motion = _follow(case, start, kick, until, tell)
+        given, end = _read(case, start, kick, until)
+        motion = _follow(case, given, kick, end, until is None, tell)
         if targets:
             from carom.cli.logs import write_csv, write_netcdf
 
@@ -79,39 +81,38 @@ def simulate(
     print_motion(console(), case, motion)
 
 
-def _follow(case: Case, start: str | None, kick: str | None, until: str | None, tell) -> Trajectory:  # type: ignore[no-untyped-def]
-    from carom.cli.starts import read_time
+def _read(case: Case, start: str | None, kick: str | None, until: str | None) -> tuple[State | Kick, float]:
+    """Read the start and the end: what is wrong is refused before the kernels are loaded."""
+    from carom.cli.starts import read_kick, read_start, read_time
+
+    scales = case.parameters.scales
+    if (start is None) == (kick is None):
+        given = None if start is None else f"{start} with --kick {kick}"
+        raise InputError("--start", given, "give either --start RE,IM,VRE,VIM or --kick SPEED[,ANGLE]")
+    end = LONGEST if until is None else read_time(until, scales)
+    return read_kick(str(kick), scales) if start is None else read_start(start, scales), end
+
+
+def _follow(case: Case, start: State | Kick, kick: str | None, end: float, settle: bool, tell) -> Trajectory:  # type: ignore[no-untyped-def]
     from carom.rotors import jeffcott
+    from carom.trajectories import Kick
     from carom.trajectories import simulate as follow
 
     rotor = jeffcott(case.parameters)
-    state = _start(case, rotor.equilibrium, start, kick)
-    end = LONGEST if until is None else read_time(until, case.parameters.scales)
+    if isinstance(start, Kick):
+        _check_levitation(rotor, kick)
     return follow(
         rotor,
-        state,
+        start,
         end,
-        settle=until is None,
+        settle=settle,
         max_events=MOST_EVENTS,
         progress=lambda time: tell(time / end, "simulating"),
     )
 
 
-def _start(case: Case, levitation: complex, start: str | None, kick: str | None) -> State:
-    from carom.cli.starts import read_kick, read_start
-    from carom.trajectories import State
-
-    if (start is None) == (kick is None):
-        given = None if start is None else f"{start} with --kick {kick}"
-        raise InputError("--start", given, "give either --start RE,IM,VRE,VIM or --kick SPEED[,ANGLE]")
-    if start is not None:
-        return read_start(start, case.parameters.scales)
-    blow = read_kick(str(kick), case.parameters.scales)
-    if abs(levitation) > 1.0:
-        radius = f"|U*| = {abs(levitation):.6g}"
-        raise InputError(
-            "--kick", kick, f"needs levitation without contact, but {radius} is outside the wall; use --start"
-        )
-    import cmath
-
-    return State(levitation, cmath.rect(blow.speed, blow.angle))
+def _check_levitation(rotor: Rotor, kick: str | None) -> None:
+    radius = abs(rotor.equilibrium)
+    if radius > 1.0:
+        words = f"needs levitation without contact, but |U*| = {radius:.6g} is outside the wall; use --start"
+        raise InputError("--kick", kick, words)

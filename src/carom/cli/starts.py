@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from carom.outcome import InputError
 from carom.parameters import Field, Scales, read_quantity
-from carom.trajectories import Kick, State
+
+if TYPE_CHECKING:
+    from carom.trajectories import Kick, State
 
 __all__ = ["read_kick", "read_start", "read_time"]
 
@@ -40,6 +43,8 @@ def read_start(text: str, scales: Scales | None) -> State:
     radius = math.hypot(x, y)
     if radius > 1.0 + 1e-12:
         raise InputError("--start", text, f"must lie inside the wall, |U| <= 1 (here |U| = {radius:.6g})")
+    from carom.trajectories import State
+
     return State(complex(x, y), complex(vx, vy))
 
 
@@ -52,10 +57,11 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
         Naming ``--kick``.
     """
     speed, *angle = _split("--kick", text, (1, 2), _KICK)
-    return Kick(
-        _number("--kick", speed, "velocity", scales),
-        _number("--kick", angle[0], "angle", scales) if angle else 0.0,
-    )
+    size = _number("--kick", speed, "velocity", scales)
+    direction = _number("--kick", angle[0], "angle", scales) if angle else 0.0
+    from carom.trajectories import Kick
+
+    return Kick(size, direction)
 
 
 def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:
