@@ -1,4 +1,4 @@
-"""The text of a machine file, up to its tables; what the tables mean is read elsewhere."""
+"""The text of a machine file, or of another TOML file, up to its tables; what they mean is read elsewhere."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any
 from carom.outcome import InputError
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, shown, unknown_name
 
-__all__ = ["MachineTables", "read_machine_tables"]
+__all__ = ["MachineTables", "read_machine_tables", "read_toml"]
 
 _WHAT = "machine file"
 _TABLES = {"machine": None, "dimensionless": None, "zones": None}
@@ -57,8 +57,7 @@ def read_machine_tables(path: str | os.PathLike[str]) -> MachineTables:
     InputError
         If the file cannot be read, is not TOML, or does not hold exactly one of the two tables.
     """
-    name = _path_text(path)
-    content = _parse(name, _read(name))
+    name, content = read_toml(path, _WHAT, _REMEDY)
     for key, value in content.items():
         if key not in _TABLES:
             raise _unknown_at_top(key, value)
@@ -71,50 +70,76 @@ def read_machine_tables(path: str | os.PathLike[str]) -> MachineTables:
     return MachineTables(kinds[0], content[kinds[0]], content.get("zones", {}))
 
 
-def _path_text(path: str | os.PathLike[str]) -> str:
+def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:
+    """Read a TOML file.
+
+    Parameters
+    ----------
+    path : path
+    what : str
+        What the file is called in errors, such as ``"machine file"``.
+    remedy : str
+        What it must hold, for the errors of a file that is empty or far too long.
+
+    Returns
+    -------
+    name : str
+        The path as text.
+    content : dict
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not TOML.
+    """
+    name = _path_text(path, what)
+    return name, _parse(name, _read(name, what, remedy), what, remedy)
+
+
+def _path_text(path: str | os.PathLike[str], what: str) -> str:
     try:
         text = os.fspath(path)
     except TypeError:
         text = None
     if not isinstance(text, str) or not text:
-        raise InputError(_WHAT, shown(path), "must be the path of a TOML file")
+        raise InputError(what, shown(path), "must be the path of a TOML file")
     return text
 
 
-def _read(name: str) -> str:
+def _read(name: str, what: str, remedy: str) -> str:
     try:
         with Path(name).open("rb") as stream:
             data = stream.read(_LARGEST_BYTES + 1)
     except FileNotFoundError:
-        raise InputError(_WHAT, shown(name), "there is no such file; give the path of a TOML file") from None
+        raise InputError(what, shown(name), "there is no such file; give the path of a TOML file") from None
     except IsADirectoryError:
-        raise InputError(_WHAT, shown(name), "this is a directory; give the path of a TOML file") from None
+        raise InputError(what, shown(name), "this is a directory; give the path of a TOML file") from None
     except PermissionError:
-        raise InputError(_WHAT, shown(name), "you have no permission to read it; allow it or copy the file") from None
+        raise InputError(what, shown(name), "you have no permission to read it; allow it or copy the file") from None
     except (OSError, ValueError) as problem:
         reason = getattr(problem, "strerror", None) or problem
-        raise InputError(_WHAT, shown(name), f"cannot be read ({reason}); give the path of a TOML file") from None
+        raise InputError(what, shown(name), f"cannot be read ({reason}); give the path of a TOML file") from None
     if len(data) > _LARGEST_BYTES:
-        raise InputError(_WHAT, shown(name), f"{_REMEDY}, in less than {_LARGEST_BYTES} bytes")
+        raise InputError(what, shown(name), f"{remedy}, in less than {_LARGEST_BYTES} bytes")
     try:
         return data.decode("utf-8-sig")  # some editors put a byte-order mark in front
     except UnicodeDecodeError as problem:
         line = data[: problem.start].count(b"\n") + 1
-        raise InputError(_WHAT, shown(name), f"must be text in UTF-8; line {line} is not") from None
+        raise InputError(what, shown(name), f"must be text in UTF-8; line {line} is not") from None
 
 
-def _parse(name: str, text: str) -> dict[str, Any]:
+def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, Any]:
     if not text.strip():
-        raise InputError(_WHAT, shown(name), f"{_REMEDY}; it is empty")
+        raise InputError(what, shown(name), f"{remedy}; it is empty")
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise InputError(_WHAT, shown(name), "must be valid TOML; it is nested too deeply") from None
+        raise InputError(what, shown(name), "must be valid TOML; it is nested too deeply") from None
     except ValueError as problem:
         advice = str(problem)
         if advice.startswith("Cannot overwrite a value"):
             advice += ": the same key is given twice"
-        raise InputError(_WHAT, shown(name), f"must be valid TOML; {advice}") from None
+        raise InputError(what, shown(name), f"must be valid TOML; {advice}") from None
 
 
 def _unknown_at_top(key: str, value: object) -> InputError:
