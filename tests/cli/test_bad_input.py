@@ -1,5 +1,7 @@
 """Bad input: one line that names the field, the value and what is allowed; exit code 2; nothing written."""
 
+from pathlib import Path
+
 import pytest
 
 from carom.cli import main
@@ -204,8 +206,10 @@ def test_wrong_usage(carom, machine, arguments, words):
 
 
 @pytest.mark.parametrize("option", ["--csv", "--netcdf"])
-def test_logs_that_cannot_be_written(carom, machine, option, tmp_path):
-    for path in (tmp_path, tmp_path / "none" / "log", "", "a\0b"):
+def test_logs_that_cannot_be_written(carom, machine, option, tmp_path, monkeypatch):
+    monkeypatch.setattr("carom.cli.simulate._follow", _raise(AssertionError("simulated in vain")))
+    special = [path for path in ("/dev/null", "/proc/log") if Path(path).parent.is_dir()]
+    for path in (tmp_path, tmp_path / "none" / "log", tmp_path / ("x" * 300), "", "a\0b", *special):
         assert_refused(carom("simulate", machine, "--kick", "0.01", "--until", "1", option, path), option)
     assert list(tmp_path.iterdir()) == []
 

@@ -111,8 +111,8 @@ def test_interrupt_leaves_nothing_behind(machine, tmp_path):
     process = subprocess.Popen(
         [*CAROM, "study", machine, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
-    # Interrupt while figures are being written, as soon as the directory beside the place is there.
-    while process.poll() is None and not any(tmp_path.iterdir()):
+    # Interrupt while figures are being written, as soon as there is one beside the place.
+    while process.poll() is None and not any(tmp_path.glob(".*.part/figures/*")):
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     output, errors = process.communicate()

@@ -35,6 +35,9 @@ def check_file(option: str, path: str) -> None:
         raise InputError(option, path, "must be the path of a file to write, not a directory")
     if not target.parent.is_dir():
         raise InputError(option, path, "must lie in a directory that exists")
+    if target.exists() and not target.is_file():
+        raise InputError(option, path, "must be a regular file: what is there is replaced as a whole")
+    _write_whole(option, path, lambda part: part.touch(), keep=False)
 
 
 def write_csv(motion: Trajectory, path: str) -> None:
@@ -109,13 +112,14 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
     return dataset
 
 
-def _write_whole(option: str, path: str, write: Callable[[Path], None]) -> None:
-    """Write under another name first: the file is there complete, or as it was."""
+def _write_whole(option: str, path: str, write: Callable[[Path], None], keep: bool = True) -> None:
+    """Write under another name first: the file is there complete, or as it was.  Without ``keep`` it is only tried."""
     target = Path(path)
     part = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
         write(part)
-        part.replace(target)
+        if keep:
+            part.replace(target)
     except OSError as problem:
         reason = os.strerror(problem.errno) if problem.errno else "this file system refuses"
         raise InputError(option, path, f"cannot be written ({reason}); give another path") from None

@@ -21,6 +21,8 @@ MANIFEST = "study.json"
 def check_directory(path: str, option: str) -> Path:
     """Refuse early what cannot become, or is not, a directory to write to.
 
+    Rights alone do not tell (read-only and special file systems, quotas, names too long): it is tried, without a trace.
+
     Parameters
     ----------
     path : str
@@ -47,6 +49,13 @@ def check_directory(path: str, option: str) -> Path:
         raise InputError(option, path, f"{allowed}; {nearest} is a file")
     if not os.access(nearest, os.W_OK | os.X_OK):
         raise InputError(option, path, f"{allowed}; you may not write to {nearest}")
+    try:
+        with _staging(directory) as made:
+            if not directory.exists():
+                made.rename(directory)
+                directory.rmdir()
+    except OSError as problem:
+        raise InputError(option, path, f"{allowed}; it cannot be written ({problem.strerror})") from None
     return directory
 
 
@@ -67,7 +76,7 @@ def filled_at_once(path: str, option: str) -> Iterator[Path]:
     Yields
     ------
     Path
-        A directory beside the place.
+        A directory in the place, or beside it where it is to be made.
 
     Raises
     ------
@@ -75,16 +84,30 @@ def filled_at_once(path: str, option: str) -> Iterator[Path]:
         The place cannot be written.
     """
     target = check_directory(path, option)
+    try:
+        with _staging(target) as made:
+            yield made
+            _move(made, target)
+    except OSError as problem:
+        raise InputError(option, path, f"cannot be written ({problem.strerror}); give another directory") from None
+
+
+@contextmanager
+def _staging(target: Path) -> Iterator[Path]:
+    """Make an empty directory on the file system of a place; remove it and what was made for it, if still empty."""
+    there = target.exists()
+    home = target if there else target.absolute().parent
+    missing = [directory for directory in (home, *home.parents) if not directory.exists()]
     # Named before it is made, so that an interruption at any moment cleans up.
-    made = target.absolute().parent / f".{target.name}.{secrets.token_hex(4)}.part"
+    made = home / f".carom.{secrets.token_hex(4)}.part"
     try:
         made.mkdir(parents=True)
         yield made
-        _move(made, target)
-    except OSError as problem:
-        raise InputError(option, path, f"cannot be written ({problem.strerror}); give another directory") from None
     finally:
         shutil.rmtree(made, ignore_errors=True)
+        for directory in missing:
+            with suppress(OSError):
+                directory.rmdir()
 
 
 def _move(made: Path, target: Path) -> None:
