@@ -31,11 +31,18 @@ def check_file(option: str, path: str) -> None:
         Naming the option.
     """
     target = Path(path)
-    if not path.strip() or "\0" in path or target.is_dir():
+    if not path.strip() or "\0" in path:
+        raise InputError(option, path, "must be the path of a file to write")
+    try:
+        directory, special = target.is_dir(), target.exists() and not target.is_file()
+        homeless = not target.parent.is_dir()
+    except OSError as problem:
+        raise InputError(option, path, f"must be the path of a file to write ({problem.strerror})") from None
+    if directory:
         raise InputError(option, path, "must be the path of a file to write, not a directory")
-    if not target.parent.is_dir():
+    if homeless:
         raise InputError(option, path, "must lie in a directory that exists")
-    if target.exists() and not target.is_file():
+    if special:
         raise InputError(option, path, "must be a regular file: what is there is replaced as a whole")
     _write_whole(option, path, lambda part: part.touch(), keep=False)
 
@@ -115,7 +122,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
 def _write_whole(option: str, path: str, write: Callable[[Path], None], keep: bool = True) -> None:
     """Write under another name first: the file is there complete, or as it was.  Without ``keep`` it is only tried."""
     target = Path(path)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    part = target.with_name(f".carom.{os.getpid()}.part")
     try:
         write(part)
         if keep:
