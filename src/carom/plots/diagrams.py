@@ -18,7 +18,16 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 if TYPE_CHECKING:
     from carom.bifurcations import Axis, Curve, Diagram, EquilibriumBranch, OrbitBranch, RegionMap
 
-__all__ = ["bifurcation_diagram", "region_map"]
+__all__ = [
+    "CURVES",
+    "POINTS",
+    "bifurcation_diagram",
+    "branch_line",
+    "curve_line",
+    "mark_point",
+    "point_key",
+    "region_map",
+]
 
 POINTS = MappingProxyType(
     {
@@ -79,9 +88,9 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     for point in diagram.points:
         place = point.value / unit
         if point.radial_speed is None:
-            _mark(lower, point.kind, place, _height(diagram, point.branch, point.value), point.admissible)
+            mark_point(lower, point.kind, place, _height(diagram, point.branch, point.value), point.admissible)
         else:
-            _mark(upper, point.kind, place, point.radial_speed, point.admissible)
+            mark_point(upper, point.kind, place, point.radial_speed, point.admissible)
     upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
     lower.set_ylabel("gap left; force of rub\n" r"($c_r$; $m c_r\Omega^2$)")
     lower.set_xlabel(_label(diagram.axis))
@@ -107,22 +116,52 @@ def _label(axis: Axis) -> str:
 
 
 def _orbit_branch(axes: Axes, branch: OrbitBranch, unit: float) -> None:
-    """Draw a branch; its look changes at its special points."""
+    heights = np.array([point.radial_speed for point in branch.special])
+    branch_line(axes, branch, np.arange(len(branch)), branch.values / unit, branch.radial_speed, heights, unit)
+
+
+def branch_line(
+    axes: Axes,
+    branch: OrbitBranch,
+    places: np.ndarray,
+    values: np.ndarray,
+    heights: np.ndarray,
+    special_heights: np.ndarray | None = None,
+    unit: float = 1.0,
+) -> None:
+    """Draw a quantity along a branch; its look changes at the special points.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    branch : carom.bifurcations.OrbitBranch
+    places : ndarray, shape (n,)
+        Where on the branch the quantity is known, growing; see :class:`~carom.bifurcations.Bifurcation`.
+    values, heights : ndarray, shape (n,)
+        The parameter, in the unit drawn, and the quantity.
+    special_heights : ndarray, optional
+        The quantity at the special points, interpolated by default.
+    unit : float
+        What the parameter of special points is divided by.
+    """
+    special = [point for point in branch.special if places[0] <= point.place <= places[-1]]
+    extra = np.array([point.place for point in special])
+    if special_heights is None:
+        special_heights = np.interp(extra, places, heights)
+    order = np.argsort(np.concatenate([places, extra]), kind="stable")
+    where = np.concatenate([places, extra])[order]
+    x = np.concatenate([values, [point.value / unit for point in special]])[order]
+    y = np.concatenate([heights, special_heights])[order]
+    # A stretch has the look of the orbit it touches.
     looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
-    places = np.concatenate([np.arange(len(branch)), [point.place for point in branch.special]])
-    values = np.concatenate([branch.values, [point.value for point in branch.special]]) / unit
-    speeds = np.concatenate([branch.radial_speed, [point.radial_speed for point in branch.special]])
-    special = np.arange(len(places)) >= len(branch)
-    order = np.argsort(places, kind="stable")
-    places, values, speeds, special = places[order], values[order], speeds[order], special[order]
-    # A stretch has the look of the regular point it touches.
-    nearest = np.where(special[1:], np.floor(places[:-1]), np.ceil(places[1:])).astype(int)
+    whole = where == np.floor(where)
+    nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
     stretches = looks[np.minimum(nearest, len(looks) - 1)]
     for first, last, look in _runs(np.append(stretches, stretches[-1:])):
         style = LOOKS[look]
         axes.plot(
-            values[first : last + 1],
-            speeds[first : last + 1],
+            x[first : last + 1],
+            y[first : last + 1],
             color=style.colour,
             ls=style.line,
             lw=style.width,
@@ -173,7 +212,8 @@ def _height(diagram: Diagram, branch: str, value: float) -> float:
     return float(np.nanmean([rubs[0].normal_force[nearest], saddle.normal_force[nearest]]))
 
 
-def _mark(axes: Axes, kind: str, x: float, y: float, admissible: bool) -> None:
+def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = True) -> None:
+    """Mark a special point; hollow where it happens to virtual motions only."""
     look = POINTS[kind]
     face = look.colour if admissible else "none"
     axes.plot([x], [y], ls="none", marker=look.marker, ms=5.0, mfc=face, mec=look.colour, mew=0.8, zorder=5)
@@ -197,10 +237,11 @@ def _diagram_key(diagram: Diagram) -> list[Line2D]:
     for line, words in (("-", "stable rub: normal force"), ("--", "saddle rub: normal force")):
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
     present = {point.kind for point in diagram.points}
-    return entries + [_marker(look) for kind, look in POINTS.items() if kind in present]
+    return entries + [point_key(look) for kind, look in POINTS.items() if kind in present]
 
 
-def _marker(look: Look) -> Line2D:
+def point_key(look: Look) -> Line2D:
+    """Entry of a special point in a legend."""
     return Line2D([], [], ls="none", marker=look.marker, ms=5.0, color=look.colour, label=look.words)
 
 
@@ -223,7 +264,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     drawn = figure.subplots()
     units = np.array([_unit(axis) for axis in axes])
     for curve in found.curves:
-        _curve(drawn, curve, units)
+        curve_line(drawn, curve, units)
     for point in found.codimension2:
         x, y = np.array(point.value) / units
         face = "#1a1a1a" if point.admissible else "none"
@@ -254,7 +295,8 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     return figure
 
 
-def _curve(axes: Axes, curve: Curve, units: np.ndarray) -> None:
+def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:
+    """Draw a curve in the plane of two parameters, faint where it is one of virtual motions only."""
     look = CURVES[curve.kind]
     x, y = (curve.points / units).T
     for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):

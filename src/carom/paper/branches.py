@@ -1,0 +1,73 @@
+"""The first pair of orbits along the damping: what figures 4, 5 and 6a are drawn from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
+from carom.continuation import Steps
+from carom.orbits import single_impact_orbits
+from carom.paper.source import machine_at
+from carom.propositions import HopfSide, hopf_side
+from carom.rotors import jeffcott
+
+__all__ = ["FirstPair", "first_pair"]
+
+DAMPINGS = (0.002, 0.2)
+"""Range of the damping; without any there are infinitely many orbits."""
+NEGATIVE = -0.52
+"""Where the branches of negative damping, which no machine has, are looked for."""
+STEPS = Steps(first=0.005, largest=0.02)
+
+
+@dataclass(frozen=True, eq=False)
+class FirstPair:
+    """All branches of ``B1,a`` to ``B1,d``, and the local theory at their birth.
+
+    Attributes
+    ----------
+    slow, fast : OrbitBranch
+        ``B1,a`` and ``B1,b`` with the fold between them; ``B1,c`` and ``B1,d`` with theirs.
+    negative : OrbitBranch
+        ``B1,a`` and ``B1,c`` at negative damping, where they meet.
+    hopf : HopfSide
+        Where the slow orbits are born, with their slopes along the damping.
+    """
+
+    slow: OrbitBranch
+    fast: OrbitBranch
+    negative: OrbitBranch
+    hopf: HopfSide
+
+    @property
+    def branches(self) -> tuple[OrbitBranch, ...]:
+        """All three."""
+        return self.slow, self.fast, self.negative
+
+    def special(self, kind: str, letter: str) -> Bifurcation:
+        """The special point of a kind at positive damping, or any damping, named after ``B1,letter``."""
+        found = [
+            point
+            for branch in self.branches
+            for point in branch.special
+            if (point.kind, point.name) == (kind, f"B1,{letter}")
+        ]
+        return max(found, key=lambda point: point.value)
+
+
+def first_pair() -> FirstPair:
+    """Follow the first pair of orbits from ``γ = 0.1`` to both sides, and to negative damping.
+
+    Returns
+    -------
+    FirstPair
+    """
+    orbits = single_impact_orbits(jeffcott(machine_at(0.1)))
+    # Without damping the search for all orbits has no end; these two have short periods.
+    undamped = single_impact_orbits(jeffcott(machine_at(-0.3)), 1.0)
+    return FirstPair(
+        slow=continue_orbit(orbits["B1,b"], "gamma", DAMPINGS, STEPS),
+        fast=continue_orbit(orbits["B1,d"], "gamma", DAMPINGS, STEPS),
+        negative=continue_orbit(undamped["B1,c"], "gamma", (NEGATIVE, DAMPINGS[0]), STEPS),
+        hopf=hopf_side(machine_at(0.1)),
+    )

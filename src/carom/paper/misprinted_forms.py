@@ -1,0 +1,285 @@
+"""The misprints of the source paper: what the printed form gives beside the right one.
+
+Each is evaluated on motions of the machine; the right value comes from the general code of the package, which does not
+know the printed formulas.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.orbits import Orbit, period_condition, single_impact_orbits
+from carom.paper.branches import FirstPair, first_pair
+from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.paper.source import SCALES, machine_at
+from carom.parameters import Parameters
+from carom.periods import PeriodCondition
+from carom.propositions import fixed_points
+from carom.rotors import jeffcott
+from carom.trajectories import State
+
+__all__ = ["Misprint", "misprints", "printed_matrix", "printed_second_form"]
+
+
+@dataclass(frozen=True)
+class Misprint:
+    """A formula or statement of the source paper that does not hold.
+
+    Attributes
+    ----------
+    place : str
+    printed, right : str
+        Both forms in words or formulas.
+    quantity : str
+        What is evaluated, and where.
+    printed_value : float or None
+        What the printed form gives; ``None`` where it is no number.
+    value : float
+        What holds.
+    """
+
+    place: str
+    printed: str
+    right: str
+    quantity: str
+    printed_value: float | None
+    value: float
+
+    @property
+    def difference(self) -> float | None:
+        """What holds minus what is printed."""
+        return None if self.printed_value is None else self.value - self.printed_value
+
+
+def misprints(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None = None) -> tuple[Misprint, ...]:
+    """List the misprints in the order of the text.
+
+    Parameters
+    ----------
+    pair : FirstPair, optional
+        The branches of the first pair of orbits; followed here by default.
+    plane : DampingStiffnessPlane, optional
+        Likewise.
+
+    Returns
+    -------
+    tuple of Misprint
+    """
+    branches = pair or first_pair()
+    drawn = plane or damping_stiffness_plane(branches)
+    orbit = single_impact_orbits(jeffcott(machine_at(0.1)))["B1,d"]
+    return (
+        *_impact_law(orbit),
+        *_closed_forms(orbit),
+        *_propositions(),
+        *_stability(branches),
+        *_local_theory(branches),
+        _grazing_regions(drawn),
+    )
+
+
+def _impact_law(orbit: Orbit) -> Iterator[Misprint]:
+    """Section 2, on ``B1,d`` at ``γ = 0.1``."""
+    motion = orbit.trajectory(1.5)
+    parameters = orbit.rotor.parameters
+    impulse = float(motion.contacts.in_si(SCALES)["normal_impulse"][0][0])
+    yield Misprint(
+        "(2.5)",
+        "(1 + d)ṙ⁻, without the mass: a speed",
+        "m(1 + d)ṙ⁻",
+        "normal impulse of B1,d at γ = 0.1 (right: N s; printed: m/s)",
+        (1.0 + parameters.d) * orbit.radial_speed * SCALES.velocity,
+        impulse,
+    )
+    yield Misprint(
+        "(2.3), section 4",
+        "slip R/c_r + θ̇ with θ̇ of the co-rotating frame",
+        "R/c_r + 1 + θ̇",
+        "slip velocity of B1,d at γ = 0.1, in c_r Ω",
+        parameters.radius_ratio + orbit.angular_speed,
+        float(motion.contacts.slip_before[0]),
+    )
+
+
+def _closed_forms(orbit: Orbit) -> Iterator[Misprint]:
+    """Section 4, on the same orbit."""
+    parameters, period = orbit.rotor.parameters, orbit.period
+    factor = (1.0 + parameters.d) * complex(1.0, parameters.mu)
+    yield Misprint(
+        "matrix after (4.1)",
+        "− e^{AT} in the diagonal (a matrix; evaluated as − e^{ΛT})",
+        "− (v₋ − v₊) e^{ΛT}",
+        "1 + Re(q a₂₂), zero at the period of B1,d at γ = 0.1",
+        1.0 + (factor * printed_matrix(parameters, period)[1, 1]).real,
+        float(period_condition(orbit.rotor, np.array([period]))[0]),
+    )
+    before = orbit.section.state
+    yield Misprint(
+        "(4.2)",
+        "velocity before the impact ṙ + iθ̇U₀",
+        "(ṙ + iθ̇)U₀",
+        "its modulus for B1,d at γ = 0.1, in c_r Ω",
+        abs(orbit.radial_speed + 1j * orbit.angular_speed * before.position),
+        abs(before.velocity),
+    )
+    yield Misprint(
+        "(4.6), second form",
+        "cos(s₄T + ζ), ζ = 2 arctan(s₅/(s₃ + s₂)), s₄ with a factor T",
+        "cos(s₄T − ζ), ζ = 2 arctan(s₅/(2s₃ + s₂)), s₄ without it",
+        "F₁(T) at T = 1, γ = 0.1",
+        printed_second_form(parameters, 1.0),
+        float(period_condition(orbit.rotor, np.array([1.0]))[0]),
+    )
+
+
+def printed_matrix(parameters: Parameters, period: float) -> np.ndarray:
+    """``(e^{−AT} − 1)⁻¹`` as printed after (4.1), shape (2, 2), with the scalar ``e^{ΛT}`` for its ``e^{AT}``."""
+    upper, lower = _exponents(parameters)
+    corner = 1.0 - parameters.omega**2 - 1j * parameters.gamma
+    v_upper, v_lower = -upper / corner, -lower / corner
+    up, down = cmath.exp(upper * period), cmath.exp(lower * period)
+    kappa = 1.0 / ((1.0 - down) * (1.0 - up) * (v_lower - v_upper))
+    return kappa * np.array(
+        [
+            [v_lower * up - v_upper * down - up * down, v_upper * v_lower * (down - up)],
+            [up - down, v_lower * down - v_upper * up - up * down],
+        ]
+    )
+
+
+def printed_second_form(parameters: Parameters, period: float) -> float:
+    """The second form of (4.6) as printed."""
+    gamma, omega, mu = parameters.gamma, parameters.omega, parameters.mu
+    s1 = math.sqrt(4.0 * omega**2 - gamma**2)
+    half = math.exp(gamma * period / 2.0)
+    total = 0.0
+    for sign in (-1, 1):
+        s2, s3 = 2.0 + sign * s1 + gamma * mu, math.sqrt((1.0 + mu**2) * (1.0 + omega**2 + sign * s1))
+        s4, s5 = (2.0 * sign + s1) * period / 2.0, -sign * gamma + (2.0 * sign + s1) * mu
+        zeta = 2.0 * math.atan(s5 / (s3 + s2))
+        top = s2 * half - 2.0 * s3 * half**2 * math.cos(s4 * period + zeta)
+        total -= sign * top / (1.0 + half**2 - 2.0 * half * math.cos(s4 * period))
+    return 1.0 + (1.0 + parameters.d) / (2.0 * s1 * half) * total
+
+
+def _exponents(parameters: Parameters) -> tuple[complex, complex]:
+    """``λ±`` of (3.5)."""
+    root = math.sqrt(4.0 * parameters.omega**2 - parameters.gamma**2)
+    return complex(-parameters.gamma, -2.0 + root) / 2.0, complex(-parameters.gamma, -2.0 - root) / 2.0
+
+
+def _propositions() -> Iterator[Misprint]:
+    yield Misprint(
+        "Proposition 4.1",
+        "up to 2N fixed points for N pairs of periods",
+        "up to 4N",
+        "fixed points at γ = 0.1, where N = 1",
+        2.0,
+        float(fixed_points(machine_at(0.1)).total),
+    )
+    yield Misprint(
+        "Proposition 4.1",
+        "B_n,c and B_n,d are admissible for γ < γ*",
+        "they meet the wall from inside, but need not stay inside between impacts",
+        "admissible ones for N = 1 at γ = 0.06",
+        2.0,
+        float(fixed_points(machine_at(0.06)).admissible),
+    )
+
+
+def _stability(branches: FirstPair) -> Iterator[Misprint]:
+    doubling = branches.special("period-doubling", "d")
+    # The multiplier that leaves the unit circle; on it a torus would be born from a pair of complex ones.
+    critical = max(doubling.orbit.multipliers.values, key=abs)
+    yield Misprint(
+        "section 4a",
+        "B1,d is quasi-periodically stable above γ = 0.083",
+        "a real multiplier passes −1: period doubling",
+        f"that multiplier at γ = {doubling.value:.7f}",
+        None,
+        float(critical.real),
+    )
+
+
+def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
+    """Section 5, at the birth of ``B1,b``."""
+    hopf = branches.hopf
+    cycle = max(hopf.cycles, key=lambda entry: entry.period)
+    rotor = jeffcott(machine_at(hopf.gamma))
+    outward = 1.0 - abs(jeffcott(machine_at(hopf.gamma + 1e-6)).equilibrium)
+    yield Misprint(
+        "section 5, choice of ε",
+        "with γ = γ* + ε the equilibrium is inside if ε is negative",
+        "if ε is positive, as the printed −2εγ* < 0 says",
+        "sign of ε for which it is inside",
+        -1.0,
+        math.copysign(1.0, outward),
+    )
+    turn = _direction_of_kick(branches, cycle.period)
+    yield Misprint(
+        "section 5, reset at order ε",
+        "the velocity jumps along e^{iθ₁,₀}, that is e^{iΨ} turned by π/2",
+        "along e^{iΨ}: a factor −i is missing",
+        "angle from e^{iΨ} to the jump over −(1 + d)(1 + iμ)ṙ of B1,b at γ* + 1e-7, in rad",
+        0.5 * math.pi,
+        turn,
+    )
+    condition = PeriodCondition(rotor)
+    change = float((condition.factor * condition.a22(np.array([cycle.period]))[0]).real)
+    yield Misprint(
+        "(5.4)",
+        "F₁ = 1 − (1 + d)Re((1 + iμ)a₂₂)",
+        "1 + (1 + d)Re((1 + iμ)a₂₂)",
+        "F₁ at the period of the small B1,b, which must be zero",
+        1.0 - change,
+        1.0 + change,
+    )
+    yield Misprint(
+        "section 5, last display",
+        "θ̇ = ε ṙ₁,₀₋",
+        "θ̇ = −ε ṙ₁,₀₋",
+        "dθ̇/dγ of B1,b at γ*",
+        -cycle.angular_slope,
+        cycle.angular_slope,
+    )
+
+
+def _direction_of_kick(branches: FirstPair, period: float) -> float:
+    """Angle between the normal at the boundary equilibrium and the kick of a small orbit, friction's turn taken off."""
+    rotor = jeffcott(machine_at(branches.hopf.gamma + 1e-7))
+    orbits = single_impact_orbits(rotor)
+    small = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))
+    normal = jeffcott(machine_at(branches.hopf.gamma)).equilibrium
+    jump = _after(small).velocity - small.section.state.velocity
+    parameters = rotor.parameters
+    scale = -(1.0 + parameters.d) * complex(1.0, parameters.mu) * small.radial_speed
+    return cmath.phase(jump / (scale * normal))
+
+
+def _after(orbit: Orbit) -> State:
+    """State just after the impact, by simulation through it from a little before."""
+    motion = orbit.trajectory(1.0 + 1e-9)
+    return motion.final
+
+
+def _grazing_regions(plane: DampingStiffnessPlane) -> Misprint:
+    gamma, omega = plane.meeting("grazing", "boundary-equilibrium").value
+    sides = [
+        next(
+            region.source for region in plane.regions if region.point[0] < gamma and (region.point[1] > omega) == above
+        )
+        for above in (True, False)
+    ]
+    return Misprint(
+        "section 4b",
+        "B1,d grazes in regions R1 and R2",
+        f"in {sides[0]} and {sides[1]}: there is no orbit in R2",
+        f"ω at which the grazing curve passes from one to the other, γ = {gamma:.7f}",
+        None,
+        omega,
+    )

@@ -1,0 +1,73 @@
+"""Figure 2: a levitating, a nearly grazing and a hardly bouncing rotor in both frames."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.orbits import Orbit, single_impact_orbits
+from carom.paper.source import machine_at
+from carom.rotors import Rotor, jeffcott
+
+__all__ = ["ShownMotion", "shown_motions"]
+
+TURNS = 2.0
+"""Turns of the shaft over which levitation is drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class ShownMotion:
+    """A periodic motion of the machine.
+
+    Attributes
+    ----------
+    panel : {"a", "b", "c"}
+    gamma : float
+    words : str
+        What it is.
+    rotor : Rotor
+    orbit : Orbit or None
+        ``None`` for contact-free levitation, which is a point of the co-rotating frame.
+    highest : float
+        Largest radius away from impacts, in clearances.
+    """
+
+    panel: str
+    gamma: float
+    words: str
+    rotor: Rotor
+    orbit: Orbit | None
+    highest: float
+
+    @property
+    def span(self) -> float:
+        """Time drawn, in ``1/Ω``."""
+        return TURNS * 2.0 * np.pi
+
+
+def shown_motions() -> tuple[ShownMotion, ...]:
+    """Levitation at ``γ = 0.3``, ``B1,d`` near grazing at 0.065 and ``B1,a`` near its birth at 0.1.
+
+    Returns
+    -------
+    tuple of ShownMotion
+        Panels a to c.
+    """
+    levitating = jeffcott(machine_at(0.3))
+    shown = [ShownMotion("a", 0.3, "contact-free equilibrium", levitating, None, abs(levitating.equilibrium))]
+    for panel, gamma, name, words in (
+        ("b", 0.065, "B1,d", "impacting orbit near grazing"),
+        ("c", 0.1, "B1,a", "impacting orbit near the non-smooth Hopf bifurcation"),
+    ):
+        rotor = jeffcott(machine_at(gamma))
+        orbit = single_impact_orbits(rotor)[name]
+        shown.append(ShownMotion(panel, gamma, words, rotor, orbit, _highest(orbit)))
+    return tuple(shown)
+
+
+def _highest(orbit: Orbit) -> float:
+    """Largest local maximum of the radius between the impacts, on a grid; the impact itself where there is none."""
+    radius = np.abs(orbit.path(np.linspace(0.0, orbit.period, 2001)[:-1]))
+    tops = (radius[1:-1] > radius[:-2]) & (radius[1:-1] > radius[2:])
+    return float(radius[1:-1][tops].max(initial=0.0)) or 1.0

@@ -1,0 +1,151 @@
+"""Figure 3: the period condition, its roots along the damping, and the birth of the two small orbits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.bifurcations import Numbers
+from carom.bifurcations.conditions import conditions_at
+from carom.continuation import Steps, continue_branch
+from carom.orbits import Orbit, single_impact_orbits
+from carom.paper.source import machine_at
+from carom.periods import PeriodCondition
+from carom.propositions import hopf_side
+from carom.rotors import Rotor, jeffcott
+
+__all__ = ["Birth", "PeriodFunction", "PeriodPair", "birth", "period_functions", "period_pairs"]
+
+LONGEST = 30.0
+"""Longest period drawn, in ``1/Ω``."""
+DAMPINGS = (0.02, 0.2)
+"""Range of the damping."""
+AWAY = 0.01
+"""Distance in damping from the birth at which the small orbits are drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodFunction:
+    """``F₁`` over the period at one damping (figure 3a).
+
+    Attributes
+    ----------
+    gamma : float
+    periods, values : ndarray, shape (n,)
+    roots : ndarray
+        All of them, also beyond the periods drawn.
+    """
+
+    gamma: float
+    periods: np.ndarray
+    values: np.ndarray
+    roots: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodPair:
+    """A pair of roots of ``F₁`` along the damping, from one over their fold to the other (figure 3b).
+
+    Attributes
+    ----------
+    pair : int
+        ``n``.
+    gammas, periods : ndarray, shape (m,)
+    longer : ndarray of bool, shape (m,)
+        Which are ``T_{0,n,b}``; the others are ``T_{0,n,a}``.
+    fold : tuple of float
+        ``γ_{F,n}`` and the period there.
+    """
+
+    pair: int
+    gammas: np.ndarray
+    periods: np.ndarray
+    longer: np.ndarray
+    fold: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Birth:
+    """The equilibrium and the two orbits that shrink into it, on one side of the non-smooth Hopf point (figure 3c).
+
+    Attributes
+    ----------
+    gamma : float
+    side : {"below", "at", "above"}
+        Of ``γ*``.
+    rotor : Rotor
+    orbits : tuple of Orbit
+        ``B1,a`` and ``B1,b``; none at ``γ*``, where they are a point.
+    """
+
+    gamma: float
+    side: str
+    rotor: Rotor
+    orbits: tuple[Orbit, ...]
+
+
+def period_functions(dampings: tuple[float, ...] = (0.1, 0.05)) -> tuple[PeriodFunction, ...]:
+    """``F₁`` at the dampings of figure 3a."""
+    periods = np.linspace(0.02, LONGEST, 1500)
+    found = []
+    for gamma in dampings:
+        condition = PeriodCondition(jeffcott(machine_at(gamma)))
+        found.append(PeriodFunction(gamma, periods, condition.value(periods), condition.roots().periods))
+    return tuple(found)
+
+
+def period_pairs() -> tuple[PeriodPair, ...]:
+    """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.02`` to their folds and back.
+
+    Returns
+    -------
+    tuple of PeriodPair
+        In growing order of their periods.
+    """
+    base = Numbers.of(machine_at(DAMPINGS[0]))
+
+    def closing(u: np.ndarray, gamma: float) -> np.ndarray:
+        if u[0] <= 0.0:
+            return np.array([np.nan])
+        return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
+
+    roots = PeriodCondition(jeffcott(machine_at(DAMPINGS[0]))).roots().periods
+    pairs = []
+    for pair, start in enumerate(roots[::2].tolist(), start=1):
+        if start > LONGEST:
+            break
+        branch = continue_branch(
+            closing,
+            np.array([start]),
+            DAMPINGS[0],
+            DAMPINGS,
+            steps=Steps(0.005, largest=0.04),
+            scales=np.array([1, 0.1]),
+        )
+        (fold,) = branch.of_kind("fold")
+        at = float(fold.unknowns[0])
+        # The fold itself is drawn too: it is where both halves meet.
+        place = int(np.ceil(fold.place))
+        gammas = np.insert(branch.parameters, place, fold.parameter)
+        periods = np.insert(branch.unknowns[:, 0], place, at)
+        pairs.append(PeriodPair(pair, gammas, periods, periods >= at, (fold.parameter, at)))
+    return tuple(pairs)
+
+
+def birth() -> tuple[Birth, ...]:
+    """Both small orbits and the equilibrium below, at and above the non-smooth Hopf point.
+
+    Returns
+    -------
+    tuple of Birth
+        In growing order of the damping.
+    """
+    at = hopf_side(machine_at(0.1)).gamma
+    stages = []
+    for side, gamma in (("below", at - AWAY), ("at", at), ("above", at + AWAY)):
+        rotor = jeffcott(machine_at(gamma))
+        orbits = single_impact_orbits(rotor)
+        small = () if side == "at" else (orbits["B1,a"], orbits["B1,b"])
+        stages.append(Birth(gamma, side, rotor, small))
+    return tuple(stages)

@@ -1,0 +1,125 @@
+"""Figure 6b: the plane of damping and stiffness, with the curves that the source paper leaves to future work."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from carom.bifurcations import Codimension2Point, Curve, Motions, Plane, continue_curve, motions_at
+from carom.continuation import Steps
+from carom.paper.branches import FirstPair, first_pair
+from carom.paper.source import machine_at
+
+__all__ = ["DampingStiffnessPlane", "NamedRegion", "damping_stiffness_plane", "four_curves"]
+
+PLANE = Plane("gamma", "omega", (0.02, 0.42), (0.68, 0.9))
+STEPS = Steps(first=0.01, largest=0.05, sharpest_turn=0.15)
+REGIONS = (
+    ("R1", (0.125, 0.84), "B1,d and the rub are stable"),
+    ("R1", (0.0735, 0.86), "B1,d has lost its stability: of the simple motions only the rub is stable"),
+    ("R1", (0.04, 0.82), "B1,d has grazed and is virtual: of the simple motions only the rub is stable"),
+    ("R2", (0.28, 0.86), "not empty, as the text leaves it: the rub is stable"),
+    ("R3", (0.27, 0.745), "not levitation alone, as the text leaves it: the rub is stable too"),
+    ("R3", (0.395, 0.715), "beyond the fold of the rubs: levitation is the only simple motion"),
+    ("R4", (0.13, 0.72), "levitation, B1,d and the rub are stable"),
+    ("R4", (0.0765, 0.7), "B1,d has lost its stability: levitation and the rub are stable"),
+    ("R4", (0.04, 0.72), "B1,d has grazed and is virtual: levitation and the rub are stable"),
+)
+"""Name in the source paper, a place inside, and what our refinement adds."""
+
+
+@dataclass(frozen=True)
+class NamedRegion:
+    """A part of a region of the source paper with the same motions throughout.
+
+    Attributes
+    ----------
+    source : str
+        ``"R1"`` to ``"R4"``.
+    part : str
+        ``"R1.1"`` and so on, in which the motions are the same.
+    point : tuple of float
+        A place inside, damping and stiffness.
+    motions : Motions
+        Counted there.
+    words : str
+    """
+
+    source: str
+    part: str
+    point: tuple[float, float]
+    motions: Motions
+    words: str
+
+
+@dataclass(frozen=True, eq=False)
+class DampingStiffnessPlane:
+    """Curves and regions of the plane of ``γ`` and ``ω``.
+
+    Attributes
+    ----------
+    plane : Plane
+    curves : tuple of Curve
+        Fold of the first pair, boundary equilibrium with its part that is a non-smooth Hopf bifurcation, grazing and period
+        doubling of ``B1,d``, and the fold of the rubs.
+    regions : tuple of NamedRegion
+    """
+
+    plane: Plane
+    curves: tuple[Curve, ...]
+    regions: tuple[NamedRegion, ...]
+
+    def curve(self, kind: str) -> Curve:
+        """The curve of a kind."""
+        return next(curve for curve in self.curves if curve.kind == kind)
+
+    def meeting(self, first: str, second: str) -> Codimension2Point:
+        """Where two curves meet."""
+        return next(point for point in self.curve(first).codimension2 if point.kind == f"{first} + {second}")
+
+
+def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
+    """Curves of fold, boundary equilibrium and non-smooth Hopf bifurcation, grazing and period doubling.
+
+    Parameters
+    ----------
+    pair : FirstPair, optional
+        The branches on which they start; followed here by default.
+
+    Returns
+    -------
+    tuple of Curve
+    """
+    branches = pair or first_pair()
+    found = []
+    for kind in ("fold", "grazing", "period-doubling"):
+        point = branches.special(kind, "d")
+        start = machine_at(point.value)
+        found.append(continue_curve(kind, start, PLANE, (point.period, point.radial_speed), STEPS))
+    found.insert(1, continue_curve("boundary-equilibrium", machine_at(branches.hopf.gamma), PLANE, steps=STEPS))
+    return tuple(found)
+
+
+def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPlane:
+    """Draw up figure 6b with the four curves, the fold of the rubs, and the motions in each region.
+
+    Parameters
+    ----------
+    pair : FirstPair, optional
+
+    Returns
+    -------
+    DampingStiffnessPlane
+    """
+    rub_fold = continue_curve("rub-fold", machine_at(rub_fold_damping()), PLANE, steps=STEPS)
+    regions = []
+    counts: dict[str, int] = {}
+    for source, point, words in REGIONS:
+        counts[source] = counts.get(source, 0) + 1
+        regions.append(NamedRegion(source, f"{source}.{counts[source]}", point, motions_at(machine_at(*point)), words))
+    return DampingStiffnessPlane(PLANE, (*four_curves(pair), rub_fold), tuple(regions))
+
+
+def rub_fold_damping(omega: float = 0.76) -> float:
+    """``γ = ρ√(1 + μ²) − μ(1 − ω²)``, at which the stable and the saddle rub meet (see :mod:`carom.equilibria`)."""
+    at = machine_at(0.1, omega)
+    return float(at.rho * (1.0 + at.mu**2) ** 0.5 - at.mu * (1.0 - at.omega**2))

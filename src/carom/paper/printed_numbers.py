@@ -1,0 +1,224 @@
+"""Every number that the source paper prints, beside ours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Literal
+
+from carom.paper.branches import FirstPair, first_pair
+from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.paper.source import GIVEN, machine_at
+from carom.parameters import Machine
+from carom.propositions import fixed_points
+
+__all__ = ["PrintedNumber", "numbers"]
+
+
+@dataclass(frozen=True)
+class PrintedNumber:
+    """A number of the source paper and what carom computes for it.
+
+    Attributes
+    ----------
+    place : str
+        Where it is printed.
+    quantity : str
+    kind : {"computed", "counted", "given"}
+        Given numbers are inputs: parameters of the machine and those a figure is drawn for.
+    printed : str
+        With the digits printed.
+    unit : str
+        Empty for dimensionless numbers.
+    value : float
+    note : str
+    """
+
+    place: str
+    quantity: str
+    kind: Literal["computed", "counted", "given"]
+    printed: str
+    unit: str
+    value: float
+    note: str = ""
+
+    @property
+    def printed_value(self) -> float:
+        """The printed number."""
+        return float(Decimal(self.printed))
+
+    @property
+    def difference(self) -> float:
+        """Ours minus the printed one."""
+        return self.value - self.printed_value
+
+    @property
+    def agrees(self) -> bool:
+        """Whether ours, rounded to the digits printed, is the printed one."""
+        half_a_unit = 0.5 * 10.0 ** int(Decimal(self.printed).as_tuple().exponent)
+        return abs(self.difference) <= (0.0 if self.kind == "counted" else 1.001 * half_a_unit)
+
+
+def numbers(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None = None) -> tuple[PrintedNumber, ...]:
+    """List the printed numbers in the order of the text.
+
+    Parameters
+    ----------
+    pair : FirstPair, optional
+        The branches of the first pair of orbits; followed here by default.
+    plane : DampingStiffnessPlane, optional
+        Likewise.
+
+    Returns
+    -------
+    tuple of PrintedNumber
+    """
+    branches = pair or first_pair()
+    drawn = plane or damping_stiffness_plane(branches)
+    return (*_scaling(), *_along_damping(branches), *_counts(branches), *_in_the_plane(drawn), *_given())
+
+
+def _scaling() -> Iterator[PrintedNumber]:
+    """Section 2: the dimensionless parameters, from the SI ones."""
+    machine = Machine(**GIVEN).parameters
+    yield PrintedNumber("section 2", "damping γ = c/(mΩ)", "computed", "0.152", "", machine.gamma)
+    yield PrintedNumber(
+        "section 2",
+        "stiffness ω = √(k/m)/Ω",
+        "computed",
+        "0.76",
+        "",
+        machine.omega,
+        "the figures use the rounded value, and so do we",
+    )
+    yield PrintedNumber(
+        "section 2",
+        "unbalance ρ = e_c/c_r",
+        "computed",
+        "0.428",
+        "",
+        machine.rho,
+        "3/7, cut off instead of rounded (0.429)",
+    )
+    yield PrintedNumber("section 2", "radius of the rotor R/c_r", "computed", "57.143", "", machine.radius_ratio)
+
+
+def _along_damping(branches: FirstPair) -> Iterator[PrintedNumber]:
+    """Sections 3 and 4: special points of the first pair of orbits."""
+    fold = branches.special("fold", "d")
+    birth = branches.hopf.gamma
+    boundary = "γ* = √(ρ² − (1 − ω²)²), where the contact-free equilibrium meets the wall"
+    for place in ("figure 3b", "figure 4a, b", "figure 5a"):
+        yield PrintedNumber(place, f"γ_DIB = {boundary}", "computed", "0.072", "", birth)
+    for place in ("section 4, below (4.8)", "figure 3b", "figure 5"):
+        yield PrintedNumber(
+            place,
+            "γ_F,1, where the orbits of the first pair meet",
+            "computed",
+            "0.178",
+            "",
+            fold.value,
+            f"at T = {fold.period:.7f}",
+        )
+    for place in ("section 4, below (4.9)", "figure 4a"):
+        yield PrintedNumber(
+            place, "γ_F⁻, where B1,a and B1,c meet", "computed", "-0.497", "", branches.special("speed-fold", "c").value
+        )
+    grazing = branches.special("grazing", "d")
+    for place in ("section 4, below Proposition 4.3", "figure 5b"):
+        yield PrintedNumber(
+            place, "γ_graze, where B1,d grazes", "computed", "0.0636", "", grazing.value, f"at T = {grazing.period:.7f}"
+        )
+    yield PrintedNumber(
+        "figure 5b",
+        "γ where r(t) on B1,d gains a maximum and a minimum",
+        "computed",
+        "0.0785",
+        "",
+        branches.special("radius-extremum", "d").value,
+    )
+    doubling = branches.special("period-doubling", "d").value
+    note = "a multiplier −1: period doubling, which the text does not name"
+    yield PrintedNumber("section 4a", "γ above which B1,d is stable", "computed", "0.083", "", doubling, note)
+    yield PrintedNumber("figure 6a", "γ above which B1,d is stable", "computed", "0.0834", "", doubling, note)
+
+
+def _counts(branches: FirstPair) -> Iterator[PrintedNumber]:
+    """Numbers of orbits, and the bound of section 4 on the angular speed."""
+    found = fixed_points(machine_at(0.1))
+    yield PrintedNumber("section 4, notation", "N, pairs of periods at γ = 0.1", "counted", "1", "", found.pairs)
+    yield PrintedNumber(
+        "Proposition 4.1",
+        "most fixed points for N = 1 (\u201cup to 2N\u201d)",
+        "counted",
+        "2",
+        "",
+        found.total,
+        "misprint: 4N",
+    )
+    cycles = branches.hopf.cycles
+    yield PrintedNumber(
+        "Proposition 4.3, section 6",
+        "limit cycles created at γ_DIB on the side of levitation",
+        "counted",
+        "2",
+        "",
+        sum(cycle.criticality == "subcritical" for cycle in cycles),
+        "both unstable, as the text has it",
+    )
+    at = machine_at(0.1)
+    yield PrintedNumber(
+        "section 4, below (4.11)",
+        "θ̇ above which slip stays forward for all ṙ < 50",
+        "computed",
+        "-40",
+        "",
+        -(at.radius_ratio + 1.0) + at.mu * (1.0 + at.d) * 50.0,
+        "printed as sufficient, and it is; −42.5 without the 1 that (2.3) lacks",
+    )
+
+
+def _in_the_plane(plane: DampingStiffnessPlane) -> Iterator[PrintedNumber]:
+    """Section 4b: the point where the curves of figure 6b meet."""
+    gamma, omega = plane.meeting("fold", "boundary-equilibrium").value
+    yield PrintedNumber("section 4b", "γ where γ_F,1 and γ* coincide", "computed", "0.178", "", gamma)
+    yield PrintedNumber("section 4b", "ω where γ_F,1 and γ* coincide", "computed", "0.781", "", omega)
+    sources = {region.motions.source_region for region in plane.regions}
+    yield PrintedNumber(
+        "section 4b", "regions R1 to R4", "counted", "4", "", len(sources), f"{len(plane.regions)} with ours"
+    )
+
+
+_GIVEN_SI = (
+    ("mass", "m", "50", "kg"),
+    ("damping", "c", "1400", "N s/m"),
+    ("stiffness", "k", "9.8e5", "N/m"),
+    ("eccentricity", "e_c", "0.3e-3", "m"),
+    ("clearance", "c_r", "0.7e-3", "m"),
+    ("rotor_radius", "R", "0.4e-1", "m"),
+    ("unbalance_phase", "φ", "0.21", "rad"),
+    ("speed", "Ω", "184.2", "rad/s"),
+    ("friction", "μ", "0.15", ""),
+    ("restitution", "d", "0.95", ""),
+)
+_GIVEN_DAMPINGS = (
+    ("figure 2a", "0.3"),
+    ("figure 2b", "0.065"),
+    ("figure 2c", "0.1"),
+    ("figure 3a", "0.1"),
+    ("figure 3a", "0.05"),
+)
+
+
+def _given() -> Iterator[PrintedNumber]:
+    """Numbers that are used as they are."""
+    for name, symbol, printed, unit in _GIVEN_SI:
+        yield PrintedNumber("section 2", symbol, "given", printed, unit, GIVEN[name])
+    for place, printed in _GIVEN_DAMPINGS:
+        yield PrintedNumber(place, "γ", "given", printed, "", machine_at(float(printed)).gamma)
+    figures = machine_at(0.1)
+    yield PrintedNumber("figures 2 to 6", "ω", "given", "0.76", "", figures.omega)
+    yield PrintedNumber("figure 3, section 4b", "μ", "given", "0.15", "", figures.mu)
+    yield PrintedNumber("figure 3, section 4b", "d", "given", "0.95", "", figures.d)
+    yield PrintedNumber("section 4b", "ρ = 3/7", "given", str(Decimal(3) / Decimal(7)), "", figures.rho)

@@ -1,0 +1,87 @@
+"""All results of the source paper, computed once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from carom.paper.branches import FirstPair, first_pair
+from carom.paper.extrema import RadiusDiagram, radius_diagram
+from carom.paper.misprinted_forms import Misprint, misprints
+from carom.paper.motions import ShownMotion, shown_motions
+from carom.paper.periods import Birth, PeriodFunction, PeriodPair, birth, period_functions, period_pairs
+from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.paper.printed_numbers import PrintedNumber, numbers
+
+__all__ = ["Periods", "Reproduction", "reproduce"]
+
+
+@dataclass(frozen=True, eq=False)
+class Periods:
+    """What figure 3 shows.
+
+    Attributes
+    ----------
+    functions : tuple of PeriodFunction
+    pairs : tuple of PeriodPair
+    births : tuple of Birth
+    """
+
+    functions: tuple[PeriodFunction, ...]
+    pairs: tuple[PeriodPair, ...]
+    births: tuple[Birth, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Reproduction:
+    """The source paper, computed.
+
+    Attributes
+    ----------
+    motions : tuple of ShownMotion
+        Figure 2.
+    periods : Periods
+        Figure 3.
+    pair : FirstPair
+        Figures 4 and 6a.
+    radii : RadiusDiagram
+        Figure 5.
+    plane : DampingStiffnessPlane
+        Figure 6b.
+    numbers : tuple of PrintedNumber
+    misprints : tuple of Misprint
+    """
+
+    motions: tuple[ShownMotion, ...]
+    periods: Periods
+    pair: FirstPair
+    radii: RadiusDiagram
+    plane: DampingStiffnessPlane
+    numbers: tuple[PrintedNumber, ...]
+    misprints: tuple[Misprint, ...]
+
+
+def reproduce(progress: Callable[[float, str], None] | None = None) -> Reproduction:
+    """Compute all that the source paper's figures show and all numbers it prints.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Called with the share done, 0 to 1, and what is done next.
+
+    Returns
+    -------
+    Reproduction
+    """
+    tell = progress or (lambda share, words: None)
+    tell(0.0, "finding the motions of figure 2 (the kernels are compiled on first use)")
+    motions = shown_motions()
+    tell(0.3, "following the periods")
+    periods = Periods(period_functions(), period_pairs(), birth())
+    tell(0.5, "following the orbits")
+    pair = first_pair()
+    radii = radius_diagram(pair)
+    tell(0.7, "following the curves of figure 6b")
+    plane = damping_stiffness_plane(pair)
+    tell(0.9, "comparing the numbers")
+    return Reproduction(motions, periods, pair, radii, plane, numbers(pair, plane), misprints(pair, plane))

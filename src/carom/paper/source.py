@@ -1,0 +1,55 @@
+"""The machine of the source paper: what section 2 gives, and what its figures vary."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+
+from carom.parameters import Parameters, Scales
+
+__all__ = ["CITATION", "GIVEN", "SCALES", "machine_at"]
+
+CITATION = (
+    "K. Mora, C. Budd, P. Glendinning and P. Keogh, Non-smooth Hopf-type bifurcations arising from impact-friction "
+    "contact events in rotating machinery, Proc. R. Soc. A 470, 20130490 (2014), doi:10.1098/rspa.2013.0490"
+)
+
+GIVEN = MappingProxyType(
+    {
+        "mass": 50.0,
+        "damping": 1400.0,
+        "stiffness": 9.8e5,
+        "eccentricity": 0.3e-3,
+        "clearance": 0.7e-3,
+        "rotor_radius": 0.4e-1,
+        "unbalance_phase": 0.21,
+        "speed": 184.2,
+        "friction": 0.15,
+        "restitution": 0.95,
+    }
+)
+"""Section 2, in SI units (read-only)."""
+
+SCALES = Scales(mass=GIVEN["mass"], clearance=GIVEN["clearance"], speed=GIVEN["speed"])
+
+
+def machine_at(gamma: float, omega: float = 0.76) -> Parameters:
+    """Parameters of the figures: ``ω = 0.76`` as rounded there, all others as given, and the scales of the machine.
+
+    Parameters
+    ----------
+    gamma, omega : float
+
+    Returns
+    -------
+    carom.Parameters
+    """
+    return Parameters(
+        gamma=gamma,
+        omega=omega,
+        rho=3.0 / 7.0,
+        phi=GIVEN["unbalance_phase"],
+        mu=GIVEN["friction"],
+        d=GIVEN["restitution"],
+        radius_ratio=GIVEN["rotor_radius"] / GIVEN["clearance"],
+        scales=SCALES,
+    )

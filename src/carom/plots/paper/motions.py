@@ -1,0 +1,120 @@
+"""Figure 2: periodic motions in both frames and their radius over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from carom.plots.paper.panels import letter
+from carom.plots.plane import (
+    clearance_circle,
+    direction_arrow,
+    impacts,
+    key,
+    magnifier,
+    orbit_path,
+    path,
+    point,
+)
+from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.words import orbit_look, orbit_symbol
+
+if TYPE_CHECKING:
+    from carom.orbits import Orbit
+    from carom.paper.motions import ShownMotion
+
+__all__ = ["figure_2"]
+
+SHOWN_PERIODS = 3
+"""Periods of the radius that are drawn."""
+
+
+@styled
+def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
+    """Draw each motion in the fixed frame, in the co-rotating one, and its radius.
+
+    Parameters
+    ----------
+    motions : tuple of carom.paper.ShownMotion
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A row for each motion.
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 1.06 * TWO_COLUMNS), layout="constrained")
+    rows = figure.subplots(len(motions), 3, width_ratios=(1.0, 1.0, 1.25))
+    for (fixed, rotating, radius), motion in zip(rows, motions, strict=True):
+        for axes in (fixed, rotating):
+            clearance_circle(axes)
+        if motion.orbit is None:
+            _levitation(fixed, rotating, radius, motion)
+            title = motion.words
+        else:
+            _orbit(fixed, rotating, radius, motion, motion.orbit)
+            title = f"{orbit_symbol(motion.orbit.name)}, {motion.words}"
+        letter(fixed, motion.panel, rf"{title}, $\gamma$ = {motion.gamma:g}")
+        fixed.set_ylabel(r"Im $Z$ ($c_\mathrm{r}$)")
+        rotating.set_ylabel(r"Im $U$ ($c_\mathrm{r}$)")
+        radius.set_ylabel(r"radius $r$ ($c_\mathrm{r}$)")
+        fixed.set_xlabel(r"fixed frame, Re $Z$ ($c_\mathrm{r}$)")
+        rotating.set_xlabel(r"co-rotating frame, Re $U$ ($c_\mathrm{r}$)")
+        radius.set_xlabel(r"time $t$ ($1/\Omega$)")
+    key(figure, rows.ravel(), columns=4)
+    return figure
+
+
+def _levitation(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion) -> None:
+    """A point of the co-rotating frame, a circle of the fixed one."""
+    look = LOOKS["contact-free"]
+    place = motion.rotor.equilibrium
+    times = np.linspace(0.0, motion.span, 400)
+    line = place * np.exp(1j * times)
+    fixed.plot(line.real, line.imag, "-", color=look.colour, lw=1.1)
+    direction_arrow(fixed, line[times <= 0.5 * motion.span], look)
+    point(rotating, place, "contact-free", size=5.5)
+    radius.plot(times, np.full_like(times, abs(place)), "-", color=look.colour, lw=1.1)
+    radius.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    radius.set_xlim(0.0, motion.span)
+    radius.set_ylim(0.0, 1.08)
+
+
+def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit: Orbit) -> None:
+    """Draw an orbit over about two turns of the shaft in the fixed frame, and over three periods of the radius."""
+    look = LOOKS[orbit_look(orbit)]
+    words = f"orbit, {look.words}"
+    once = orbit_path(orbit, 1)[1]
+    _loop(rotating, orbit, once)
+    point(rotating, orbit.rotor.equilibrium, "contact-free", hollow=abs(orbit.rotor.equilibrium) > 1.0, label="")
+    inner = magnifier(rotating, once)
+    if inner is not None:
+        _loop(inner, orbit, once)
+        point(inner, orbit.rotor.equilibrium, "contact-free", label="")
+    count = max(1, round(motion.span / orbit.period))
+    times, line = orbit_path(orbit, count)
+    line = line * np.exp(1j * times)
+    path(fixed, line, look, label=words)
+    direction_arrow(fixed, line[times <= 0.5 * motion.span], look)
+    struck = line[:: (len(times) - 1) // count]
+    impacts(fixed, struck, np.full(len(struck), orbit.angular_speed), size=4.0)
+    times, line = orbit_path(orbit, SHOWN_PERIODS)
+    radius.plot(times, np.abs(line), look.line, color=look.colour, lw=look.width)
+    radius.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    hits = orbit.period * np.arange(SHOWN_PERIODS + 1)
+    marker = LOOKS["forward" if orbit.angular_speed > -1.0 else "backward"]
+    radius.plot(
+        hits, np.ones_like(hits), ls="none", marker=marker.marker, ms=4.0, mfc=marker.colour, mec="#1a1a1a", mew=0.4
+    )
+    radius.set_xlim(0.0, times[-1])
+    depth = 1.0 - float(np.abs(line).min())
+    radius.set_ylim(1.0 - 1.12 * depth, 1.0 + 0.12 * depth)
+
+
+def _loop(axes: Axes, orbit: Orbit, once: np.ndarray) -> None:
+    look = LOOKS[orbit_look(orbit)]
+    path(axes, once, look, label=f"orbit, {look.words}")
+    direction_arrow(axes, once, look)
+    impacts(axes, once[:1], np.array([orbit.angular_speed]), size=4.5)

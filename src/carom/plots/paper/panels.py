@@ -1,0 +1,37 @@
+"""What the panels share: their letters, the lines of their legend, names on branches, lines at special dampings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from carom.plots.diagrams import POINTS, point_key
+from carom.plots.style import LOOKS
+from carom.plots.words import orbit_symbol
+
+__all__ = ["DAMPING", "INK", "branch_key", "letter", "name_branch"]
+
+DAMPING = r"damping $\gamma$"
+INK = "#1a1a1a"
+
+
+def letter(axes: Axes, panel: str, words: str = "") -> None:
+    """Head a panel with its letter in bold and some words."""
+    axes.set_title(rf"$\mathbf{{({panel})}}$" + (f"  {words}" if words else ""), loc="left")
+
+
+def branch_key(looks: Iterable[str], points: Iterable[str] = ()) -> list[Line2D]:
+    """Entries of a legend for orbits of these looks and special points of these kinds."""
+    words = {"stable": "stable orbit", "unstable": "unstable orbit", "virtual": "virtual orbit"}
+    lines = [
+        Line2D([], [], color=LOOKS[look].colour, ls=LOOKS[look].line, lw=LOOKS[look].width, label=words[look])
+        for look in looks
+    ]
+    return lines + [point_key(POINTS[kind]) for kind in points]
+
+
+def name_branch(axes: Axes, name: str, x: float, y: float) -> None:
+    """Write an orbit's name at a place beside its branch."""
+    axes.annotate(orbit_symbol(name), (x, y), ha="center", va="center", color=INK, gid="name")

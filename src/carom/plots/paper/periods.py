@@ -1,0 +1,180 @@
+"""Figure 3: the period condition, its zeros along the damping, and the birth of the small orbits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullLocator
+
+from carom.plots.diagrams import POINTS, mark_point, point_key
+from carom.plots.paper.panels import DAMPING, INK, letter
+from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.words import orbit_look, orbit_symbol
+
+if TYPE_CHECKING:
+    from carom.orbits import Orbit
+    from carom.paper.periods import Birth, PeriodFunction, PeriodPair
+    from carom.paper.reproduction import Periods
+
+__all__ = ["figure_3"]
+
+LONGEST_CONDITION = 30.0
+SLATE = "#3d4f66"
+_LINES = ("-", "--")
+_SIDES = {"below": r"$\gamma$ < $\gamma$*", "at": r"$\gamma$ = $\gamma$*", "above": r"$\gamma$ > $\gamma$*"}
+
+
+@styled
+def figure_3(periods: Periods, birth: float) -> Figure:
+    """Draw the period condition, its zeros along the damping, and the birth of the small orbits.
+
+    Parameters
+    ----------
+    periods : carom.paper.Periods
+    birth : float
+        Damping of the non-smooth Hopf bifurcation.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 0.86 * TWO_COLUMNS), layout="constrained")
+    axes = figure.subplot_mosaic("aaabbb;ccddee", height_ratios=(1.25, 1.0))
+    _condition(axes["a"], periods.functions)
+    _zeros(axes["b"], periods.pairs, birth)
+    for place, stage in zip("cde", periods.births, strict=True):
+        _birth(axes[place], stage)
+    letter(axes["a"], "a", r"period condition $F_1$ and its zeros")
+    letter(axes["b"], "b", r"zeros of $F_1$ along the damping")
+    letter(axes["c"], "c", _SIDES["below"] + ": all virtual")
+    axes["d"].set_title(_SIDES["at"] + ": on the wall")
+    axes["e"].set_title(_SIDES["above"] + ": all admissible")
+    _same_limits([axes[place] for place in "cde"])
+    figure.legend(handles=_key(periods), loc="outside lower center", ncols=4)
+    return figure
+
+
+def _condition(axes: Axes, functions: tuple[PeriodFunction, ...]) -> None:
+    for line, function in zip(_LINES, functions, strict=True):
+        axes.plot(function.periods, function.values, line, color=INK if line == "-" else SLATE, lw=0.9)
+        roots = function.roots[function.roots < LONGEST_CONDITION]
+        face = INK if line == "-" else "white"
+        axes.plot(roots, np.zeros_like(roots), ls="none", marker="o", ms=3.5, mfc=face, mec=INK, mew=0.7, zorder=4)
+    axes.axhline(0.0, color=INK, lw=0.5)
+    axes.set_yscale("asinh", linear_width=0.2)
+    axes.set_yticks([0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0])
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.set_xlim(0.0, LONGEST_CONDITION)
+    axes.set_xlabel(r"period $T$ ($1/\Omega$)")
+    axes.set_ylabel(r"period condition $F_1$, linear near 0")
+
+
+def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
+    for pair in pairs:
+        for longer, line in ((True, "-"), (False, "--")):
+            # Both halves reach to the fold.
+            shown = np.where((pair.longer == longer) | (pair.periods == pair.fold[1]), pair.periods, np.nan)
+            axes.plot(pair.gammas, shown, line, color=INK, lw=0.9)
+        mark_point(axes, "fold", *pair.fold)
+    first = pairs[0]
+    axes.axvline(birth, color=POINTS["non-smooth-hopf"].colour, lw=0.6, ls=":")
+    for longer in (True, False):
+        half = first.longer == longer
+        order = np.argsort(first.gammas[half])
+        period = float(np.interp(birth, first.gammas[half][order], first.periods[half][order]))
+        mark_point(axes, "non-smooth-hopf", birth, period)
+    axes.set_xlim(0.0, 0.2)
+    axes.set_ylim(0.0, LONGEST_CONDITION)
+    axes.set_xlabel(DAMPING)
+    axes.set_ylabel(r"period $T$ ($1/\Omega$)")
+
+
+def _birth(axes: Axes, stage: Birth) -> None:
+    """Radius over angle near the place where the orbits are born."""
+    axes.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    place = stage.rotor.equilibrium
+    for orbit in stage.orbits:
+        _loop(axes, orbit)
+    look = LOOKS["contact-free"]
+    face = "white" if stage.side == "below" else look.colour
+    axes.plot(
+        [np.angle(place)],
+        [abs(place)],
+        ls="none",
+        marker=look.marker,
+        ms=5.5,
+        mfc=face,
+        mec=look.colour,
+        mew=0.8,
+        zorder=5,
+    )
+    axes.set_xlabel(r"angle $\theta$ (rad)")
+    if stage.side == "below":
+        axes.set_ylabel(r"radius $r$ ($c_\mathrm{r}$)")
+
+
+def _loop(axes: Axes, orbit: Orbit) -> None:
+    line = orbit.path(np.linspace(0.0, orbit.period, 400, endpoint=False))
+    line = np.append(line, line[0])
+    look = LOOKS[orbit_look(orbit)]
+    axes.plot(np.angle(line), np.abs(line), look.line, color=look.colour, lw=look.width)
+    axes.plot(np.angle(line[:1]), np.abs(line[:1]), ls="none", marker=".", ms=5.0, color=look.colour)
+    far = int(np.argmax(np.abs(np.abs(line) - 1.0)))
+    axes.annotate(
+        orbit_symbol(orbit.name),
+        (float(np.angle(line[far])), float(abs(line[far]))),
+        xytext=(0, 6 if abs(line[far]) > 1.0 else -7),
+        textcoords="offset points",
+        ha="center",
+        va="center",
+    )
+
+
+def _same_limits(stages: list[Axes]) -> None:
+    lows = [axes.dataLim.min for axes in stages]
+    highs = [axes.dataLim.max for axes in stages]
+    low, high = np.min([low[1] for low in lows]), np.max([high[1] for high in highs])
+    reach = max(1.0 - low, high - 1.0)
+    xs = np.concatenate([line.get_xdata() for axes in stages for line in axes.lines[1:]])
+    width = 0.12 * float(np.ptp(xs))
+    for axes in stages:
+        axes.set_ylim(1.0 - 1.25 * reach, 1.0 + 1.25 * reach)
+        axes.set_xlim(float(xs.min()) - width, float(xs.max()) + width)
+    for axes in stages[1:]:
+        axes.set_yticklabels([])
+
+
+def _key(periods: Periods) -> list[Line2D]:
+    first, second = (function.gamma for function in periods.functions)
+    roots = [
+        Line2D([], [], color=INK, ls="-", lw=0.9, marker="o", ms=3.5, label=rf"$F_1$ and zeros, $\gamma$ = {first:g}"),
+        Line2D(
+            [],
+            [],
+            color=SLATE,
+            ls="--",
+            lw=0.9,
+            marker="o",
+            ms=3.5,
+            mfc="white",
+            mec=INK,
+            label=rf"$\gamma$ = {second:g}",
+        ),
+    ]
+    zeros = [
+        Line2D([], [], color=INK, ls=line, lw=0.9, label=f"{words} period of a pair")
+        for line, words in (("-", "longer"), ("--", "shorter"))
+    ]
+    virtual, unstable = LOOKS["virtual"], LOOKS["unstable"]
+    equilibrium = LOOKS["contact-free"]
+    orbits = [
+        Line2D([], [], color=unstable.colour, ls=unstable.line, lw=unstable.width, label="orbit, admissible, unstable"),
+        Line2D([], [], color=virtual.colour, ls=virtual.line, lw=virtual.width, label="orbit, virtual"),
+        Line2D([], [], ls="none", marker=equilibrium.marker, ms=5.5, color=equilibrium.colour, label=equilibrium.words),
+    ]
+    return [*roots, *zeros, *(point_key(POINTS[kind]) for kind in ("fold", "non-smooth-hopf")), *orbits]

@@ -1,0 +1,108 @@
+"""Figure 6: multipliers along the damping, and the plane of damping and stiffness."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, NullLocator
+
+from carom.plots.diagrams import CURVES, branch_line, curve_line, mark_point
+from carom.plots.paper.panels import DAMPING, INK, branch_key, letter, name_branch
+from carom.plots.style import TWO_COLUMNS, styled
+
+if TYPE_CHECKING:
+    from carom.bifurcations import Curve
+    from carom.paper.branches import FirstPair
+    from carom.paper.plane import DampingStiffnessPlane
+
+__all__ = ["figure_6"]
+
+MARKED = ("fold", "period-doubling", "grazing", "non-smooth-hopf")
+
+
+@styled
+def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
+    """Draw the largest multipliers of the first four orbits, and the curves and regions of the plane.
+
+    Parameters
+    ----------
+    pair : carom.paper.FirstPair
+    plane : carom.paper.DampingStiffnessPlane
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS), layout="constrained")
+    grid = figure.add_gridspec(1, 2, width_ratios=(0.8, 1.0))
+    left, right = figure.add_subfigure(grid[0]), figure.add_subfigure(grid[1])
+    stability, map_axes = left.subplots(), right.subplots()
+    _multipliers(stability, pair)
+    _plane(map_axes, plane)
+    left.legend(handles=branch_key(("stable", "unstable", "virtual"), MARKED), loc="outside lower center", ncols=2)
+    right.legend(handles=_curve_key(plane), loc="outside lower center", ncols=2)
+    return figure
+
+
+def _multipliers(axes: Axes, pair: FirstPair) -> None:
+    axes.axhline(1.0, color=INK, lw=0.5)
+    for branch in (pair.slow, pair.fast):
+        sizes = np.abs(branch.multipliers).max(axis=1)
+        branch_line(axes, branch, np.arange(len(branch)), branch.values, sizes)
+        for point in branch.special:
+            if point.kind in MARKED:
+                size = float(np.abs(point.orbit.multipliers.values).max())
+                mark_point(axes, point.kind, point.value, size, point.admissible)
+    axes.set_yscale("log")
+    axes.set_ylim(0.75, 16.0)
+    axes.yaxis.set_major_locator(FixedLocator([0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0]))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.set_xlim(0.02, 0.19)
+    axes.set_xlabel(DAMPING)
+    axes.set_ylabel("largest modulus of the multipliers")
+    letter(axes, "a", "stability of the orbits")
+    for name in (("B1,a", 0.06, 1.45), ("B1,b", 0.1, 4.6), ("B1,c", 0.12, 1.11), ("B1,d", 0.12, 0.9)):
+        name_branch(axes, *name)
+
+
+def _plane(axes: Axes, plane: DampingStiffnessPlane) -> None:
+    for curve in plane.curves:
+        if curve.kind == "boundary-equilibrium":
+            _boundary(axes, curve, plane)
+        else:
+            curve_line(axes, curve, np.ones(2))
+    for curve in plane.curves:
+        for point in curve.codimension2:
+            axes.plot(*point.value, ls="none", marker="o", ms=4.5, mfc=INK, mec=INK, zorder=6)
+    for region in plane.regions:
+        axes.annotate(region.part, region.point, ha="center", va="center", gid="region")
+    axes.set_xlim(*plane.plane.first_range)
+    axes.set_ylim(*plane.plane.second_range)
+    axes.set_xlabel(DAMPING)
+    axes.set_ylabel(r"stiffness $\omega$")
+    letter(axes, "b", "plane of damping and stiffness")
+
+
+def _boundary(axes: Axes, curve: Curve, plane: DampingStiffnessPlane) -> None:
+    """Broad where it is a non-smooth Hopf bifurcation: up to its meeting with the fold."""
+    end = plane.meeting("fold", "boundary-equilibrium").value
+    look = CURVES["boundary-equilibrium"]
+    x, y = curve.points.T
+    born = x <= end[0]
+    axes.plot(np.append(x[born], end[0]), np.append(y[born], end[1]), color=look.colour, lw=2.4)
+    axes.plot(np.append(end[0], x[~born]), np.append(end[1], y[~born]), color=look.colour, lw=look.width)
+
+
+def _curve_key(plane: DampingStiffnessPlane) -> list[Line2D]:
+    entries = []
+    for curve in plane.curves:
+        look = CURVES[curve.kind]
+        if curve.kind == "boundary-equilibrium":
+            entries.append(Line2D([], [], color=look.colour, lw=2.4, label="non-smooth Hopf bifurcation"))
+        entries.append(Line2D([], [], color=look.colour, ls=look.line, lw=look.width, label=look.words))
+    return [*entries, Line2D([], [], ls="none", marker="o", ms=4.5, color=INK, label="two at once")]

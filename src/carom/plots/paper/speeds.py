@@ -1,0 +1,181 @@
+"""Figures 4 and 5: speeds at the impact and extrema of the radius along the damping."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from carom.plots.diagrams import branch_line, mark_point
+from carom.plots.paper.panels import DAMPING, INK, branch_key, letter, name_branch
+from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
+
+if TYPE_CHECKING:
+    from carom.bifurcations import Bifurcation, OrbitBranch
+    from carom.paper.branches import FirstPair
+    from carom.paper.extrema import ExtremumLine, RadiusDiagram
+
+__all__ = ["figure_4", "figure_5"]
+
+MARKED = ("fold", "speed-fold", "period-doubling", "neimark-sacker", "grazing", "non-smooth-hopf")
+LOCAL = Look(INK, "local theory", line=(0.0, (1.0, 1.4)), width=1.3)
+
+
+@styled
+def figure_4(pair: FirstPair) -> Figure:
+    """Draw radial and angular speed of the first four orbits, and the local theory near their birth.
+
+    Parameters
+    ----------
+    pair : carom.paper.FirstPair
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS), layout="constrained")
+    grid = figure.subplots(2, 2)
+    for axes, birth, speed, at in zip(
+        grid[:, 0], grid[:, 1], (_radial, _angular), (_radial_at, _angular_at), strict=True
+    ):
+        for drawn in (axes, birth):
+            drawn.axhline(0.0, color=INK, lw=0.5)
+            for branch in pair.branches:
+                heights = np.array([at(point) for point in branch.special])
+                branch_line(drawn, branch, np.arange(len(branch)), branch.values, speed(branch), heights)
+                for point in branch.special:
+                    if point.kind in MARKED:
+                        mark_point(drawn, point.kind, point.value, at(point), point.admissible)
+        axes.set_xlim(-0.53, 0.2)
+        birth.set_xlim(0.045, 0.115)
+    _local_lines(grid[0, 1], pair, [cycle.radial_slope for cycle in pair.hopf.cycles])
+    _local_lines(grid[1, 1], pair, [cycle.angular_slope for cycle in pair.hopf.cycles])
+    _name_figure_4(grid)
+    for axes, panel, words in zip(
+        grid.ravel(),
+        "abcd",
+        ("radial speed", "near the birth of the small orbits", "angular speed", "near the birth of the small orbits"),
+        strict=True,
+    ):
+        letter(axes, panel, words)
+        axes.set_xlabel(DAMPING)
+        axes.set_ylabel(
+            r"$\dot{r}$ before the impact ($c_\mathrm{r}\Omega$)"
+            if panel in "ab"
+            else r"$\dot{\theta}$ before the impact ($\Omega$)"
+        )
+    entries = branch_key(("stable", "unstable", "virtual"), MARKED)
+    entries.insert(3, Line2D([], [], color=LOCAL.colour, ls=LOCAL.line, lw=LOCAL.width, label=LOCAL.words))
+    figure.legend(handles=entries, loc="outside lower center", ncols=4)
+    return figure
+
+
+def _radial(branch: OrbitBranch) -> np.ndarray:
+    return branch.radial_speed
+
+
+def _angular(branch: OrbitBranch) -> np.ndarray:
+    return branch.angular_speed
+
+
+def _radial_at(point: Bifurcation) -> float:
+    return point.radial_speed
+
+
+def _angular_at(point: Bifurcation) -> float:
+    return point.orbit.angular_speed
+
+
+def _local_lines(axes: Axes, pair: FirstPair, slopes: list[float]) -> None:
+    gammas = np.array([0.045, 0.115])
+    for slope in slopes:
+        axes.plot(
+            gammas, slope * (gammas - pair.hopf.gamma), color=LOCAL.colour, ls=LOCAL.line, lw=LOCAL.width, zorder=3
+        )
+
+
+def _name_figure_4(grid: np.ndarray) -> None:
+    grid[0, 0].set_ylim(-0.06, 0.85)
+    grid[0, 1].set_ylim(-0.0042, 0.0068)
+    grid[1, 0].set_ylim(-3.6, 0.25)
+    grid[1, 1].set_ylim(-0.0155, 0.0115)
+    places = (
+        (("B1,a", -0.2, 0.03), ("B1,b", 0.155, 0.055), ("B1,c", -0.2, 0.165), ("B1,d", 0.115, 0.79)),
+        (("B1,a", 0.106, 0.0012), ("B1,b", 0.098, 0.0054)),
+        (("B1,a", -0.2, -0.12), ("B1,d", 0.13, -1.2), ("B1,c", 0.05, 0.11), ("B1,b", 0.16, 0.08)),
+        (("B1,a", 0.108, 0.0011), ("B1,b", 0.1, -0.0075)),
+    )
+    for axes, names in zip(grid.ravel(), places, strict=True):
+        for name in names:
+            name_branch(axes, *name)
+
+
+@styled
+def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
+    """Draw the local extrema of the radius between impacts.
+
+    Parameters
+    ----------
+    pair : carom.paper.FirstPair
+    radii : carom.paper.RadiusDiagram
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    figure = Figure(figsize=(TWO_COLUMNS, 0.46 * TWO_COLUMNS), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    for axes, branch, lines in ((left, pair.slow, radii.slow), (right, pair.fast, radii.fast)):
+        axes.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+        for line in lines:
+            branch_line(axes, branch, line.places, line.gammas, line.radii)
+        _mark_extrema(axes, branch, lines)
+        axes.set_xlabel(DAMPING)
+        axes.set_ylabel(r"local extrema of the radius $r$ ($c_\mathrm{r}$)")
+        axes.set_xlim(0.03, 0.2)
+    _levitation(left, radii)
+    left.set_ylim(0.962, 1.018)
+    right.set_ylim(0.0, 1.15)
+    letter(left, "a", "small orbits and contact-free equilibrium")
+    letter(right, "b", "large orbits")
+    for axes, names in (
+        (left, (("B1,a", 0.14, 1.002), ("B1,b", 0.13, 0.985))),
+        (right, (("B1,c", 0.1, 0.9), ("B1,d", 0.14, 0.3))),
+    ):
+        for name in names:
+            name_branch(axes, *name)
+    kinds = ("fold", "non-smooth-hopf", "radius-extremum", "grazing", "period-doubling")
+    entries = branch_key(("stable", "unstable", "virtual"), kinds)
+    entries.insert(3, Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free equilibrium"))
+    figure.legend(handles=entries, loc="outside lower center", ncols=5)
+    return figure
+
+
+def _mark_extrema(axes: Axes, branch: OrbitBranch, lines: tuple[ExtremumLine, ...]) -> None:
+    """Mark each special point where the extremum it is about lies; folds and period doublings on all lines."""
+    for point in branch.special:
+        if point.kind in ("non-smooth-hopf", "grazing"):
+            mark_point(axes, point.kind, point.value, 1.0)
+            continue
+        for line in lines:
+            if line.places[0] <= point.place <= line.places[-1]:
+                height = float(np.interp(point.place, line.places, line.radii))
+                ends = point.place in (line.places[0], line.places[-1])
+                if point.kind != "radius-extremum" or (ends and _shared(lines, line, point.place, height)):
+                    mark_point(axes, point.kind, point.value, height, point.admissible)
+
+
+def _shared(lines: tuple[ExtremumLine, ...], line: ExtremumLine, place: float, height: float) -> bool:
+    """Whether another line of the same stretch ends at the same point: two extrema meet there."""
+    others = (other for other in lines if other is not line and other.places[0] == line.places[0])
+    return any(abs(float(np.interp(place, other.places, other.radii)) - height) < 1e-12 for other in others)
+
+
+def _levitation(axes: Axes, radii: RadiusDiagram) -> None:
+    """The contact-free equilibrium, faint where it is virtual."""
+    colour = LOOKS["contact-free"].colour
+    for allowed, alpha in ((radii.levitation <= 1.0, 1.0), (radii.levitation >= 1.0, 0.35)):
+        axes.plot(radii.gammas, np.where(allowed, radii.levitation, np.nan), color=colour, lw=1.1, alpha=alpha)
