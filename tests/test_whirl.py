@@ -179,6 +179,16 @@ def test_interrupted_rolling_lives_between_the_limits_only():
     assert Phase.ROLLING not in lasting[1.001]
 
 
+@settings(max_examples=60, deadline=None)
+@given(parameters=damped)
+def test_rolling_ends_at_the_largest_stiffness(parameters):
+    limit = rolling(jeffcott(parameters)).largest_stiffness
+    assume(limit > 0.01)
+
+    assert rolling(jeffcott(parameters.replace(omega=limit * (1 - 1e-9)))).holds
+    assert not rolling(jeffcott(parameters.replace(omega=limit * (1 + 1e-9)))).holds
+
+
 def test_friction_from_which_rolling_holds():
     needed = rolling(jeffcott(SOURCE)).needed_friction
 

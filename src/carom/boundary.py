@@ -34,7 +34,7 @@ from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.rotors import Rotor, jeffcott
 
-__all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria"]
+__all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria", "boundary_values"]
 
 SMALL_GAP = 1e-5
 """Gap at which small orbits are looked at: what is left out is of this order, rounding of ``1e-16/1e-5``."""
@@ -149,19 +149,34 @@ def boundary_equilibria(rotor: Rotor, gain: Literal["gamma", "omega"] = "gamma")
     InputError
         There is no such gain.
     """
-    parameters = rotor.parameters
+    places = boundary_values(rotor.parameters, gain)
+    return tuple(_classified(rotor.parameters, gain, value, side) for value, side in places)
+
+
+def boundary_values(
+    parameters: Parameters, gain: Literal["gamma", "omega"]
+) -> tuple[tuple[float, Literal["above", "below"]], ...]:
+    """Values of a gain at which the contact-free equilibrium lies on the wall, and on which side of each it is inside.
+
+    ``γ = √(ρ² − (1 − ω²)²)``, and ``ω² = 1 ± √(ρ² − γ²)``.
+
+    Raises
+    ------
+    InputError
+        There is no such gain.
+    """
     if gain == "gamma":
         kappa = (1.0 - parameters.omega) * (1.0 + parameters.omega)
         square = (parameters.rho - kappa) * (parameters.rho + kappa)
-        return (_classified(parameters, gain, math.sqrt(square), "above"),) if square > 0.0 else ()
+        return ((math.sqrt(square), "above"),) if square > 0.0 else ()
     if gain != "omega":
         raise InputError("gain", gain, "one of: gamma, omega")
     square = (parameters.rho - parameters.gamma) * (parameters.rho + parameters.gamma)
     if square <= 0.0:
         return ()
     width = math.sqrt(square)
-    found = [_classified(parameters, gain, math.sqrt(1.0 - width), "below")] if width < 1.0 else []
-    return (*found, _classified(parameters, gain, math.sqrt(1.0 + width), "above"))
+    above = math.sqrt(1.0 + width)
+    return ((math.sqrt(1.0 - width), "below"), (above, "above")) if width < 1.0 else ((above, "above"),)
 
 
 def _classified(

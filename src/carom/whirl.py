@@ -88,6 +88,8 @@ class Rolling:
     damping_bound : float
         ``γ`` beyond which no backward whirl in lasting contact can sustain itself, ``μ(s² − ω²)/s``: not even one that
         slides for a part of each turn.
+    largest_stiffness : float
+        ``ω`` up to which it holds at every angle; 0 if it holds for none.
     holds : bool
         Whether the rotor, once it rolls, goes on rolling.
     """
@@ -99,6 +101,7 @@ class Rolling:
     needed_friction: float
     largest_damping: float
     damping_bound: float
+    largest_stiffness: float
     holds: bool
 
     @property
@@ -143,8 +146,8 @@ def rolling(rotor: Rotor) -> Rolling:
     """Forces and limits of rolling round the bearing.
 
     From ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)`` (see :mod:`carom.whirl`): the largest damping
-    ``(μ(s² − ω²) − ρ√(1 + μ²))/s``, and the least friction coefficient, the root of the same condition,
-    ``μ = (AB + ρ√(A² + B² − ρ²))/(A² − ρ²)`` with ``A = s² − ω²`` and ``B = |γ|s``.
+    ``(μ(s² − ω²) − ρ√(1 + μ²))/s``, the largest ``ω² = s² − (|γ|s + ρ√(1 + μ²))/μ``, and the least friction coefficient,
+    the root of the same condition, ``μ = (AB + ρ√(A² + B² − ρ²))/(A² − ρ²)`` with ``A = s² − ω²`` and ``B = |γ|s``.
 
     Parameters
     ----------
@@ -160,6 +163,7 @@ def rolling(rotor: Rotor) -> Rolling:
     push = (speed - parameters.omega) * (speed + parameters.omega)
     drag = abs(parameters.gamma) * speed
     pull = rho * math.hypot(1.0, mu)
+    square = speed * speed - (drag + pull) / mu if mu > 0.0 else 0.0
     needed = math.inf
     if push > rho:
         root = math.sqrt((push - rho) * (push + rho) + drag * drag)
@@ -172,6 +176,7 @@ def rolling(rotor: Rotor) -> Rolling:
         needed_friction=needed,
         largest_damping=(mu * push - pull) / speed,
         damping_bound=mu * push / speed,
+        largest_stiffness=math.sqrt(max(square, 0.0)),
         holds=push > rho and mu >= needed,
     )
 
@@ -185,8 +190,8 @@ def rub_limit(rotor: Rotor) -> float:
 
     Of its roots the larger is stable along the wall.  It is positive inside the disc ``κ² + γ² < ρ²``, and outside it
     where ``γ < κ/μ`` and the roots are real, ``γ + μκ ≤ ρ√(1 + μ²)``.  That line touches the circle at
-    ``κ = ρμ/√(1 + μ²)``: for larger ``κ`` the rub ends in a fold on the line, for smaller ones as its force vanishes on
-    the circle, where the rotor levitates at last.  There is nothing above and no gap below.
+    ``κ = ρμ/√(1 + μ²)``, ``γ = ρ/√(1 + μ²)``: for larger ``κ`` the rub ends in a fold on the line, for smaller ones as its
+    force vanishes on the circle, where the rotor levitates at last.  There is nothing above and no gap below.
 
     Parameters
     ----------

@@ -8,7 +8,7 @@ from carom.outcome import Outcome
 from carom.study.endings import ending_words, hardest_impulse, kick_sizes, touching
 from carom.study.ranges import Gain, Motion, free_spans
 from carom.study.wording import counted, listed, number
-from carom.whirl import rolling, runaway_speed
+from carom.whirl import Rolling, rolling, runaway_speed
 
 if TYPE_CHECKING:
     from carom.equilibria import Equilibrium
@@ -210,10 +210,18 @@ def _backward_whirl(study: Study) -> str:
     return (
         f"Dry friction can drive the rotor backward round the bearing until it rolls there with "
         f"{_with_weight(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
-        f"{bound} rules that out. It surely gets there if, in lasting contact, its centre moves backward faster than "
+        f"{bound} rules that out{_interrupted(study, roll)}. It surely gets there if, in lasting contact, its centre moves backward faster than "
         f"{say.velocity(runaway.certain)} ({number(runaway.certain, 3)} times the speed of the shaft), and may from about "
         f"{say.velocity(runaway.average)} on."
     )
+
+
+def _interrupted(study: Study, roll: Rolling) -> str:
+    """Why rolling has two limits, where they differ in the digits shown."""
+    every_angle, bound = (study.wording.gain("gamma", limit) for limit in (roll.largest_damping, roll.damping_bound))
+    if every_angle == bound:
+        return ""
+    return f" (from {every_angle} on it can roll for a part of each turn only, and slides in between)"
 
 
 def _with_weight(study: Study, force: float) -> str:

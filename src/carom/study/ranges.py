@@ -10,9 +10,10 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.boundary import boundary_values
 from carom.parameters import Parameters
 from carom.rotors import jeffcott
-from carom.whirl import rolling
+from carom.whirl import rolling, rub_limit
 
 __all__ = [
     "Edge",
@@ -179,8 +180,8 @@ ZERO, INFINITE = Edge(0.0), Edge(math.inf)
 def contact_free_range(parameters: Parameters, gain: Gain) -> MotionRange:
     """Where the contact-free equilibrium lies inside the wall.
 
-    ``|U*| < 1`` is ``ρ² < (1 − ω²)² + γ²``, from (3.7) of the source paper.  Along the damping its boundary is
-    ``γ* = √(ρ² − (1 − ω²)²)``; along the stiffness the motion is lost between ``ω² = 1 ± √(ρ² − γ²)``.
+    ``|U*| < 1`` is ``ρ² < (1 − ω²)² + γ²``, from (3.7) of the source paper; its ends are
+    :func:`~carom.boundary.boundary_values`.
 
     Parameters
     ----------
@@ -192,37 +193,20 @@ def contact_free_range(parameters: Parameters, gain: Gain) -> MotionRange:
     -------
     MotionRange
     """
-    kind = "boundary-equilibrium"
-    if gain == "gamma":
-        boundary = _leg(parameters.rho, 1.0 - parameters.omega**2)
-        start = Edge(boundary, kind) if boundary > 0 else ZERO
-        return MotionRange("contact-free", gain, (Span(start, INFINITE),))
-    half_width = _leg(parameters.rho, parameters.gamma)
-    if half_width == 0:
-        return MotionRange("contact-free", gain, (Span(ZERO, INFINITE),))
-    above = Span(Edge(math.sqrt(1.0 + half_width), kind), INFINITE)
-    if half_width >= 1:
-        return MotionRange("contact-free", gain, (above,))
-    return MotionRange("contact-free", gain, (Span(ZERO, Edge(math.sqrt(1.0 - half_width), kind)), above))
+    spans = []
+    for value, side in boundary_values(parameters, gain):
+        edge = Edge(value, "boundary-equilibrium")
+        spans.append(Span(edge, INFINITE) if side == "above" else Span(ZERO, edge))
+    return MotionRange("contact-free", gain, tuple(spans) or (Span(ZERO, INFINITE),))
 
 
 def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
     """Where a synchronous rub exists with the wall pushing, not pulling.
 
-    With ``κ = 1 − ω²`` the normal force ``N`` of a synchronous rub solves
-
-        (1 + μ²) N² − 2(κ − μγ) N + κ² + γ² − ρ² = 0,
-
-    the squared modulus of ``(ω² − 1 + iγ) e^{ix} + N(1 + iμ) e^{ix} = ρ`` (see :func:`carom.equilibria.equilibria`).  A
-    positive root exists
-
-    - inside the disc ``κ² + γ² < ρ²``, where the roots differ in sign and the contact-free equilibrium is virtual, and
-    - outside it where ``γ < κ/μ`` and ``γ + μκ ≤ ρ√(1 + μ²)``, with two positive roots, a stable rub and a saddle.
-
-    The line ``γ + μκ = ρ√(1 + μ²)``, on which the two meet in a fold, touches the circle at ``κ = ρμ/√(1 + μ²)``,
-    ``γ = ρ/√(1 + μ²)``, where ``N = 0``.  Beyond that point the fold bounds the region, before it the circle does.  The
-    larger root is always stable: there ``ρ(cos x − μ sin x) = (1 + μ²)N − κ + μγ > 0``.  So where a rub exists, a
-    stable one exists.
+    In the plane of ``γ`` and ``κ = 1 − ω²`` that is a disc and a wedge beside it, derived in
+    :func:`~carom.whirl.rub_limit`; its edges are a fold and a circle, on which the contact-free equilibrium lies on the
+    wall.  The larger normal force is always the stable rub's, ``ρ(cos x − μ sin x) = (1 + μ²)N − κ + μγ > 0``.  So where
+    a rub exists, a stable one exists.
 
     Parameters
     ----------
@@ -238,11 +222,8 @@ def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
     rho, mu, gamma = parameters.rho, parameters.mu, parameters.gamma
     slope = math.hypot(1.0, mu)
     if gain == "gamma":
-        kappa = 1.0 - parameters.omega**2
-        if kappa * slope >= rho * mu:
-            end = Edge(rho * slope - mu * kappa, "rub-fold")
-        else:
-            end = Edge(_leg(rho, kappa), "boundary-equilibrium")
+        folds = (1.0 - parameters.omega**2) * slope >= rho * mu
+        end = Edge(rub_limit(jeffcott(parameters)), "rub-fold" if folds else "boundary-equilibrium")
         return MotionRange("rub", gain, (Span(ZERO, end),) if end.value > 0 else ())
     half_width = _leg(rho, gamma)
     if half_width == 0:
@@ -273,13 +254,8 @@ def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
     -------
     MotionRange
     """
-    rho, mu, ratio = parameters.rho, parameters.mu, parameters.radius_ratio
-    if gain == "gamma":
-        limit = rolling(jeffcott(parameters)).largest_damping
-    else:
-        pull = rho * math.hypot(1.0, mu)
-        square = ratio**2 - (parameters.gamma * ratio + pull) / mu if mu > 0 else 0.0
-        limit = math.sqrt(square) if square > 0 else 0.0
+    roll = rolling(jeffcott(parameters))
+    limit = roll.largest_damping if gain == "gamma" else roll.largest_stiffness
     return MotionRange("rolling", gain, (Span(ZERO, Edge(limit, "rolling-limit")),) if limit > 0 else ())
 
 

@@ -95,7 +95,7 @@ _EVENTS = {
     "rub-fold": "a stable and an unstable rub meet (fold)",
     "fold": "two orbits meet (fold)",
     "vanishing-period": "the period of an orbit shrinks to zero",
-    "rolling-limit": "friction just keeps the rotor rolling",
+    "rolling-limit": "friction just keeps the rotor rolling at every angle",
 }
 
 

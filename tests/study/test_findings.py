@@ -1,0 +1,48 @@
+"""What a study says of backward whirl: one limit of the damping or two, each for what it is."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+import carom
+from carom.study import Wording
+from carom.study.findings import _backward_whirl
+from carom.study.ranges import rolling_range
+from carom.whirl import rolling
+
+SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+SOURCE = carom.Parameters(
+    gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=SCALES
+)
+
+
+def said_of(parameters: carom.Parameters) -> str:
+    study = SimpleNamespace(
+        rotor=carom.jeffcott(parameters),
+        wording=Wording(parameters.scales),
+        case=SimpleNamespace(parameters=parameters),
+    )
+    return _backward_whirl(study)
+
+
+def test_two_limits_of_rolling_are_told_apart():
+    text = said_of(SOURCE)
+    roll, say = rolling(carom.jeffcott(SOURCE)), Wording(SCALES)
+    every_angle, bound = say.gain("gamma", roll.largest_damping), say.gain("gamma", roll.damping_bound)
+    assert every_angle != bound
+    assert (
+        f"only damping above {bound} rules that out (from {every_angle} on it can roll for a part of each turn only, "
+        "and slides in between)"
+    ) in text
+    # The smaller one is the threshold in the table.
+    (threshold,) = rolling_range(SOURCE, "gamma").thresholds
+    assert threshold.edge.value == roll.largest_damping
+
+
+def test_a_balanced_rotor_has_one_limit_of_rolling():
+    parameters = SOURCE.replace(rho=0.0)
+    roll = rolling(carom.jeffcott(parameters))
+    assert roll.largest_damping == pytest.approx(roll.damping_bound, rel=1e-15)
+    assert "rules that out. It surely gets there" in said_of(parameters)
