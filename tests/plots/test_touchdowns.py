@@ -68,6 +68,29 @@ def test_forces_of_a_motion_without_lasting_contact_show_impulses_alone(bouncing
     assert len(figure.axes) == 2
     stems = figure.axes[1].collections[0].get_segments()
     assert len(stems) == len(bouncing.contacts)
+    left = figure.axes[0]
+    assert [text.get_text() for text in left.texts] == ["no lasting contact"]
+    assert (list(left.get_yticks()), left.get_ylabel()) == ([], "")
+    assert "force" not in _words(figure)
+
+
+def test_words_stand_above_the_stems(bouncing):
+    figure = plots.forces(bouncing)
+    figure.draw_without_rendering()
+    words = figure.axes[0].texts[0].get_window_extent()
+    beside = figure.axes[1]
+    top = beside.transData.transform((0.0, bouncing.contacts.in_si(bouncing.rotor.scales)["normal_impulse"][0].max()))[1]
+    assert words.y0 > top
+
+
+def test_forces_of_a_motion_without_contact(damped):
+    figure = plots.forces(carom.simulate(damped.rotor, carom.kick(0.01), until=5.0))
+    assert [text.get_text() for text in figure.axes[0].texts] == ["no contact"]
+    assert len(figure.axes) == 1
+
+
+def test_forces_that_are_drawn_need_no_words(rub):
+    assert len(plots.forces(rub).axes[0].texts) == 0
 
 
 def test_energies_draw_every_account(ledger):

@@ -134,23 +134,16 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     -------
     matplotlib.figure.Figure
         Forces in N and impulses in N s (right axis) where the machine is known, else in ``m c_r Ω²`` and ``m c_r Ω``.
+        Without lasting contact there is no force to draw, and the panel says so.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = trajectory.rotor.scales
-    times = _contact_times(trajectory)
-    normal, friction = (part * (scales.force if scales else 1.0) for part in trajectory.forces(times))
-    gaps = np.isnan(times)
-    for values, look, words in (
-        (normal, LOOKS["wall"], "normal force of lasting contact"),
-        (np.abs(friction), LOOKS["roll"], "friction force, size"),
-    ):
-        drawn.plot(times, np.where(gaps, np.nan, values), ls=look.line, color=look.colour, lw=0.9, label=words)
-    held = normal[~gaps & (normal > 0.0)]
-    if len(held) and held.max() > _WIDE_RANGE * np.median(held):
-        drawn.set_yscale("log")
+    if trajectory.lasting_contacts:
+        _contact_forces(drawn, trajectory, scales)
     else:
-        drawn.set_ylim(0.0, 1.1 * held.max() if len(held) else 1.0)
-    drawn.set_ylabel("contact force (N)" if scales else r"contact force ($m c_r \Omega^2$)")
+        drawn.set_yticks([])
+        words = "no lasting contact" if len(trajectory.contacts) else "no contact"
+        drawn.text(0.5, 0.94, words, transform=drawn.transAxes, ha="center", va="top", gid="no force")
     drawn.set_xlabel(axis_time(scales))
     drawn.set_xlim(0.0, trajectory.time)
     if len(trajectory.contacts):
@@ -160,6 +153,24 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     return figure
 
 
+def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
+    """Normal and friction force over the stretches of lasting contact."""
+    times = _contact_times(trajectory)
+    normal, friction = (part * (scales.force if scales else 1.0) for part in trajectory.forces(times))
+    gaps = np.isnan(times)
+    for values, look, words in (
+        (normal, LOOKS["wall"], "normal force of lasting contact"),
+        (np.abs(friction), LOOKS["roll"], "friction force, size"),
+    ):
+        axes.plot(times, np.where(gaps, np.nan, values), ls=look.line, color=look.colour, lw=0.9, label=words)
+    held = normal[~gaps & (normal > 0.0)]
+    if len(held) and held.max() > _WIDE_RANGE * np.median(held):
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(0.0, 1.1 * held.max() if len(held) else None)
+    axes.set_ylabel("contact force (N)" if scales else r"contact force ($m c_r \Omega^2$)")
+
+
 def _contact_times(trajectory: Trajectory) -> Floats:
     """Times to draw lasting contact at, a gap (nan) after each stretch."""
     pieces = []
@@ -167,7 +178,7 @@ def _contact_times(trajectory: Trajectory) -> Floats:
         count = max(50, int(_SAMPLES * (span.end - span.start) / trajectory.time))
         inside = np.linspace(span.start, span.end, count + 1)[:-1]
         pieces.append(np.append(inside, np.nan))
-    return np.concatenate(pieces) if pieces else np.zeros(0)
+    return np.concatenate(pieces)
 
 
 def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
@@ -178,7 +189,8 @@ def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None
     look = LOOKS["stable"]
     beside.vlines(log.time, 0.0, heights, color=look.colour, lw=0.5)
     beside.plot(log.time, heights, "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
-    beside.set_ylim(0.0, None)
+    # Room above for the words where there is no force.
+    beside.set_ylim(0.0, None if trajectory.lasting_contacts else 1.25 * heights.max())
     beside.set_ylabel("impulse (N s)" if scales else r"impulse ($m c_r \Omega$)")
     axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
 
