@@ -110,10 +110,6 @@ class Wording:
         """``damping`` or ``stiffness``; the dimensionless name where the machine is not known."""
         return gain if self.scales is None else _GAIN_WORDS[gain]
 
-    def other_gain(self, gain: Gain) -> str:
-        """Name of the gain that stays as it is."""
-        return self.gain_name("omega" if gain == "gamma" else "gamma")
-
     def where(self, gain: Gain, spans: tuple[Span, ...], searched: Span | None = None) -> str:
         """Say for which values of a gain something holds: ``below 3,408 N s/m``."""
         if not spans:
