@@ -1,0 +1,12 @@
+"""Pseudo-arclength continuation of ``F(u, p) = 0`` with location of special points.  It knows no rotor.
+
+=============  =======================================================
+``branch``     what is asked for and what is found
+``tracer``     how it is found: prediction, correction, special points
+=============  =======================================================
+"""
+
+from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
+from carom.continuation.tracer import continue_branch
+
+__all__ = ["Branch", "SpecialPoint", "Steps", "Watch", "continue_branch"]

@@ -1,0 +1,107 @@
+"""Branches of solutions: how to step along one, what to watch there, and what was found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+__all__ = ["Branch", "SpecialPoint", "Steps", "StopReason", "Watch"]
+
+StopReason = Literal["parameter limit", "end of domain", "closed loop", "step too small", "most points"]
+
+
+@dataclass(frozen=True)
+class Steps:
+    """How to step along a branch, in units of the scaled unknowns.
+
+    Attributes
+    ----------
+    first, smallest, largest : float
+        Arclength of the first step and its limits.  Neighbouring points are no more than 1.05 ``largest`` apart.
+    tolerance : float
+        Largest residual of an accepted point, or largest last correction where rounding leaves a larger residual.
+    iterations : int
+        Newton iterations after which a step is halved.
+    sharpest_turn : float
+        Largest angle between tangents of neighbouring points, in rad.
+    most_points : int
+        Points after which a direction is given up.
+    """
+
+    first: float = 0.01
+    smallest: float = 1e-8
+    largest: float = 0.05
+    tolerance: float = 1e-12
+    iterations: int = 8
+    sharpest_turn: float = 0.2
+    most_points: int = 5000
+
+
+@dataclass(frozen=True)
+class Watch:
+    """A function whose zeros on the branch are special points.
+
+    Attributes
+    ----------
+    kind : str
+        Name of the special point.
+    function : callable
+        Of ``u`` and ``p``; ``nan`` where it is not defined.  A jump from one sign to the other is no zero.
+    ends_branch : bool
+        Whether the branch ends there.
+    """
+
+    kind: str
+    function: Callable[[np.ndarray, float], float]
+    ends_branch: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class SpecialPoint:
+    """A located zero of a watched function.
+
+    Attributes
+    ----------
+    kind : str
+    unknowns : ndarray, shape (n,)
+    parameter : float
+    place : float
+        Where on the branch: index of the point before it plus the fraction of the step.
+    """
+
+    kind: str
+    unknowns: np.ndarray
+    parameter: float
+    place: float
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A curve of solutions in the order of arclength.
+
+    Attributes
+    ----------
+    unknowns : ndarray, shape (m, n)
+    parameters : ndarray, shape (m,)
+    special : tuple of SpecialPoint
+        In the order of ``place``.
+    stops : tuple of two str
+        Why the branch ends at its first and last point: ``"parameter limit"`` (the point lies on it exactly),
+        ``"end of domain"`` (a watch ended it, or the equations are not defined further on), ``"closed loop"`` (the last
+        point is the first), ``"step too small"`` or ``"most points"``.
+    """
+
+    unknowns: np.ndarray
+    parameters: np.ndarray
+    special: tuple[SpecialPoint, ...]
+    stops: tuple[StopReason, StopReason]
+
+    def __len__(self) -> int:
+        return len(self.parameters)
+
+    def of_kind(self, kind: str) -> tuple[SpecialPoint, ...]:
+        """Special points of one kind."""
+        return tuple(point for point in self.special if point.kind == kind)
