@@ -30,6 +30,7 @@ def machine() -> carom.Parameters:
     return carom.Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 
+@pytest.mark.jit_only
 def test_each_ends_as_it_does_alone(machine):
     rotor = carom.jeffcott(machine)
     positions, velocities = starts(24)
@@ -45,6 +46,7 @@ def test_each_ends_as_it_does_alone(machine):
     assert len(np.unique(together.outcomes)) == 3
 
 
+@pytest.mark.jit_only
 def test_threads_and_company_change_nothing(machine):
     rotor = carom.jeffcott(machine)
     positions, velocities = starts(40)
@@ -55,6 +57,7 @@ def test_threads_and_company_change_nothing(machine):
         np.testing.assert_array_equal(getattr(one, name)[::2], getattr(half, name), err_msg=name)
 
 
+@pytest.mark.jit_only
 def test_starts_may_have_machines_of_their_own(machine):
     rotors = [carom.jeffcott(machine.replace(gamma=gamma)) for gamma in (0.1, 0.3, 0.6)]
     positions, velocities = starts(30)
