@@ -7,9 +7,9 @@ that :data:`_HOMES` gives; everything listed there can be had as an attribute of
 >>> machine = cm.Machine.load("examples/keogh-cole.toml")
 >>> orbits = cm.single_impact_orbits(cm.jeffcott(machine.parameters))
 
-The functions :func:`equilibria` and :func:`study` carry the name of the module they live in. The attribute of the
-package is always the function; the module is at hand as ``sys.modules["carom.equilibria"]`` and in
-``from carom.equilibria import ...``.
+The functions :func:`basins`, :func:`disturbances`, :func:`equilibria` and :func:`study` carry the name of the module they
+live in. The attribute of the package is always the function; the module is at hand as
+``sys.modules["carom.equilibria"]`` and in ``from carom.equilibria import ...``.
 """
 
 import sys
@@ -22,6 +22,14 @@ if TYPE_CHECKING:
     from carom.attractors import Attractor as Attractor
     from carom.attractors import AttractorSet as AttractorSet
     from carom.attractors import find_attractors as find_attractors
+    from carom.basins import Basin as Basin
+    from carom.basins import GainMap as GainMap
+    from carom.basins import basin_entropy as basin_entropy
+    from carom.basins import basins as basins
+    from carom.basins import gain_map as gain_map
+    from carom.basins import integrity as integrity
+    from carom.basins import least_gain_change as least_gain_change
+    from carom.basins import smallest_unrecovered_kick as smallest_unrecovered_kick
     from carom.bifurcations import Diagram as Diagram
     from carom.bifurcations import OrbitBranch as OrbitBranch
     from carom.bifurcations import Plane as Plane
@@ -32,6 +40,16 @@ if TYPE_CHECKING:
     from carom.bifurcations import region_map as region_map
     from carom.boundary import BoundaryEquilibrium as BoundaryEquilibrium
     from carom.boundary import boundary_equilibria as boundary_equilibria
+    from carom.disturbances import AnyState as AnyState
+    from carom.disturbances import BaseShock as BaseShock
+    from carom.disturbances import ContactRelease as ContactRelease
+    from carom.disturbances import Grid as Grid
+    from carom.disturbances import KickPlane as KickPlane
+    from carom.disturbances import Sample as Sample
+    from carom.disturbances import StateSlice as StateSlice
+    from carom.disturbances import UnbalanceStep as UnbalanceStep
+    from carom.disturbances import VelocityKick as VelocityKick
+    from carom.disturbances import disturbances as disturbances
     from carom.ensembles import Endings as Endings
     from carom.ensembles import settle_all as settle_all
     from carom.equilibria import Equilibrium as Equilibrium
@@ -73,16 +91,23 @@ if TYPE_CHECKING:
     __version__: str
 
 _HOMES = {
+    "AnyState": "disturbances",
     "Attractor": "attractors",
     "AttractorSet": "attractors",
+    "BaseShock": "disturbances",
+    "Basin": "basins",
     "BoundaryEquilibrium": "boundary",
     "CaromError": "outcome",
     "Case": "parameters",
+    "ContactRelease": "disturbances",
     "Diagram": "bifurcations",
     "Endings": "ensembles",
     "EnergyLedger": "ledger",
     "Equilibrium": "equilibria",
+    "GainMap": "basins",
+    "Grid": "disturbances",
     "InputError": "outcome",
+    "KickPlane": "disturbances",
     "Machine": "parameters",
     "Orbit": "orbits",
     "OrbitBranch": "bifurcations",
@@ -96,21 +121,31 @@ _HOMES = {
     "Rotor": "rotors",
     "Runaway": "whirl",
     "SafeDamping": "safety",
+    "Sample": "disturbances",
     "Scales": "parameters",
     "Section": "maps",
     "State": "trajectories",
+    "StateSlice": "disturbances",
     "Trajectory": "trajectories",
+    "UnbalanceStep": "disturbances",
+    "VelocityKick": "disturbances",
     "Zones": "parameters",
+    "basin_entropy": "basins",
+    "basins": "basins",
     "bifurcation_diagram": "bifurcations",
     "boundary_equilibria": "boundary",
     "continue_curve": "bifurcations",
     "continue_orbit": "bifurcations",
+    "disturbances": "disturbances",
     "energy_ledger": "ledger",
     "equilibria": "equilibria",
     "find_attractors": "attractors",
+    "gain_map": "basins",
     "impact_map": "maps",
+    "integrity": "basins",
     "jeffcott": "rotors",
     "kick": "trajectories",
+    "least_gain_change": "basins",
     "least_safe_damping": "safety",
     "load_case": "parameters",
     "multipliers": "stability",
@@ -122,6 +157,7 @@ _HOMES = {
     "settle_all": "ensembles",
     "simulate": "trajectories",
     "single_impact_orbits": "orbits",
+    "smallest_unrecovered_kick": "basins",
     "study": "study",
 }
 _SUBPACKAGES = ("plots",)

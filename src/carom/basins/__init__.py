@@ -1,0 +1,42 @@
+"""Where disturbances go: basins of attraction, what share of them comes back, and which gains bring back more.
+
+==================  ==================================================================================
+``classification``  :func:`basins` and the frozen :class:`Basin`
+``motions``         names of the motions that starts end on
+``store``           netCDF files, whole or not at all
+``shares``          shares with their confidence intervals
+``kicks``           the smallest kick that does not come back
+``integrity``       the largest ball of starts that all come back
+``entropy``         basin entropy and boundary basin entropy
+``absorbing``       a proven neighbourhood of the synchronous rub
+``gains``           all that against two parameters: gain maps
+``document``        results as JSON
+==================  ==================================================================================
+"""
+
+from carom.basins.absorbing import RubNeighbourhood, rub_neighbourhood
+from carom.basins.classification import Basin, basins
+from carom.basins.entropy import BasinEntropy, basin_entropy
+from carom.basins.gains import GainChange, GainMap, gain_map, least_gain_change
+from carom.basins.integrity import Integrity, integrity
+from carom.basins.kicks import SmallestKick, harmless_kick, smallest_unrecovered_kick
+from carom.basins.shares import Share
+
+__all__ = [
+    "Basin",
+    "BasinEntropy",
+    "GainChange",
+    "GainMap",
+    "Integrity",
+    "RubNeighbourhood",
+    "Share",
+    "SmallestKick",
+    "basin_entropy",
+    "basins",
+    "gain_map",
+    "harmless_kick",
+    "integrity",
+    "least_gain_change",
+    "rub_neighbourhood",
+    "smallest_unrecovered_kick",
+]

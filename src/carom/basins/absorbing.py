@@ -1,0 +1,124 @@
+"""A neighbourhood of the synchronous rub that sliding never leaves, proven by a Lyapunov function.
+
+While the rotor slides with forward slip, ``θ̈ = −γ(1 + θ̇) − ρ sin x − μN`` with ``x = θ − φ`` and
+``N = ρ cos x + (1 + θ̇)² − ω²`` (components of the source paper's (2.13) along the wall).  With ``w = θ̇``,
+``p = ρ√(1 + μ²)``, ``y = x + arctan μ`` and the stable rub at ``p sin y₀ = −γ − μ(1 − ω²)``, ``cos y₀ > 0``,
+
+    ẇ = −(γ + 2μ)w − μw² − p(sin y − sin y₀).
+
+The quadratic term of friction is taken up by an integrating factor: with ``s = y − y₀``,
+
+    V = ½w²e^{2μs} + p ∫₀ˢ (sin(y₀ + σ) − sin y₀) e^{2μσ} dσ,      V̇ = −(γ + 2μ) w² e^{2μs} ≤ 0.
+
+The part of ``V < c`` around the rub is bounded while ``c`` is below ``V`` at both saddles ``s = ±π − 2y₀``.  If on all of it
+the wall pushes (``N > 0``) and slip is forward (``s_r + 1 + w > 0``), sliding cannot end there, and by LaSalle's principle
+every state in it converges to the rub, the only invariant set with ``w = 0``.  The largest such ``c`` follows from the least
+``V`` on the curves ``N = 0`` and ``s_r + 1 + w = 0``, bounded from below interval by interval.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.equilibria import equilibria
+from carom.rotors import Rotor
+
+__all__ = ["RubNeighbourhood", "rub_neighbourhood"]
+
+INTERVALS = 40_000
+ROUNDING = 1e-9
+"""Share of the level that is given up for rounding."""
+
+
+@dataclass(frozen=True)
+class RubNeighbourhood:
+    """Sliding states from which the rotor surely goes over to the synchronous rub.
+
+    Attributes
+    ----------
+    angle : float
+        Of the rub, rad.
+    level : float
+        ``V`` below which states belong to it.
+    limit : {"saddle", "lift-off", "slip"}
+        What bounds it.
+    friction, decline, strength, phase : float
+        ``μ``, ``γ + 2μ``, ``p`` and ``y₀``.
+    """
+
+    angle: float
+    level: float
+    limit: str
+    friction: float
+    decline: float
+    strength: float
+    phase: float
+
+    def value(self, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        """``V`` of sliding states: angles in rad, angular speeds in the co-rotating frame in ``Ω``.
+
+        Angles are taken in the turn between the two saddles.
+        """
+        low = -math.pi - 2.0 * self.phase
+        ahead = np.mod(np.asarray(angles, float) - self.angle - low, 2.0 * math.pi) + low
+        weight = np.exp(2.0 * self.friction * ahead)
+        return 0.5 * np.asarray(rates, float) ** 2 * weight + _potential(
+            ahead, self.friction, self.strength, self.phase
+        )
+
+    def contains(self, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        """Whether sliding states (on the wall, without radial speed) belong to it."""
+        inside: np.ndarray = self.value(angles, rates) < self.level
+        return inside
+
+
+def rub_neighbourhood(rotor: Rotor) -> RubNeighbourhood | None:
+    """Largest proven neighbourhood of the stable synchronous rub; ``None`` if there is no such rub.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        The planar rotor.
+    """
+    numbers = rotor.parameters
+    rub = next((entry for entry in equilibria(rotor)[1:] if entry.stable and entry.status == "admissible"), None)
+    gamma, mu = numbers.gamma, numbers.mu
+    if rub is None or gamma + 2.0 * mu <= 0.0:
+        return None
+    strength = numbers.rho * math.hypot(1.0, mu)
+    phase = math.remainder(rub.angle - numbers.phi + math.atan(mu), 2.0 * math.pi)
+    if math.cos(phase) <= 0.0:
+        return None
+    low, high = -math.pi - 2.0 * phase, math.pi - 2.0 * phase
+    edges = np.linspace(low, high, INTERVALS + 1)
+    potential = _potential(edges, mu, strength, phase)
+    # The potential falls to zero at the rub and rises from there: its least value on an interval is at an end.
+    least = np.minimum(potential[:-1], potential[1:])
+    least[(edges[:-1] <= 0.0) & (edges[1:] >= 0.0)] = 0.0
+    weight = np.exp(2.0 * mu * edges[:-1])
+    middles, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * (high - low) / INTERVALS
+    pull = numbers.omega**2 - numbers.rho * np.cos(middles + phase - math.atan(mu)) + numbers.rho * half
+    lifting = np.minimum(0.0, np.sqrt(np.maximum(pull, 0.0)) - 1.0)
+    lifts = np.where(pull > 0.0, least + 0.5 * lifting**2 * weight, np.inf)
+    stops = least + 0.5 * (1.0 + numbers.radius_ratio) ** 2 * weight
+    levels = {
+        "saddle": float(min(potential[0], potential[-1])),
+        "lift-off": float(lifts.min()),
+        "slip": float(stops.min()),
+    }
+    limit = min(levels, key=lambda name: levels[name])
+    level = levels[limit] * (1.0 - ROUNDING)
+    return RubNeighbourhood(rub.angle, level, limit, mu, gamma + 2.0 * mu, strength, phase)
+
+
+def _potential(ahead: np.ndarray, mu: float, strength: float, phase: float) -> np.ndarray:
+    """``p ∫₀ˢ (sin(y₀ + σ) − sin y₀) e^{2μσ} dσ``."""
+    rate = 2.0 * mu
+    swing = np.exp(rate * ahead) * (rate * np.sin(phase + ahead) - np.cos(phase + ahead))
+    start = rate * math.sin(phase) - math.cos(phase)
+    steady = np.expm1(rate * ahead) / rate if rate > 0.0 else ahead
+    potential: np.ndarray = strength * ((swing - start) / (1.0 + rate**2) - math.sin(phase) * steady)
+    return potential

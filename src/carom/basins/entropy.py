@@ -1,0 +1,96 @@
+"""Basin entropy: how unpredictable the end of a disturbance is.
+
+A. Daza, A. Wagemakers, B. Georgeot, D. Guéry-Odelin, M. A. F. Sanjuán, "Basin entropy: a new tool to analyze uncertainty
+in dynamical systems", Scientific Reports 6, 31416 (2016).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.basins.classification import Basin
+from carom.disturbances import Grid
+from carom.outcome import InputError
+
+__all__ = ["BasinEntropy", "basin_entropy", "entropies"]
+
+IN_A_BOX = 25
+"""Starts in a box that the authors recommend, about."""
+
+
+@dataclass(frozen=True)
+class BasinEntropy:
+    """Basin entropy of a grid.
+
+    Attributes
+    ----------
+    whole : float
+        ``S_b``: mean of ``−Σ p ln p`` over all boxes, ``p`` the shares of the motions in a box.
+    boundary : float
+        ``S_bb``: the same over boxes with more than one motion; ``nan`` if there are none.
+    side : int
+        Starts along the side of a box.
+    boxes, mixed : int
+        Boxes, and those with more than one motion.
+    """
+
+    whole: float
+    boundary: float
+    side: int
+    boxes: int
+    mixed: int
+
+    @property
+    def fractal(self) -> bool:
+        """Whether ``S_bb > ln 2``: then the boundary cannot be smooth (a sufficient condition)."""
+        return self.boundary > math.log(2.0)
+
+
+def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
+    """Basin entropy and boundary basin entropy of starts on a grid.
+
+    Parameters
+    ----------
+    basin : Basin
+    side : int, optional
+        Starts along the side of a box; by default such that a box has about 25.
+
+    Raises
+    ------
+    InputError
+        The starts are a sample, or too few for a box.
+    """
+    if not isinstance(basin.plan, Grid):
+        raise InputError("basin", "a sample", "starts on a grid, of which boxes can be made")
+    return entropies(basin.dataset["motion"].values, side)
+
+
+def entropies(labels: np.ndarray, side: int | None = None) -> BasinEntropy:
+    """Basin entropy of labels on a grid; boxes with a negative label are left out.
+
+    Raises
+    ------
+    InputError
+        The grid has no room for a box.
+    """
+    side = side or max(2, round(IN_A_BOX ** (1.0 / labels.ndim)))
+    counts = [cells // side for cells in labels.shape]
+    if side < 2 or not all(counts):
+        raise InputError("side", side, f"2 to {min(labels.shape)}, the smallest side of the grid")
+    trimmed = labels[tuple(slice(count * side) for count in counts)]
+    split = trimmed.reshape([part for count in counts for part in (count, side)])
+    order = [*range(0, 2 * labels.ndim, 2), *range(1, 2 * labels.ndim, 2)]
+    boxes = split.transpose(order).reshape(math.prod(counts), -1)
+    boxes = boxes[(boxes >= 0).all(axis=1)]
+    if not len(boxes):
+        return BasinEntropy(math.nan, math.nan, side, 0, 0)
+    values = np.zeros(len(boxes))
+    for label in np.unique(boxes):
+        share = (boxes == label).mean(axis=1)
+        values -= share * np.log(np.where(share > 0.0, share, 1.0))
+    mixed = boxes.min(axis=1) != boxes.max(axis=1)
+    boundary = float(values[mixed].mean()) if mixed.any() else math.nan
+    return BasinEntropy(float(values.mean()), boundary, side, len(boxes), int(mixed.sum()))

@@ -1,0 +1,408 @@
+"""Gain maps: what share of disturbances comes back, against two parameters of the machine."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.basins.classification import NO_START, plan_of, provenance
+from carom.basins.entropy import entropies
+from carom.basins.shares import Share
+from carom.bifurcations import Axis, Numbers, axis
+from carom.disturbances import BaseShock, Grid, Plan, Sample, Starts, VelocityKick
+from carom.ensembles import MOST_EVENTS, PATIENCE, settle_all
+from carom.outcome import InputError, Outcome
+from carom.parameters import Parameters, Scales
+from carom.rotors import Rotor, jeffcott
+
+if TYPE_CHECKING:
+    import os
+
+    import xarray
+
+__all__ = ["GainChange", "GainMap", "gain_map", "least_gain_change"]
+
+AROUND = (0.5, 2.0)
+"""Default range of a parameter, in its present value."""
+CHUNK = 200_000
+"""Starts that are in memory at a time, about."""
+HALVINGS = 8
+CANDIDATES = 8
+"""Nodes towards which the least change is looked for."""
+WANTED = 0.99
+
+
+@dataclass(frozen=True)
+class GainChange:
+    """The least change of two parameters, in proportion, found to bring back a wanted share.
+
+    Attributes
+    ----------
+    values : tuple of float
+        New values, in the units of the map.
+    changes : tuple of float
+        Relative to the present ones.
+    share : Share
+        That comes back with them.
+    wanted : float
+    """
+
+    values: tuple[float, float]
+    changes: tuple[float, float]
+    share: Share
+    wanted: float
+
+    @property
+    def size(self) -> float:
+        """Root of the sum of the squared relative changes."""
+        return math.hypot(*self.changes)
+
+
+@dataclass(frozen=True, eq=False)
+class GainMap:
+    """Measures of recoverability against two parameters.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back) with ``recovered_low`` and
+        ``recovered_high`` (95 % confidence of a sample), ``unresolved``, ``levitates`` (whether there is levitation to
+        come back to), ``integrity`` (of kicks and shocks on a grid: lower edge of the smallest lost cell as a fraction of
+        the largest size), ``basin_entropy`` and ``boundary_basin_entropy`` (of outcomes, on a grid).
+    """
+
+    dataset: xarray.Dataset
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """Of the present machine."""
+        numbers, scales = (json.loads(self.dataset.attrs[name]) for name in ("parameters", "scales"))
+        return Parameters(**numbers, scales=Scales(**scales) if scales else None)
+
+    @cached_property
+    def plan(self) -> Plan:
+        """Disturbances of the present machine; physical ones stay what they are in SI units."""
+        return plan_of(json.loads(self.dataset.attrs["disturbances"]))
+
+    @property
+    def axes(self) -> tuple[Axis, Axis]:
+        """The two parameters."""
+        first, second = self.dataset["recovered"].dims
+        return axis(self.parameters, str(first)), axis(self.parameters, str(second))
+
+    @property
+    def present(self) -> tuple[float, float]:
+        """Their values in the present machine."""
+        numbers = Numbers.of(self.parameters)
+        first, second = self.axes
+        return first.get(numbers), second.get(numbers)
+
+    @property
+    def present_share(self) -> Share:
+        """What comes back in the present machine."""
+        total, count = (int(self.dataset.attrs[name]) for name in ("present_starts", "present_recovered"))
+        return Share.of(count, total, drawn=isinstance(self.plan, Sample))
+
+    @property
+    def smallest_lost(self) -> np.ndarray:
+        """Size of the smallest lost kick or shock at each node, in units of the present machine; see ``integrity``."""
+        largest = self.plan.model.coordinates[0].high
+        sizes: np.ndarray = self.dataset["integrity"].values * largest
+        return sizes
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a netCDF file, whole or not at all."""
+        from carom.basins.store import save
+
+        save(self.dataset, path)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> GainMap:
+        """Read a netCDF file written by :meth:`save`.
+
+        Raises
+        ------
+        InputError
+            It cannot be read, or holds no gain map.
+        """
+        from carom.basins.store import load
+
+        return cls(load(path, ("recovered", "levitates")))
+
+
+def gain_map(
+    parameters: Parameters,
+    disturbances: Plan,
+    names: tuple[str, str] = ("stiffness", "damping"),
+    *,
+    ranges: tuple[tuple[float, float] | None, tuple[float, float] | None] = (None, None),
+    shape: tuple[int, int] = (16, 16),
+    patience: int = PATIENCE,
+    max_events: int = MOST_EVENTS,
+    threads: int | None = None,
+    source: Mapping[str, str] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> GainMap:
+    """Measure what share of disturbances comes back, on a grid of two parameters.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The present machine.
+    disturbances : Grid or Sample
+        As for the present machine; where a parameter moves the scales (shaft speed, clearance), kicks and shocks keep
+        their size in SI units.
+    names : tuple of str
+        The two parameters, such as ``("stiffness", "damping")`` (P and D gain) or ``("omega", "gamma")``; any of
+        :func:`carom.bifurcations.axis`.
+    ranges : tuple of tuple of float, optional
+        Of both, in SI units if physical; by default half to twice the present value.
+    shape : tuple of int
+        Values of both, ends included.
+    patience, max_events, threads, source
+        As for :func:`~carom.basins.basins`.
+    progress : callable, optional
+        Called with the share done, 0 to 1.
+
+    Returns
+    -------
+    GainMap
+        Machines that cannot levitate recover nothing.
+
+    Raises
+    ------
+    InputError
+        A name or range that cannot be used.
+    """
+    axes = axis(parameters, names[0]), axis(parameters, names[1])
+    if axes[0].name == axes[1].name:
+        raise InputError("names", ",".join(names), "two different parameters")
+    if any(count < 2 for count in shape):
+        raise InputError("shape", "x".join(map(str, shape)), "at least 2 values of each parameter")
+    values = [
+        _values(parameters, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)
+    ]
+    limits = {"patience": patience, "max_events": max_events, "threads": threads}
+    nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
+    present = tuple(varied.get(Numbers.of(parameters)) for varied in axes)
+    measures = []
+    for done, found in enumerate(_measured(parameters, disturbances, axes, [*nodes, present], limits), start=1):
+        measures.append(found)
+        if progress:
+            progress(done / (len(nodes) + 1))
+    *grid, now = measures
+    dataset = _dataset(axes, values, grid)
+    dataset.attrs = {
+        **(source or {}),
+        **provenance(jeffcott(parameters), disturbances),
+        "title": "Share of disturbances that come back to levitation, against two parameters",
+        "present_recovered": now["count"],
+        "present_starts": now["total"],
+    }
+    return GainMap(dataset)
+
+
+def least_gain_change(
+    found: GainMap,
+    wanted: float = WANTED,
+    *,
+    threads: int | None = None,
+) -> GainChange | None:
+    """Least change of the two parameters, in proportion, that brings back a wanted share of the disturbances.
+
+    Of the nodes of the map that do, the nearest few (relative changes, Euclidean) are taken; on the straight line from
+    the present machine to each the change is then bisected.  In other directions there may be a smaller one.
+    For a sample the lower end of the confidence interval has to reach the wanted share.
+
+    Parameters
+    ----------
+    found : GainMap
+    wanted : float
+        Share, 0 to 1.
+    threads : int, optional
+
+    Returns
+    -------
+    GainChange or None
+        ``None`` if no node of the map reaches it; no change if the present machine does.
+
+    Raises
+    ------
+    InputError
+        A share out of range, or a parameter that is zero now.
+    """
+    if not 0.0 < wanted <= 1.0:
+        raise InputError("wanted", wanted, "a share above 0 and at most 1")
+    present = found.present
+    if not all(present):
+        raise InputError("wanted", wanted, "needs parameters other than 0 now, as changes are relative")
+    if found.present_share.low >= wanted:
+        return GainChange(present, (0.0, 0.0), found.present_share, wanted)
+    x, y = (found.dataset[varied.name].values / now - 1.0 for varied, now in zip(found.axes, present, strict=True))
+    size = np.hypot(x[:, None], y[None, :])
+    good = found.dataset["recovered_low"].values >= wanted
+    if not good.any():
+        return None
+    nearest = np.argsort(np.where(good, size, np.inf), axis=None, kind="stable")[: min(CANDIDATES, int(good.sum()))]
+    found_changes = []
+    for place in zip(*np.unravel_index(nearest, size.shape), strict=True):
+        goal = float(x[place[0]]), float(y[place[1]])
+        part, share = _least_part(found, goal, wanted, threads)
+        found_changes.append(GainChange(*_moved(present, goal, part), share, wanted))
+    return min(found_changes, key=lambda change: change.size)
+
+
+def _moved(
+    present: tuple[float, float], goal: tuple[float, float], part: float
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Values, and relative changes, a part of the way to a goal."""
+    changes = part * goal[0], part * goal[1]
+    return (present[0] * (1.0 + changes[0]), present[1] * (1.0 + changes[1])), changes
+
+
+def _least_part(found: GainMap, goal: tuple[float, float], wanted: float, threads: int | None) -> tuple[float, Share]:
+    """Part of the way to a goal that is enough, and the share there."""
+
+    def share(part: float) -> Share:
+        node, _ = _moved(found.present, goal, part)
+        (entry,) = _measured(found.parameters, found.plan, found.axes, [node], {"threads": threads})
+        return Share.of(entry["count"], entry["total"], drawn=isinstance(found.plan, Sample))
+
+    low, high, best = 0.0, 1.0, share(1.0)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        tried = share(middle)
+        if tried.low >= wanted:
+            high, best = middle, tried
+        else:
+            low = middle
+    return high, best
+
+
+def _values(parameters: Parameters, varied: Axis, given: tuple[float, float] | None, count: int) -> np.ndarray:
+    """Values of a parameter from end to end."""
+    if given is None:
+        now = varied.get(Numbers.of(parameters))
+        if not now > 0.0:
+            raise InputError("ranges", None, f"one for {varied.name}, as {varied.name} = {now:g} gives none around it")
+        given = AROUND[0] * now, min(AROUND[1] * now, varied.field.highest)
+    low, high = given
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise InputError("ranges", f"{low:g},{high:g}", f"two growing finite values of {varied.name}")
+    for end in given:
+        varied.field.check(end, end)
+    return np.linspace(low, high, count)
+
+
+def _measured(
+    parameters: Parameters,
+    plan: Plan,
+    axes: tuple[Axis, Axis],
+    nodes: list[tuple[float, ...]],
+    limits: Mapping[str, Any],
+) -> Iterator[dict[str, Any]]:
+    """Measures at each node; as many nodes at a time as make a chunk of starts."""
+    together = max(1, CHUNK // plan.count)
+    for first in range(0, len(nodes), together):
+        chunk = [_machine(parameters, plan, axes, node) for node in nodes[first : first + together]]
+        able = [place for place, (_, starts) in enumerate(chunk) if starts is not None and starts.exists.any()]
+        outcomes: dict[int, np.ndarray] = {}
+        if able:
+            sets = [chunk[place][1] for place in able]
+            chosen = [starts.exists & ~starts.undecided for starts in sets if starts is not None]
+            picked = [
+                (starts.positions[which], starts.velocities[which], np.full(which.sum(), machine))
+                for machine, (starts, which) in enumerate(zip(sets, chosen, strict=True))
+                if starts is not None
+            ]
+            positions, velocities, machines = (np.concatenate(parts) for parts in zip(*picked, strict=True))
+            ends = settle_all([chunk[p][0] for p in able], positions, velocities, which=machines, **limits).outcomes
+            for machine, (place, starts, which) in enumerate(zip(able, sets, chosen, strict=True)):
+                if starts is None:
+                    continue
+                codes = np.where(starts.exists, np.int8(Outcome.GRAZING), np.int8(NO_START))
+                codes[which] = ends[machines == machine]
+                outcomes[place] = codes
+        for place in range(len(chunk)):
+            yield _measures(plan, outcomes.get(place))
+
+
+def _machine(
+    parameters: Parameters, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]
+) -> tuple[Rotor, Starts | None]:
+    """Machine of a node and its starts; none where it has no levitation to come back to."""
+    numbers = Numbers.of(parameters)
+    for varied, value in zip(axes, node, strict=True):
+        numbers = varied.set(numbers, value)
+    machine = numbers.parameters
+    rotor = jeffcott(machine)
+    if abs(rotor.equilibrium) >= 1.0:
+        return rotor, None
+    return rotor, plan.rescaled(parameters.scales, machine.scales).starts(rotor)
+
+
+def _measures(plan: Plan, outcomes: np.ndarray | None) -> dict[str, Any]:
+    """Measures of one machine from the outcomes of its starts."""
+    if outcomes is None:
+        nothing = dict.fromkeys(_WORDS, 0.0) | {"count": 0, "total": plan.count}
+        return nothing | {"basin_entropy": math.nan, "boundary_basin_entropy": math.nan}
+    exists, back = outcomes != NO_START, outcomes == Outcome.LEVITATED
+    share = Share.of(int(back.sum()), int(exists.sum()), drawn=isinstance(plan, Sample))
+    measures: dict[str, Any] = {
+        "recovered": share.fraction,
+        "recovered_low": share.low,
+        "recovered_high": share.high,
+        "unresolved": float((exists & (outcomes < Outcome.LEVITATED)).sum()) / share.total,
+        "levitates": 1.0,
+        "count": share.count,
+        "total": share.total,
+        **dict.fromkeys(("integrity", "basin_entropy", "boundary_basin_entropy"), math.nan),
+    }
+    if isinstance(plan, Grid):
+        if isinstance(plan.model, VelocityKick | BaseShock):
+            size, bad = plan.model.coordinates[0], (exists & ~back).any(axis=1)
+            first = float(size.edges(plan.shape[0])[bad.argmax()]) if bad.any() else size.high
+            measures["integrity"] = first / size.high
+        side = max(2, round(25 ** (1.0 / len(plan.shape))))
+        if min(plan.shape) >= side:
+            entropy = entropies(outcomes, side)
+            measures |= {"basin_entropy": entropy.whole, "boundary_basin_entropy": entropy.boundary}
+    return measures
+
+
+_WORDS = {
+    "recovered": "share of the disturbances that comes back to levitation",
+    "recovered_low": "lower end of its 95 % confidence interval (of a grid: the share)",
+    "recovered_high": "upper end of its 95 % confidence interval (of a grid: the share)",
+    "unresolved": "share given up before it was known where it ends",
+    "levitates": "1 where the rotor can levitate without contact, else 0",
+    "integrity": "smallest lost disturbance as a fraction of the largest one; 1 where none is lost",
+    "basin_entropy": "basin entropy of the outcomes",
+    "boundary_basin_entropy": "boundary basin entropy of the outcomes",
+}
+
+
+def _dataset(axes: tuple[Axis, Axis], values: list[np.ndarray], measures: list[dict[str, Any]]) -> xarray.Dataset:
+    import xarray
+
+    dimensions = axes[0].name, axes[1].name
+    shape = tuple(len(along) for along in values)
+    variables = {
+        name: (
+            dimensions,
+            np.array([entry[name] for entry in measures], float).reshape(shape),
+            {"units": "1", "long_name": words},
+        )
+        for name, words in _WORDS.items()
+    }
+    coordinates = {
+        varied.name: (varied.name, along, {"units": varied.field.unit or "1", "long_name": varied.field.words})
+        for varied, along in zip(axes, values, strict=True)
+    }
+    return xarray.Dataset(variables, coords=coordinates)

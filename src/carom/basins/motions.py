@@ -1,0 +1,108 @@
+"""Names of the motions that starts end on: those of :mod:`carom.attractors`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from carom.attractors.groups import Groups
+from carom.ensembles import LONGEST, Endings
+from carom.orbits import Orbit, orbits_within_reach
+from carom.outcome import CaromError, Outcome
+from carom.rotors import Rotor
+from carom.trajectories import State, simulate
+
+__all__ = ["name_motions"]
+
+ALIKE = 4
+"""Digits of the speeds at an impact to which motions are taken for alike before they are looked at."""
+LOOKED_AT = 400
+"""Kinds of periodic bouncing that are looked at; beyond that they have the name of their number of impacts alone."""
+AT_REST = 1e-6
+_PLAIN = {
+    Outcome.LEVITATED: "levitation",
+    Outcome.BACKWARD_WHIRL: "backward whirl",
+    Outcome.ROLLING: "rolling",
+}
+_NOUNS = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
+
+
+def name_motions(rotor: Rotor, outcomes: np.ndarray, endings: Endings) -> tuple[np.ndarray, tuple[str, ...]]:
+    """Name the motion each start ends on.
+
+    Motions in lasting contact and levitation follow from the outcome.  Of periodic bouncing one motion of each kind
+    (impacts a period, speeds at the last impact) is followed on for its period and compared with the orbits known in
+    closed form and with the others.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    outcomes : ndarray of int8
+        Negative where there is no start.
+    endings : Endings
+
+    Returns
+    -------
+    indices : ndarray of int16
+        Of the name of each; −1 where there is no start.
+    names : tuple of str
+        In the order of their outcome.
+    """
+    named = np.full(outcomes.shape, -1, np.int16)
+    names: list[str] = []
+
+    def note(chosen: np.ndarray, name: str) -> None:
+        if not chosen.any():
+            return
+        if name not in names:
+            names.append(name)
+        named[chosen] = names.index(name)
+
+    for code in np.unique(outcomes[outcomes >= 0]):
+        outcome = Outcome(code)
+        chosen = outcomes == code
+        if outcome in _NOUNS:
+            note(chosen & (endings.multiplicities == 0), f"irregular {_NOUNS[outcome]}")
+        elif outcome is Outcome.FORWARD_RUB:
+            still = np.abs(endings.velocities) < AT_REST
+            note(chosen & still, "synchronous rub")
+            note(chosen & ~still, "drifting rub")
+        else:
+            note(chosen, _PLAIN.get(outcome, f"unresolved: {outcome.label}"))
+    periodic = np.isin(outcomes, list(_NOUNS)) & (endings.multiplicities > 0)
+    for chosen, name in _periodic(rotor, outcomes, endings, np.flatnonzero(periodic)):
+        note(chosen, name)
+    return named, tuple(names)
+
+
+def _periodic(rotor: Rotor, outcomes: np.ndarray, endings: Endings, places: np.ndarray) -> list[tuple[np.ndarray, str]]:
+    """Kinds of periodic bouncing: which starts, and the name."""
+    if not len(places):
+        return []
+    positions, velocities = endings.positions.ravel()[places], endings.velocities.ravel()[places]
+    codes, counts = outcomes.ravel()[places], endings.multiplicities.ravel()[places]
+    radial = positions.real * velocities.real + positions.imag * velocities.imag
+    along = positions.real * velocities.imag - positions.imag * velocities.real
+    features = np.column_stack([codes, counts, radial.round(ALIKE), along.round(ALIKE)])
+    _, first, kinds = np.unique(features, axis=0, return_index=True, return_inverse=True)
+    groups = Groups(_orbits(rotor))
+    found = []
+    for kind, place in enumerate(first):
+        chosen = np.zeros(outcomes.size, bool)
+        chosen[places[kinds.ravel() == kind]] = True
+        if kind < LOOKED_AT:
+            state = State(complex(positions[place]), complex(velocities[place]))
+            name = groups.name_of(simulate(rotor, state, LONGEST, settle=True))
+        else:
+            name = f"{counts[place]}-impact {_NOUNS[Outcome(codes[place])]}"
+        found.append((chosen.reshape(outcomes.shape), name))
+    return found
+
+
+def _orbits(rotor: Rotor) -> Sequence[Orbit]:
+    """Orbits known in closed form; none where their search is refused."""
+    try:
+        return orbits_within_reach(rotor)
+    except CaromError:
+        return ()

@@ -1,0 +1,64 @@
+"""Shares of starts, with the confidence that a sample allows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from statistics import NormalDist
+
+__all__ = ["Share"]
+
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True)
+class Share:
+    """A share of starts.
+
+    Attributes
+    ----------
+    count, total : int
+    low, high : float
+        Of a drawn sample, Wilson's interval (1927) at 95 % confidence; of a grid, which is not drawn, twice the share.
+    drawn : bool
+    """
+
+    count: int
+    total: int
+    low: float
+    high: float
+    drawn: bool
+
+    @classmethod
+    def of(cls, count: int, total: int, *, drawn: bool) -> Share:
+        """Share ``count`` of ``total``."""
+        share = count / total if total else math.nan
+        low, high = wilson_interval(count, total) if drawn and total else (share, share)
+        return cls(count, total, low, high, drawn)
+
+    @property
+    def fraction(self) -> float:
+        """The share itself."""
+        return self.count / self.total if self.total else math.nan
+
+    @property
+    def words(self) -> str:
+        """In words, with what the number rests on."""
+        text = f"{100.0 * self.fraction:.3g} % ({self.count} of {self.total})"
+        if self.drawn:
+            return f"{text}, {100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"
+        return f"{text} cells of a grid, each represented by its middle: no sampling error"
+
+
+def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """Interval of a probability from ``count`` successes in ``total`` trials (Wilson, J. Am. Stat. Assoc. 22, 1927).
+
+    The probabilities ``p`` with ``|count/total − p| ≤ z√(p(1 − p)/total)``.
+    """
+    z = NormalDist().inv_cdf(0.5 + confidence / 2.0)
+    share, weight = count / total, z * z / total
+    middle = share + weight / 2.0
+    half = z * math.sqrt(share * (1.0 - share) / total + weight / (4.0 * total))
+    low = 0.0 if count == 0 else (middle - half) / (1.0 + weight)
+    high = 1.0 if count == total else (middle + half) / (1.0 + weight)
+    return low, high

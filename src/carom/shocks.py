@@ -1,0 +1,115 @@
+"""The levitating rotor in a housing that is shaken by a half-sine pulse, exactly, contacts included.
+
+The housing carries magnetic bearings and touchdown bearing; seen from it, a rigid rotor feels its acceleration
+``a(t) = â sin(νt) e^{iα}``, ``ν = π/T``, as a force ``−a`` per mass.  In the co-rotating frame that is
+
+    Ü + (γ + 2i)U̇ + (ω² − 1 + iγ)U = ρe^{iφ} − (â e^{iα}/2i)(e^{s₁t} − e^{s₂t}),   s₁ = i(ν − 1),  s₂ = −i(ν + 1),
+
+so each of the two exponentials adds ``∓â e^{iα}/(2i D(s))`` times itself to the motion, with
+``D(s) = (s − λ₋)(s − λ₊)``.  They are forcing with exponents of their own: two more modes that no impulse changes, and
+the certified flight, the impacts and the lasting contact of :mod:`carom.core` apply through the pulse as they are.  At
+its end the two modes are dropped and position and velocity kept: the housing then moves evenly.
+
+Limits: the housing is rigid and moves along a line; ``D(s)`` vanishes only for undamped levitation whose natural
+frequency is that of the pulse, which is refused.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+
+from carom.core.advance import INSIDE_ALL, advance
+from carom.core.layout import rotor_record, rub_workspace, workspace
+from carom.outcome import InputError, Outcome, Phase
+from carom.rotors import Rotor
+from carom.trajectories import EventLog, fresh_memory
+
+__all__ = ["shaken", "states_after_shocks"]
+
+MODES = 4
+LOGGED = 256
+MOST_EVENTS = 1_000_000
+LEAST_DISTANCE = 1e-6
+"""Of the pulse from undamped resonance, ``|D|/ω²``: below it too many digits cancel."""
+
+
+def shaken(rotor: Rotor, duration: float) -> Rotor:
+    """Rotor of four modes: free flight, and the two exponentials of a half-sine pulse of this duration in ``1/Ω``.
+
+    Raises
+    ------
+    InputError
+        Undamped levitation in resonance with the pulse.
+    """
+    arrays = rotor.arrays
+    frequency = math.pi / duration
+    pulse = (complex(0.0, frequency - 1.0), complex(0.0, -frequency - 1.0))
+    free = tuple(complex(value) for value in arrays.exponents)
+    nearest = min(abs((s - free[0]) * (s - free[1])) for s in pulse)
+    if nearest < LEAST_DISTANCE * abs(free[0] + 1j) * abs(free[1] + 1j):
+        raise InputError("duration", duration, "not half a natural period of undamped levitation, in 1/Omega")
+    record = rotor_record(
+        exponents=np.array([*free, *pulse], np.complex128),
+        driven=np.array([False, True, False, False]),
+        offsets=arrays.offsets,
+        rows=np.array([[0.0, 1.0, 1.0, 1.0]], np.complex128),
+        columns=np.array([[1.0], [0.0], [0.0], [0.0]], np.complex128),
+        friction=arrays.friction,
+        restitution=arrays.restitution,
+        drive=arrays.drive,
+    )
+    return Rotor(record, rotor.parameters)
+
+
+def states_after_shocks(
+    rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """State at the end of half-sine pulses that hit the levitating rotor.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        It levitates inside the wall.
+    peaks, directions : ndarray
+        Peak accelerations of the housing, in ``c_r Ω²``, and their directions in rad, of one shape.
+    duration : float
+        Of the pulses, in ``1/Ω``.
+
+    Returns
+    -------
+    positions, velocities : ndarray of complex
+        In the co-rotating frame at the end of the pulse; on the wall where the rotor is in contact then.
+    undecided : ndarray of bool
+        The wall was grazed so nearly that double precision cannot decide.
+    """
+    during = shaken(rotor, duration)
+    log, work, rub = EventLog.empty(LOGGED, MODES), workspace(MODES), rub_workspace(MODES)
+    positions, velocities = np.empty((2, *peaks.shape), complex)
+    undecided = np.zeros(peaks.shape, bool)
+    for place in np.ndindex(peaks.shape):
+        amplitudes = _at_rest(during, float(peaks[place]), float(directions[place]))
+        recollection = fresh_memory(during, 0)
+        outcome, phase, plane, events, time = Outcome.EVENT_LIMIT, int(Phase.FLIGHT), INSIDE_ALL, 0, 0.0
+        while outcome is Outcome.EVENT_LIMIT and events < MOST_EVENTS:
+            code, passed, count, phase, plane = advance(
+                during.arrays, during.table, amplitudes, duration - time, phase, plane, *log, recollection, work, rub
+            )
+            outcome, events, time = Outcome(code), events + count, time + passed
+        position, velocity = (complex(value) for value in during.state(amplitudes))
+        positions[place] = position / abs(position) if plane >= 0 else position
+        velocities[place] = velocity
+        undecided[place] = outcome is not Outcome.TIME_REACHED
+    return positions, velocities, undecided
+
+
+def _at_rest(during: Rotor, peak: float, direction: float) -> np.ndarray:
+    """Amplitudes of the levitating rotor when a pulse begins."""
+    lower, upper, first, second = (complex(value) for value in during.arrays.exponents)
+    force = cmath.rect(peak, direction) / 2j
+    shares = [-force / ((first - lower) * (first - upper)), force / ((second - lower) * (second - upper))]
+    driven = -(shares[0] + shares[1])
+    driving = -(first * shares[0] + second * shares[1]) - upper * driven
+    return np.array([driving, driven, *shares])
