@@ -12,6 +12,7 @@ import typer
 
 from carom.cli.bifurcations import bifurcations, regions
 from carom.cli.orbits import orbits
+from carom.cli.paper import paper
 from carom.cli.simulate import simulate
 from carom.cli.study import study
 from carom.outcome import CaromError
@@ -37,6 +38,7 @@ app.command("simulate", help=simulate.__doc__)(simulate)
 app.command("orbits", help=orbits.__doc__)(orbits)
 app.command("bifurcations", help=bifurcations.__doc__)(bifurcations)
 app.command("regions", help=regions.__doc__)(regions)
+app.command("paper", help=paper.__doc__)(paper)
 
 
 def _print_version(wanted: bool) -> None:

@@ -19,7 +19,7 @@ __all__ = ["Birth", "PeriodFunction", "PeriodPair", "birth", "period_functions",
 
 LONGEST = 30.0
 """Longest period drawn, in ``1/Ω``."""
-DAMPINGS = (0.02, 0.2)
+DAMPINGS = (0.005, 0.2)
 """Range of the damping."""
 AWAY = 0.01
 """Distance in damping from the birth at which the small orbits are drawn."""
@@ -96,7 +96,7 @@ def period_functions(dampings: tuple[float, ...] = (0.1, 0.05)) -> tuple[PeriodF
 
 
 def period_pairs() -> tuple[PeriodPair, ...]:
-    """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.02`` to their folds and back.
+    """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.005`` to their folds and back.
 
     Returns
     -------
@@ -110,11 +110,9 @@ def period_pairs() -> tuple[PeriodPair, ...]:
             return np.array([np.nan])
         return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
 
-    roots = PeriodCondition(jeffcott(machine_at(DAMPINGS[0]))).roots().periods
+    roots = PeriodCondition(jeffcott(machine_at(DAMPINGS[0]))).roots(LONGEST).periods
     pairs = []
     for pair, start in enumerate(roots[::2].tolist(), start=1):
-        if start > LONGEST:
-            break
         branch = continue_branch(
             closing,
             np.array([start]),

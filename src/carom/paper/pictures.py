@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING, Literal
 
 from carom.paper.reproduction import Reproduction, reproduce
-from carom.plots import paper as drawn
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["Picture", "figures"]
 
@@ -65,7 +66,7 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
             f"equilibrium, γ = 0.3. (b) Impacting orbit B1,d near grazing, γ = 0.065; it grazes at γ = {grazing:.6f}. "
             f"(c) Impacting orbit B1,a near the non-smooth Hopf bifurcation at γ = {birth:.6f}, γ = 0.1.",
             results.motions,
-            partial(drawn.figure_2, results.motions),
+            partial(_drawn, "figure_2", results.motions),
         ),
         Picture(
             "figure-3",
@@ -75,7 +76,7 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
             f"γ = {fold:.6f}. (c) Birth of the orbits B1,a and B1,b from the contact-free equilibrium at γ = {birth:.6f}: "
             "virtual below, admissible above (computed, where the source has a sketch).",
             results.periods,
-            partial(drawn.figure_3, results.periods, birth),
+            partial(_drawn, "figure_3", results.periods, birth),
         ),
         Picture(
             "figure-4",
@@ -84,7 +85,7 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
             f"B1,a and B1,c meet at γ = {apart:.6f}, where no machine is. (b, d) The small orbits near their birth, with "
             "the local theory as straight lines.",
             results.pair,
-            partial(drawn.figure_4, results.pair),
+            partial(_drawn, "figure_4", results.pair),
         ),
         Picture(
             "figure-5",
@@ -92,7 +93,7 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
             "Local extrema of the radius between impacts over the damping, for (a) B1,a and B1,b, with the contact-free "
             f"equilibrium, and (b) B1,c and B1,d, which grazes at γ = {grazing:.6f}.",
             results.radii,
-            partial(drawn.figure_5, results.pair, results.radii),
+            partial(_drawn, "figure_5", results.pair, results.radii),
         ),
         Picture(
             "figure-6",
@@ -102,6 +103,14 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
             f"bifurcation left of their meeting at ({meeting[0]:.5f}, {meeting[1]:.5f}), the curves of grazing and of period "
             "doubling of B1,d and the fold of the rubs. In R3 a stable forward rub exists left of the last.",
             (results.pair, results.plane),
-            partial(drawn.figure_6, results.pair, results.plane),
+            partial(_drawn, "figure_6", results.pair, results.plane),
         ),
     )
+
+
+def _drawn(name: Literal["figure_2", "figure_3", "figure_4", "figure_5", "figure_6"], *results: object) -> Figure:
+    # Loading what draws takes longer than computing.
+    from carom.plots import paper
+
+    draw: Callable[..., Figure] = getattr(paper, name)
+    return draw(*results)

@@ -36,7 +36,7 @@ class NamedRegion:
     source : str
         ``"R1"`` to ``"R4"``.
     part : str
-        ``"R1.1"`` and so on, in which the motions are the same.
+        ``"R1.1"`` and so on, in which the motions are the same; the name alone of a region that is not divided.
     point : tuple of float
         A place inside, damping and stiffness.
     motions : Motions
@@ -112,10 +112,11 @@ def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPl
     """
     rub_fold = continue_curve("rub-fold", machine_at(rub_fold_damping()), PLANE, steps=STEPS)
     regions = []
-    counts: dict[str, int] = {}
-    for source, point, words in REGIONS:
-        counts[source] = counts.get(source, 0) + 1
-        regions.append(NamedRegion(source, f"{source}.{counts[source]}", point, motions_at(machine_at(*point)), words))
+    for place, (source, point, words) in enumerate(REGIONS):
+        number = sum(other[0] == source for other in REGIONS[: place + 1])
+        divided = sum(other[0] == source for other in REGIONS) > 1
+        part = f"{source}.{number}" if divided else source
+        regions.append(NamedRegion(source, part, point, motions_at(machine_at(*point)), words))
     return DampingStiffnessPlane(PLANE, (*four_curves(pair), rub_fold), tuple(regions))
 
 

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Literal
 
+from carom.orbits import single_impact_orbits
 from carom.paper.branches import FirstPair, first_pair
 from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.paper.source import GIVEN, machine_at
 from carom.parameters import Machine
 from carom.propositions import fixed_points
+from carom.rotors import jeffcott
 
 __all__ = ["PrintedNumber", "numbers"]
 
@@ -108,9 +110,9 @@ def _along_damping(branches: FirstPair) -> Iterator[PrintedNumber]:
     """Sections 3 and 4: special points of the first pair of orbits."""
     fold = branches.special("fold", "d")
     birth = branches.hopf.gamma
-    boundary = "γ* = √(ρ² − (1 − ω²)²), where the contact-free equilibrium meets the wall"
+    boundary = "γ_DIB, where the contact-free equilibrium meets the wall"
     for place in ("figure 3b", "figure 4a, b", "figure 5a"):
-        yield PrintedNumber(place, f"γ_DIB = {boundary}", "computed", "0.072", "", birth)
+        yield PrintedNumber(place, boundary, "computed", "0.072", "", birth, "√(ρ² − (1 − ω²)²)")
     for place in ("section 4, below (4.8)", "figure 3b", "figure 5"):
         yield PrintedNumber(
             place,
@@ -158,6 +160,12 @@ def _counts(branches: FirstPair) -> Iterator[PrintedNumber]:
         "misprint: 4N",
     )
     cycles = branches.hopf.cycles
+    small = [
+        orbit
+        for orbit in single_impact_orbits(jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
+        if orbit.name in ("B1,a", "B1,b")
+    ]
+    unstable = sum(orbit.admissible and not orbit.stable for orbit in small)
     yield PrintedNumber(
         "Proposition 4.3, section 6",
         "limit cycles created at γ_DIB on the side of levitation",
@@ -165,7 +173,7 @@ def _counts(branches: FirstPair) -> Iterator[PrintedNumber]:
         "2",
         "",
         sum(cycle.criticality == "subcritical" for cycle in cycles),
-        "both unstable, as the text has it",
+        f"{unstable} of them unstable; the text has both so",
     )
     at = machine_at(0.1)
     yield PrintedNumber(

@@ -8,9 +8,6 @@ from pathlib import Path
 from carom.paper.document import markdown, paper_document
 from carom.paper.pictures import figures
 from carom.paper.reproduction import Reproduction
-from carom.plots import save
-from carom.report.directory import filled_at_once
-from carom.study import as_json
 
 __all__ = ["write_paper"]
 
@@ -38,6 +35,10 @@ def write_paper(
     InputError
         The directory cannot be written.
     """
+    from carom.plots import save
+    from carom.report.directory import filled_at_once
+    from carom.study import as_json
+
     tell = progress or (lambda share, words: None)
     pictures = figures(found)
     with filled_at_once(directory, "--out") as place:

@@ -45,7 +45,7 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
     matplotlib.figure.Figure
         A row for each motion.
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 1.06 * TWO_COLUMNS), layout="constrained")
+    figure = Figure(figsize=(TWO_COLUMNS, 1.02 * TWO_COLUMNS), layout="constrained")
     rows = figure.subplots(len(motions), 3, width_ratios=(1.0, 1.0, 1.25))
     for (fixed, rotating, radius), motion in zip(rows, motions, strict=True):
         for axes in (fixed, rotating):
@@ -56,6 +56,7 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
         else:
             _orbit(fixed, rotating, radius, motion, motion.orbit)
             title = f"{orbit_symbol(motion.orbit.name)}, {motion.words}"
+        radius.set_box_aspect(0.8)
         letter(fixed, motion.panel, rf"{title}, $\gamma$ = {motion.gamma:g}")
         fixed.set_ylabel(r"Im $Z$ ($c_\mathrm{r}$)")
         rotating.set_ylabel(r"Im $U$ ($c_\mathrm{r}$)")
@@ -63,7 +64,7 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
         fixed.set_xlabel(r"fixed frame, Re $Z$ ($c_\mathrm{r}$)")
         rotating.set_xlabel(r"co-rotating frame, Re $U$ ($c_\mathrm{r}$)")
         radius.set_xlabel(r"time $t$ ($1/\Omega$)")
-    key(figure, rows.ravel(), columns=4)
+    key(figure, rows.ravel(), columns=3)
     return figure
 
 
@@ -88,9 +89,12 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     words = f"orbit, {look.words}"
     once = orbit_path(orbit, 1)[1]
     _loop(rotating, orbit, once)
-    point(rotating, orbit.rotor.equilibrium, "contact-free", hollow=abs(orbit.rotor.equilibrium) > 1.0, label="")
+    virtual = abs(orbit.rotor.equilibrium) > 1.0
+    words_of_rest = f"{LOOKS['contact-free'].words}, virtual" if virtual else ""
+    point(rotating, orbit.rotor.equilibrium, "contact-free", hollow=virtual, label=words_of_rest)
     inner = magnifier(rotating, once)
     if inner is not None:
+        inner.set_title(inner.get_title().removeprefix("enlarged "), fontsize=7, pad=2)
         _loop(inner, orbit, once)
         point(inner, orbit.rotor.equilibrium, "contact-free", label="")
     count = max(1, round(motion.span / orbit.period))
@@ -106,7 +110,15 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     hits = orbit.period * np.arange(SHOWN_PERIODS + 1)
     marker = LOOKS["forward" if orbit.angular_speed > -1.0 else "backward"]
     radius.plot(
-        hits, np.ones_like(hits), ls="none", marker=marker.marker, ms=4.0, mfc=marker.colour, mec="#1a1a1a", mew=0.4
+        hits,
+        np.ones_like(hits),
+        ls="none",
+        marker=marker.marker,
+        ms=4.0,
+        mfc=marker.colour,
+        mec="#1a1a1a",
+        mew=0.4,
+        clip_on=False,
     )
     radius.set_xlim(0.0, times[-1])
     depth = 1.0 - float(np.abs(line).min())

@@ -13,7 +13,7 @@ from matplotlib.ticker import NullLocator
 from carom.plots.diagrams import POINTS, mark_point, point_key
 from carom.plots.paper.panels import DAMPING, INK, letter
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
-from carom.plots.words import orbit_look, orbit_symbol
+from carom.plots.words import orbit_look, orbit_symbol, times_larger
 
 if TYPE_CHECKING:
     from carom.orbits import Orbit
@@ -24,6 +24,7 @@ __all__ = ["figure_3"]
 
 LONGEST_CONDITION = 30.0
 SLATE = "#3d4f66"
+MILLI = 1e-3
 _LINES = ("-", "--")
 _SIDES = {"below": r"$\gamma$ < $\gamma$*", "at": r"$\gamma$ = $\gamma$*", "above": r"$\gamma$ > $\gamma$*"}
 
@@ -53,7 +54,6 @@ def figure_3(periods: Periods, birth: float) -> Figure:
     letter(axes["c"], "c", _SIDES["below"] + ": all virtual")
     axes["d"].set_title(_SIDES["at"] + ": on the wall")
     axes["e"].set_title(_SIDES["above"] + ": all admissible")
-    _same_limits([axes[place] for place in "cde"])
     figure.legend(handles=_key(periods), loc="outside lower center", ncols=4)
     return figure
 
@@ -70,6 +70,7 @@ def _condition(axes: Axes, functions: tuple[PeriodFunction, ...]) -> None:
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     axes.yaxis.set_minor_locator(NullLocator())
     axes.set_xlim(0.0, LONGEST_CONDITION)
+    axes.set_ylim(-0.25, 60.0)
     axes.set_xlabel(r"period $T$ ($1/\Omega$)")
     axes.set_ylabel(r"period condition $F_1$, linear near 0")
 
@@ -89,64 +90,74 @@ def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
         period = float(np.interp(birth, first.gammas[half][order], first.periods[half][order]))
         mark_point(axes, "non-smooth-hopf", birth, period)
     axes.set_xlim(0.0, 0.2)
+    axes.set_xticks([0.0, 0.05, 0.1, 0.15, 0.2])
     axes.set_ylim(0.0, LONGEST_CONDITION)
     axes.set_xlabel(DAMPING)
     axes.set_ylabel(r"period $T$ ($1/\Omega$)")
 
 
 def _birth(axes: Axes, stage: Birth) -> None:
-    """Radius over angle near the place where the orbits are born."""
+    """Radius over angle near the equilibrium, with the smaller orbit enlarged on the free side of the wall."""
     axes.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
     place = stage.rotor.equilibrium
-    for orbit in stage.orbits:
-        _loop(axes, orbit)
     look = LOOKS["contact-free"]
     face = "white" if stage.side == "below" else look.colour
-    axes.plot(
-        [np.angle(place)],
-        [abs(place)],
-        ls="none",
-        marker=look.marker,
-        ms=5.5,
-        mfc=face,
-        mec=look.colour,
-        mew=0.8,
-        zorder=5,
-    )
-    axes.set_xlabel(r"angle $\theta$ (rad)")
+    axes.plot([0.0], [abs(place)], ls="none", marker=look.marker, ms=5.5, mfc=face, mec=look.colour, mew=0.8, zorder=5)
+    for orbit in stage.orbits:
+        _loop(axes, orbit, place)
+    axes.set_xlim(-MILLI * 3.0, MILLI * 4.5)
+    axes.set_ylim(1.0 - 6.0 * MILLI, 1.0 + 6.0 * MILLI)
+    axes.set_xticks(MILLI * np.arange(-2.0, 5.0, 2.0))
+    axes.set_xlabel(r"angle from the equilibrium, $\theta - \theta^*$ (rad)")
     if stage.side == "below":
         axes.set_ylabel(r"radius $r$ ($c_\mathrm{r}$)")
+    else:
+        axes.set_yticklabels([])
+    if stage.orbits:
+        small, large = stage.orbits
+        _enlarge(axes, small, place, stage.side)
+        far = _farthest(large, place)
+        aside = (far[0] + 0.5 * MILLI, 0.5 * (far[1] + 1.0))
+        axes.annotate(orbit_symbol(large.name), aside, ha="left", va="center")
 
 
-def _loop(axes: Axes, orbit: Orbit) -> None:
+def _enlarge(axes: Axes, orbit: Orbit, place: complex, side: str) -> None:
+    low = 0.13 if side == "below" else 0.58
+    inner = axes.inset_axes((0.5, low, 0.44, 0.34))
+    inner.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    _loop(inner, orbit, place)
+    inner.margins(0.25)
+    inner.set_xticks(())
+    inner.set_yticks(())
+    width = float(np.ptp(inner.get_xlim()))
+    ratio = 0.44 * float(np.ptp(axes.get_xlim())) / width
+    words = f"{orbit_symbol(orbit.name)}, {times_larger(ratio)} times"
+    # Away from the lines that lead to the wall.
+    if side == "below":
+        inner.set_xlabel(words, fontsize=7, labelpad=2)
+    else:
+        inner.set_title(words, fontsize=7, pad=2)
+    axes.indicate_inset_zoom(inner, edgecolor="#808080", lw=0.4, alpha=1.0)
+
+
+def _loop(axes: Axes, orbit: Orbit, place: complex) -> None:
+    angle, radius = _polar(orbit, place)
+    look = LOOKS[orbit_look(orbit)]
+    axes.plot(angle, radius, look.line, color=look.colour, lw=look.width)
+    axes.plot(angle[:1], radius[:1], ls="none", marker="o", ms=2.5, color=look.colour)
+
+
+def _polar(orbit: Orbit, place: complex) -> tuple[np.ndarray, np.ndarray]:
+    """Angle from that of a place, and radius, once round the orbit."""
     line = orbit.path(np.linspace(0.0, orbit.period, 400, endpoint=False))
     line = np.append(line, line[0])
-    look = LOOKS[orbit_look(orbit)]
-    axes.plot(np.angle(line), np.abs(line), look.line, color=look.colour, lw=look.width)
-    axes.plot(np.angle(line[:1]), np.abs(line[:1]), ls="none", marker=".", ms=5.0, color=look.colour)
-    far = int(np.argmax(np.abs(np.abs(line) - 1.0)))
-    axes.annotate(
-        orbit_symbol(orbit.name),
-        (float(np.angle(line[far])), float(abs(line[far]))),
-        xytext=(0, 6 if abs(line[far]) > 1.0 else -7),
-        textcoords="offset points",
-        ha="center",
-        va="center",
-    )
+    return np.angle(line / place), np.abs(line)
 
 
-def _same_limits(stages: list[Axes]) -> None:
-    lows = [axes.dataLim.min for axes in stages]
-    highs = [axes.dataLim.max for axes in stages]
-    low, high = np.min([low[1] for low in lows]), np.max([high[1] for high in highs])
-    reach = max(1.0 - low, high - 1.0)
-    xs = np.concatenate([line.get_xdata() for axes in stages for line in axes.lines[1:]])
-    width = 0.12 * float(np.ptp(xs))
-    for axes in stages:
-        axes.set_ylim(1.0 - 1.25 * reach, 1.0 + 1.25 * reach)
-        axes.set_xlim(float(xs.min()) - width, float(xs.max()) + width)
-    for axes in stages[1:]:
-        axes.set_yticklabels([])
+def _farthest(orbit: Orbit, place: complex) -> tuple[float, float]:
+    angle, radius = _polar(orbit, place)
+    far = int(np.argmax(np.abs(radius - 1.0)))
+    return float(angle.max()), float(radius[far])
 
 
 def _key(periods: Periods) -> list[Line2D]:
@@ -175,6 +186,14 @@ def _key(periods: Periods) -> list[Line2D]:
     orbits = [
         Line2D([], [], color=unstable.colour, ls=unstable.line, lw=unstable.width, label="orbit, admissible, unstable"),
         Line2D([], [], color=virtual.colour, ls=virtual.line, lw=virtual.width, label="orbit, virtual"),
-        Line2D([], [], ls="none", marker=equilibrium.marker, ms=5.5, color=equilibrium.colour, label=equilibrium.words),
+        Line2D(
+            [],
+            [],
+            ls="none",
+            marker=equilibrium.marker,
+            ms=5.5,
+            color=equilibrium.colour,
+            label=f"{equilibrium.words} (hollow: virtual)",
+        ),
     ]
     return [*roots, *zeros, *(point_key(POINTS[kind]) for kind in ("fold", "non-smooth-hopf")), *orbits]

@@ -23,6 +23,9 @@ __all__ = ["figure_6"]
 
 MARKED = ("fold", "period-doubling", "grazing", "non-smooth-hopf")
 
+ASIDE = {"R1.2": (0.13, 0.885), "R4.2": (0.135, 0.692)}
+"""Where the names of regions stand that are too narrow for them."""
+
 
 @styled
 def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
@@ -37,14 +40,16 @@ def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS), layout="constrained")
-    grid = figure.add_gridspec(1, 2, width_ratios=(0.8, 1.0))
-    left, right = figure.add_subfigure(grid[0]), figure.add_subfigure(grid[1])
+    figure = Figure(figsize=(TWO_COLUMNS, 0.74 * TWO_COLUMNS), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=(0.8, 1.0), height_ratios=(1.0, 0.17))
+    left, right, below = (figure.add_subfigure(cell) for cell in (grid[0, 0], grid[0, 1], grid[1, :]))
     stability, map_axes = left.subplots(), right.subplots()
     _multipliers(stability, pair)
     _plane(map_axes, plane)
     left.legend(handles=branch_key(("stable", "unstable", "virtual"), MARKED), loc="outside lower center", ncols=2)
     right.legend(handles=_curve_key(plane), loc="outside lower center", ncols=2)
+    words = [Line2D([], [], ls="none", label=f"{region.part}: {region.motions.words}") for region in plane.regions]
+    below.legend(handles=words, loc="center", ncols=2, handlelength=0.0, handletextpad=0.0, fontsize=6.5)
     return figure
 
 
@@ -58,7 +63,7 @@ def _multipliers(axes: Axes, pair: FirstPair) -> None:
                 size = float(np.abs(point.orbit.multipliers.values).max())
                 mark_point(axes, point.kind, point.value, size, point.admissible)
     axes.set_yscale("log")
-    axes.set_ylim(0.75, 16.0)
+    axes.set_ylim(0.72, 16.0)
     axes.yaxis.set_major_locator(FixedLocator([0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0]))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -66,7 +71,7 @@ def _multipliers(axes: Axes, pair: FirstPair) -> None:
     axes.set_xlabel(DAMPING)
     axes.set_ylabel("largest modulus of the multipliers")
     letter(axes, "a", "stability of the orbits")
-    for name in (("B1,a", 0.06, 1.45), ("B1,b", 0.1, 4.6), ("B1,c", 0.12, 1.11), ("B1,d", 0.12, 0.9)):
+    for name in (("B1,a", 0.06, 1.45), ("B1,b", 0.1, 4.6), ("B1,c", 0.12, 1.11), ("B1,d", 0.135, 0.81)):
         name_branch(axes, *name)
 
 
@@ -80,7 +85,17 @@ def _plane(axes: Axes, plane: DampingStiffnessPlane) -> None:
         for point in curve.codimension2:
             axes.plot(*point.value, ls="none", marker="o", ms=4.5, mfc=INK, mec=INK, zorder=6)
     for region in plane.regions:
-        axes.annotate(region.part, region.point, ha="center", va="center", gid="region")
+        aside = ASIDE.get(region.part)
+        line = {"arrowstyle": "-", "lw": 0.5, "color": INK, "shrinkA": 1.0, "shrinkB": 0.0}
+        axes.annotate(
+            region.part,
+            region.point,
+            xytext=aside or region.point,
+            arrowprops=line if aside else None,
+            ha="center",
+            va="center",
+            gid="region",
+        )
     axes.set_xlim(*plane.plane.first_range)
     axes.set_ylim(*plane.plane.second_range)
     axes.set_xlabel(DAMPING)

@@ -50,6 +50,8 @@ def figure_4(pair: FirstPair) -> Figure:
                     if point.kind in MARKED:
                         mark_point(drawn, point.kind, point.value, at(point), point.admissible)
         axes.set_xlim(-0.53, 0.2)
+        axes.axvspan(-0.53, 0.0, color="#f3f3f3", lw=0.0, zorder=-2)
+        axes.text(0.02, 0.96, "negative damping", transform=axes.transAxes, va="top", color="#666666")
         birth.set_xlim(0.045, 0.115)
     _local_lines(grid[0, 1], pair, [cycle.radial_slope for cycle in pair.hopf.cycles])
     _local_lines(grid[1, 1], pair, [cycle.angular_slope for cycle in pair.hopf.cycles])
@@ -100,13 +102,13 @@ def _local_lines(axes: Axes, pair: FirstPair, slopes: list[float]) -> None:
 def _name_figure_4(grid: np.ndarray) -> None:
     grid[0, 0].set_ylim(-0.06, 0.85)
     grid[0, 1].set_ylim(-0.0042, 0.0068)
-    grid[1, 0].set_ylim(-3.6, 0.25)
+    grid[1, 0].set_ylim(-3.6, 0.55)
     grid[1, 1].set_ylim(-0.0155, 0.0115)
     places = (
-        (("B1,a", -0.2, 0.03), ("B1,b", 0.155, 0.055), ("B1,c", -0.2, 0.165), ("B1,d", 0.115, 0.79)),
-        (("B1,a", 0.106, 0.0012), ("B1,b", 0.098, 0.0054)),
-        (("B1,a", -0.2, -0.12), ("B1,d", 0.13, -1.2), ("B1,c", 0.05, 0.11), ("B1,b", 0.16, 0.08)),
-        (("B1,a", 0.108, 0.0011), ("B1,b", 0.1, -0.0075)),
+        (("B1,a", -0.22, 0.045), ("B1,b", 0.125, 0.055), ("B1,c", -0.22, 0.17), ("B1,d", 0.115, 0.8)),
+        (("B1,a", 0.106, 0.0012), ("B1,b", 0.0975, 0.0054)),
+        (("B1,a", -0.18, 0.2), ("B1,c", -0.4, -0.2), ("B1,b", 0.125, 0.2), ("B1,d", 0.15, -1.25)),
+        (("B1,a", 0.108, 0.0014), ("B1,b", 0.1, -0.0072), ("B1,c", 0.054, -0.0129)),
     )
     for axes, names in zip(grid.ravel(), places, strict=True):
         for name in names:
@@ -135,15 +137,16 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
         _mark_extrema(axes, branch, lines)
         axes.set_xlabel(DAMPING)
         axes.set_ylabel(r"local extrema of the radius $r$ ($c_\mathrm{r}$)")
-        axes.set_xlim(0.03, 0.2)
+        axes.set_xlim(0.02, 0.2)
+        axes.set_xticks([0.05, 0.1, 0.15, 0.2])
     _levitation(left, radii)
     left.set_ylim(0.962, 1.018)
     right.set_ylim(0.0, 1.15)
     letter(left, "a", "small orbits and contact-free equilibrium")
     letter(right, "b", "large orbits")
     for axes, names in (
-        (left, (("B1,a", 0.14, 1.002), ("B1,b", 0.13, 0.985))),
-        (right, (("B1,c", 0.1, 0.9), ("B1,d", 0.14, 0.3))),
+        (left, (("B1,a", 0.14, 0.9945), ("B1,b", 0.14, 0.986))),
+        (right, (("B1,c", 0.11, 0.87), ("B1,d", 0.13, 0.3))),
     ):
         for name in names:
             name_branch(axes, *name)
