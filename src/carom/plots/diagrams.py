@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
+from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
     from carom.bifurcations import Axis, Curve, Diagram, EquilibriumBranch, OrbitBranch, RegionMap
@@ -78,7 +79,7 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     """
     figure = Figure(figsize=(TWO_COLUMNS, 0.75 * TWO_COLUMNS), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
-    unit = _unit(diagram.axis)
+    unit = parameter_unit(diagram.axis)
     for branch in diagram.orbits:
         _orbit_branch(upper, branch, unit)
     upper.axhline(0.0, color="#1a1a1a", lw=0.5)
@@ -93,26 +94,12 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
             mark_point(upper, point.kind, place, point.radial_speed, point.admissible)
     upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
     lower.set_ylabel("gap left; force of rub\n" r"($c_r$; $m c_r\Omega^2$)")
-    lower.set_xlabel(_label(diagram.axis))
+    lower.set_xlabel(parameter_label(diagram.axis))
     lower.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
     lower.set_ylim(-0.25, max(0.6, float(np.nanmax([_top(branch) for branch in diagram.equilibria]))))
     upper.set_ylim(*_limits(diagram))
     figure.legend(handles=_diagram_key(diagram), loc="outside lower center", ncols=4)
     return figure
-
-
-def _unit(axis: Axis) -> float:
-    """What the values are divided by: a shaft speed is shown in rpm."""
-    return np.pi / 30.0 if axis.name == "speed" else 1.0
-
-
-def _label(axis: Axis) -> str:
-    field = axis.field
-    unit = "rpm" if axis.name == "speed" else field.unit
-    symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
-        field.symbol, field.symbol
-    )
-    return rf"{field.words} ${symbol}$" + (f" ({unit})" if unit else "")
 
 
 def _orbit_branch(axes: Axes, branch: OrbitBranch, unit: float) -> None:
@@ -262,7 +249,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     """
     figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS), layout="constrained")
     drawn = figure.subplots()
-    units = np.array([_unit(axis) for axis in axes])
+    units = np.array([parameter_unit(axis) for axis in axes])
     for curve in found.curves:
         curve_line(drawn, curve, units)
     for point in found.codimension2:
@@ -273,8 +260,8 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
         if region.share > 0.004:
             x, y = np.array(region.point) / units
             drawn.annotate(str(number), (x, y), ha="center", va="center", fontsize=8, color="#3d4f66")
-    drawn.set_xlabel(_label(axes[0]))
-    drawn.set_ylabel(_label(axes[1]))
+    drawn.set_xlabel(parameter_label(axes[0]))
+    drawn.set_ylabel(parameter_label(axes[1]))
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
     present = {curve.kind for curve in found.curves}

@@ -37,7 +37,18 @@ from typing import ParamSpec
 import matplotlib.style
 from matplotlib.figure import Figure
 
-__all__ = ["LOOKS", "ONE_COLUMN", "REGIMES", "TWO_COLUMNS", "WORKS", "ZONE_SHADES", "Look", "applied", "styled"]
+__all__ = [
+    "LOOKS",
+    "ONE_COLUMN",
+    "OUTCOMES",
+    "REGIMES",
+    "TWO_COLUMNS",
+    "WORKS",
+    "ZONE_SHADES",
+    "Look",
+    "applied",
+    "styled",
+]
 
 Arguments = ParamSpec("Arguments")
 
@@ -69,6 +80,8 @@ class Look:
         Line width [pt].
     marker : str
         Matplotlib marker; ``"none"`` where the meaning is a line.
+    hatch : str
+        Matplotlib hatch of areas; empty where the colour alone is told apart from all others in grey.
     """
 
     colour: str
@@ -76,6 +89,7 @@ class Look:
     line: str | tuple[float, tuple[float, ...]] = "none"
     width: float = 0.9
     marker: str = "none"
+    hatch: str = ""
 
 
 LOOKS = MappingProxyType(
@@ -105,6 +119,21 @@ REGIMES = (
     Look("#882255", "rolling"),
 )
 """Colours of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
+
+OUTCOMES = MappingProxyType(
+    {
+        "levitated": Look("#009e73", "levitates without contact"),
+        "bouncing": Look("#0072b2", "keeps bouncing", hatch="...."),
+        "mixed": Look("#56b4e9", "alternates between bounces and lasting contact"),
+        "forward-rub": Look("#cc79a7", "rubs in forward whirl", hatch="\\\\\\\\"),
+        "backward-whirl": Look("#7a4fa3", "slides in backward whirl", hatch="xxxx"),
+        "rolling": Look("#882255", "rolls in backward whirl", hatch="////"),
+        "grazing": Look("#3d3d3d", "grazes the wall, undecided"),
+        "time-reached": Look("#a6a6a6", "not settled in time"),
+        "event-limit": Look("#a6a6a6", "not settled within the events allowed"),
+    }
+)
+"""Where motions end, by the label of their :class:`~carom.outcome.Outcome`: the colours of basins."""
 
 WORKS = MappingProxyType(
     {

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from carom.plots.style import LOOKS
 
 if TYPE_CHECKING:
+    from carom.bifurcations import Axis
     from carom.orbits import Orbit
     from carom.outcome import Outcome
     from carom.parameters import Scales
@@ -22,6 +23,8 @@ __all__ = [
     "orbit_symbol",
     "orbit_title",
     "orbit_words",
+    "parameter_label",
+    "parameter_unit",
     "time_in_words",
     "times_larger",
     "turns",
@@ -110,6 +113,21 @@ def axis_time(scales: Scales | None) -> str:
     if scales is None:
         return r"time $t$ (units of $1/\Omega$)"
     return rf"time $t$ (units of $1/\Omega$ = {number(1e3 * scales.time, 3)} ms)"
+
+
+def parameter_unit(axis: Axis) -> float:
+    """What values of a parameter are divided by for a figure: a shaft speed is shown in rpm."""
+    return math.pi / 30.0 if axis.name == "speed" else 1.0
+
+
+def parameter_label(axis: Axis) -> str:
+    """Words, symbol and unit of a parameter."""
+    field = axis.field
+    unit = "rpm" if axis.name == "speed" else field.unit
+    symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
+        field.symbol, field.symbol
+    )
+    return rf"{field.words} ${symbol}$" + (f" ({unit})" if unit else "")
 
 
 def turns(time: float) -> str:
