@@ -78,6 +78,10 @@ if TYPE_CHECKING:
     from carom.safety import least_safe_damping as least_safe_damping
     from carom.stability import multipliers as multipliers
     from carom.study import study as study
+    from carom.sweeps import SweepPlan as SweepPlan
+    from carom.sweeps import load_sweep as load_sweep
+    from carom.sweeps import open_sweep as open_sweep
+    from carom.sweeps import run_sweep as run_sweep
     from carom.trajectories import State as State
     from carom.trajectories import Trajectory as Trajectory
     from carom.trajectories import kick as kick
@@ -126,6 +130,7 @@ _HOMES = {
     "Section": "maps",
     "State": "trajectories",
     "StateSlice": "disturbances",
+    "SweepPlan": "sweeps",
     "Trajectory": "trajectories",
     "UnbalanceStep": "disturbances",
     "VelocityKick": "disturbances",
@@ -148,12 +153,15 @@ _HOMES = {
     "least_gain_change": "basins",
     "least_safe_damping": "safety",
     "load_case": "parameters",
+    "load_sweep": "sweeps",
     "multipliers": "stability",
+    "open_sweep": "sweeps",
     "period_condition": "orbits",
     "region_map": "bifurcations",
     "rolling": "whirl",
     "rub_limit": "whirl",
     "runaway_speed": "whirl",
+    "run_sweep": "sweeps",
     "settle_all": "ensembles",
     "simulate": "trajectories",
     "single_impact_orbits": "orbits",

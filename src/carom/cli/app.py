@@ -15,6 +15,7 @@ from carom.cli.orbits import orbits
 from carom.cli.paper import paper
 from carom.cli.simulate import simulate
 from carom.cli.study import study
+from carom.cli.sweep import sweep
 from carom.outcome import CaromError
 
 __all__ = ["app", "main"]
@@ -38,6 +39,7 @@ app.command("simulate", help=simulate.__doc__)(simulate)
 app.command("orbits", help=orbits.__doc__)(orbits)
 app.command("bifurcations", help=bifurcations.__doc__)(bifurcations)
 app.command("regions", help=regions.__doc__)(regions)
+app.command("sweep", help=sweep.__doc__)(sweep)
 app.command("paper", help=paper.__doc__)(paper)
 
 

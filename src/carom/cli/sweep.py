@@ -1,0 +1,152 @@
+"""``carom sweep``: studies or basins on a grid of machines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, Settings, console, print_document, progress
+
+if TYPE_CHECKING:
+    from carom.sweeps import SweepPlan, Tally
+
+__all__ = ["sweep"]
+
+INTERRUPTED = 130
+_SHOWN = 5
+
+
+def sweep(
+    file: Annotated[str, typer.Argument(metavar="SWEEP.toml", help="The sweep file.")],
+    out: Annotated[
+        str,
+        typer.Option(metavar="STORE", help="Directory of the results (Zarr); a sweep that is there is gone on with."),
+    ],
+    settings: Settings = None,
+    workers: Annotated[
+        int | None, typer.Option(metavar="N", min=1, help="Processes on this machine; by default one for each core.")
+    ] = None,
+    threads: Annotated[bool, typer.Option("--threads", help="Threads of one process instead of processes.")] = False,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Compute on a Dask cluster: address or file of its scheduler, or slurm (N jobs, through dask-jobqueue).",
+        ),
+    ] = None,
+    retry_failed: Annotated[
+        bool, typer.Option("--retry-failed", help="Compute chunks again in which points failed.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Sweep a grid of machines: a study, or the basins of disturbances, at each point.
+
+    Results are stored chunk by chunk. Whatever ends the sweep, the same command goes on where it was. A point that fails
+    is recorded with its parameters and error, and the others go on. Python opens the store with carom.open_sweep or
+    xarray.open_zarr.
+    """
+    from carom.sweeps import load_sweep, run_sweep
+
+    plan = load_sweep(file, settings or ())
+    last: list[Tally] = []
+    with progress(f"{plan.points:,} points") as tell:
+
+        def told(tally: Tally) -> None:
+            last[:] = [tally]
+            tell((tally.done + tally.failed) / tally.points, _words(tally, plan))
+
+        try:
+            tally = run_sweep(
+                plan,
+                out,
+                workers=workers,
+                threads=threads,
+                scheduler=scheduler,
+                retry_failed=retry_failed,
+                progress=told,
+            )
+        except KeyboardInterrupt:
+            kept = f"{last[0].done:,} of {plan.points:,} points are stored; " if last else ""
+            line = f"carom: interrupted; {kept}the same command goes on with {out}"
+            console(errors=True).print(line, soft_wrap=True)
+            raise typer.Exit(INTERRUPTED) from None
+    failures = _failures(plan, tally)
+    if as_json:
+        print_document(_document(plan, tally, failures))
+    else:
+        _print(plan, tally, failures)
+
+
+def _words(tally: Tally, plan: SweepPlan) -> str:
+    """Progress for people: how far, how fast, how long."""
+    parts = [f"{tally.done + tally.failed:,} of {tally.points:,} points", _rate(tally, plan)]
+    if tally.left is not None:
+        parts.append(f"{_duration(tally.left)} left")
+    if tally.failed:
+        parts.append(f"{tally.failed:,} failed")
+    return ", ".join(parts)
+
+
+def _rate(tally: Tally, plan: SweepPlan) -> str:
+    points = f"{tally.rate:.3g} points/s"
+    return f"{points} ({tally.rate * plan.task.starts:,.3g} starts/s)" if plan.task.starts else points
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    if seconds < 5400:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
+
+
+def _failures(plan: SweepPlan, tally: Tally) -> list[dict[str, object]]:
+    if not tally.failed:
+        return []
+    from carom.sweeps.store import SweepStore
+
+    return SweepStore(tally.store, plan).failures()
+
+
+def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, object]]) -> dict[str, object]:
+    return {
+        "store": str(tally.store),
+        "kind": plan.task.kind,
+        "axes": {axis.name: axis.count for axis in plan.axes},
+        "points": tally.points,
+        "done": tally.done,
+        "failed": tally.failed,
+        "waiting": tally.waiting,
+        "chunks": plan.chunks,
+        "starts": plan.points * plan.task.starts,
+        "computed": tally.computed,
+        "seconds": tally.seconds,
+        "rate": tally.rate,
+        "failures": failures,
+    }
+
+
+def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, object]]) -> None:
+    from rich import box
+    from rich.table import Table
+
+    screen = console()
+    table = Table(box=box.SIMPLE_HEAD)
+    for heading in ("", "points"):
+        table.add_column(heading, justify="right" if heading else "left")
+    table.add_row("done", f"{tally.done:,}")
+    table.add_row("failed", f"{tally.failed:,}")
+    table.add_row("all", f"{tally.points:,}")
+    grid = " x ".join(f"{axis.count} {axis.name}" for axis in plan.axes)
+    screen.print(f"Sweep of {plan.case.name} ({plan.task.kind}): {grid}", soft_wrap=True)
+    screen.print(table)
+    if tally.computed:
+        screen.print(f"This run: {tally.computed:,} points in {_duration(tally.seconds)}, {_rate(tally, plan)}")
+    else:
+        screen.print("Nothing was left to compute.")
+    for failure in failures[:_SHOWN]:
+        screen.print(f"Failed at {failure['values']}: {failure['error']}", soft_wrap=True)
+    if tally.failed:
+        screen.print(f"All failures: {tally.store}/failures; try them again with --retry-failed", soft_wrap=True)
+    screen.print(f"Results: {tally.store} (carom.open_sweep in Python)", soft_wrap=True)

@@ -1,0 +1,170 @@
+"""What a sweep of basins finds out at a point of its grid: where a seeded sample of disturbances ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from carom.outcome import Outcome
+from carom.sweeps.variables import Dimension, Variable, with_si
+
+if TYPE_CHECKING:
+    from carom.disturbances import Disturbance, Starts
+    from carom.parameters import Case, Scales
+    from carom.rotors import Rotor
+
+__all__ = ["BasinsTask", "models"]
+
+ENDINGS = (
+    Outcome.LEVITATED,
+    Outcome.BOUNCING,
+    Outcome.MIXED,
+    Outcome.FORWARD_RUB,
+    Outcome.BACKWARD_WHIRL,
+    Outcome.ROLLING,
+    Outcome.TIME_REACHED,
+    Outcome.EVENT_LIMIT,
+    Outcome.GRAZING,
+)
+OUTCOMES = Dimension(
+    "outcome",
+    tuple(int(ending) for ending in ENDINGS),
+    "where the motion ends",
+    tuple(ending.label for ending in ENDINGS),
+)
+BATCH = 65_536
+"""Starts followed at a time: memory does not grow with their number."""
+_COST, _COST_OF_START = 0.002, 1e-4
+_KICKS = ("kick", "kick-plane")
+
+
+@dataclass(frozen=True)
+class BasinsTask:
+    """A sample of disturbances at each point of the grid.
+
+    Attributes
+    ----------
+    starts : int
+        Disturbances at each point.
+    disturbance : str
+        Kind of a model of :mod:`carom.disturbances`.
+    sizes : tuple of (str, value, bool)
+        Its arguments: name, value, and whether that is in SI units.  One in SI units stays the same in SI units whatever
+        the scales of the point are.
+    has_scales : bool
+        Whether mass, clearance and speed are known, and results are stored in SI units too.
+    """
+
+    starts: int
+    disturbance: str
+    sizes: tuple[tuple[str, Any, bool], ...]
+    has_scales: bool
+
+    kind: ClassVar[str] = "basins"
+    dimensions: ClassVar[tuple[Dimension, ...]] = (OUTCOMES,)
+
+    @property
+    def variables(self) -> tuple[Variable, ...]:
+        """What is stored for each point."""
+        found: tuple[Variable, ...] = (
+            Variable("possible", "disturbances of the sample that are possible", "count"),
+            Variable("counts", "disturbances that ended so", "count", along=OUTCOMES),
+            Variable("recovered", "share of the possible disturbances that came back to levitation"),
+            Variable("recovered_low", "lower end of its 95 % confidence interval (Wilson)"),
+            Variable("recovered_high", "upper end of its 95 % confidence interval (Wilson)"),
+            Variable("mean_impacts", "impacts until it was known where the motion ends, mean"),
+        )
+        if self.disturbance in _KICKS:
+            found += (Variable("smallest_unrecovered_kick", "smallest kick that did not come back", scale="velocity"),)
+        return with_si(found, self.has_scales)
+
+    @property
+    def seconds(self) -> float:
+        """Rough time a point takes."""
+        return _COST + _COST_OF_START * self.starts
+
+    def describe(self) -> dict[str, Any]:
+        """What identifies it."""
+        sizes = {name: {"value": value, "si": si} for name, value, si in self.sizes}
+        return {"kind": self.kind, "starts": self.starts, "disturbance": {"kind": self.disturbance, **sizes}}
+
+    def model(self, scales: Scales | None) -> Disturbance:
+        """Return the model of the disturbances for a machine with these scales."""
+        chosen = models()[self.disturbance]
+        sizes = {}
+        for name, value, si in self.sizes:
+            sizes[name] = value / getattr(scales, chosen.measured_in[name]) if si else value
+        model: Disturbance = chosen(**sizes)
+        return model
+
+    def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
+        """Numbers of one machine, by the names of the variables; a name that is left out has none.
+
+        Parameters
+        ----------
+        case : Case
+        seed : SeedSequence
+            Of this point.
+        """
+        from carom.basins.shares import Share
+        from carom.rotors import jeffcott
+
+        rotor = jeffcott(case.parameters)
+        counts = np.zeros(len(ENDINGS), np.int64)
+        impacts, smallest = 0, np.inf
+        for starts in self._batches(rotor, seed):
+            outcomes, struck = _follow(rotor, starts)
+            counts += np.array([np.count_nonzero(outcomes == ending) for ending in ENDINGS])
+            impacts += struck
+            lost = np.abs(starts.velocities[starts.exists][outcomes != Outcome.LEVITATED])
+            smallest = min(smallest, lost.min(initial=np.inf))
+        possible = int(counts.sum())
+        found: dict[str, Any] = {"possible": possible, "counts": counts}
+        if possible:
+            share = Share.of(int(counts[0]), possible, drawn=True)
+            found |= {"recovered": share.fraction, "recovered_low": share.low, "recovered_high": share.high}
+            found["mean_impacts"] = impacts / possible
+        if self.disturbance in _KICKS and np.isfinite(smallest):
+            found["smallest_unrecovered_kick"] = smallest
+            if rotor.scales is not None:
+                found["smallest_unrecovered_kick_si"] = smallest * rotor.scales.velocity
+        return found
+
+    def _batches(self, rotor: Rotor, seed: np.random.SeedSequence) -> Iterator[Starts]:
+        from carom.disturbances import Sample
+
+        model = self.model(rotor.scales)
+        for batch, first in enumerate(range(0, self.starts, BATCH)):
+            own = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, batch))
+            number = int(own.generate_state(1, np.uint64)[0])
+            yield Sample(model, min(BATCH, self.starts - first), number).starts(rotor)
+
+
+def models() -> dict[str, type[Disturbance]]:
+    """Models of disturbances by their kind."""
+    from carom.disturbances import (
+        AnyState,
+        BaseShock,
+        ContactRelease,
+        KickPlane,
+        StateSlice,
+        UnbalanceStep,
+        VelocityKick,
+    )
+
+    known = (VelocityKick, KickPlane, BaseShock, UnbalanceStep, ContactRelease, StateSlice, AnyState)
+    return {model.kind: model for model in known}
+
+
+def _follow(rotor: Rotor, starts: Starts) -> tuple[np.ndarray, int]:
+    """Outcomes of the starts that exist, and their impacts."""
+    from carom.ensembles import settle_all
+
+    decided = starts.exists & ~starts.undecided
+    endings = settle_all(rotor, starts.positions[decided], starts.velocities[decided], threads=1)
+    outcomes = np.full(decided.shape, Outcome.GRAZING, np.int8)
+    outcomes[decided] = endings.outcomes
+    return outcomes[starts.exists], int(endings.impacts.sum())

@@ -1,0 +1,106 @@
+"""One chunk of a sweep: from its number to its arrays, the same wherever and whenever it is computed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from carom.outcome import CaromError
+from carom.sweeps.plan import SweepPlan
+from carom.sweeps.variables import STATUS, Status
+
+__all__ = ["Chunk", "Failure", "compute_chunk", "failed_chunk"]
+
+_LONGEST_MESSAGE = 500
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A point that could not be computed.
+
+    Attributes
+    ----------
+    point : tuple of int
+        Its place in the grid.
+    values : dict
+        The parameters that vary, in SI units or dimensionless.
+    error : str
+        What went wrong, on one line.
+    """
+
+    point: tuple[int, ...]
+    values: dict[str, float]
+    error: str
+
+
+@dataclass(frozen=True, eq=False)
+class Chunk:
+    """What was found out about the points of a chunk.
+
+    Attributes
+    ----------
+    number : int
+    arrays : dict of ndarray
+        One for each variable, and ``status``; shape of the part of the grid, then of the variable's own dimension.
+    failures : tuple of Failure
+    """
+
+    number: int
+    arrays: dict[str, np.ndarray]
+    failures: tuple[Failure, ...]
+
+
+def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
+    """Compute all points of a chunk; one that fails is recorded and the others go on.
+
+    Parameters
+    ----------
+    plan : SweepPlan
+    number : int
+        From 0 to ``plan.chunks - 1``.
+
+    Returns
+    -------
+    Chunk
+        Depends on the arguments alone, to the last bit.
+    """
+    arrays = _empty(plan, number)
+    corner = tuple(part.start for part in plan.region(number))
+    failures = []
+    for point in plan.points_of(number):
+        place = tuple(at - start for at, start in zip(point, corner, strict=True))
+        try:
+            found = plan.task.evaluate(plan.case_at(point), plan.seed_of(point))
+        except Exception as problem:  # noqa: BLE001  (whatever it is: it is told, and the sweep goes on)
+            arrays["status"][place] = Status.FAILED
+            failures.append(Failure(point, plan.values(point), _told(problem)))
+            continue
+        for name, value in found.items():
+            arrays[name][place] = value
+        arrays["status"][place] = Status.DONE
+    return Chunk(number, arrays, tuple(failures))
+
+
+def failed_chunk(plan: SweepPlan, number: int, error: str) -> Chunk:
+    """Return a chunk of which nothing is known but an error: whoever computed it has gone."""
+    arrays = _empty(plan, number)
+    arrays["status"][...] = Status.FAILED
+    failures = tuple(Failure(point, plan.values(point), error) for point in plan.points_of(number))
+    return Chunk(number, arrays, failures)
+
+
+def _empty(plan: SweepPlan, number: int) -> dict[str, np.ndarray]:
+    shape = tuple(part.stop - part.start for part in plan.region(number))
+    arrays: dict[str, np.ndarray] = {
+        variable.name: np.full(shape + variable.shape, variable.fill, variable.dtype)
+        for variable in plan.task.variables
+    }
+    arrays["status"] = np.full(shape, Status.WAITING, STATUS.dtype)
+    return arrays
+
+
+def _told(problem: Exception) -> str:
+    words: Any = problem if isinstance(problem, CaromError) else f"{type(problem).__name__}: {problem}"
+    return " ".join(str(words).split())[:_LONGEST_MESSAGE]

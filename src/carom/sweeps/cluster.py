@@ -1,0 +1,143 @@
+"""Chunks computed by the workers of a Dask cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager
+from importlib.metadata import version
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from carom.outcome import CaromError, InputError
+from carom.sweeps.chunk import Chunk, compute_chunk, failed_chunk
+from carom.sweeps.local import AHEAD
+from carom.sweeps.plan import SweepPlan
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+__all__ = ["SLURM", "connect", "on_cluster"]
+
+OPTION = "--scheduler"
+SLURM = "slurm"
+_PATIENCE = "20s"
+
+
+def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Generator[Chunk, None, None]:
+    """Compute chunks on the workers of a cluster, in the order in which they become ready.
+
+    Workers may come and go: what a worker that is lost was computing is given to another by the scheduler, and a chunk
+    that the scheduler gives up, as too many workers were lost with it, is told as failed.
+
+    Parameters
+    ----------
+    plan : SweepPlan
+    numbers : iterator of int
+        Taken one by one: as many as the workers of the moment can work on.
+    client : distributed.Client
+
+    Raises
+    ------
+    CaromError
+        The scheduler is lost, or a worker has another version of carom.
+    """
+    from distributed import CancelledError, KilledWorker, as_completed
+
+    _check_versions(client)
+    pending: dict[Future[Chunk], int] = {}
+    ready = as_completed()
+
+    def submit() -> None:
+        slots = sum(client.ncores().values()) or 1
+        for number in islice(numbers, max(AHEAD * slots - len(pending), 0)):
+            # Impure, and with a key of its own: a chunk that is tried again is computed again.
+            future = client.submit(compute_chunk, plan, number, pure=False)
+            pending[future] = number
+            ready.add(future)
+
+    try:
+        submit()
+        while pending:
+            future = next(ready)
+            number = pending.pop(future)
+            try:
+                chunk = future.result()
+            except KilledWorker:
+                chunk = failed_chunk(plan, number, "too many workers were lost while they computed it")
+            submit()
+            yield chunk
+    except (CancelledError, OSError) as problem:
+        words = f"lost the scheduler ({type(problem).__name__}); what was finished is kept, the same command goes on"
+        raise CaromError(words) from None
+    finally:
+        client.cancel(list(pending))
+
+
+@contextmanager
+def connect(scheduler: str, workers: int | None) -> Iterator[Client]:
+    """Connect to a cluster.
+
+    Parameters
+    ----------
+    scheduler : str
+        Address such as ``"tcp://host:8786"``, the scheduler's file, or ``"slurm"``: jobs of a SLURM cluster as described in the
+        configuration of dask-jobqueue.
+    workers : int, optional
+        With ``"slurm"``: how many workers to ask for.
+
+    Yields
+    ------
+    distributed.Client
+
+    Raises
+    ------
+    InputError
+        There is no scheduler, or Dask is not installed.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        remedy = 'needs dask.distributed; install it with: pip install "carom[cluster]"'
+        raise InputError(OPTION, scheduler, remedy) from None
+    if scheduler == SLURM:
+        with _slurm_jobs(workers) as cluster, Client(cluster) as client:
+            yield client
+        return
+    place = {"scheduler_file": scheduler} if Path(scheduler).is_file() else {"address": scheduler}
+    try:
+        client = Client(**place, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as problem:
+        allowed = "must be the address of a Dask scheduler that can be reached, such as tcp://host:8786, or its file"
+        raise InputError(OPTION, scheduler, f"{allowed}, or {SLURM} ({type(problem).__name__})") from None
+    with client:
+        yield client
+
+
+@contextmanager
+def _slurm_jobs(workers: int | None) -> Iterator[object]:
+    try:
+        from dask_jobqueue import SLURMCluster
+    except ImportError:
+        raise InputError(OPTION, SLURM, "needs dask-jobqueue; install it with: pip install dask-jobqueue") from None
+    if workers is None:
+        raise InputError("--workers", None, f"with {OPTION} {SLURM}: how many workers to ask for")
+    try:
+        cluster = SLURMCluster()
+    except (ValueError, OSError) as problem:
+        remedy = "describe the jobs (cores, memory, queue) in the configuration of dask-jobqueue"
+        raise InputError(OPTION, SLURM, f"{remedy}; {problem}") from None
+    with cluster:
+        cluster.scale(workers)
+        yield cluster
+
+
+def _check_versions(client: Client) -> None:
+    here = version("carom")
+    for address, there in client.run(_version).items():
+        if there != here:
+            raise CaromError(f"the worker at {address} has carom {there}, this is {here}; install the same on both")
+
+
+def _version() -> str:
+    return version("carom")

@@ -1,0 +1,162 @@
+"""A store before its first chunk: its arrays, their attributes, and the plan it belongs to."""
+
+from __future__ import annotations
+
+import json
+import platform
+import secrets
+import shutil
+import warnings
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from carom.outcome import InputError
+from carom.sweeps.files import sync_directory
+from carom.sweeps.plan import SweepPlan
+from carom.sweeps.variables import STATUS, Status, flag_attributes
+
+__all__ = ["FAILURES", "OPTION", "PARTS", "attributes_of", "check_same", "create", "is_new"]
+
+OPTION = "--out"
+"""Name of the place in errors."""
+FAILURES, PARTS = "failures", ".parts"
+
+
+def is_new(path: Path) -> bool:
+    """Whether a store is to be made; refuse a place that holds something else."""
+    if not path.exists():
+        return True
+    if not path.is_dir():
+        raise InputError(OPTION, path, "must be a directory, there or to be made; this is a file")
+    if attributes_of(path) is not None:
+        return False
+    if any(path.iterdir()):
+        raise InputError(OPTION, path, "holds something else than a sweep; give another directory")
+    return True
+
+
+def attributes_of(path: Path) -> dict[str, Any] | None:
+    """Attributes of a store, or None if it is none."""
+    try:
+        attributes = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
+        json.loads(attributes["plan"])
+    except (FileNotFoundError, NotADirectoryError, ValueError, KeyError, TypeError):
+        return None
+    found: dict[str, Any] = attributes
+    return found
+
+
+def check_same(path: Path, plan: SweepPlan) -> None:
+    """Refuse a store that belongs to another plan, or was begun by another version."""
+    attributes = attributes_of(path) or {}
+    there, source = json.loads(attributes["plan"]), attributes.get("source")
+    wanted = json.loads(json.dumps(plan.describe()))
+    if there != wanted:
+        where = _difference(there, wanted)
+        raise InputError(OPTION, path, f"belongs to another plan (its {where}); give another directory")
+    if source != _source():
+        raise InputError(OPTION, path, f"was begun by {source}, this is {_source()}; go on with that, or begin anew")
+
+
+def _difference(there: Any, wanted: Any, where: str = "") -> str:
+    """Words for the first entry in which two plans differ."""
+    if isinstance(there, dict) and isinstance(wanted, dict) and there.keys() == wanted.keys():
+        for key in there:
+            if there[key] != wanted[key]:
+                return _difference(there[key], wanted[key], f"{where} {key}".strip())
+    if isinstance(there, list) and isinstance(wanted, list) and len(there) == len(wanted):
+        for first, second in zip(there, wanted, strict=True):
+            if first != second:
+                name = first.get("name", "") if isinstance(first, dict) else ""
+                return _difference(first, second, f"{where} {name}".strip())
+    return f"{where} is {there}, not {wanted}"
+
+
+def _source() -> str:
+    return f"carom {version('carom')}"
+
+
+def create(path: Path, plan: SweepPlan) -> None:
+    """Make the store without a chunk, beside its place, and move it there."""
+    made = path.absolute().parent / f".{path.name}.{secrets.token_hex(4)}.part"
+    try:
+        made.mkdir(parents=True)
+        _lay_out(made, plan)
+        for directory in (PARTS, FAILURES):
+            (made / directory).mkdir()
+        made.rename(path)
+        sync_directory(path.absolute().parent)
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+
+
+def _lay_out(path: Path, plan: SweepPlan) -> None:
+    import zarr
+
+    attributes = {
+        "Conventions": "CF-1.11",
+        "title": f"Sweep of {plan.case.name}: {plan.task.kind}",
+        "source": _source(),
+        "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} begun",
+        "versions": {name: version(name) for name in ("carom", "numpy", "numba")}
+        | {"python": platform.python_version()},
+        "processor": platform.machine(),
+        "seed": plan.seed,
+        "plan": json.dumps(plan.describe()),
+        "plan_digest": plan.digest,
+        **plan.sources,
+    }
+    names = [axis.name for axis in plan.axes]
+    group = zarr.create_group(path, zarr_format=3, attributes=attributes)
+    for axis in plan.axes:
+        words = {"long_name": axis.field.words, "units": axis.field.unit or "1"}
+        _add(group, axis.name, axis.values, [axis.name], words)
+    for dimension in plan.task.dimensions:
+        words = {"long_name": dimension.words, **flag_attributes(dimension.values, dimension.flags)}
+        _add(group, dimension.name, np.array(dimension.values, np.int8), [dimension.name], words)
+    common: dict[str, Any] = {"compressors": None, "filters": None}
+    for variable in plan.task.variables:
+        along = [variable.along.name] if variable.along else []
+        group.create_array(
+            variable.name,
+            shape=plan.shape + variable.shape,
+            chunks=plan.chunk_shape + variable.shape,
+            dtype=variable.dtype,
+            fill_value=variable.fill,
+            dimension_names=names + along,
+            attributes=variable.attributes,
+            **common,
+        )
+    group.create_array(
+        STATUS.name,
+        shape=plan.shape,
+        chunks=plan.chunk_shape,
+        dtype=STATUS.dtype,
+        fill_value=Status.WAITING,
+        dimension_names=names,
+        attributes=STATUS.attributes,
+        **common,
+    )
+    with (
+        warnings.catch_warnings()
+    ):  # that the Zarr 3 specification does not describe it yet; without, readers look round
+        warnings.simplefilter("ignore")
+        zarr.consolidate_metadata(path)
+
+
+def _add(group: Any, name: str, values: np.ndarray, dimensions: Sequence[str], attributes: dict[str, Any]) -> None:
+    array = group.create_array(
+        name,
+        shape=values.shape,
+        chunks=values.shape,
+        dtype=values.dtype,
+        dimension_names=dimensions,
+        attributes=attributes,
+        compressors=None,
+    )
+    array[:] = values

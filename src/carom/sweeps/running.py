@@ -1,0 +1,143 @@
+"""Run a sweep: compute what is waiting, wherever, and write it down."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Generator, Iterator
+from contextlib import ExitStack, closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from carom.outcome import InputError
+from carom.sweeps.chunk import Chunk
+from carom.sweeps.plan import SweepPlan
+from carom.sweeps.store import SweepStore
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+__all__ = ["Tally", "run_sweep"]
+
+
+@dataclass(frozen=True)
+class Tally:
+    """How far a sweep is.
+
+    Attributes
+    ----------
+    store : Path
+    points, done, failed : int
+        Of the grid; what is neither done nor failed is waiting.
+    computed : int
+        Points computed by this run.
+    seconds : float
+        Time since it began.
+    """
+
+    store: Path
+    points: int
+    done: int
+    failed: int
+    computed: int
+    seconds: float
+
+    @property
+    def waiting(self) -> int:
+        """Points that have not been computed."""
+        return self.points - self.done - self.failed
+
+    @property
+    def rate(self) -> float:
+        """Points per second."""
+        return self.computed / self.seconds if self.seconds > 0 else 0.0
+
+    @property
+    def left(self) -> float | None:
+        """Seconds left at this rate, if it is known."""
+        return self.waiting / self.rate if self.rate > 0 else None
+
+
+def run_sweep(
+    plan: SweepPlan,
+    store: str | os.PathLike[str],
+    *,
+    workers: int | None = None,
+    threads: bool = False,
+    scheduler: str | Client | None = None,
+    retry_failed: bool = False,
+    progress: Callable[[Tally], None] | None = None,
+) -> Tally:
+    """Compute all points of a sweep that are not in its store yet.
+
+    Each chunk is written once, whole, as soon as it is there: whatever ends this function, the same call goes on from what
+    was finished.  The results do not depend, to the last bit, on who computes what (on processors of one kind).
+
+    Parameters
+    ----------
+    plan : SweepPlan
+    store : path
+        Directory of the Zarr store; made if it is not there.
+    workers : int, optional
+        Processes on this machine, by default one for each core at hand.
+    threads : bool
+        Threads of this process instead.
+    scheduler : str or distributed.Client, optional
+        Compute on a Dask cluster instead: address or file of its scheduler, ``"slurm"``, or a client.
+    retry_failed : bool
+        Compute chunks again in which points failed.
+    progress : callable, optional
+        Called with a :class:`Tally` after each chunk.
+
+    Returns
+    -------
+    Tally
+
+    Raises
+    ------
+    InputError
+        The store cannot be written, or belongs to another plan.
+    CaromError
+        There is nobody to compute.
+    """
+    if workers is not None and workers < 1:
+        raise InputError("--workers", workers, "must be a whole number of at least 1")
+    book = SweepStore(store, plan)
+    began, computed = time.monotonic(), 0
+
+    def tally() -> Tally:
+        return Tally(book.path, plan.points, book.done, book.failed, computed, time.monotonic() - began)
+
+    if next(book.waiting(retry_failed), None) is None:
+        return tally()
+    with ExitStack() as stack:
+        stack.enter_context(book)
+        chunks = _chunks(plan, book.waiting(retry_failed), workers, threads, scheduler, stack)
+        for chunk in stack.enter_context(closing(chunks)):
+            book.write(chunk)
+            computed += plan.size(chunk.number)
+            if progress:
+                progress(tally())
+    return tally()
+
+
+def _chunks(
+    plan: SweepPlan,
+    numbers: Iterator[int],
+    workers: int | None,
+    threads: bool,
+    scheduler: str | Client | None,
+    stack: ExitStack,
+) -> Generator[Chunk, None, None]:
+    if scheduler is not None:
+        from carom.sweeps.cluster import connect, on_cluster
+
+        if threads:
+            raise InputError("--threads", "given", "goes without --scheduler, whose workers compute")
+        client = stack.enter_context(connect(scheduler, workers)) if isinstance(scheduler, str) else scheduler
+        return on_cluster(plan, numbers, client)
+    from carom.ensembles import available_cores
+    from carom.sweeps.local import on_processes, on_threads
+
+    return (on_threads if threads else on_processes)(plan, numbers, workers or available_cores())

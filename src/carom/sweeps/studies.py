@@ -1,0 +1,183 @@
+"""What a sweep of studies finds out at a point of its grid: a fixed set of numbers and flags."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from carom.sweeps.variables import Dimension, Variable, with_si
+
+if TYPE_CHECKING:
+    from carom.orbits import OrbitSet
+    from carom.parameters import Case
+    from carom.rotors import Rotor
+
+__all__ = ["StudyTask"]
+
+_SIMPLE = (
+    Variable("levitates", "whether levitation without contact exists and is stable", "flag", flags=("no", "yes")),
+    Variable("levitation_radius", "radius of the contact-free whirl", scale="length"),
+    Variable("levitation_decay", "slowest decay of disturbances in levitation", unit="Omega"),
+    Variable("zone", "zone of the contact-free amplitude", "flag", flags=("A", "B", "C", "D")),
+    Variable("rubs", "synchronous rubs", "count"),
+    Variable("rub_stable", "whether a stable synchronous rub exists", "flag", flags=("no", "yes")),
+    Variable("rub_force", "normal force of the stable synchronous rub", scale="force"),
+    Variable("orbits", "orbits with one impact a period", "count"),
+    Variable("stable_orbits", "stable orbits with one impact a period", "count"),
+    Variable("orbits_complete", "whether there are provably no more of them", "flag", flags=("no", "yes")),
+    Variable("orbit_impulse", "largest normal impulse of the stable orbits", scale="impulse"),
+    Variable("rolling_holds", "whether rolling backward whirl sustains itself", "flag", flags=("no", "yes")),
+    Variable("runaway_speed", "speed of backward whirl that surely runs away to rolling", unit="Omega"),
+)
+_SIMULATED = (
+    Variable("attractors", "motions in which simulated disturbances ended", "count"),
+    Variable("recovered", "share of simulated disturbances that came back to levitation"),
+    Variable("smallest_unrecovered_kick", "smallest simulated kick that did not come back", scale="velocity"),
+)
+_DAMPING = (
+    Variable("least_damping", "damping above which all simulated disturbances came back", scale="damping"),
+    Variable("least_damping_rolling", "the same with rolling, however fast the start", scale="damping"),
+)
+_COST = 0.01
+_COST_OF_DISTURBANCE, _COST_OF_DAMPING = 0.001, 0.01
+
+
+@dataclass(frozen=True)
+class StudyTask:
+    """A study at each point of the grid.
+
+    Attributes
+    ----------
+    disturbances : int
+        Simulated at each point, as :func:`~carom.find_attractors` does; zero for closed forms only.
+    least_damping : bool
+        Whether to search the least safe damping too, with as many disturbances at each damping.
+    zone_limits : tuple of float
+        Limits of the amplitude zones.
+    has_scales : bool
+        Whether mass, clearance and speed are known, and results are stored in SI units too.
+    """
+
+    disturbances: int
+    least_damping: bool
+    zone_limits: tuple[float, float, float]
+    has_scales: bool
+
+    kind: ClassVar[str] = "study"
+    dimensions: ClassVar[tuple[Dimension, ...]] = ()
+
+    @property
+    def variables(self) -> tuple[Variable, ...]:
+        """What is stored for each point."""
+        found: tuple[Variable, ...] = _SIMPLE
+        if self.disturbances:
+            found += _SIMULATED
+        if self.least_damping:
+            found += _DAMPING
+        return with_si(found, self.has_scales)
+
+    @property
+    def seconds(self) -> float:
+        """Rough time a point takes."""
+        return _COST + self.disturbances * (_COST_OF_DISTURBANCE + self.least_damping * _COST_OF_DAMPING)
+
+    @property
+    def starts(self) -> int:
+        """Motions planned at each point, searches aside."""
+        return self.disturbances
+
+    def describe(self) -> dict[str, Any]:
+        """What identifies it."""
+        return {
+            "kind": self.kind,
+            "disturbances": self.disturbances,
+            "least_damping": self.least_damping,
+            "zone_limits": list(self.zone_limits),
+        }
+
+    def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
+        """Numbers of one machine, by the names of the variables; a name that is left out has none.
+
+        Parameters
+        ----------
+        case : Case
+        seed : SeedSequence
+            Of this point.
+        """
+        from carom.rotors import jeffcott
+
+        rotor = jeffcott(case.parameters)
+        found = self._closed_forms(rotor, case)
+        number = int(seed.generate_state(1)[0])
+        if self.disturbances:
+            found |= self._simulated(rotor, number)
+        if self.least_damping:
+            found |= self._damping(rotor, number)
+        scales = rotor.scales
+        if scales is not None:
+            for variable in self.variables:
+                if variable.scale and variable.name in found:
+                    found[f"{variable.name}_si"] = found[variable.name] * getattr(scales, variable.scale)
+        return found
+
+    def _closed_forms(self, rotor: Rotor, case: Case) -> dict[str, Any]:
+        from carom.equilibria import equilibria
+        from carom.orbits import orbits_within_reach
+        from carom.whirl import rolling, runaway_speed
+
+        levitation, *rubs = equilibria(rotor)
+        there = [rub for rub in rubs if rub.status == "admissible"]
+        zones = case.zones
+        found = {
+            "levitates": levitation.status == "admissible" and levitation.stable,
+            "levitation_radius": levitation.radius,
+            "levitation_decay": -float(levitation.eigenvalues.real.max()),
+            "rubs": len(there),
+            "rub_stable": any(rub.stable for rub in there),
+            "rub_force": next((rub.normal_force for rub in there if rub.stable), math.nan),
+            "rolling_holds": rolling(rotor).holds,
+            "runaway_speed": runaway_speed(rotor).certain,
+            **_orbits(orbits_within_reach(rotor)),
+        }
+        if levitation.status != "virtual":
+            found["zone"] = zones.labels.index(zones.zone(min(levitation.radius, 1.0)))
+        return found
+
+    def _simulated(self, rotor: Rotor, seed: int) -> dict[str, Any]:
+        from carom.attractors import find_attractors
+
+        found = find_attractors(rotor, seed=seed, count=self.disturbances)
+        smallest = found.smallest_unrecovered_kick
+        return {
+            "attractors": sum(member.count > 0 for member in found),
+            "recovered": found.recovered,
+            "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
+        }
+
+    def _damping(self, rotor: Rotor, seed: int) -> dict[str, Any]:
+        from carom.safety import DampingLimit, least_safe_damping
+
+        safe = least_safe_damping(rotor.parameters, seed=seed, count=max(self.disturbances, 1))
+
+        def above(limit: DampingLimit | None) -> float:
+            """Zero where nothing survives, infinite where something does up to the highest damping looked at."""
+            if limit is None:
+                return 0.0
+            return math.inf if limit.above > safe.highest and limit.evidence != "closed form" else limit.above
+
+        return {"least_damping": above(safe.within_reach), "least_damping_rolling": above(safe.at_all)}
+
+
+def _orbits(found: OrbitSet) -> dict[str, Any]:
+    there = [orbit for orbit in found if orbit.admissible]
+    stable = [orbit for orbit in there if orbit.stable]
+    impulses = [(1.0 + orbit.rotor.parameters.d) * orbit.radial_speed for orbit in stable]
+    return {
+        "orbits": len(there),
+        "stable_orbits": len(stable),
+        "orbits_complete": found.complete,
+        "orbit_impulse": max(impulses, default=math.nan),
+    }

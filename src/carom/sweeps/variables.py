@@ -1,0 +1,139 @@
+"""What a sweep stores for each point of its grid: names, words, units and flags, without a number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+__all__ = ["STATUS", "Dimension", "Status", "Variable", "flag_attributes", "with_si"]
+
+Kind = Literal["number", "count", "flag"]
+_DTYPES: dict[Kind, str] = {"number": "<f8", "count": "<i8", "flag": "|i1"}
+_SI_UNITS = {"length": "m", "velocity": "m/s", "force": "N", "impulse": "N s", "damping": "N s/m"}
+_OWN_UNITS = {
+    "length": "c_r",
+    "velocity": "c_r Omega",
+    "force": "m c_r Omega^2",
+    "impulse": "m c_r Omega",
+    "damping": "m Omega",
+}
+
+
+class Status:
+    """What has become of a point of the grid."""
+
+    WAITING, DONE, FAILED = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A dimension of a variable besides the axes of the grid.
+
+    Attributes
+    ----------
+    name : str
+    values : tuple of int
+        Its coordinate.
+    words : str
+    flags : tuple of str
+        Meaning of each value.
+    """
+
+    name: str
+    values: tuple[int, ...]
+    words: str
+    flags: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A number, a count or a flag that every point of the grid has.
+
+    Attributes
+    ----------
+    name : str
+    words : str
+    kind : {"number", "count", "flag"}
+        Stored as double, as 64-bit or as 8-bit integer; where there is none, as NaN or as -1.
+    unit : str
+    scale : str
+        The property of :class:`~carom.parameters.Scales` that turns it into SI units; empty for a pure number.
+    flags : tuple of str
+        Meanings of 0, 1, 2, ...
+    along : Dimension, optional
+    """
+
+    name: str
+    words: str
+    kind: Kind = "number"
+    unit: str = "1"
+    scale: str = ""
+    flags: tuple[str, ...] = ()
+    along: Dimension | None = None
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the stored numbers, the same on every machine."""
+        return np.dtype(_DTYPES[self.kind])
+
+    @property
+    def fill(self) -> float | int:
+        """What stands where there is no number."""
+        return np.nan if self.kind == "number" else -1
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape at one point of the grid."""
+        return (len(self.along.values),) if self.along else ()
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes in the CF convention."""
+        attributes: dict[str, Any] = {"long_name": self.words}
+        if self.kind == "flag":
+            attributes |= flag_attributes(tuple(range(len(self.flags))), self.flags)
+        else:
+            attributes["units"] = self.unit
+        if self.kind != "number":
+            attributes["_FillValue"] = self.fill
+        return attributes
+
+
+class _Status(NamedTuple):
+    name: str
+    dtype: np.dtype[Any]
+    attributes: dict[str, Any]
+
+
+def flag_attributes(values: Sequence[int], meanings: Sequence[str]) -> dict[str, Any]:
+    """Attributes that tell what the values of a flag mean."""
+    words = " ".join(meaning.replace("-", "_").replace(" ", "_") for meaning in meanings)
+    return {"flag_values": list(values), "flag_meanings": words}
+
+
+STATUS = _Status(
+    "status",
+    np.dtype("|i1"),
+    {
+        "long_name": "whether the point was computed",
+        **flag_attributes((Status.WAITING, Status.DONE, Status.FAILED), ("waiting", "done", "failed")),
+    },
+)
+"""The variable that is written last: a chunk is finished as soon as its status is there."""
+
+
+def with_si(variables: Sequence[Variable], has_scales: bool) -> tuple[Variable, ...]:
+    """Give variables their own units, and where scales are known a second one in SI units each, ``name_si``."""
+    found = []
+    for variable in variables:
+        if not variable.scale:
+            found.append(variable)
+            continue
+        name, words, scale = variable.name, variable.words, variable.scale
+        found.append(Variable(name, words, unit=_OWN_UNITS[scale], scale=scale))
+        if has_scales:
+            found.append(Variable(f"{name}_si", words, unit=_SI_UNITS[scale], scale=scale))
+    return tuple(found)
