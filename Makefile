@@ -4,6 +4,7 @@
 BIN  := .venv/bin
 RUN  := .venv/run.stamp
 TEST := .venv/test.stamp
+DOCS := .venv/docs.stamp
 
 # More arguments for pytest, as in: make test ARGS="-k grazing"
 ARGS :=
@@ -12,7 +13,7 @@ PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test check lint types layers format coverage bench lock clean distclean
+.PHONY: help demo test check lint types layers format coverage bench docs lock clean distclean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1	\2/p' Makefile | awk -F '\t' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -46,11 +47,15 @@ coverage: $(TEST) ## run the tests with the compiler off and report what they co
 bench: $(TEST) ## time carom beside its peers
 	$(BIN)/pytest -p benchmark --benchmark-only -o pythonpath=benchmarks benchmarks $(ARGS)
 
+docs: $(DOCS) ## build the documentation; its examples are executed
+	$(BIN)/sphinx-build -W --keep-going -j auto docs build/docs $(ARGS)
+	@echo "Documentation: $(CURDIR)/build/docs/index.html"
+
 lock: ## lock the dependencies anew; ARGS=--upgrade takes the newest
 	tools/lock $(ARGS)
 
 clean: ## remove products and caches
-	rm -rf build dist demo-output htmlcov .coverage .coverage.* .benchmarks .hypothesis
+	rm -rf build dist demo-output docs/reference/generated htmlcov .coverage .coverage.* .benchmarks .hypothesis
 	rm -rf .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -path ./.venv -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 
@@ -62,7 +67,11 @@ $(RUN): requirements/run.txt pyproject.toml tools/environment
 	tools/environment requirements/run.txt
 	@touch $@
 
-# requirements/test.txt holds all of requirements/run.txt.
+$(DOCS): requirements/docs.txt pyproject.toml tools/environment
+	tools/environment requirements/docs.txt
+	@touch $(RUN) $@
+
+# requirements/test.txt and docs.txt hold all of requirements/run.txt.
 $(TEST): requirements/test.txt pyproject.toml tools/environment
 	tools/environment requirements/test.txt
 	@touch $(RUN) $@

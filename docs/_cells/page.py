@@ -1,0 +1,65 @@
+"""What the cells of the documentation share: tables in Markdown, numbers as text, figures as vectors."""
+
+from __future__ import annotations
+
+import io
+import os
+import subprocess
+import sys
+from collections.abc import Iterable, Sequence
+
+from IPython import get_ipython
+from IPython.display import Markdown
+from matplotlib.figure import Figure
+
+__all__ = ["checks", "command_help", "number", "table"]
+
+
+def number(value: object, digits: int = 10) -> str:
+    """A number with that many significant digits; anything else as it is."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool) or not isinstance(value, (int, float, complex)):
+        return str(value)
+    if isinstance(value, complex):
+        return f"{value.real:.{digits}g} {'+' if value.imag >= 0 else '−'} {abs(value.imag):.{digits}g} i"
+    return f"{value:.{digits}g}".replace("-", "−")
+
+
+def table(headings: Sequence[str], rows: Iterable[Sequence[object]], digits: int = 10) -> Markdown:
+    """A Markdown table.  Vertical bars in the entries are escaped."""
+    lines = ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings)]
+    for row in rows:
+        entries = (number(entry, digits).replace("|", "\\|").replace("\n", " ") for entry in row)
+        lines.append("| " + " | ".join(entries) + " |")
+    return Markdown("\n".join(lines))
+
+
+def checks(rows: Iterable[tuple[str, float, float]]) -> Markdown:
+    """A table of claims, each with its largest error and the error allowed; an error above it stops the build."""
+    shown = []
+    for words, error, allowed in rows:
+        if not abs(error) <= allowed:
+            raise ArithmeticError(f"{words}: error {error:.3g}, allowed {allowed:.3g}")
+        shown.append((words, f"{abs(error):.1e}", f"{allowed:.0e}"))
+    return table(("checked here", "largest error", "allowed"), shown)
+
+
+def command_help(*words: str) -> str:
+    """What a command prints with ``--help``."""
+    command = [sys.executable, "-m", "carom", *words, "--help"]
+    return subprocess.run(command, capture_output=True, text=True, check=True, env=_plain_terminal()).stdout
+
+
+def _plain_terminal() -> dict[str, str]:
+    return {**os.environ, "COLUMNS": "100", "TERM": "dumb", "NO_COLOR": "1"}
+
+
+def _as_svg(figure: Figure) -> str:
+    content = io.StringIO()
+    figure.savefig(content, format="svg", metadata={"Date": None})
+    return content.getvalue()
+
+
+if shell := get_ipython():
+    shell.display_formatter.formatters["image/svg+xml"].for_type(Figure, _as_svg)

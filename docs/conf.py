@@ -1,0 +1,111 @@
+"""Sphinx configuration: `make docs`.  Every code cell is executed while the documentation is built."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+import os
+from pathlib import Path
+
+# Cells run in processes of their own, each in the folder of its page; what they share is in _cells.
+os.environ["PYTHONPATH"] = str(Path(__file__).parent / "_cells")
+
+project = "carom"
+author = "The carom developers"
+copyright = "2026, The carom developers"
+release = importlib.metadata.version("carom")
+version = release
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "numpydoc",
+]
+exclude_patterns = ["_templates", "_cells"]
+templates_path = ["_templates"]
+# The pages of the API are generated with the first of these.
+source_suffix = {".rst": "restructuredtext", ".md": "myst-nb"}
+suppress_warnings = [
+    # Pages link to files of the repository that are no pages.
+    "myst.xref_missing",
+]
+
+# ------------------------------------------------------------------------------------------------ pages and cells
+
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+myst_dmath_double_inline = True
+nb_execution_mode = "force"
+nb_execution_show_tb = True
+nb_execution_timeout = 300
+nb_output_stderr = "error"
+nb_merge_streams = True
+nb_render_markdown_format = "myst"
+
+# ------------------------------------------------------------------------------------------------ API
+
+autosummary_generate = True
+# Names that differ in case only, for file systems that do not tell them apart.
+autosummary_filename_map = {
+    "carom.Rolling": "carom.Rolling-class",
+    "carom.bifurcations.Axis": "carom.bifurcations.Axis-class",
+}
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True
+# Attributes stand in the docstrings; properties and methods are listed by the template.
+numpydoc_show_class_members = False
+numpydoc_xref_param_type = False
+
+# ------------------------------------------------------------------------------------------------ HTML
+
+
+def _mathjax() -> str:
+    """One file with all that typesets the formulas, so that the pages need no network."""
+    found = importlib.util.find_spec("sphinx-mathjax-offline")
+    if found is None or found.origin is None:
+        raise RuntimeError("sphinx-mathjax-offline is not installed: make docs installs requirements/docs.txt")
+    return str(Path(found.origin).parent / "static" / "mathjax" / "tex-svg.js")
+
+
+html_theme = "furo"
+html_title = f"carom {release}"
+html_static_path = ["_static", _mathjax()]
+html_css_files = ["carom.css"]
+html_copy_source = False
+html_show_sourcelink = False
+mathjax_path = "tex-svg.js"
+mathjax3_config = {
+    "tex": {
+        "macros": {
+            "ee": r"\mathrm{e}",
+            "ii": r"\mathrm{i}",
+            "dd": r"\mathrm{d}",
+            "Re": r"\operatorname{Re}",
+            "Im": r"\operatorname{Im}",
+            "sgn": r"\operatorname{sgn}",
+        }
+    },
+    "options": {"enableMenu": False},
+}
+
+
+def _keep_formulas(app, what, name, obj, options, lines) -> None:  # type: ignore[no-untyped-def]
+    """Show the indented formulas of module texts as they are: their bars and stars are no markup."""
+    if what != "module":
+        return
+    text, inside = [], False
+    for place, line in enumerate(lines):
+        indented = line.startswith("    ")
+        if indented and not inside and place and not lines[place - 1].strip():
+            text += ["::", ""]
+        inside = indented or (inside and not line.strip())
+        text.append(line)
+    lines[:] = text
+
+
+def setup(app) -> None:  # type: ignore[no-untyped-def]
+    """Register what this file adds."""
+    app.connect("autodoc-process-docstring", _keep_formulas, priority=100)
