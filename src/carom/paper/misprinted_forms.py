@@ -21,7 +21,6 @@ from carom.parameters import Parameters
 from carom.periods import PeriodCondition
 from carom.propositions import fixed_points
 from carom.rotors import jeffcott
-from carom.trajectories import State
 
 __all__ = ["Misprint", "misprints", "printed_matrix", "printed_second_form"]
 
@@ -255,16 +254,12 @@ def _direction_of_kick(branches: FirstPair, period: float) -> float:
     orbits = single_impact_orbits(rotor)
     small = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))
     normal = jeffcott(machine_at(branches.hopf.gamma)).equilibrium
-    jump = _after(small).velocity - small.section.state.velocity
+    log = small.trajectory(1.5).contacts
+    change = complex(log.radial_speed_after[0] - log.radial_speed[0], log.angular_speed_after[0] - log.angular_speed[0])
+    jump = change * cmath.rect(1.0, log.angle[0])
     parameters = rotor.parameters
     scale = -(1.0 + parameters.d) * complex(1.0, parameters.mu) * small.radial_speed
     return cmath.phase(jump / (scale * normal))
-
-
-def _after(orbit: Orbit) -> State:
-    """State just after the impact, by simulation through it from a little before."""
-    motion = orbit.trajectory(1.0 + 1e-9)
-    return motion.final
 
 
 def _grazing_regions(plane: DampingStiffnessPlane) -> Misprint:

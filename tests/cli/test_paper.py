@@ -1,0 +1,58 @@
+"""``carom paper`` as a user calls it."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+
+def test_table_alone(carom, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = carom("paper")
+    assert (code, err) == (0, "")
+    for word in ("0.0636", "0.0636105609", "0.178", "0.1780277257", "-0.497", "Misprints", "R3.1", "Used as given"):
+        assert word in out
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_json_is_one_object_and_nothing_else(carom):
+    code, out, err = carom("paper", "--json")
+    assert (code, err) == (0, "")
+    document = json.loads(out)
+    rows = {row["quantity"]: row for row in document["numbers"]}
+    assert rows["γ_graze, where B1,d grazes"]["value"] == pytest.approx(0.0636105609, abs=5e-11)
+    assert rows["γ_graze, where B1,d grazes"]["agrees"] is True
+    assert document["figures"] == []
+
+
+def test_everything_to_a_directory(carom, tmp_path):
+    code, out, err = carom("paper", "--out", tmp_path / "deep" / "out", "--json")
+    assert code == 0
+    place = tmp_path / "deep" / "out"
+    document = json.loads(out)
+    assert document == json.loads((place / "paper.json").read_text(encoding="utf-8"))
+    assert len(err.strip().splitlines()) == 1
+    assert "figure-6.svg" in err
+    for entry in document["figures"]:
+        for ending in ("svg", "png"):
+            assert (place / f"{entry['name']}.{ending}").stat().st_size > 20_000
+    assert not list(tmp_path.glob("deep/.*"))
+
+
+@pytest.mark.parametrize(("out", "complaint"), [("", "directory"), ("\0", "directory"), ("file", "is a file")])
+def test_a_directory_that_cannot_be_used(carom, tmp_path, monkeypatch, out, complaint):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("kept")
+    code, shown, err = carom("paper", "--out", out)
+    assert (code, shown) == (2, "")
+    assert len(err.strip().splitlines()) == 1
+    assert re.search(complaint, err)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_options_that_are_none(carom):
+    code, out, err = carom("paper", "--figure", "2")
+    assert (code, out) == (2, "")
+    assert len(err.strip().splitlines()) == 1

@@ -1,0 +1,99 @@
+"""``paper.json``, ``table.md`` and the figures on disk."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from carom import InputError, paper
+
+
+@pytest.fixture(scope="module")
+def written(found, tmp_path_factory):
+    place = tmp_path_factory.mktemp("paper") / "out"
+    shares = []
+    files = paper.write_paper(found, str(place), lambda share, words: shares.append(share))
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+    return place, files
+
+
+def test_all_files_are_there(written):
+    place, files = written
+    names = {f"figure-{number}.{ending}" for number in range(2, 7) for ending in ("svg", "png")}
+    assert {path.name for path in place.iterdir()} == names | {"paper.json", "table.md"}
+    assert {path.resolve() for path in files} == {path.resolve() for path in place.iterdir()}
+
+
+@pytest.mark.parametrize("number", range(2, 7))
+def test_no_figure_is_empty(written, number):
+    place, _ = written
+    image = imread(place / f"figure-{number}.png")
+    # 180 mm at 300 dots per inch.
+    assert abs(image.shape[1] - 180 / 25.4 * 300) < 2
+    inked = (image[..., :3] < 0.95).any(axis=2)
+    assert 0.01 < inked.mean() < 0.6
+    # Something in every ninth of the page.
+    for row in np.array_split(inked, 3, axis=0):
+        for cell in np.array_split(row, 3, axis=1):
+            assert cell.any()
+    vector = (place / f"figure-{number}.svg").read_text(encoding="utf-8")
+    assert vector.count("<path") > 60
+
+
+def test_document_has_every_row(found, written):
+    place, _ = written
+    document = json.loads((place / "paper.json").read_text(encoding="utf-8"))
+    assert len(document["numbers"]) == len(found.numbers)
+    for entry, row in zip(document["numbers"], found.numbers, strict=True):
+        assert (entry["where"], entry["printed"], entry["value"]) == (row.place, row.printed, row.value)
+        assert entry["difference"] == entry["value"] - entry["printed_value"]
+    assert [entry["value"] for entry in document["misprints"]] == [row.value for row in found.misprints]
+    assert [entry["name"] for entry in document["figures"]] == [f"figure-{number}" for number in range(2, 7)]
+    assert "".join(panel for entry in document["figures"] for panel in entry["panels"]) == "abcabcabcdabab"
+    assert {entry["kind"] for entry in document["curves"]} == {
+        "fold",
+        "boundary-equilibrium",
+        "grazing",
+        "period-doubling",
+        "rub-fold",
+    }
+    assert {entry["name"] for entry in document["regions"]} == {"R1", "R2", "R3", "R4"}
+    meeting = next(entry for entry in document["codim2"] if entry["kind"] == "fold + boundary-equilibrium")
+    assert meeting["value"] == pytest.approx([0.1779723, 0.7811076], abs=5e-8)
+
+
+def test_table_has_every_row(found, written):
+    place, _ = written
+    table = (place / "table.md").read_text(encoding="utf-8")
+    for row in found.numbers:
+        assert row.place in table
+        assert row.printed in table
+    for misprint in found.misprints:
+        assert misprint.right.replace("|", "\\|") in table
+    assert all(region.part in table for region in found.plane.regions)
+    # Every line of a table has as many cells as its head.
+    for block in table.split("\n\n"):
+        lines = [line.replace("\\|", "") for line in block.splitlines() if line.startswith("|")]
+        assert len({line.count("|") for line in lines}) <= 1
+
+
+def test_a_directory_that_cannot_be_written(found, tmp_path):
+    (tmp_path / "file").write_text("kept")
+    with pytest.raises(InputError, match="is a file"):
+        paper.write_paper(found, str(tmp_path / "file"))
+    assert (tmp_path / "file").read_text() == "kept"
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_nothing_is_left_of_an_interrupted_write(found, tmp_path):
+    def interrupt(share, words):
+        if share > 0.0:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        paper.write_paper(found, str(tmp_path / "out"), interrupt)
+    assert list(tmp_path.iterdir()) == []
