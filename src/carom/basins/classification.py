@@ -153,6 +153,19 @@ class Basin:
         """Share that comes back to levitation; starts given up count as lost."""
         return Share.of(int(self.recovered.sum()), self.starts, drawn=isinstance(self.plan, Sample))
 
+    def share_of(self, motion: str) -> Share:
+        """Share of the starts that end on a motion.
+
+        Raises
+        ------
+        InputError
+            No start does.
+        """
+        if motion not in self.motions:
+            raise InputError("motion", motion, f"one of: {', '.join(self.motions)}")
+        count = int((self.dataset["motion"].values == self.motions.index(motion)).sum())
+        return Share.of(count, self.starts, drawn=isinstance(self.plan, Sample))
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a netCDF file, whole or not at all; see :func:`carom.basins.store.save`."""
         from carom.basins.store import save

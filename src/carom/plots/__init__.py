@@ -6,24 +6,29 @@ the settings and the backend of the user alone.  What the colours mean is told i
 
 from __future__ import annotations
 
+from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.files import save
+from carom.plots.gains import gain_map
 from carom.plots.histories import radius
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria_and_orbits
 from carom.plots.spectra import multipliers, spectrum
-from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, Look, applied
+from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, applied
 from carom.plots.touchdowns import energies, forces, regimes, touchdown
 
 __all__ = [
     "LOOKS",
     "ONE_COLUMN",
+    "OUTCOMES",
     "TWO_COLUMNS",
     "Look",
     "applied",
+    "basin",
     "energies",
     "equilibria_and_orbits",
     "forces",
+    "gain_map",
     "motion",
     "multipliers",
     "orbit",

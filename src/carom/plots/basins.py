@@ -1,0 +1,400 @@
+"""Basins of attraction: which disturbances lead to which motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap, to_hex, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Patch
+from matplotlib.projections.polar import PolarAxes
+from matplotlib.ticker import MaxNLocator
+
+from carom.outcome import InputError, Outcome
+from carom.plots.plane import Floats, clearance_circle, label_frame, point
+from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, styled
+from carom.plots.words import number
+
+if TYPE_CHECKING:
+    from carom.basins import Basin, SmallestKick
+    from carom.disturbances import Coordinate
+    from carom.parameters import Scales
+
+__all__ = ["basin", "outcome_shares"]
+
+_PALER = (0.0, 0.4, 0.65, 0.8)
+"""How much white the further motions of one outcome are mixed with."""
+_RING = (0.82, 0.98)
+"""Inner and outer radius of the ring that shows releases from the wall."""
+_BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
+"""SI units as figures show them: factor and unit."""
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """A motion as it is drawn."""
+
+    index: int
+    outcome: Outcome
+    colour: str
+    hatch: str
+    words: str
+    share: float
+
+    @property
+    def patch(self) -> Patch:
+        percent = f"{100.0 * self.share:.3g} %"
+        return Patch(
+            facecolor=self.colour,
+            hatch=self.hatch,
+            edgecolor=_ink(self.colour),
+            lw=0.4,
+            label=f"{self.words}, {percent}",
+        )
+
+
+@styled
+def basin(basin: Basin, smallest: SmallestKick | None = None, title: str | None = None) -> Figure:
+    """Draw where disturbances end, in the way that fits them.
+
+    Kicks and shocks by size and direction: a polar picture, and beside it the shares at each size.  Kicks by their parts
+    and slices of states: a plane.  Releases from the wall: a ring.  Samples: a bar for each motion with its confidence
+    interval.
+
+    Parameters
+    ----------
+    basin : carom.basins.Basin
+    smallest : carom.basins.SmallestKick, optional
+        Smallest kick that is lost, to be marked among kicks.
+    title : str, optional
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        180 mm wide, or 88 mm for one plane.  In SI units where the machine is known.
+    """
+    motions = _shown(basin)
+    kind, grid = basin.plan.model.kind, basin.dataset["outcome"].dims != ("start",)
+    if not grid:
+        return _bars(basin, motions, title)
+    if kind in ("kick", "shock", "unbalance"):
+        return _polar(basin, motions, smallest, title)
+    if kind == "release":
+        return _ring(basin, motions, title)
+    if kind in ("kick-plane", "slice"):
+        return _plane(basin, motions, smallest, title)
+    raise InputError("basin", f"a grid of {kind}", "kicks, shocks, unbalance steps, releases, a slice, or a sample")
+
+
+@styled
+def outcome_shares(basin: Basin, *, axes: Axes) -> Figure:
+    """Draw the share of each motion over the size of kicks or shocks into axes of a figure.
+
+    Parameters
+    ----------
+    basin : carom.basins.Basin
+        On a grid of size and direction.
+    axes : matplotlib.axes.Axes
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure of the axes.
+    """
+    _stacked(axes, basin, _shown(basin))
+    owner = axes.get_figure(root=True)
+    if owner is None:
+        raise InputError("axes", axes, "must belong to a figure")
+    return owner
+
+
+def _shown(basin: Basin) -> list[_Shown]:
+    """Motions in the order of their outcome; those of one outcome differ in how pale they are."""
+    index, outcomes, shares = basin.dataset["motion"].values, basin.outcomes, basin.fractions
+    found = []
+    for place, name in enumerate(basin.motions):
+        outcome = Outcome(int(outcomes[index == place].flat[0]))
+        found.append((place, name, outcome, shares[name]))
+    shown: list[_Shown] = []
+    for place, name, outcome, share in sorted(found, key=lambda entry: (entry[2], -entry[3])):
+        look = OUTCOMES[outcome.label]
+        alike = sum(entry.outcome is outcome for entry in shown)
+        colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
+        shown.append(_Shown(place, outcome, colour, look.hatch, _words(look, name), share))
+    return shown
+
+
+def _words(look: Look, name: str) -> str:
+    if name in ("levitation", "rolling", "backward whirl") or name.startswith("unresolved"):
+        return look.words
+    symbol = rf"${name[0]}_{{\mathrm{{{name[1:]}}}}}$" if name[0] == "B" and name[1:2].isdigit() else name
+    return f"{look.words}: {symbol}"
+
+
+def _paler(colour: str, white: float) -> str:
+    red, green, blue = (part + white * (1.0 - part) for part in to_rgb(colour))
+    return to_hex((red, green, blue))
+
+
+def _ink(colour: str) -> str:
+    """Colour of hatching on a ground: a darker one of the same hue, or white on dark grounds."""
+    red, green, blue = to_rgb(colour)
+    dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.3
+    return "#ffffff" if dark else to_hex((0.72 * red, 0.72 * green, 0.72 * blue))
+
+
+def _paint(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown]) -> None:
+    """Paint cells, given by their edges, in the colours of the motions."""
+    order = {entry.index: place for place, entry in enumerate(motions)}
+    places = np.full(index.shape, np.nan)
+    for entry in motions:
+        places[index == entry.index] = order[entry.index]
+    colours = ListedColormap([entry.colour for entry in motions])
+    levels = BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions))
+    mesh = axes.pcolormesh(
+        x, y, np.ma.masked_invalid(places).T, cmap=colours, norm=levels, shading="flat", rasterized=True, gid="cells"
+    )
+    mesh.set_edgecolor("face")
+    mesh.set_linewidth(0.1)
+    if min(index.shape) > 1:
+        _hatch(axes, 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1]), index, motions)
+
+
+def _hatch(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown]) -> None:
+    """Hatch the areas of motions, so that they are told apart in grey too."""
+    if axes.name == "polar":  # close the gap between the last direction and the first
+        x, index = np.append(x, x[0] + 2.0 * np.pi), np.append(index, index[:1], axis=0)
+    for entry in motions:
+        inside = (index == entry.index).astype(float)
+        if entry.hatch and inside.any():
+            area = axes.contourf(x, y, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.hatch])
+            area.set_edgecolor(_ink(entry.colour))
+            area.set_linewidth(0.0)
+            area.set_rasterized(True)
+
+
+def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestKick | None, title: str | None) -> Figure:
+    size, direction = basin.coordinates
+    factor, label = _axis(size, basin.scales)
+    dataset = basin.dataset
+    cells = dataset["outcome"].shape
+    figure = Figure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    grid = figure.add_gridspec(1, 2, width_ratios=(1.25, 1.0))
+    round_, beside = figure.add_subplot(grid[0], projection="polar"), figure.add_subplot(grid[1])
+    _paint(round_, direction.edges(cells[1]), factor * size.edges(cells[0]), dataset["motion"].values.T, motions)
+    round_.set_title("(a)", loc="left", y=1.0)
+    _rule(round_, factor * size.high)
+    round_.set_xlabel(f"radius: {label}\nangle: {direction.words}, co-rotating frame")
+    handles: list[Artist] = []
+    if smallest is not None and basin.plan.model.kind == "kick":
+        handles = _mark_smallest(round_, smallest, factor)
+    _stacked(beside, basin, motions)
+    beside.set_title("(b)", loc="left")
+    return _finish(figure, motions, title, handles, columns=3)
+
+
+def _rule(axes: Axes, high: float) -> None:
+    """Rings and rays of a polar picture, white above the colours."""
+    axes.set_ylim(0.0, high)
+    axes.grid(visible=True, color="#ffffff", lw=0.3, alpha=0.7)
+    axes.set_axisbelow(False)
+    axes.set_xticks(np.deg2rad(np.arange(0, 360, 45)))
+    axes.tick_params(axis="x", pad=1)
+    if isinstance(axes, PolarAxes):
+        axes.set_rlabel_position(22.5)
+    axes.yaxis.set_major_locator(MaxNLocator(4, prune="lower"))
+    for tick in axes.yaxis.get_ticklabels():
+        tick.set_bbox({"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8})
+
+
+def _stacked(axes: Axes, basin: Basin, motions: Sequence[_Shown]) -> None:
+    """Share of each motion at each size, stacked."""
+    size = basin.coordinates[0]
+    factor, label = _axis(size, basin.scales)
+    index = basin.dataset["motion"].values
+    edges = factor * size.edges(index.shape[0])
+    starts = np.maximum((index >= 0).sum(axis=1), 1)
+    below = np.zeros(index.shape[0])
+    for entry in motions:
+        share = 100.0 * (index == entry.index).sum(axis=1) / starts
+        axes.stairs(
+            below + share,
+            edges,
+            baseline=below,
+            fill=True,
+            facecolor=entry.colour,
+            edgecolor=_ink(entry.colour),
+            hatch=entry.hatch,
+            lw=0.0,
+        )
+        below = below + share
+    axes.set_xlim(edges[0], edges[-1])
+    axes.set_ylim(0.0, 100.0)
+    axes.set_xlabel(label)
+    axes.set_ylabel("share of the directions (%)")
+
+
+def _mark_smallest(axes: Axes, smallest: SmallestKick, factor: float) -> list[Artist]:
+    """Mark the smallest lost kick and the circle of the kicks that cannot reach the wall."""
+    ring = np.linspace(0.0, 2.0 * np.pi, 361)
+    wall, start = LOOKS["wall"], LOOKS["start"]
+    axes.plot(ring, np.full(ring.shape, factor * smallest.harmless), ls=(0.0, (4.0, 2.0)), lw=0.7, color=wall.colour)
+    axes.plot(
+        [smallest.angle],
+        [factor * smallest.speed],
+        marker="o",
+        ms=4.0,
+        mfc="white",
+        mec=start.colour,
+        ls="none",
+        gid="smallest",
+    )
+    return [
+        Line2D([], [], ls=(0.0, (4.0, 2.0)), lw=0.7, color=wall.colour, label="below: proven never to touch"),
+        Line2D(
+            [], [], ls="none", marker="o", ms=4.0, mfc="white", mec=start.colour, label="smallest kick that is lost"
+        ),
+    ]
+
+
+def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestKick | None, title: str | None) -> Figure:
+    x, y = basin.coordinates
+    dataset, kind = basin.dataset, basin.plan.model.kind
+    cells = dataset["outcome"].shape
+    figure = Figure(figsize=(0.62 * TWO_COLUMNS, 0.69 * TWO_COLUMNS))
+    axes = figure.subplots()
+    handles: list[Artist] = []
+    if kind == "slice":
+        _paint(axes, x.edges(cells[0]), y.edges(cells[1]), dataset["motion"].values, motions)
+        clearance_circle(axes, reach=1.05)
+        for cells_drawn in axes.collections:  # those cut by the wall
+            cells_drawn.set_clip_path(Circle((0.0, 0.0), 1.0, transform=axes.transData))
+        label_frame(axes, "rotating", basin.scales)
+        point(axes, basin.rotor.equilibrium, "contact-free", label="", colour="#ffffff")
+        velocity = complex(dataset["start_vx"].values.flat[0], dataset["start_vy"].values.flat[0])
+        said = "at rest in the co-rotating frame" if velocity == 0 else rf"$\dot U$ = {velocity:.3g} $c_r\Omega$"
+        axes.set_title(f"starts {said}")
+        handles = [Line2D([], [], ls="none", marker="p", ms=5, mfc="white", mec="#1a1a1a", label="levitation")]
+    else:
+        factor, label = _axis(x, basin.scales)
+        _, label_across = _axis(y, basin.scales)
+        _paint(axes, factor * x.edges(cells[0]), factor * y.edges(cells[1]), dataset["motion"].values, motions)
+        axes.set_xlabel(label)
+        axes.set_ylabel(label_across)
+        axes.set_aspect("equal")
+        axes.plot([0.0], [0.0], "+", ms=6.0, mew=0.7, color="white")
+        if smallest is not None:
+            turned = smallest.speed * np.exp(1j * smallest.angle) * np.conj(_outward(basin))
+            axes.plot(
+                [factor * turned.real], [factor * turned.imag], "o", ms=4.0, mfc="white", mec="#1a1a1a", gid="smallest"
+            )
+            handles = [
+                Line2D(
+                    [],
+                    [],
+                    ls="none",
+                    marker="o",
+                    ms=4.0,
+                    mfc="white",
+                    mec="#1a1a1a",
+                    label="smallest kick that is lost",
+                )
+            ]
+    return _finish(figure, motions, title, handles, columns=2)
+
+
+def _outward(basin: Basin) -> complex:
+    rest = basin.rotor.equilibrium
+    return rest / abs(rest) if rest else complex(np.exp(1j * basin.parameters.phi))
+
+
+def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
+    """Places on the wall, coloured by what a release there leads to."""
+    figure = Figure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
+    axes = figure.subplots()
+    index = basin.dataset["motion"].values
+    edges = basin.coordinates[0].edges(len(index))
+    radii = np.array(_RING)
+    places = np.full(index.shape, 0)
+    for place, entry in enumerate(motions):
+        places[index == entry.index] = place
+    colours = ListedColormap([entry.colour for entry in motions])
+    axes.pcolormesh(
+        radii[:, None] * np.cos(edges),
+        radii[:, None] * np.sin(edges),
+        places[None, :],
+        cmap=colours,
+        norm=BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions)),
+        shading="flat",
+        rasterized=True,
+        gid="cells",
+    )
+    clearance_circle(axes, reach=1.05)
+    label_frame(axes, "rotating", basin.scales)
+    point(axes, basin.rotor.equilibrium, "contact-free", label="")
+    motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}
+    said = motion.get(str(basin.plan.model.describe()["motion"]), "rolling without slip")
+    axes.set_title(f"released from the wall, {said}")
+    look = LOOKS["contact-free"]
+    rest = Line2D([], [], ls="none", marker=look.marker, ms=5.0, mfc=look.colour, mec="#1a1a1a", label="levitation")
+    return _finish(figure, motions, title, [rest], columns=1)
+
+
+def _bars(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
+    """Shares of a sample with their confidence intervals."""
+    figure = Figure(figsize=(0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
+    axes = figure.subplots()
+    for row, entry in enumerate(reversed(motions)):
+        share = basin.share_of(basin.motions[entry.index])
+        axes.barh(
+            row,
+            100.0 * share.fraction,
+            0.62,
+            facecolor=entry.colour,
+            edgecolor=_ink(entry.colour),
+            hatch=entry.hatch,
+            lw=0.3,
+        )
+        axes.plot([100.0 * share.low, 100.0 * share.high], [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)
+        said = f"{number(100.0 * share.fraction, 3)} %"
+        axes.annotate(
+            said, (100.0 * share.high, row), xytext=(4.0, 0.0), textcoords="offset points", va="center", fontsize=7
+        )
+    axes.set_yticks(range(len(motions)), [entry.words for entry in reversed(motions)])
+    axes.tick_params(axis="y", length=0)
+    axes.set_xlim(0.0, 112.0)
+    axes.set_xticks(range(0, 101, 20))
+    axes.set_xlabel(f"share of {basin.starts} starts (%), with 95 % confidence")
+    if title:
+        figure.suptitle(title)
+    return figure
+
+
+def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
+    """Factor from dimensionless values to those shown, and the label with its unit."""
+    if scales is None or not coordinate.scale:
+        unit = {
+            "velocity": r"$c_\mathrm{r}\Omega$",
+            "length": r"$c_\mathrm{r}$",
+            "acceleration": r"$c_\mathrm{r}\Omega^2$",
+        }
+        return 1.0, f"{coordinate.words} ({unit.get(coordinate.scale, 'rad')})"
+    more, unit_shown = _BRIGHT[coordinate.unit]
+    return coordinate.si(scales) * more, f"{coordinate.words} ({unit_shown})"
+
+
+def _finish(
+    figure: Figure, motions: Sequence[_Shown], title: str | None, more: Sequence[Artist], columns: int
+) -> Figure:
+    """Title and legend below."""
+    if title:
+        figure.suptitle(title)
+    handles: list[Any] = [*(entry.patch for entry in motions), *more]
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, len(handles)))
+    return figure
