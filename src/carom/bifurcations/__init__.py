@@ -3,11 +3,17 @@
 from carom.bifurcations.axes import Axis, Numbers, axis, value_of, vary
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
-from carom.bifurcations.diagrams import Diagram, EquilibriumBranch, SpecialValue, bifurcation_diagram
+from carom.bifurcations.diagrams import Diagram, bifurcation_diagram
+from carom.bifurcations.onsets import ONSETS, continue_onset
 from carom.bifurcations.regions import Motions, Region, RegionMap, motions_at, region_map
+from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
+from carom.bifurcations.samples import AttractorSample, sample_attractors
+from carom.bifurcations.steady import EquilibriumBranch, RollingBranch, SpecialValue
 
 __all__ = [
     "KINDS",
+    "ONSETS",
+    "AttractorSample",
     "Axis",
     "Bifurcation",
     "Codimension2Point",
@@ -20,13 +26,20 @@ __all__ = [
     "Plane",
     "Region",
     "RegionMap",
+    "RollingBranch",
+    "RubbingBranch",
+    "RubbingOrbit",
     "SpecialValue",
     "axis",
     "bifurcation_diagram",
     "continue_curve",
+    "continue_onset",
     "continue_orbit",
+    "continue_rubbing",
     "motions_at",
     "region_map",
+    "rubbing_orbits",
+    "sample_attractors",
     "value_of",
     "vary",
 ]

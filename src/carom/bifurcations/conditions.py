@@ -29,6 +29,7 @@ __all__ = [
     "orbit_of",
     "pressed_on",
     "profile_at",
+    "rolling_limit",
     "rub_fold",
 ]
 
@@ -134,6 +135,13 @@ def rub_fold(numbers: Numbers) -> float:
     return numbers.rho**2 * (1.0 + numbers.mu**2) - needed**2
 
 
+def rolling_limit(numbers: Numbers) -> float:
+    """``μ(s² − ω²) − |γ|s − ρ√(1 + μ²)``: not negative where friction can hold rolling at every angle (:mod:`carom.whirl`)."""
+    speed, mu = numbers.radius_ratio, numbers.mu
+    needed = abs(numbers.gamma) * speed + numbers.rho * math.hypot(1.0, mu)
+    return mu * (speed**2 - numbers.omega**2) - needed
+
+
 TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "fold": lambda n, period, speed: conditions_at(n, period, speed).period_fold,
     "speed-fold": lambda n, period, speed: conditions_at(n, period, speed).speed_fold,
@@ -145,6 +153,7 @@ TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "non-smooth-hopf": lambda n, period, speed: speed,
     "boundary-equilibrium": lambda n, period, speed: n.rho**2 / ((n.omega**2 - 1.0) ** 2 + n.gamma**2) - 1.0,
     "rub-fold": lambda n, period, speed: rub_fold(n),
+    "rolling-limit": lambda n, period, speed: rolling_limit(n),
     "resonance 1:1": lambda n, period, speed: 2.0 - conditions_at(n, period, speed).pair_sum,
     "resonance 1:2": lambda n, period, speed: 2.0 + conditions_at(n, period, speed).pair_sum,
     "resonance 1:3": lambda n, period, speed: 1.0 + conditions_at(n, period, speed).pair_sum,

@@ -52,6 +52,11 @@ class Plane:
             if not (np.isfinite(limits).all() and limits[0] < limits[1]):
                 raise InputError(name, f"{limits[0]:g} to {limits[1]:g}", "a range of two growing finite values")
 
+    def holds(self, x: float, y: float) -> bool:
+        """Whether a point lies in it."""
+        (left, right), (low, high) = self.first_range, self.second_range
+        return left <= x <= right and low <= y <= high
+
     def axes(self, base: Parameters) -> tuple[Axis, Axis]:
         """Both parameters, checked against what is known of the machine and its ranges."""
         found = axis(base, self.first), axis(base, self.second)
@@ -153,6 +158,7 @@ KINDS: dict[str, _Kind] = {
     "contact-onset": _Kind(2, ("fold", "period-doubling", "grazing", "slip-stop")),
     "boundary-equilibrium": _Kind(0, ("rub-fold",)),
     "rub-fold": _Kind(0, ("boundary-equilibrium",)),
+    "rolling-limit": _Kind(0, ("boundary-equilibrium", "rub-fold")),
 }
 """Bifurcations that can be followed in two parameters."""
 
@@ -264,7 +270,7 @@ def _curve(kind: str, plane: Plane, branch: Branch, numbers: Callable[[np.ndarra
         return speed > -slack and slips and not profile_at(at, period, max(speed, 1e-4)).height >= slack
 
     absent = np.full(len(branch), np.nan)
-    slack = 1e-9 if kind in ("grazing", "slip-stop") else 0.0
+    slack = 1e-9 if kind in ("grazing", "slip-stop", "contact-onset") else 0.0
     rows = list(zip(branch.unknowns, branch.parameters.tolist(), strict=True))
     return Curve(
         kind=kind,

@@ -1,4 +1,4 @@
-"""Bifurcation diagrams: every equilibrium and every single-impact orbit along one parameter."""
+"""Bifurcation diagrams: every steady motion and every single-impact orbit along one parameter, and more on demand."""
 
 from __future__ import annotations
 
@@ -9,71 +9,34 @@ import numpy as np
 
 from carom.bifurcations.axes import Axis, Numbers, axis, vary
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
-from carom.bifurcations.conditions import TESTS, conditions_at
-from carom.equilibria import equilibria
+from carom.bifurcations.conditions import conditions_at
+from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
+from carom.bifurcations.samples import AttractorSample, sample_attractors
+from carom.bifurcations.steady import (
+    EquilibriumBranch,
+    RollingBranch,
+    SpecialValue,
+    equilibrium_branches,
+    rolling_branch,
+    steady_points,
+)
 from carom.orbits import Orbit, single_impact_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters
-from carom.roots import bracketed_root
 from carom.rotors import jeffcott
 
-__all__ = ["Diagram", "EquilibriumBranch", "SpecialValue", "bifurcation_diagram"]
+__all__ = ["Diagram", "bifurcation_diagram"]
 
 SAMPLES = 13
 """Values of the parameter at which all orbits are looked for."""
-EQUILIBRIUM_SAMPLES = 201
 SAME = 1e-6
 """Distance in period and radial speed below which an orbit lies on a known branch."""
+SAME_ANGLE = 0.02
+"""The same for the angle of a lift-off, in rad, and relative for its period."""
+FOLLOWING_SHARE = 0.2
+"""Of the progress, where attractors are searched besides."""
 LONGEST_PERIOD = 60.0
 """Periods above, in ``1/Ω``, are not searched where damping is so weak that there would be hundreds of pairs."""
-
-
-@dataclass(frozen=True)
-class SpecialValue:
-    """A special point of a diagram.
-
-    Attributes
-    ----------
-    kind : str
-        That of a :class:`~carom.bifurcations.branches.Bifurcation`, ``"boundary-equilibrium"`` or ``"rub-fold"``.
-    branch : str
-        Orbit or equilibrium it belongs to.
-    parameter : str
-    value : float
-        In SI units if the parameter is physical.
-    period : float or None
-    radial_speed : float or None
-    admissible : bool
-        Whether it happens to a motion of the machine, or to one that just begins or ends to be one.
-    """
-
-    kind: str
-    branch: str
-    parameter: str
-    value: float
-    period: float | None
-    radial_speed: float | None
-    admissible: bool
-
-
-@dataclass(frozen=True, eq=False)
-class EquilibriumBranch:
-    """Equilibria of one kind along the parameter; ``nan`` where there is none.
-
-    Attributes
-    ----------
-    kind : str
-        ``"contact-free"``, ``"stable rub"`` or ``"saddle rub"``.
-    values, radius, normal_force : ndarray, shape (m,)
-    admissible, stable : ndarray of bool, shape (m,)
-    """
-
-    kind: str
-    values: np.ndarray
-    radius: np.ndarray
-    normal_force: np.ndarray
-    admissible: np.ndarray
-    stable: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,16 +49,24 @@ class Diagram:
         The parameter.
     interval : tuple of float
     equilibria : tuple of EquilibriumBranch
+    rolling : RollingBranch
     orbits : tuple of OrbitBranch
+    rubbing : tuple of RubbingBranch
+        Periodic motions with a stretch of lasting contact; empty unless they were asked for.
     points : tuple of SpecialValue
         In growing order of the parameter.
+    attractors : tuple of AttractorSample
+        What simulated disturbances settled to; empty unless they were asked for.
     """
 
     axis: Axis
     interval: tuple[float, float]
     equilibria: tuple[EquilibriumBranch, ...]
+    rolling: RollingBranch
     orbits: tuple[OrbitBranch, ...]
+    rubbing: tuple[RubbingBranch, ...]
     points: tuple[SpecialValue, ...]
+    attractors: tuple[AttractorSample, ...] = ()
 
     @property
     def parameter(self) -> str:
@@ -109,6 +80,9 @@ def bifurcation_diagram(
     interval: tuple[float, float],
     *,
     virtual: bool = False,
+    lasting: bool = False,
+    attractors: int = 0,
+    seed: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> Diagram:
     """Find every branch on an interval, and every special point on it.
@@ -125,6 +99,13 @@ def bifurcation_diagram(
         In SI units if the parameter is physical.
     virtual : bool
         Follow all orbits, also those of higher pairs that are virtual wherever they were looked at.
+    lasting : bool
+        Follow periodic motions with a stretch of lasting contact as well, to where lasting contact begins.
+    attractors : int
+        Disturbances to simulate at each of 31 values, to show where they settle: irregular bouncing, orbits with
+        several impacts, rolling and so on.  None by default.
+    seed : int
+        Of these disturbances.
     progress : callable, optional
         Called with the fraction done.
 
@@ -140,21 +121,39 @@ def bifurcation_diagram(
     along = axis(parameters, parameter)
     if not (np.isfinite(interval).all() and interval[0] < interval[1]):
         raise InputError(parameter, f"{interval[0]:g} to {interval[1]:g}", "an interval of two growing finite values")
+    tell = progress or (lambda _: None)
+    followed = 1.0 if not attractors else FOLLOWING_SHARE
     branches: list[OrbitBranch] = []
+    rubbing: list[RubbingBranch] = []
     for done, value in enumerate(np.linspace(*interval, SAMPLES).tolist()):
-        for orbit in _orbits(vary(parameters, parameter, value)):
+        here = vary(parameters, parameter, value)
+        for orbit in _orbits(here):
             wanted = virtual or orbit.admissible or orbit.name.startswith("B1,")
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
                 branches.append(continue_orbit(orbit, parameter, interval))
-        if progress:
-            progress((done + 1) / SAMPLES)
-    points = [*_equilibrium_points(parameters, along, interval), *_orbit_points(branches)]
+        for motion in rubbing_orbits(here) if lasting else ():
+            if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
+                rubbing.append(continue_rubbing(motion, parameter, interval))
+        tell(followed * (done + 1) / SAMPLES)
+    points = [*steady_points(parameters, along, interval), *_orbit_points(branches), *_rubbing_points(rubbing)]
     return Diagram(
         axis=along,
         interval=interval,
-        equilibria=_equilibrium_branches(parameters, along, interval),
+        equilibria=equilibrium_branches(parameters, along, interval),
+        rolling=rolling_branch(parameters, along, interval),
         orbits=tuple(branches),
+        rubbing=tuple(rubbing),
         points=tuple(sorted(points, key=lambda point: point.value)),
+        attractors=sample_attractors(
+            parameters,
+            parameter,
+            interval,
+            attractors,
+            seed=seed,
+            progress=lambda share: tell(followed + (1.0 - followed) * share),
+        )
+        if attractors
+        else (),
     )
 
 
@@ -204,46 +203,27 @@ def _special_value(point: Bifurcation) -> SpecialValue:
     )
 
 
-def _equilibrium_points(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> list[SpecialValue]:
-    base = Numbers.of(parameters)
-    grid = np.linspace(*interval, EQUILIBRIUM_SAMPLES).tolist()
-    points = []
-    for kind, branch in (("boundary-equilibrium", "contact-free"), ("rub-fold", "rub")):
-
-        def function(value: float, kind: str = kind) -> float:
-            return TESTS[kind](along.set(base, value), 1.0, 0.0)
-
-        values = np.array([function(value) for value in grid])
-        for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
-            root = bracketed_root(function, grid[i], grid[i + 1])
-            real = kind == "boundary-equilibrium" or _rub_presses(along.set(base, root))
-            points.append(SpecialValue(kind, branch, along.name, root, None, None, real))
-    return points
-
-
-def _rub_presses(numbers: Numbers) -> bool:
-    """Whether the rubs that meet are pressed on the wall: ``N = ρ cos x + 1 − ω²`` with ``tan x = −1/μ`` there."""
-    cosine = -numbers.mu / np.hypot(1.0, numbers.mu)
-    return bool(numbers.rho * cosine + 1.0 - numbers.omega**2 > 0.0)
+def _rubs_alike(motion: RubbingOrbit, value: float, branch: RubbingBranch) -> bool:
+    """Whether a branch passes through a motion with lasting contact."""
+    if branch.whirl != motion.whirl:
+        return False
+    offset = branch.values - value
+    slack = 1e-9 * float(np.ptp(branch.values))
+    for i in np.flatnonzero(
+        (np.minimum(offset[:-1], offset[1:]) <= slack) & (np.maximum(offset[:-1], offset[1:]) >= -slack)
+    ):
+        width = offset[i + 1] - offset[i]
+        share = -offset[i] / width if width else 0.0
+        angle = branch.angle[i] + share * (branch.angle[i + 1] - branch.angle[i])
+        period = branch.period[i] + share * (branch.period[i + 1] - branch.period[i])
+        if abs(np.remainder(angle - motion.angle + np.pi, 2.0 * np.pi) - np.pi) < SAME_ANGLE:
+            return bool(abs(period / motion.period - 1.0) < SAME_ANGLE)
+    return False
 
 
-def _equilibrium_branches(
-    parameters: Parameters, along: Axis, interval: tuple[float, float]
-) -> tuple[EquilibriumBranch, ...]:
-    base = Numbers.of(parameters)
-    grid = np.linspace(*interval, EQUILIBRIUM_SAMPLES)
-    kinds = ("contact-free", "stable rub", "saddle rub")
-    table = np.full((len(kinds), len(grid), 4), np.nan)
-    for column, value in enumerate(grid.tolist()):
-        for equilibrium in equilibria(jeffcott(along.set(base, value).parameters)):
-            place = 0 if equilibrium.kind == "contact-free" else 1 if equilibrium.stable else 2
-            table[place, column] = (
-                equilibrium.radius,
-                equilibrium.normal_force,
-                equilibrium.status == "admissible",
-                equilibrium.stable,
-            )
-    return tuple(
-        EquilibriumBranch(kind, grid, rows[:, 0], rows[:, 1], rows[:, 2] == 1.0, rows[:, 3] == 1.0)
-        for kind, rows in zip(kinds, table, strict=True)
-    )
+def _rubbing_points(branches: list[RubbingBranch]) -> list[SpecialValue]:
+    return [
+        SpecialValue(point.kind, f"rubbing {number}", branch.axis.name, point.value, point.period, None, True)
+        for number, branch in enumerate(branches, start=1)
+        for point in branch.special
+    ]

@@ -6,8 +6,11 @@ from typing import Any
 
 from carom.bifurcations.axes import Axis
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.diagrams import Diagram, EquilibriumBranch
+from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
+from carom.bifurcations.rubbing import RubbingBranch
+from carom.bifurcations.samples import AttractorSample
+from carom.bifurcations.steady import EquilibriumBranch
 from carom.parameters import Parameters
 
 __all__ = ["diagram_document", "regions_document"]
@@ -32,11 +35,19 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
                 "period": point.period,
                 "radial_speed": point.radial_speed,
                 "admissible": point.admissible,
+                "detail": point.detail,
             }
             for point in diagram.points
         ],
         "branches": [_orbit_branch(branch) for branch in diagram.orbits],
         "equilibria": [_equilibrium_branch(branch) for branch in diagram.equilibria],
+        "rolling": {
+            "values": diagram.rolling.values.tolist(),
+            "largest_force": diagram.rolling.largest_force.tolist(),
+            "holds": diagram.rolling.holds.tolist(),
+        },
+        "rubbing": [_rubbing_branch(branch) for branch in diagram.rubbing],
+        "attractors": [_attractor(sample) for sample in diagram.attractors],
     }
 
 
@@ -106,4 +117,30 @@ def _equilibrium_branch(branch: EquilibriumBranch) -> dict[str, Any]:
         "normal_force": branch.normal_force.tolist(),
         "admissible": branch.admissible.tolist(),
         "stable": branch.stable.tolist(),
+    }
+
+
+def _rubbing_branch(branch: RubbingBranch) -> dict[str, Any]:
+    return {
+        "whirl": "forward" if branch.whirl > 0 else "backward",
+        "values": branch.values.tolist(),
+        "lift_off_angle": branch.angle.tolist(),
+        "period": branch.period.tolist(),
+        "impacts": branch.impacts.tolist(),
+        "contact_time": branch.contact_time.tolist(),
+        "landing_force": branch.landing_force.tolist(),
+        "multiplier": branch.multiplier.tolist(),
+        "stable": branch.stable.tolist(),
+        "ends": list(branch.stops),
+    }
+
+
+def _attractor(sample: AttractorSample) -> dict[str, Any]:
+    return {
+        "value": sample.value,
+        "name": sample.name,
+        "outcome": sample.outcome,
+        "whirl": sample.whirl,
+        "share": sample.share,
+        "radial_speeds": sample.radial_speeds.tolist(),
     }

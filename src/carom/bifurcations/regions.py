@@ -10,7 +10,8 @@ import numpy as np
 from carom.bifurcations.axes import Numbers, value_of, vary
 from carom.bifurcations.conditions import conditions_at, is_admissible, jacobian_at
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
-from carom.bifurcations.diagrams import LONGEST_PERIOD, Diagram, SpecialValue, bifurcation_diagram
+from carom.bifurcations.diagrams import LONGEST_PERIOD, Diagram, bifurcation_diagram
+from carom.bifurcations.steady import SpecialValue
 from carom.equilibria import equilibria
 from carom.outcome import CaromError
 from carom.parameters import Parameters

@@ -1,0 +1,177 @@
+"""Curves in two parameters along which lasting contact begins, or becomes permanent."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Literal
+
+import numpy as np
+
+from carom.bifurcations.axes import Numbers
+from carom.bifurcations.curves import EDGE, Curve, Plane
+from carom.bifurcations.rubbing import LiftOff, RubbingBranch, RubbingPoint, end_of_motions, next_lift_off
+from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.outcome import CaromError, InputError
+from carom.parameters import Parameters
+from carom.rotors import jeffcott
+
+__all__ = ["ONSETS", "continue_onset"]
+
+ONSETS = ("contact-onset", "permanent-contact")
+"""Ends of branches of motions with lasting contact that have curves."""
+LEVEL = 0.02
+"""Normal force at the landing, in ``m c_r Ω²``, of the motions that are followed next to the curve."""
+NEARBY = 0.05
+"""Relative change of the period on the way from there to the curve."""
+FINEST = 1e-9
+"""Distance from the curve of its points, in sizes of the parameter."""
+DIFFERENCE = 1e-6
+STEPS = Steps(first=0.02, largest=0.1, smallest=1e-6, sharpest_turn=0.3, tolerance=1e-9, most_points=300)
+
+
+def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Parameters, plane: Plane) -> Curve:
+    """Follow the onset of lasting contact, or of permanent contact, in the plane of two parameters.
+
+    On the curve itself the equations end, so a curve next to it is followed, on which the motion lands with a small
+    normal force; from each of its points the end is then looked for along one parameter, as on a branch.
+
+    Parameters
+    ----------
+    branch : RubbingBranch
+        Along one of the two parameters.
+    point : RubbingPoint
+        ``"contact-onset"`` or ``"permanent-contact"`` at one of its ends.
+    parameters : Parameters
+        Those of the branch; the value of the branch's own parameter does not matter.
+    plane : Plane
+
+    Returns
+    -------
+    Curve
+        Its radial speeds are ``nan``.  ``"other contacts"`` among its stops says that the sequence of contacts changes.
+
+    Raises
+    ------
+    InputError
+        Another kind of point, or a plane without the branch's parameter.
+    CaromError
+        No such motion was found next to the point.
+    """
+    if point.kind not in ONSETS:
+        raise InputError("point", point.kind, f"one of: {', '.join(ONSETS)}")
+    if branch.axis.name not in (plane.first, plane.second):
+        raise InputError("plane", f"{plane.first},{plane.second}", f"a plane with {branch.axis.name}")
+    first, second = plane.axes(parameters)
+    base = Numbers.of(parameters)
+    (low, high), whirl = plane.first_range, branch.whirl
+
+    def lift_off(angle: float, x: float, y: float) -> LiftOff | None:
+        try:
+            return next_lift_off(jeffcott(second.set(first.set(base, x), y).parameters), whirl, angle)
+        except InputError:
+            return None
+
+    force, angle, value = _beside(branch, point)
+
+    def residual(u: np.ndarray, y: float) -> np.ndarray:
+        found = lift_off(float(u[0]), float(u[1]), y)
+        if found is None or found.whirl != whirl:
+            return np.full(2, math.nan)
+        return np.array([math.remainder(found.angle - u[0], math.tau), found.landing_force - force])
+
+    at = branch.axis.set(base, value)
+    start = np.array([first.get(at), second.get(at)])
+    widths = np.ptp([plane.first_range, plane.second_range], axis=1)
+    sizes = np.maximum(np.abs(start), 0.1 * widths)
+    edge = Watch(EDGE, lambda u, _: min(u[1] - low, high - u[1]), ends_branch=True)
+    beside = continue_branch(
+        residual,
+        np.array([angle, start[0]]),
+        float(start[1]),
+        plane.second_range,
+        watches=[edge],
+        steps=STEPS,
+        scales=np.array([1.0, *sizes]),
+    )
+    rows = []
+    for (angle, x), y in zip(beside.unknowns.tolist(), beside.parameters.tolist(), strict=True):
+        period = _known(lift_off(angle, x, y)).time
+
+        def follow(angle: float, x: float, y: float, period: float = period) -> LiftOff | None:
+            found = lift_off(angle, x, y)
+            alike = found is not None and found.whirl == whirl and abs(found.time - period) < NEARBY * period
+            return found if alike else None
+
+        end_angle, place = _end(follow, angle, np.array([x, y]), sizes)
+        if plane.holds(*place):
+            rows.append((*place, _known(follow(end_angle, *place)).time))
+    if not rows:
+        raise CaromError(f"the {point.kind} leaves the plane at once")
+    points = np.array(rows)
+    return Curve(
+        kind=point.kind,
+        plane=plane,
+        points=points[:, :2],
+        periods=points[:, 2],
+        radial_speeds=np.full(len(points), math.nan),
+        admissible=np.ones(len(points), bool),
+        codimension2=(),
+        stops=(_stop(beside, 0), _stop(beside, -1)),
+    )
+
+
+def _beside(branch: RubbingBranch, point: RubbingPoint) -> tuple[float, float, float]:
+    """Landing force, angle and value of the motion on the branch that is followed next to one of its ends."""
+    forces = branch.landing_force
+    force = min(LEVEL, 0.5 * float(forces.max()))
+    above = np.flatnonzero(forces > force)
+    index = int(above[0] if point.place < 0.5 * len(branch) else above[-1])
+    return force, float(branch.angle[index]), float(branch.values[index])
+
+
+def _end(
+    follow: Callable[[float, float, float], LiftOff | None], angle: float, place: np.ndarray, sizes: np.ndarray
+) -> tuple[float, tuple[float, float]]:
+    """End of the motions, from one whose landing force is small, along the parameter that changes it more."""
+
+    def at(angle: float, moved: np.ndarray) -> np.ndarray:
+        found = follow(angle, float(moved[0]), float(moved[1]))
+        if found is None:
+            return np.full(2, math.nan)
+        return np.array([math.remainder(found.angle - angle, math.tau), found.landing_force])
+
+    by_angle = (at(angle + DIFFERENCE, place) - at(angle - DIFFERENCE, place)) / (2.0 * DIFFERENCE)
+    shifts = DIFFERENCE * np.diag(sizes)
+    by_place = np.array(
+        [(at(angle, place + shift) - at(angle, place - shift)) / (2.0 * DIFFERENCE) for shift in shifts]
+    )
+    slope = float(by_angle[0])
+    leans = -by_place[:, 0] / slope
+    falls = by_place[:, 1] + leans * by_angle[1]
+    if not np.isfinite(falls).all():
+        raise CaromError("the motion beside the onset has no derivative")
+    steepest = int(np.argmax(np.abs(falls)))
+    towards = -math.copysign(1.0, falls[steepest]) * sizes * np.eye(2)[steepest]
+
+    def residual(angle: float, share: float) -> float:
+        return float(at(angle, place + share * towards)[0])
+
+    lean = -math.copysign(1.0, falls[steepest]) * float(leans[steepest])
+    end_angle, share = end_of_motions(residual, (angle, 0.0), lean, 1e-4, slope, FINEST)
+    end = place + share * towards
+    return end_angle, (float(end[0]), float(end[1]))
+
+
+def _stop(beside: Branch, end: Literal[0, -1]) -> str:
+    reason = beside.stops[end]
+    at_edge = any(np.array_equal(point.unknowns, beside.unknowns[end]) for point in beside.of_kind(EDGE))
+    if reason == "parameter limit" or at_edge:
+        return EDGE
+    return "other contacts" if reason in ("end of domain", "step too small") else reason
+
+
+def _known(found: LiftOff | None) -> LiftOff:
+    if found is None:
+        raise CaromError("a motion that was followed has no lift-off any more")
+    return found

@@ -1,0 +1,493 @@
+"""Periodic motions with a stretch of lasting contact, and where lasting contact begins.
+
+A single-impact orbit has impacts of finite speed, and where it grazes, its radius has a maximum: the wall is met with a
+normal acceleration inward, so the new impact of vanishing speed is a bounce, not the beginning of a rub.  With
+``d > 0`` lasting contact begins elsewhere, on motions whose bounces accumulate: they chatter, slide and lift off, and
+the onset is where the chatter is complete at the very moment at which the normal force vanishes.  (With ``d = 0`` there is
+no chatter, and the onset lies on the single-impact orbit itself: :func:`~carom.bifurcations.conditions.pressed_on`.)
+
+At a lift-off ``r = 1``, ``ṙ = 0`` and ``N = ρ cos x + (1 + θ̇)² − ω² = 0`` with ``x = θ − φ``.  So a lift-off is known by
+its angle and the direction of whirl, and the motion from one lift-off to the next is a map of one variable: fixed points
+are periodic motions with one lift-off a period, its slope is their only multiplier that is not zero, as contact forgets
+all else.  A branch of them ends where the lasting contact shrinks to nothing (its onset), or where the flights do: the
+normal force then just touches zero once a period, and beyond the rotor stays on the wall (permanent contact).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.continuation import Steps, Watch, continue_branch
+from carom.outcome import CaromError, InputError, Phase
+from carom.parameters import Parameters
+from carom.roots import bracketed_root
+from carom.rotors import Rotor, jeffcott
+from carom.trajectories import State, Trajectory, simulate
+
+__all__ = [
+    "LiftOff",
+    "RubbingBranch",
+    "RubbingOrbit",
+    "RubbingPoint",
+    "continue_rubbing",
+    "lift_off_state",
+    "next_lift_off",
+    "rubbing_orbits",
+]
+
+Whirl = Literal[1, -1]
+
+LONGEST = 8.0 * math.pi
+"""Longest period searched, in ``1/Ω``: four turns of the shaft."""
+SAMPLES = 48
+HALVINGS = 10
+"""Of the angles between the last that has a next lift-off and the first that has none."""
+MOST_EVENTS = 4000
+STEPS = Steps(first=0.01, largest=0.05, smallest=1e-7, tolerance=1e-9, most_points=400)
+DIFFERENCE = 1e-6
+FORCE_SHARE = 0.05
+"""Landing force, relative to the largest on the branch, below which a branch that ends there ends in the onset."""
+SAME_PERIOD = 0.02
+"""Relative change of the period beyond which another motion has taken over."""
+FINEST = 1e-11
+"""Relative step of the parameter at which the search for the end of a branch is over."""
+
+
+@dataclass(frozen=True)
+class LiftOff:
+    """The next lift-off after one, and what lies between.
+
+    Attributes
+    ----------
+    angle : float
+        ``x = θ − φ`` of the lift-off, rad.
+    whirl : {1, -1}
+        Sign of ``1 + θ̇``: forward or backward in the fixed frame.
+    time : float
+        Since the lift-off before, in ``1/Ω``.
+    impacts : int
+        Bounces in between, those left to the completion of the chatter not counted.
+    contact_time : float
+        Length of the lasting contact, in ``1/Ω``.
+    landing_force : float
+        Normal force with which it begins, in ``m c_r Ω²``; vanishes at the onset.
+    """
+
+    angle: float
+    whirl: Whirl
+    time: float
+    impacts: int
+    contact_time: float
+    landing_force: float
+
+
+@dataclass(frozen=True, eq=False)
+class RubbingOrbit:
+    """A periodic motion with one stretch of lasting contact a period.
+
+    Attributes
+    ----------
+    parameters : Parameters
+    whirl : {1, -1}
+    angle : float
+        ``x = θ − φ`` at the lift-off, rad.
+    lift_off : LiftOff
+        The next one.
+    multiplier : float
+        By which a small change of the angle grows from lift-off to lift-off; the other multipliers are zero.
+    """
+
+    parameters: Parameters
+    whirl: Whirl
+    angle: float
+    lift_off: LiftOff
+    multiplier: float
+
+    @property
+    def period(self) -> float:
+        """In ``1/Ω``."""
+        return self.lift_off.time
+
+    @property
+    def stable(self) -> bool:
+        """Whether small disturbances die out."""
+        return abs(self.multiplier) < 1.0
+
+    def trajectory(self, periods: float = 1.0) -> Trajectory:
+        """Follow it from a lift-off."""
+        return simulate(
+            jeffcott(self.parameters), _start(self.parameters, self.whirl, self.angle), periods * self.period
+        )
+
+
+@dataclass(frozen=True)
+class RubbingPoint:
+    """A special point of such a branch: ``"fold"``, ``"period-doubling"``, ``"contact-onset"`` or ``"permanent-contact"``.
+
+    ``value`` is that of the parameter, ``place`` the index of the motion before it plus the fraction of the step.
+    """
+
+    kind: str
+    value: float
+    angle: float
+    period: float
+    place: float
+
+
+@dataclass(frozen=True, eq=False)
+class RubbingBranch:
+    """Periodic motions with one stretch of lasting contact, along a parameter.
+
+    Attributes
+    ----------
+    axis : Axis
+    whirl : {1, -1}
+    values, angle, period, contact_time, landing_force, multiplier : ndarray, shape (m,)
+    impacts : ndarray of int, shape (m,)
+    special : tuple of RubbingPoint
+    stops : tuple of two str
+        ``"contact-onset"`` (chatter stops being completed), ``"permanent-contact"`` (it stops lifting off),
+        ``"parameter limit"``, ``"longest period"``, ``"other contacts"`` (the sequence of contacts changes: another impact
+        or lift-off), or as in :class:`~carom.continuation.Branch`.
+    """
+
+    axis: Axis
+    whirl: Whirl
+    values: np.ndarray
+    angle: np.ndarray
+    period: np.ndarray
+    contact_time: np.ndarray
+    landing_force: np.ndarray
+    multiplier: np.ndarray
+    impacts: np.ndarray
+    special: tuple[RubbingPoint, ...]
+    stops: tuple[str, str]
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    @property
+    def stable(self) -> np.ndarray:
+        """Which of them are stable, bool, shape (m,)."""
+        return np.abs(self.multiplier) < 1.0
+
+
+def lift_off_state(rotor: Rotor, whirl: Whirl, angle: float) -> State | None:
+    """State of a rotor that lifts off the wall; ``None`` where the normal force does not fall through zero.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    whirl : {1, -1}
+        Sign of ``1 + θ̇``.
+    angle : float
+        ``x = θ − φ`` in rad.
+
+    Returns
+    -------
+    State or None
+    """
+    gamma, omega, rho = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.rho
+    square = omega * omega - rho * math.cos(angle)
+    if not square > 0.0:
+        return None
+    turning = whirl * math.sqrt(square)
+    # Ṅ with θ̈ = −γ(1 + θ̇) − ρ sin x, as there is no friction without a normal force.
+    pull = rho * math.sin(angle)
+    if -pull * (turning - 1.0) - 2.0 * turning * (gamma * turning + pull) >= 0.0:
+        return None
+    position = cmath.rect(1.0, angle + rotor.parameters.phi)
+    return State(position, 1j * (turning - 1.0) * position)
+
+
+def next_lift_off(rotor: Rotor, whirl: Whirl, angle: float, longest: float = LONGEST) -> LiftOff | None:
+    """Follow a rotor from a lift-off to the next; ``None`` if there is none within the time ``longest``."""
+    start = lift_off_state(rotor, whirl, angle)
+    if start is None:
+        return None
+    # Most periods are short: look a turn ahead first.
+    reach = min(longest, math.tau)
+    while reach < longest:
+        found = _first_lift_off(simulate(rotor, start, reach, max_events=MOST_EVENTS))
+        if found is not None:
+            return found
+        reach *= 2.0
+    return _first_lift_off(simulate(rotor, start, longest, max_events=MOST_EVENTS))
+
+
+def _first_lift_off(motion: Trajectory) -> LiftOff | None:
+    """The first lift-off of a motion that begins with one."""
+    rotor = motion.rotor
+    flying = motion.segment_phases == Phase.FLIGHT
+    # Rounding may leave the rotor on the wall for an instant before it lifts.
+    first = int(np.argmax(flying))
+    landing = first + int(np.argmin(flying[first:]))
+    lifting = landing + int(np.argmax(flying[landing:]))
+    if flying[landing] or not flying[lifting] or not flying[first]:
+        return None
+    position, velocity = motion.rotor.state(motion.segment_amplitudes[lifting])
+    times = motion.segment_starts
+    return LiftOff(
+        angle=cmath.phase(complex(position) * cmath.exp(-1j * rotor.parameters.phi)),
+        whirl=1 if (np.conj(position) * velocity).imag > -1.0 else -1,
+        time=float(times[lifting]),
+        impacts=landing - first - 1,
+        contact_time=float(times[lifting] - times[landing]),
+        landing_force=float(motion.forces(times[landing : landing + 1])[0][0]),
+    )
+
+
+def rubbing_orbits(
+    parameters: Parameters, longest: float = LONGEST, samples: int = SAMPLES
+) -> tuple[RubbingOrbit, ...]:
+    """Periodic motions with one stretch of lasting contact a period, found from evenly spaced angles of lift-off.
+
+    Stable and unstable ones; two whose angles lie closer than ``2π/samples`` may be missed.
+
+    Parameters
+    ----------
+    parameters : Parameters
+    longest : float
+        Longest period, in ``1/Ω``.
+    samples : int
+        Angles tried in each direction of whirl.
+
+    Returns
+    -------
+    tuple of RubbingOrbit
+    """
+    rotor = jeffcott(parameters)
+    angles = np.linspace(-math.pi, math.pi, samples + 1).tolist()
+    found = []
+    for whirl in (1, -1):
+
+        def shift(angle: float, whirl: Whirl = whirl) -> float:
+            return _shift(next_lift_off(rotor, whirl, angle, longest), whirl, angle)
+
+        for low, high in _brackets(shift, angles):
+            try:
+                angle = bracketed_root(shift, low, high, 1e-13)
+            except CaromError:
+                continue
+            if abs(shift(angle)) < STEPS.tolerance:
+                found.append(_orbit(parameters, whirl, angle, longest))
+    return tuple(orbit for orbit in found if orbit is not None)
+
+
+def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float, float]) -> RubbingBranch:
+    """Follow a periodic motion with lasting contact along a parameter, to where lasting contact begins.
+
+    Parameters
+    ----------
+    orbit : RubbingOrbit
+    parameter : str
+        Dimensionless or physical name.
+    interval : tuple of float
+
+    Returns
+    -------
+    RubbingBranch
+
+    Raises
+    ------
+    InputError
+        Unknown parameter, or an interval without the motion.
+    """
+    along = axis(orbit.parameters, parameter)
+    base, whirl = Numbers.of(orbit.parameters), orbit.whirl
+    present = along.get(base)
+    if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
+        raise InputError(parameter, interval, f"an interval that holds the motion's own value {present:.6g}")
+
+    def lift_off(angle: float, p: float) -> LiftOff | None:
+        return next_lift_off(jeffcott(along.set(base, p).parameters), whirl, angle)
+
+    def residual(u: np.ndarray, p: float) -> np.ndarray:
+        try:
+            return np.array([_shift(lift_off(float(u[0]), p), whirl, float(u[0]))])
+        except InputError:
+            return np.full(1, np.nan)
+
+    def multiplier(angle: float, p: float) -> float:
+        ends = [residual(np.array([angle + side]), p)[0] for side in (DIFFERENCE, -DIFFERENCE)]
+        return float(1.0 + (ends[0] - ends[1]) / (2.0 * DIFFERENCE))
+
+    size = max(abs(present), 0.1 * (interval[1] - interval[0]))
+    branch = continue_branch(
+        residual,
+        np.array([orbit.angle]),
+        present,
+        interval,
+        watches=[Watch("period-doubling", lambda u, p: 1.0 + multiplier(float(u[0]), p))],
+        steps=STEPS,
+        scales=np.array([1.0, size]),
+    )
+    rows = list(zip(branch.unknowns[:, 0].tolist(), branch.parameters.tolist(), strict=True))
+    course = [_known(lift_off(*row)) for row in rows]
+    forces = np.array([entry.landing_force for entry in course])
+    special = [
+        RubbingPoint(
+            point.kind,
+            point.parameter,
+            float(point.unknowns[0]),
+            _known(lift_off(float(point.unknowns[0]), point.parameter)).time,
+            point.place,
+        )
+        for point in branch.special
+        if point.kind != "branch point"
+    ]
+    stops: list[str] = list(branch.stops)
+    for end in (0, -1):
+        if stops[end] not in ("end of domain", "step too small"):
+            continue
+        stops[end] = "longest period" if course[end].time > 0.98 * LONGEST else "other contacts"
+        if len(rows) > 1 and forces[end] < FORCE_SHARE * forces.max():
+            stops[end] = "contact-onset" if course[end].contact_time < 0.5 * course[end].time else "permanent-contact"
+            points = np.array(rows if end == -1 else rows[::-1])
+
+            def same(angle: float, p: float, period: float = course[end].time) -> float:
+                found = lift_off(angle, p)
+                alike = found is not None and abs(found.time - period) < SAME_PERIOD * period
+                return _shift(found, whirl, angle) if alike else math.nan
+
+            angle, value = _towards_end(same, points, size)
+            period = _known(lift_off(angle, value)).time
+            special.append(RubbingPoint(stops[end], value, angle, period, 0.0 if end == 0 else len(rows) - 1.0))
+    return RubbingBranch(
+        axis=along,
+        whirl=whirl,
+        values=branch.parameters,
+        angle=branch.unknowns[:, 0],
+        period=np.array([entry.time for entry in course]),
+        contact_time=np.array([entry.contact_time for entry in course]),
+        landing_force=forces,
+        multiplier=np.array([multiplier(*row) for row in rows]),
+        impacts=np.array([entry.impacts for entry in course]),
+        special=tuple(sorted(special, key=lambda point: point.place)),
+        stops=(stops[0], stops[1]),
+    )
+
+
+def _brackets(shift: Callable[[float], float], angles: list[float]) -> list[tuple[float, float]]:
+    """Intervals in which the lift-off comes back to its angle, those next to where there is no next lift-off included."""
+    brackets = []
+
+    def note(low: float, at_low: float, high: float, at_high: float) -> None:
+        # A change of sign through ±π, or a jump, is no fixed point.
+        if at_low * at_high < 0.0 and abs(at_low) + abs(at_high) < math.pi:
+            brackets.append((min(low, high), max(low, high)))
+
+    values = [shift(angle) for angle in angles]
+    for (low, at_low), (high, at_high) in pairwise(zip(angles, values, strict=True)):
+        note(low, at_low, high, at_high)
+        if math.isnan(at_low) != math.isnan(at_high):
+            inner, at_inner, outer = (high, at_high, low) if math.isnan(at_low) else (low, at_low, high)
+            for _ in range(HALVINGS):
+                middle = 0.5 * (inner + outer)
+                value = shift(middle)
+                if math.isnan(value):
+                    outer = middle
+                else:
+                    note(inner, at_inner, middle, value)
+                    inner, at_inner = middle, value
+    return brackets
+
+
+def _start(parameters: Parameters, whirl: Whirl, angle: float) -> State:
+    start = lift_off_state(jeffcott(parameters), whirl, angle)
+    if start is None:
+        raise CaromError(f"the rotor does not lift off at an angle of {angle:g} rad from the unbalance")
+    return start
+
+
+def _orbit(parameters: Parameters, whirl: Whirl, angle: float, longest: float) -> RubbingOrbit | None:
+    rotor = jeffcott(parameters)
+    here = next_lift_off(rotor, whirl, angle, longest)
+    if here is None:
+        return None
+    ends = [_shift(next_lift_off(rotor, whirl, angle + side, longest), whirl, angle + side) for side in (1e-6, -1e-6)]
+    return RubbingOrbit(parameters, whirl, angle, here, 1.0 + (ends[0] - ends[1]) / 2e-6)
+
+
+def _shift(found: LiftOff | None, whirl: Whirl, angle: float) -> float:
+    """How far the next lift-off is from the last, in rad; ``nan`` if there is none like it."""
+    if found is None or found.whirl != whirl:
+        return math.nan
+    return math.remainder(found.angle - angle, math.tau)
+
+
+def _known(found: LiftOff | None) -> LiftOff:
+    if found is None:
+        raise CaromError("a motion that was followed has no lift-off any more")
+    return found
+
+
+def end_of_motions(
+    residual: Callable[[float, float], float],
+    start: tuple[float, float],
+    lean: float,
+    step: float,
+    slope: float,
+    finest: float,
+) -> tuple[float, float]:
+    """Last angle and value of a parameter at which the motion exists.
+
+    The equations end there, so they have no derivative.  A line predicts, the slope of the residual from inside corrects;
+    the step is doubled until it fails for the first time, then halved.
+
+    Parameters
+    ----------
+    residual : callable
+        Of angle and value; ``nan`` where there is no such motion.
+    start : tuple of float
+        Angle and value of a motion near the end.
+    lean : float
+        Change of the angle with the value.
+    step : float
+        First change of the value, towards the end.
+    slope : float
+        Derivative of the residual by the angle.
+    finest : float
+        Step of the value at which the search is over.
+
+    Returns
+    -------
+    tuple of float
+    """
+    angle, value = start
+    passed = False
+    while abs(step) > finest:
+        trial, p = angle + lean * step, value + step
+        left = math.nan
+        for _ in range(6):
+            left = residual(trial, p)
+            if not abs(left) > STEPS.tolerance:
+                break
+            trial -= left / slope
+        if abs(left) <= STEPS.tolerance:
+            angle, value = trial, p
+            step *= 1.0 if passed else 2.0
+        else:
+            passed = True
+            step *= 0.5
+    return angle, value
+
+
+def _towards_end(residual: Callable[[float, float], float], points: np.ndarray, size: float) -> tuple[float, float]:
+    """The same from the points of a branch, shape (m, 2), the last of which is next to the end."""
+    angle, value = points[-1].tolist()
+    far = np.flatnonzero(np.abs(points[:, 1] - value) > 1e-6 * size)
+    if not len(far):
+        return angle, value
+    x, p = points[far[-1]].tolist()
+    slope = (residual(x + 1e-5, p) - residual(x - 1e-5, p)) / 2e-5
+    lean = (angle - x) / (value - p)
+    return end_of_motions(residual, (angle, value), lean, math.copysign(1e-5 * size, value - p), slope, FINEST * size)

@@ -1,0 +1,206 @@
+"""Where lasting contact begins: on orbits without rebound, and on periodic motions that chatter."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+from scipy.integrate import solve_ivp
+from scipy.optimize import minimize_scalar
+
+from carom import InputError, jeffcott, simulate, single_impact_orbits
+from carom.bifurcations import (
+    Plane,
+    RubbingBranch,
+    bifurcation_diagram,
+    continue_curve,
+    continue_onset,
+    continue_orbit,
+    continue_rubbing,
+    rubbing_orbits,
+)
+from carom.bifurcations.rubbing import lift_off_state, next_lift_off
+from carom.outcome import Phase
+
+DEAD = PAPER.replace(omega=0.76, rho=0.1, mu=0.3, d=0.0)
+"""Impacts without rebound."""
+CHATTERING = PAPER.replace(omega=0.334, rho=0.416, d=0.49, gamma=0.18, mu=0.287)
+"""Bounces that chatter into a stretch of sliding twice a turn or so."""
+
+
+def touches_for_a_while(orbit) -> bool:
+    """Whether a simulated period of an orbit holds lasting contact."""
+    motion = simulate(orbit.rotor, orbit.departure, 0.9 * orbit.period)
+    return bool((motion.segment_phases != Phase.FLIGHT).any())
+
+
+@pytest.fixture(scope="module")
+def onset():
+    orbits = single_impact_orbits(jeffcott(DEAD.replace(gamma=0.03)))
+    for orbit in orbits:
+        branch = continue_orbit(orbit, "gamma", (0.01, 0.1))
+        found = [point for point in branch.special if point.kind == "contact-onset" and point.admissible]
+        if found:
+            return found[0]
+    raise AssertionError("no onset of lasting contact")
+
+
+def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
+    answers = []
+    for shift in (-1e-9, 1e-9):
+        orbits = single_impact_orbits(jeffcott(DEAD.replace(gamma=onset.value + shift)))
+        (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - onset.radial_speed) < 1e-5]
+        answers.append((touches_for_a_while(orbit), "stay on the wall" in orbit.reason))
+    assert sorted(answers) == [(False, False), (True, True)]
+
+
+def test_without_rebound_the_motions_with_lasting_contact_end_at_the_same_value(onset):
+    """A second route: not one formula of the orbits, but a simulated map from lift-off to lift-off."""
+    ends = []
+    for shift in (-0.001, 0.001):
+        for orbit in rubbing_orbits(DEAD.replace(gamma=onset.value + shift), samples=360):
+            branch = continue_rubbing(orbit, "gamma", (0.01, 0.1))
+            ends += [(point.value, point.period) for point in branch.special if point.kind == "contact-onset"]
+    assert min(abs(value - onset.value) for value, _ in ends) < 1e-7
+    assert min(abs(period - onset.period) for _, period in ends) < 1e-6
+
+
+def test_curve_of_the_onset_without_rebound(onset):
+    plane = Plane("gamma", "rho", (0.01, 0.1), (0.08, 0.12))
+    curve = continue_curve("contact-onset", onset.numbers.parameters, plane, (onset.period, onset.radial_speed))
+    assert set(curve.stops) == {"edge of the plane"}
+    for (x, y), speed in list(zip(curve.points, curve.radial_speeds, strict=True))[1:-1]:
+        answers = set()
+        for shift in (-1e-9, 1e-9):
+            orbits = single_impact_orbits(jeffcott(DEAD.replace(gamma=x + shift, rho=y)))
+            (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - speed) < 1e-5]
+            answers.add("stay on the wall" in orbit.reason)
+        assert answers == {False, True}
+
+
+@pytest.fixture(scope="module")
+def chatter() -> RubbingBranch:
+    (orbit,) = rubbing_orbits(CHATTERING)
+    return continue_rubbing(orbit, "gamma", (0.02, 0.4))
+
+
+def test_motion_with_lasting_contact_repeats_in_simulation():
+    (orbit,) = rubbing_orbits(CHATTERING)
+    motion = orbit.trajectory(1.0 + 1e-9)
+    assert (motion.segment_phases != Phase.FLIGHT).any()
+    assert abs(motion.final.position - motion.start.position) < 1e-7
+    assert abs(motion.final.velocity - motion.start.velocity) < 1e-7
+    # It repels: a change of the angle grows by the multiplier from lift-off to lift-off.
+    rotor = jeffcott(CHATTERING)
+    moved = next_lift_off(rotor, orbit.whirl, orbit.angle + 1e-5)
+    assert (moved.angle - orbit.angle) / 1e-5 == pytest.approx(orbit.multiplier, rel=1e-3)
+    assert not orbit.stable
+
+
+def test_lasting_contact_begins_where_the_chatter_is_only_just_complete(chatter):
+    """Within 1e-7 the fixed point of the simulated map from lift-off to lift-off ceases to be."""
+    assert chatter.stops == ("contact-onset", "permanent-contact")
+    (point,) = [point for point in chatter.special if point.kind == "contact-onset"]
+    assert point.value == pytest.approx(0.1458918, abs=1e-7)
+    assert chatter.landing_force.max() > 1.0
+    fixed = []
+    for shift in (-1e-7, 1e-7):
+        rotor = jeffcott(CHATTERING.replace(gamma=point.value + shift))
+        angles = point.angle + np.linspace(-4e-6, 4e-6, 41)
+        found = [next_lift_off(rotor, chatter.whirl, angle) for angle in angles]
+        alike = [entry is not None and abs(entry.time - point.period) < 0.05 for entry in found]
+        moves = np.array(
+            [entry.angle - x if same else np.nan for entry, x, same in zip(found, angles, alike, strict=True)]
+        )
+        fixed.append(int((moves[:-1] * moves[1:] < 0.0).sum()))
+    assert fixed == [0, 1]
+
+
+def least_force_of_steady_whirl(gamma: float, mu: float = CHATTERING.mu) -> float:
+    """Least normal force of sliding backward whirl that repeats every turn, from a general ODE solver.
+
+    ``W(x)`` with ``W = 1 + θ̇`` solves ``(W − 1) dW/dx = −γW − ρ sin x − μN``; the whirl repels in time, in which the angle
+    falls, so it attracts in the direction of growing angle.
+    """
+    rho, omega = CHATTERING.rho, CHATTERING.omega
+
+    def force(angle, whirl):
+        return rho * np.cos(angle) + whirl**2 - omega**2
+
+    def rate(angle, whirl):
+        return (-gamma * whirl - rho * np.sin(angle) - mu * force(angle, whirl)) / (whirl - 1.0)
+
+    whirl = -0.7
+    for _ in range(30):
+        turn = solve_ivp(rate, (0.0, 2.0 * np.pi), [whirl], method="DOP853", rtol=1e-12, atol=1e-13, dense_output=True)
+        whirl = turn.y[0, -1]
+    least = minimize_scalar(
+        lambda angle: force(angle, turn.sol(angle)[0]), bounds=(2.5, 3.4), method="bounded", options={"xatol": 1e-9}
+    )
+    return float(least.fun)
+
+
+def test_contact_becomes_permanent_where_a_steady_whirl_is_only_just_pressed_on(chatter):
+    (point,) = [point for point in chatter.special if point.kind == "permanent-contact"]
+    assert least_force_of_steady_whirl(point.value - 1e-9) < 0.0 < least_force_of_steady_whirl(point.value + 1e-9)
+
+
+def test_contact_shrinks_towards_the_onset(chatter):
+    assert chatter.contact_time[0] < 0.01 < chatter.contact_time[len(chatter) // 2]
+    assert chatter.landing_force[0] < 0.01 * chatter.landing_force.max()
+
+
+def test_onsets_are_among_the_points_of_a_diagram(chatter):
+    found = bifurcation_diagram(CHATTERING, "gamma", (0.1, 0.3), lasting=True)
+    expected = {point.kind: point.value for point in chatter.special}
+    for kind in ("contact-onset", "permanent-contact"):
+        points = [point for point in found.points if point.kind == kind]
+        assert min(abs(point.value - expected[kind]) for point in points) < 1e-9
+        assert all(point.branch.startswith("rubbing") for point in points)
+
+
+def test_lift_offs_leave_the_wall():
+    rotor = jeffcott(CHATTERING)
+    lifted = 0
+    for whirl in (1, -1):
+        for angle in np.linspace(-np.pi, np.pi, 25):
+            state = lift_off_state(rotor, whirl, float(angle))
+            if state is None:
+                continue
+            lifted += 1
+            motion = simulate(rotor, state, 1e-3)
+            assert motion.segment_phases[-1] == Phase.FLIGHT
+            assert abs(motion.final.position) < 1.0
+    assert lifted > 10
+
+
+def test_inputs_that_cannot_be_used():
+    (orbit,) = rubbing_orbits(CHATTERING)
+    with pytest.raises(InputError, match="interval that holds"):
+        continue_rubbing(orbit, "gamma", (0.3, 0.4))
+
+
+@pytest.mark.parametrize("names", [("gamma", "mu"), ("d", "gamma")])
+def test_curves_of_both_onsets(chatter, names):
+    ranges = {"gamma": (0.02, 0.4), "mu": (0.25, 0.32), "d": (0.4, 0.6)}
+    plane = Plane(*names, *(ranges[name] for name in names))
+    for point in chatter.special:
+        curve = continue_onset(chatter, point, CHATTERING, plane)
+        assert curve.kind == point.kind
+        assert set(curve.stops) == {"edge of the plane"}
+        for x, y in curve.points[1:-1:7]:
+            at = CHATTERING.replace(**{names[0]: x, names[1]: y})
+            if point.kind == "permanent-contact":
+                assert abs(least_force_of_steady_whirl(at.gamma, at.mu)) < 1e-7
+            else:
+                # From a branch along another parameter the same onset is found.
+                (orbit,) = rubbing_orbits(at.replace(gamma=at.gamma + 0.01))
+                again = continue_rubbing(orbit, "gamma", (at.gamma - 0.01, at.gamma + 0.02))
+                values = [found.value for found in again.special if found.kind == "contact-onset"]
+                assert values == pytest.approx([at.gamma], abs=1e-6)
+
+
+def test_curves_need_an_onset_on_the_plane(chatter):
+    point = chatter.special[0]
+    with pytest.raises(InputError, match="a plane with gamma"):
+        continue_onset(chatter, point, CHATTERING, Plane("mu", "d", (0.1, 0.3), (0.4, 0.6)))
