@@ -14,7 +14,8 @@ there is ``F₁ > 0``.  Up to there, ``g̃(z) = −1/2 − Σ_{k≠0} 1/(z − 2
 
     |g̃⁽ⁿ⁾(z)| ≤ 2 n! (δ^{−n−1} + ζ(n+1) (2π)^{−n−1}),      δ = min_{k≠0} |z − 2πik|,
 
-hence a bound of ``|F₁''|`` on any interval, and ``g(z) = Σ e^{mz}`` a sharper one far out.  An interval is discarded, or
+hence a bound of ``|F₁''|`` on any interval, and ``g(z) = Σ e^{mz}`` a sharper one far out.  Near a pole both bounds and
+``|F₁''|`` itself grow alike, so the intervals there shrink with the distance and no faster.  An interval is discarded, or
 accepted as monotone, only when that bound proves it; one on which ``F₁`` cannot be told from zero in double precision
 holds a double root, or a single one if ``F₁`` changes sign across it.  So roots are counted right to the last pair.
 """
@@ -82,6 +83,11 @@ class PeriodRoots:
 
 class PeriodCondition:
     """``F₁`` of a rotor, its derivative and its bounds.
+
+    :func:`carom.core.planar.returns` sums the same for the planar rotor alone.  Neither can stand for the other: here
+    there are any number of modes, many periods at a time and the rounding of each sum, which the proofs need; there one
+    period costs less than a microsecond, a hundredth of what it costs here, inside kernels that continuation calls
+    thousands of times.  The tests hold them together.
 
     Parameters
     ----------
@@ -162,15 +168,16 @@ class PeriodCondition:
         for index, residue in self.pairs:
             gap = abs(self.exponents[index] - self.exponents[index - 1])
             size = moduli[index - 1 : index + 1].max()
+            apart = bounds[:, index] + bounds[:, index - 1]
+            part = apart / gap if gap > 0.0 else np.full_like(total, np.inf)
             along = gap * longest < 1.0
-            part = np.empty_like(total)
-            part[:, ~along] = (bounds[:, index, ~along] + bounds[:, index - 1, ~along]) / (gap or 1.0)
             if along.any():
                 # The pair lies within gap·T of its slower exponent, the driven one.
                 room, fall = distance[index, along] - gap * longest[along], decay[index, along]
                 second = np.array([_regular_bound(2, room), _geometric_bound(2, fall)])
                 third = np.array([_regular_bound(3, room), _geometric_bound(3, fall)])
-                part[:, along] = size**2 * (3.0 * second + size * longest[along] * third)
+                together = size**2 * (3.0 * second + size * longest[along] * third)
+                part[:, along] = np.minimum(part[:, along], together)
             total += abs(residue) * part
         return abs(self.factor) * total.min(axis=0)
 
