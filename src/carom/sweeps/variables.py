@@ -135,5 +135,5 @@ def with_si(variables: Sequence[Variable], has_scales: bool) -> tuple[Variable, 
         name, words, scale = variable.name, variable.words, variable.scale
         found.append(Variable(name, words, unit=_OWN_UNITS[scale], scale=scale))
         if has_scales:
-            found.append(Variable(f"{name}_si", words, unit=_SI_UNITS[scale], scale=scale))
+            found.append(Variable(f"{name}_si", words, unit=_SI_UNITS[scale]))
     return tuple(found)

@@ -1,0 +1,201 @@
+"""The sweep file: what it may say, and errors that name the entry, the value and what is allowed."""
+
+import json
+import tracemalloc
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.outcome import InputError
+from carom.parameters import load_case
+from carom.sweeps import load_sweep
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+GOOD = {
+    "top": 'machine = "machine.toml"\nseed = 3',
+    "damping": '[axes.damping]\nfrom = "1000 N s/m"\nto = 4000\ncount = 4',
+    "speed": '[axes.speed]\nvalues = ["1500 rpm", 184.2]',
+    "do": '[basins]\nstarts = 10\ndisturbance = {kind = "kick", fastest = "0.1 m/s"}',
+}
+
+
+@pytest.fixture
+def write(tmp_path):
+    (tmp_path / "machine.toml").write_text((EXAMPLES / "keogh-cole.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "numbers.toml").write_text(
+        (EXAMPLES / "source-paper.toml").read_text(encoding="utf-8"), encoding="utf-8"
+    )
+
+    def file(**changes):
+        path = tmp_path / "sweep.toml"
+        path.write_text("\n\n".join((GOOD | changes).values()), encoding="utf-8")
+        return path
+
+    return file
+
+
+def test_axes_take_units_ends_and_lists(write):
+    plan = load_sweep(write())
+
+    assert plan.shape == (4, 2)
+    assert plan.points == 8
+    np.testing.assert_array_equal(plan.axes[0].values, [1000.0, 2000.0, 3000.0, 4000.0])
+    np.testing.assert_allclose(plan.axes[1].values, [1500 * np.pi / 30, 184.2], rtol=1e-15)
+    assert plan.seed == 3
+
+
+def test_logarithmic_axis_keeps_its_ends(write):
+    plan = load_sweep(write(damping='[axes.gamma]\nfrom = 0.1\nto = 0.7\ncount = 5\nspacing = "log"'))
+
+    values = plan.axes[0].values
+    assert (values[0], values[-1]) == (0.1, 0.7)
+    np.testing.assert_allclose(values[1:] / values[:-1], 7**0.25, rtol=1e-14)
+
+
+@pytest.mark.parametrize("settings", [[], ["gamma=0.1"], ["friction=0.3", "omega=0.8"]])
+def test_point_is_the_machine_of_the_same_settings(write, settings):
+    names = {setting.split("=")[0] for setting in settings}
+    damping = "" if "gamma" in names else GOOD["damping"]
+    plan = load_sweep(write(damping=damping), settings)
+    point = tuple(count - 1 for count in plan.shape)
+    here = [f"{name}={value!r}" for name, value in plan.values(point).items()]
+
+    assert plan.case_at(point) == load_case(EXAMPLES.parent / write().with_name("machine.toml"), [*settings, *here])
+
+
+def test_sizes_with_units_stay_and_plain_ones_scale(write):
+    with_unit = load_sweep(write())
+    plain = load_sweep(write(do=GOOD["do"].replace('"0.1 m/s"', "0.5")))
+    scales = [with_unit.case_at((0, place)).parameters.scales for place in (0, 1)]
+
+    speeds = [with_unit.task.model(scale).fastest * scale.velocity for scale in scales]
+    np.testing.assert_allclose(speeds, 0.1, rtol=1e-15)
+    assert [plain.task.model(scale).fastest for scale in scales] == [0.5, 0.5]
+
+
+def test_shock_is_read_in_standard_gravities(write):
+    do = '[basins]\nstarts = 10\ndisturbance = {kind = "shock", peak = "20 g", duration = "11 ms"}'
+    plan = load_sweep(write(do=do))
+    scales = plan.case.parameters.scales
+
+    read, meant = plan.task.model(scales), carom.BaseShock.in_si(scales, 20.0, 11.0)
+    # Both multiply and divide three doubles, not in the same order.
+    np.testing.assert_allclose([read.peak, read.duration], [meant.peak, meant.duration], rtol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["sweep-gains.toml", "sweep-speed.toml"])
+def test_examples_are_plans(name):
+    plan = load_sweep(EXAMPLES / name)
+
+    assert plan.points > 100
+    assert json.loads(json.dumps(plan.describe())) == plan.describe()
+
+
+def test_description_changes_with_everything_but_the_texts(write):
+    digests = {load_sweep(write()).digest, load_sweep(write(top=GOOD["top"] + " # a word")).digest}
+    assert len(digests) == 1
+    for change in (
+        {"top": 'machine = "machine.toml"\nseed = 4'},
+        {"top": GOOD["top"] + "\nchunk = 3"},
+        {"top": GOOD["top"] + '\nset = ["friction=0.2"]'},
+        {"speed": '[axes.speed]\nvalues = ["1500 rpm", 184.3]'},
+        {"do": GOOD["do"].replace("10", "11")},
+        {"do": "[study]"},
+    ):
+        digests.add(load_sweep(write(**change)).digest)
+    assert len(digests) == 7
+
+
+@pytest.mark.parametrize(
+    ("change", "field", "words"),
+    [
+        ({"top": ""}, "machine", "nothing given: must be the path of a machine file"),
+        ({"top": 'machine = "none.toml"'}, "machine file", "there is no such file"),
+        ({"top": 'machine = "machine.toml"\nsede = 3'}, "sede", "did you mean seed?"),
+        ({"top": 'machine = "machine.toml"\nseed = -1'}, "seed", "-1: must be a whole number from 0"),
+        ({"top": 'machine = "machine.toml"\nseed = 1.5'}, "seed", "1.5: must be a whole number"),
+        ({"top": 'machine = "machine.toml"\nchunk = 0'}, "chunk", "0: must be a whole number of at least 1"),
+        ({"top": 'machine = "machine.toml"\nset = ["speed=3"]'}, "axes.speed", "is set too"),
+        ({"top": 'machine = "machine.toml"\nset = ["gamma=3"]'}, "gamma", "sets damping, which is set too"),
+        ({"damping": "", "speed": ""}, "axes", "nothing given: must be tables [axes.NAME]"),
+        ({"damping": "[axes.dampin]\nvalues = [1.0]"}, "dampin", "did you mean damping?"),
+        ({"damping": '[axes.damping]\nvalues = ["1 kg"]'}, "axes.damping.values", "1 kg: must be a damping in N s/m"),
+        ({"damping": "[axes.damping]\nvalues = []"}, "axes.damping.values", "must be a list of 1 to"),
+        ({"damping": "[axes.damping]\nvalues = [1, 1.0]"}, "axes.damping.values", "must be different values"),
+        ({"damping": "[axes.damping]\nvalues = [1]\nto = 2"}, "axes.damping.to", "goes without values"),
+        ({"damping": "[axes.damping]\nfrom = 1\nto = 2"}, "axes.damping.count", "missing; must be a whole number"),
+        ({"damping": "[axes.damping]\nfrom = 1\nto = 2\ncount = 1"}, "axes.damping.count", "1: must be a whole"),
+        ({"damping": "[axes.damping]\nfrom = 1\nto = 2\ncuont = 4"}, "cuont", "did you mean count?"),
+        ({"damping": "[axes.damping]\nfrom = 1\nto = 1\ncount = 4"}, "axes.damping.to", "another value than from"),
+        ({"damping": "[axes.damping]\nfrom = true\nto = 1\ncount = 4"}, "axes.damping.from", "true: must be the first"),
+        (
+            {"damping": '[axes.damping]\nfrom = 0\nto = 1\ncount = 4\nspacing = "log"'},
+            "axes.damping.spacing",
+            "ends above 0",
+        ),
+        (
+            {"damping": '[axes.damping]\nfrom = 1\nto = 2\ncount = 4\nspacing = "lin"'},
+            "axes.damping.spacing",
+            '"linear"',
+        ),
+        ({"do": ""}, "sweep file", "must hold a [study] or a [basins] table"),
+        ({"do": GOOD["do"] + "\n[study]"}, "sweep file", "one of them alone"),
+        ({"do": "[study]\ndisturbances = -1"}, "study.disturbances", "-1: must be a whole number"),
+        ({"do": "[study]\nleast_damping = true"}, "study.disturbances", "above 0 where least_damping is wanted"),
+        ({"do": "[study]\nleast_dampin = true"}, "least_dampin", "did you mean least_damping?"),
+        ({"do": "[basins]\nstarts = 4"}, "basins.disturbance", "must be a table such as"),
+        ({"do": GOOD["do"].replace("kick", "kik")}, "basins.disturbance.kind", "did you mean kick?"),
+        ({"do": GOOD["do"].replace("fastest", "fast")}, "fast", "did you mean fastest?"),
+        ({"do": GOOD["do"].replace("m/s", "m")}, "basins.disturbance.fastest", "0.1 m: must be a velocity in m/s"),
+        ({"do": GOOD["do"].replace('"0.1 m/s"', "-1.0")}, "basins.disturbance.fastest", "a size, above 0"),
+        ({"do": GOOD["do"].replace("10", '"ten"')}, "basins.starts", "ten: must be a whole number"),
+    ],
+)
+def test_error_is_one_line_that_helps(write, change, field, words):
+    with pytest.raises(InputError) as caught:
+        load_sweep(write(**change))
+
+    assert caught.value.field == field
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"), [("", "it is empty"), ("machine = ", "must be valid TOML"), (None, "there is no such file")]
+)
+def test_file_that_is_none(tmp_path, text, words):
+    path = tmp_path / "sweep.toml"
+    if text is not None:
+        path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=f"^sweep file = .*{words}"):
+        load_sweep(path)
+
+
+def test_physical_axis_needs_a_machine(write):
+    with pytest.raises(InputError, match=r"axes\.damping.*dimensionless"):
+        load_sweep(write(top='machine = "numbers.toml"', speed=""))
+
+
+def test_hundred_million_starts_are_planned_without_a_list_of_them(write):
+    axis = "[axes.{}]\nfrom = 0.1\nto = 0.9\ncount = 1000"
+    changes = {"damping": axis.format("gamma"), "speed": axis.format("mu"), "do": GOOD["do"].replace("10", "100")}
+    load_sweep(write())  # what is loaded once is not counted
+    path = write(**changes)
+    tracemalloc.start()
+    plan = load_sweep(path)
+    first = plan.region(0), plan.seed_of((0, 0)), next(plan.points_of(plan.chunks - 1))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    assert plan.points * plan.task.starts == 10**8
+    assert first
+    assert peak < 2**20
+
+
+def test_too_many_chunks_are_refused(write):
+    axis = "[axes.{}]\nfrom = 0.1\nto = 0.9\ncount = 2000"
+    changes = {"damping": axis.format("gamma"), "speed": axis.format("mu")}
+    with pytest.raises(InputError, match="chunk = 1: gives 4000000 chunks, at most 1000000 are allowed; 4 or more"):
+        load_sweep(write(top=GOOD["top"] + "\nchunk = 1", **changes))
