@@ -35,7 +35,9 @@ from types import MappingProxyType
 from typing import ParamSpec
 
 import matplotlib.style
+import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import ScalarFormatter
 
 __all__ = [
     "LOOKS",
@@ -171,6 +173,7 @@ def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
     def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Figure:
         with applied():
             figure = draw(*args, **kwargs)
+            _write_plain_ticks(figure)
             if kwargs.get("axes") is None:
                 # The first round makes the ticks, the second arranges the axes with their ticks in place.
                 for _ in range(2):
@@ -179,3 +182,15 @@ def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
         return figure
 
     return wrapper
+
+
+def _write_plain_ticks(figure: Figure) -> None:
+    """Write numbers at ticks as text where they need no power of ten.
+
+    They look the same; parsing each of them as mathematics, time and again, would take most of the time of a figure.
+    """
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            formatter = axis.get_major_formatter()
+            if isinstance(formatter, ScalarFormatter) and 1e-3 <= np.abs(axis.get_view_interval()).max() < 1e6:
+                formatter.set_useMathText(False)
