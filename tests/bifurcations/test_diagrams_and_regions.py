@@ -83,7 +83,8 @@ def test_region_of_levitation_alone_still_holds_the_rub():
     assert (motions.source_region, motions.rub) == ("R3", True)
     motions = motions_at(PAPER.replace(gamma=0.38))
     assert (motions.source_region, motions.rub) == ("R3", False)
-    assert motions.words == "contact-free levitation, no impacting orbit, no stable rub"
+    assert motions.words == "contact-free levitation, no stable rub, no impacting orbit, backward rolling"
+    assert motions.region == "R3 (no rub)"
 
 
 def test_motions_agree_with_certified_orbits():
@@ -94,6 +95,8 @@ def test_motions_agree_with_certified_orbits():
         motions = motions_at(parameters)
         assert motions.orbits == len(orbits)
         assert motions.stable_orbits == sum(orbit.stable for orbit in orbits)
+        assert motions.stable_names == tuple(sorted(orbit.name for orbit in orbits if orbit.stable))
+        assert motions.unstable_names == tuple(sorted(orbit.name for orbit in orbits if not orbit.stable))
 
 
 def test_map_of_the_source_papers_plane():
@@ -143,3 +146,23 @@ def test_inputs_that_cannot_be_used():
         bifurcation_diagram(PAPER, "d", (0.5, 1.5))
     with pytest.raises(InputError, match="mass, clearance and speed"):
         bifurcation_diagram(PAPER, "speed", (100.0, 200.0))
+
+
+def test_regions_in_words():
+    motions = motions_at(PAPER)
+    assert motions.region == "R4 (stable orbit, rub)"
+    assert motions.words == (
+        "contact-free levitation, stable forward rub, B1,d stable and B1,a, B1,b, B1,c unstable, backward rolling"
+    )
+    assert "levitation virtual" in motions_at(PAPER.replace(omega=0.9)).words
+    without_friction = motions_at(PAPER.replace(mu=0.0))
+    assert not without_friction.rolling
+    assert "no lasting rolling" in without_friction.words
+
+
+def test_points_of_thin_regions_lie_inside():
+    plane = Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.05))
+    found = region_map(PAPER, plane, grid=16)
+    assert found.everywhere == ("backward rolling",)
+    for region in found.regions:
+        assert motions_at(plane.at(PAPER, *region.point)) == region.motions

@@ -78,17 +78,22 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
         ],
         "regions": [
             {
+                "name": region.motions.region,
                 "words": region.motions.words,
                 "contact_free": region.motions.contact_free,
                 "orbits": region.motions.orbits,
                 "stable_orbits": region.motions.stable_orbits,
+                "stable_orbit_names": list(region.motions.stable_names),
+                "unstable_orbit_names": list(region.motions.unstable_names),
                 "rub": region.motions.rub,
+                "rolling": region.motions.rolling,
                 "source_region": region.motions.source_region,
                 "point": list(region.point),
                 "share": region.share,
             }
             for region in found.regions
         ],
+        "everywhere": list(found.everywhere),
         "lost": list(found.lost),
     }
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,37 +11,50 @@ from carom.bifurcations.axes import Numbers, value_of, vary
 from carom.bifurcations.conditions import conditions_at, is_admissible, jacobian_at
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
 from carom.bifurcations.diagrams import LONGEST_PERIOD, Diagram, bifurcation_diagram
+from carom.bifurcations.onsets import ONSETS, continue_onset
+from carom.bifurcations.rubbing import RubbingBranch, RubbingPoint
 from carom.bifurcations.steady import SpecialValue
 from carom.equilibria import equilibria
 from carom.outcome import CaromError
 from carom.parameters import Parameters
 from carom.periods import PeriodCondition
 from carom.rotors import jeffcott
+from carom.whirl import rolling
 
 __all__ = ["Motions", "Region", "RegionMap", "motions_at", "region_map"]
 
+THIN = 0.05
+"""Share of the plane below which a region's point is looked for between those of the grid."""
+LOOK_AROUND, FINER = 6, 5
 SAME_POINT = 1e-6
 """Distance, in widths of the plane, below which codimension-2 points are the same."""
 
 
-@dataclass(frozen=True, order=True)
+@dataclass(frozen=True)
 class Motions:
-    """Which simple motions a machine has.
+    """Which simple motions a machine has; equal if they are the same in number and stability.
 
     Attributes
     ----------
     contact_free : bool
-        Whether contact-free levitation is admissible.
+        Whether contact-free levitation is admissible; it is stable then, as damping is positive.
     orbits, stable_orbits : int
         Admissible single-impact orbits, and the stable ones of them.
     rub : bool
-        Whether a stable synchronous rub is admissible.
+        Whether a stable synchronous rub (forward whirl) is admissible.
+    rolling : bool
+        Whether a rotor that rolls round the bearing in backward whirl goes on rolling (:mod:`carom.whirl`).
+    stable_names, unstable_names : tuple of str
+        Names of the orbits.
     """
 
     contact_free: bool
     orbits: int
     stable_orbits: int
     rub: bool
+    rolling: bool
+    stable_names: tuple[str, ...] = field(default=(), compare=False)
+    unstable_names: tuple[str, ...] = field(default=(), compare=False)
 
     @property
     def source_region(self) -> str:
@@ -51,15 +64,31 @@ class Motions:
         return "R1" if self.orbits else "R2"
 
     @property
+    def region(self) -> str:
+        """The same, refined by what the text leaves out: the stable rub, and whether any orbit is stable."""
+        stable = "" if not self.orbits else " stable orbit" if self.stable_orbits else " unstable orbits"
+        parts = [part for part in (stable.strip(), "rub" if self.rub else "no rub") if part]
+        return f"{self.source_region} ({', '.join(parts)})"
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The motions in words, one entry for each kind."""
+        orbits = [
+            f"{', '.join(names)} {words}"
+            for names, words in ((self.stable_names, "stable"), (self.unstable_names, "unstable"))
+            if names
+        ]
+        return (
+            "contact-free levitation" if self.contact_free else "levitation virtual",
+            "stable forward rub" if self.rub else "no stable rub",
+            " and ".join(orbits) if orbits else "no impacting orbit",
+            "backward rolling" if self.rolling else "no lasting rolling",
+        )
+
+    @property
     def words(self) -> str:
         """The motions in words."""
-        parts = ["contact-free levitation" if self.contact_free else "no contact-free levitation"]
-        if self.orbits:
-            parts.append(f"{self.orbits} impacting orbit{'s' * (self.orbits > 1)} ({self.stable_orbits} stable)")
-        else:
-            parts.append("no impacting orbit")
-        parts.append("stable rub" if self.rub else "no stable rub")
-        return ", ".join(parts)
+        return ", ".join(self.parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +129,14 @@ class RegionMap:
     lost: tuple[str, ...] = ()
 
     @property
+    def everywhere(self) -> tuple[str, ...]:
+        """What holds in every region, in words."""
+        if not self.regions:
+            return ()
+        first, *others = (region.motions.parts for region in self.regions)
+        return tuple(part for place, part in enumerate(first) if all(parts[place] == part for parts in others))
+
+    @property
     def codimension2(self) -> tuple[Codimension2Point, ...]:
         """Points where two curves meet, each once."""
         widths = np.ptp([self.plane.first_range, self.plane.second_range], axis=1)
@@ -124,29 +161,39 @@ def motions_at(parameters: Parameters) -> Motions:
     rotor = jeffcott(parameters)
     contact_free, *rubs = equilibria(rotor)
     numbers = Numbers.of(parameters)
-    orbits = [orbit for orbit in _orbits(parameters) if is_admissible(numbers, *orbit)]
-    radii = [np.abs(np.linalg.eigvals(jacobian_at(numbers, *orbit))).max() for orbit in orbits]
+    orbits = [orbit for orbit in _orbits(parameters) if is_admissible(numbers, *orbit[1:])]
+    radii = [float(np.abs(np.linalg.eigvals(jacobian_at(numbers, *orbit[1:]))).max()) for orbit in orbits]
     return Motions(
         contact_free=contact_free.status == "admissible",
         orbits=len(orbits),
-        stable_orbits=sum(bool(radius < 1.0) for radius in radii),
+        stable_orbits=sum(radius < 1.0 for radius in radii),
         rub=any(rub.stable and rub.status == "admissible" for rub in rubs),
+        rolling=rolling(rotor).holds,
+        stable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius < 1.0)),
+        unstable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius >= 1.0)),
     )
 
 
-def _orbits(parameters: Parameters) -> list[tuple[float, float]]:
-    """Period and radial speed of all single-impact orbits with forward slip and a positive radial speed."""
+def _orbits(parameters: Parameters) -> list[tuple[str, float, float]]:
+    """Name, period and radial speed of all single-impact orbits with forward slip and a positive radial speed."""
     numbers, rotor = Numbers.of(parameters), jeffcott(parameters)
-    roots = PeriodCondition(rotor).roots(LONGEST_PERIOD if parameters.gamma < 0.05 else None).periods
+    if rotor.equilibrium == 0.0:
+        return []
+    roots = PeriodCondition(rotor).roots(LONGEST_PERIOD if parameters.gamma < 0.05 else None)
     gap = 1.0 - abs(rotor.equilibrium) ** 2
     found = []
-    for period in roots.tolist():
+    for place, period in enumerate(roots.periods.tolist(), start=int(roots.starts_below)):
         lever = conditions_at(numbers, period, 0.0).lever
         square, half = abs(lever) ** 2, lever.real
         discriminant = half**2 - square * gap
-        if discriminant >= 0.0 and rotor.equilibrium != 0.0:
+        if discriminant >= 0.0:
+            pair, longer = divmod(place, 2)
             speeds = [(sign * np.sqrt(discriminant) - half) / square for sign in (-1.0, 1.0)]
-            found += [(period, float(speed)) for speed in speeds if speed > 0.0]
+            found += [
+                (f"B{pair + 1},{'abcd'[longer + 2 * high]}", period, float(speed))
+                for high, speed in enumerate(speeds)
+                if speed > 0.0
+            ]
     return found
 
 
@@ -156,6 +203,7 @@ def region_map(
     *,
     grid: int = 24,
     virtual: bool = False,
+    lasting: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> RegionMap:
     """Draw the map of a plane: all curves through the bifurcations on its cross-sections, and the regions between.
@@ -172,6 +220,8 @@ def region_map(
         Grid points a side at which motions are counted.
     virtual : bool
         Follow bifurcations of virtual orbits too.
+    lasting : bool
+        Follow the onsets of lasting and of permanent contact too (a few seconds).
     progress : callable, optional
         Called with the fraction done.
 
@@ -189,7 +239,7 @@ def region_map(
     curves: list[Curve] = []
     lost: list[str] = []
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        diagram = bifurcation_diagram(parameters, name, interval, virtual=virtual)
+        diagram = bifurcation_diagram(parameters, name, interval, virtual=virtual, lasting=lasting)
         for point in _starts(diagram, virtual):
             at = vary(parameters, diagram.parameter, point.value)
             if not any(_passes(curve, at, point) for curve in curves):
@@ -197,6 +247,13 @@ def region_map(
                     curves.append(continue_curve(point.kind, at, plane, _unknowns(point)))
                 except CaromError as problem:
                     lost.append(f"{point.kind} of {point.branch} at {name} = {point.value:.6g}: {problem}")
+        for branch in diagram.rubbing:
+            for end in branch.special:
+                if end.kind in ONSETS and not any(_passes_onset(curve, branch, end, parameters) for curve in curves):
+                    try:
+                        curves.append(continue_onset(branch, end, parameters, plane))
+                    except CaromError as problem:
+                        lost.append(f"{end.kind} at {name} = {end.value:.6g}: {problem}")
         tell(share)
     regions = _regions(parameters, plane, grid, lambda share: tell(0.3 + 0.7 * share))
     return RegionMap(plane, tuple(curves), regions, tuple(lost))
@@ -204,11 +261,20 @@ def region_map(
 
 def _starts(diagram: Diagram, virtual: bool) -> list[SpecialValue]:
     """Special points that lie on curves; a non-smooth Hopf point lies on that of the boundary equilibrium."""
-    return [point for point in diagram.points if point.kind in KINDS and (virtual or point.admissible)]
+    return [
+        point
+        for point in diagram.points
+        if point.kind in KINDS and (virtual or point.admissible) and not point.branch.startswith("rubbing")
+    ]
 
 
 def _unknowns(point: SpecialValue) -> tuple[float, ...]:
     return () if point.period is None or point.radial_speed is None else (point.period, point.radial_speed)
+
+
+def _passes_onset(curve: Curve, branch: RubbingBranch, end: RubbingPoint, parameters: Parameters) -> bool:
+    at = vary(parameters, branch.axis.name, end.value)
+    return _passes(curve, at, SpecialValue(end.kind, "", branch.axis.name, end.value, end.period, None, True))
 
 
 def _passes(curve: Curve, at: Parameters, start: SpecialValue) -> bool:
@@ -230,8 +296,10 @@ def _passes(curve: Curve, at: Parameters, start: SpecialValue) -> bool:
         return True
     weights = np.array([1.0 - share[nearest], share[nearest]])
     period = weights @ curve.periods[nearest : nearest + 2]
+    if not abs(period - start.period) < 0.02 * start.period:
+        return False
     speed = weights @ curve.radial_speeds[nearest : nearest + 2]
-    return bool(abs(period - start.period) < 0.02 * start.period and abs(speed - (start.radial_speed or 0.0)) < 0.02)
+    return start.radial_speed is None or bool(abs(speed - start.radial_speed) < 0.02)
 
 
 def _regions(parameters: Parameters, plane: Plane, grid: int, progress: Callable[[float], None]) -> tuple[Region, ...]:
@@ -245,8 +313,39 @@ def _regions(parameters: Parameters, plane: Plane, grid: int, progress: Callable
     regions = []
     for cells in _connected(found):
         i, j = max(cells, key=lambda cell: _depth(cell, cells, grid))
-        regions.append(Region(found[i, j], (float(xs[i]), float(ys[j])), len(cells) / grid**2))
+        place, share = (float(xs[i]), float(ys[j])), len(cells) / grid**2
+        if share < THIN:
+            place = _centred(parameters, plane, grid, found[i, j], place)
+        regions.append(Region(found[i, j], place, share))
     return tuple(sorted(regions, key=lambda region: -region.share))
+
+
+def _centred(
+    parameters: Parameters, plane: Plane, grid: int, motions: Motions, place: tuple[float, float]
+) -> tuple[float, float]:
+    """The middle of a thin region, seen from a point of it along either parameter."""
+    ranges, point = (plane.first_range, plane.second_range), list(place)
+    for along, (low, high) in enumerate(ranges):
+        ends = []
+        for side in (-1.0, 1.0):
+            here = point.copy()
+
+            def inside(value: float, here: list[float] = here, along: int = along) -> bool:
+                here[along] = value
+                return motions_at(plane.at(parameters, here[0], here[1])) == motions
+
+            step, end = side * (high - low) / grid, point[along]
+            for _ in range(LOOK_AROUND):
+                if not (low <= end + step <= high and inside(end + step)):
+                    break
+                end += step
+            for _ in range(FINER):
+                step *= 0.5
+                if low <= end + step <= high and inside(end + step):
+                    end += step
+            ends.append(end)
+        point[along] = 0.5 * sum(ends)
+    return point[0], point[1]
 
 
 def _connected(found: dict[tuple[int, int], Motions]) -> list[set[tuple[int, int]]]:
