@@ -13,6 +13,7 @@ import numpy as np
 
 from carom.basins.classification import NO_START, plan_of, provenance
 from carom.basins.entropy import entropies
+from carom.basins.integrity import safe_size
 from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, Plan, Sample, Starts, VelocityKick
@@ -73,8 +74,8 @@ class GainMap:
     dataset : xarray.Dataset
         Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back) with ``recovered_low`` and
         ``recovered_high`` (95 % confidence of a sample), ``unresolved``, ``levitates`` (whether there is levitation to
-        come back to), ``integrity`` (of kicks and shocks on a grid: lower edge of the smallest lost cell as a fraction of
-        the largest size), ``basin_entropy`` and ``boundary_basin_entropy`` (of outcomes, on a grid).
+        come back to), ``integrity`` (of kicks and shocks on a grid: largest size up to which none is lost, as a fraction of
+        the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of outcomes, on a grid).
     """
 
     dataset: xarray.Dataset
@@ -110,8 +111,8 @@ class GainMap:
         return Share.of(count, total, drawn=isinstance(self.plan, Sample))
 
     @property
-    def smallest_lost(self) -> np.ndarray:
-        """Size of the smallest lost kick or shock at each node, in units of the present machine; see ``integrity``."""
+    def safe_sizes(self) -> np.ndarray:
+        """Size up to which no kick or shock is lost at each node, in units of the present machine; see ``integrity``."""
         largest = self.plan.model.coordinates[0].high
         sizes: np.ndarray = self.dataset["integrity"].values * largest
         return sizes
@@ -366,9 +367,8 @@ def _measures(plan: Plan, outcomes: np.ndarray | None) -> dict[str, Any]:
     }
     if isinstance(plan, Grid):
         if isinstance(plan.model, VelocityKick | BaseShock):
-            size, bad = plan.model.coordinates[0], (exists & ~back).any(axis=1)
-            first = float(size.edges(plan.shape[0])[bad.argmax()]) if bad.any() else size.high
-            measures["integrity"] = first / size.high
+            size = plan.model.coordinates[0]
+            measures["integrity"] = safe_size(size, exists & ~back) / size.high
         side = max(2, round(25 ** (1.0 / len(plan.shape))))
         if min(plan.shape) >= side:
             entropy = entropies(outcomes, side)
@@ -382,7 +382,7 @@ _WORDS = {
     "recovered_high": "upper end of its 95 % confidence interval (of a grid: the share)",
     "unresolved": "share given up before it was known where it ends",
     "levitates": "1 where the rotor can levitate without contact, else 0",
-    "integrity": "smallest lost disturbance as a fraction of the largest one; 1 where none is lost",
+    "integrity": "size up to which no disturbance is lost, as a fraction of the largest one",
     "basin_entropy": "basin entropy of the outcomes",
     "boundary_basin_entropy": "boundary basin entropy of the outcomes",
 }

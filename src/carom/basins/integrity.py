@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.basins.classification import Basin
-from carom.disturbances import BaseShock, Grid, KickPlane, StateSlice, VelocityKick
+from carom.disturbances import BaseShock, Coordinate, Grid, KickPlane, StateSlice, VelocityKick
 from carom.outcome import InputError
 
-__all__ = ["Integrity", "integrity"]
+__all__ = ["Integrity", "integrity", "safe_size"]
 
 BLOCK = 64
 """Columns of a grid whose distances are computed at a time."""
@@ -47,7 +47,7 @@ class Integrity:
 def integrity(basin: Basin) -> Integrity:
     """Integrity of the starts of a basin.
 
-    For kicks and shocks by size and direction the ball ends at the smallest lost cell; in a plane balls keep clear of
+    For kicks and shocks by size and direction the ball ends before the smallest lost start; in a plane balls keep clear of
     lost cells.  For a sample the nearest lost start limits the ball, so it gets smaller as the sample gets larger.
     Starts that were given up count as lost.
 
@@ -62,11 +62,10 @@ def integrity(basin: Basin) -> Integrity:
     if isinstance(model, VelocityKick | BaseShock):
         size = model.coordinates[0]
         if isinstance(plan, Grid):
-            bad = lost.any(axis=1)
-            first = float(size.edges(plan.shape[0])[bad.argmax()]) if bad.any() else size.high
+            reach = safe_size(size, lost)
         else:
-            first = float(plan.values()[0][lost].min(initial=size.high))
-        return Integrity(first / size.high, math.nan, (), size.high)
+            reach = float(plan.values()[0][lost].min(initial=size.high))
+        return Integrity(reach / size.high, math.nan, (), size.high)
     if isinstance(model, KickPlane | StateSlice) and isinstance(plan, Grid):
         rest = basin.rotor.equilibrium
         centre = (0.0, 0.0) if isinstance(model, KickPlane) else (rest.real, rest.imag)
@@ -74,6 +73,15 @@ def integrity(basin: Basin) -> Integrity:
     if isinstance(model, KickPlane | StateSlice):
         return _in_sample(basin, lost)
     raise InputError("basin", model.kind, "disturbances with a size that is zero in levitation: kick, shock or slice")
+
+
+def safe_size(size: Coordinate, lost: np.ndarray) -> float:
+    """Largest size tried up to which no start of a grid is lost; of ``lost`` the first axis is the size."""
+    bad = lost.reshape(len(lost), -1).any(axis=1)
+    if not bad.any():
+        return size.high
+    first = int(bad.argmax())
+    return float(size.middles(len(lost))[first - 1]) if first else 0.0
 
 
 def _in_plane(basin: Basin, plan: Grid, lost: np.ndarray, centre: tuple[float, float]) -> Integrity:

@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from carom.cli.basins import basins
 from carom.cli.bifurcations import bifurcations, regions
 from carom.cli.orbits import orbits
 from carom.cli.paper import paper
@@ -39,6 +40,7 @@ app.command("simulate", help=simulate.__doc__)(simulate)
 app.command("orbits", help=orbits.__doc__)(orbits)
 app.command("bifurcations", help=bifurcations.__doc__)(bifurcations)
 app.command("regions", help=regions.__doc__)(regions)
+app.command("basins", help=basins.__doc__)(basins)
 app.command("sweep", help=sweep.__doc__)(sweep)
 app.command("paper", help=paper.__doc__)(paper)
 

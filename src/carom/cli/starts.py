@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 from carom.outcome import InputError
@@ -11,7 +12,7 @@ from carom.parameters import Field, Scales, read_quantity
 if TYPE_CHECKING:
     from carom.trajectories import Kick, State
 
-__all__ = ["read_kick", "read_start", "read_time"]
+__all__ = ["read_kick", "read_size", "read_start", "read_time"]
 
 _HUGE = 1e12
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
@@ -78,6 +79,21 @@ def read_time(text: str, scales: Scales | None, option: str = "--until") -> floa
     return time
 
 
+def read_size(option: str, text: str, kind: str, scales: Scales | None) -> float:
+    """Read a length, velocity, acceleration or time above 0, dimensionless or with a unit; ``20 g`` are gravities.
+
+    Raises
+    ------
+    InputError
+        Naming the option.
+    """
+    size = _number(option, text, kind, scales)
+    if not size > 0:
+        article = "an" if kind[0] in "aeiou" else "a"
+        raise InputError(option, text, f"must be {article} {kind} above 0, such as {_UNITS[kind][1]!r}")
+    return size
+
+
 def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> list[str]:
     parts = [part.strip() for part in text.split(",")]
     if len(parts) not in counts or not all(parts):
@@ -85,23 +101,37 @@ def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> lis
     return parts
 
 
-_UNITS = {"length": ("m", "0.3 mm"), "velocity": ("m/s", "5 mm/s"), "time": ("s", "2 s"), "angle": ("rad", "30 deg")}
+_UNITS = {
+    "length": ("m", "0.3 mm"),
+    "velocity": ("m/s", "5 mm/s"),
+    "acceleration": ("m/s^2", "20 g"),
+    "time": ("s", "2 s"),
+    "angle": ("rad", "30 deg"),
+}
+_GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*")
+"""As engineers write shocks; in tables of units g is the gram."""
 
 
 def _number(option: str, text: str, kind: str, scales: Scales | None) -> float:
     """A plain number as it is; one with a unit in units of the equations."""
     unit, example = _UNITS[kind]
+    article = f"an {kind}" if kind[0] == "a" else f"a {kind}"
     try:
         float(text)
     except ValueError:
         pass
     else:
-        article = "an angle" if kind == "angle" else f"a {kind}"
-        own = {"length": " in c_r", "velocity": " in c_r Omega", "time": " in 1/Omega", "angle": ""}[kind]
-        field = Field(option, "", "", article + own, "", -_HUGE, _HUGE, f"0.5 or '{example}'")
+        own = {
+            "length": " in c_r",
+            "velocity": " in c_r Omega",
+            "acceleration": " in c_r Omega^2",
+            "time": " in 1/Omega",
+        }
+        field = Field(option, "", "", article + own.get(kind, ""), "", -_HUGE, _HUGE, f"0.5 or '{example}'")
         return read_quantity(field, text, bare=True)
-    field = Field(option, "", "", "an angle" if kind == "angle" else f"a {kind}", unit, -_HUGE, _HUGE, f"'{example}'")
-    number = read_quantity(field, text)
+    field = Field(option, "", "", article, unit, -_HUGE, _HUGE, f"'{example}'")
+    gravities = _GRAVITIES.fullmatch(text) if kind == "acceleration" else None
+    number = read_quantity(field, f"{gravities[1]} standard_gravity" if gravities else text)
     if kind == "angle":
         return number
     if scales is None:

@@ -27,7 +27,7 @@ __all__ = ["gain_map"]
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their lines."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
-_NONE = ListedColormap(["#e6e6e6"])
+_GROUND = "#e6e6e6"
 """Ground of machines that cannot levitate."""
 _SHADES = "cividis"
 """Told apart by all eyes and in grey (Nuñez, Anderton, Renslow 2018)."""
@@ -65,13 +65,11 @@ def gain_map(
             x,
             y,
             np.ma.masked_where(~grounded, np.ones(grounded.shape)).T,
-            cmap=_NONE,
+            cmap=ListedColormap([_GROUND]),
             shading="nearest",
             rasterized=True,
         )
-        handles.append(
-            Patch(facecolor=_NONE.colors[0], edgecolor="#a6a6a6", lw=0.4, label="no levitation without contact")
-        )
+        handles.append(Patch(facecolor=_GROUND, edgecolor="#a6a6a6", lw=0.4, label="no levitation without contact"))
     lines = _contours(drawn, x, y, np.ma.masked_where(grounded, share))
     here = [value / unit for value, unit in zip(found.present, units, strict=True)]
     now = found.present_share
