@@ -1,4 +1,4 @@
-"""Motions as results: starts, frames, samples, the contact log, and that long ones are joined without a seam."""
+"""Motions as results: starts, frames, samples, and that long ones are joined without a seam."""
 
 from __future__ import annotations
 
@@ -13,12 +13,10 @@ from machines import PAPER, fly, strike
 from carom import trajectories
 from carom.core.layout import rotor_record
 from carom.outcome import InputError, Outcome, Phase
-from carom.parameters import Scales
 from carom.rotors import jeffcott
 from carom.trajectories import Kick, State, kick, simulate
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
-SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 RUBBING = PAPER.replace(gamma=0.2, d=0.5)
 
 
@@ -114,71 +112,6 @@ def test_a_sample_holds_each_event_and_the_instant_before(motion):
 def test_no_time_of_a_sample_is_outside_the_wall(motion, rubbing):
     for path in (motion, rubbing):
         assert path.radius(path.sample(300)).max() <= 1.0 + 1e-12
-
-
-class TestContactLog:
-    def test_states_before_and_after(self, motion):
-        log = motion.contacts
-        position, velocity = motion.at(log.time)
-        assert np.allclose(log.angle, np.angle(position), rtol=0, atol=1e-14)
-        assert np.allclose(log.radial_speed_after, (position.conj() * velocity).real, rtol=0, atol=1e-13)
-        assert np.allclose(log.angular_speed_after, (position.conj() * velocity).imag, rtol=0, atol=1e-13)
-        assert np.all(log.radial_speed > 0)
-        assert np.allclose(log.radial_speed_after, -PAPER.d * log.radial_speed, rtol=1e-12, atol=0)
-
-    def test_impulses_and_slip(self, motion):
-        log = motion.contacts
-        assert np.allclose(log.normal_impulse, (1.0 + PAPER.d) * log.radial_speed, rtol=1e-12, atol=0)
-        assert np.allclose(log.slip_before, PAPER.radius_ratio + 1.0 + log.angular_speed, rtol=1e-15, atol=0)
-        assert np.allclose(log.slip_after - log.slip_before, log.tangential_impulse, rtol=0, atol=1e-13)
-        assert not log.sticks.any()
-        assert np.allclose(log.tangential_impulse, -PAPER.mu * log.normal_impulse, rtol=0, atol=1e-13)
-
-    def test_slip_that_stops(self):
-        rotor = jeffcott(PAPER.replace(mu=2.0, radius_ratio=0.5))
-        log = simulate(rotor, State(0.2, 3.0 + 1.0j), 20.0).contacts
-        assert log.sticks.any()
-        assert np.allclose(log.slip_after[log.sticks], 0.0, rtol=0, atol=1e-14)
-
-    def test_si_units(self, motion):
-        log = motion.contacts
-        columns = log.in_si(SCALES)
-        expected = {
-            "time": (log.time / 184.2, "s"),
-            "angle": (log.angle, "rad"),
-            "radial_speed": (log.radial_speed * 0.7e-3 * 184.2, "m/s"),
-            "angular_speed": (log.angular_speed * 184.2, "rad/s"),
-            "radial_speed_after": (log.radial_speed_after * 0.7e-3 * 184.2, "m/s"),
-            "angular_speed_after": (log.angular_speed_after * 184.2, "rad/s"),
-            "normal_impulse": (log.normal_impulse * 50.0 * 0.7e-3 * 184.2, "N s"),
-            "tangential_impulse": (log.tangential_impulse * 50.0 * 0.7e-3 * 184.2, "N s"),
-            "slip_before": (log.slip_before * 0.7e-3 * 184.2, "m/s"),
-            "slip_after": (log.slip_after * 0.7e-3 * 184.2, "m/s"),
-            "sticks": (log.sticks, "1"),
-            "contact_work": (log.contact_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
-            "drive_work": (log.drive_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
-        }
-        assert columns.keys() == expected.keys()
-        for name, (values, unit) in expected.items():
-            assert np.allclose(columns[name][0], values, rtol=1e-14, atol=0), name
-            assert columns[name][1] == unit, name
-
-    def test_dataset(self, motion):
-        log = motion.contacts
-        plain, si = log.to_dataset(), log.to_dataset(SCALES)
-        assert dict(plain.sizes) == {"impact": len(log)}
-        assert plain["time"].attrs == {"units": "1/Omega", "long_name": "time of impact"}
-        assert si["normal_impulse"].attrs["units"] == "N s"
-        assert plain["contact_work"].attrs["units"] == "m c_r^2 Omega^2"
-        for name in plain:
-            assert plain[name].attrs["long_name"]
-            assert np.array_equal(plain[name].values, getattr(log, name))
-
-    def test_an_empty_log(self, rotor):
-        motion = simulate(jeffcott(PAPER.replace(gamma=0.3, rho=0.1)), kick(0.0), 5.0)
-        assert len(motion.contacts) == 0
-        assert motion.contacts.to_dataset().sizes["impact"] == 0
-        assert motion.sample(10).shape == (10,)
 
 
 class TestStarts:

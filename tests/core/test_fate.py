@@ -7,8 +7,8 @@ import math
 
 import numpy as np
 import pytest
+from compilation import sized
 from machines import PAPER, random_parameters
-from numba.core import config
 
 from carom.attractors import find_attractors
 from carom.core.fate import NEAR, approaches_turn, forget_rub, levitates, memory, near_rub, recurs, same_state
@@ -19,8 +19,7 @@ from carom.parameters import Parameters
 from carom.rotors import Rotor, jeffcott
 from carom.trajectories import State, simulate
 
-COMPILED = not config.DISABLE_JIT
-MANY = 300 if COMPILED else 20
+MANY = sized(300, 20)
 
 
 # ------------------------------------------------------------------------------------------------ levitation

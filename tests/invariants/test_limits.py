@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 import pytest
+from compilation import sized
 from machines import PAPER
-from numba.core import config
 from scipy.special import ellipj, ellipk
 
 from carom.ledger import energy_ledger
@@ -22,11 +22,10 @@ from carom.rotors import jeffcott
 from carom.trajectories import State, Trajectory, simulate
 
 EPSILON = 2.0**-52
-COMPILED = not config.DISABLE_JIT
-LONG = 1e4 if COMPILED else 60.0
+LONG = sized(10_000, 60)
 """Thousands of impacts, if the compiler is on."""
-MANY = 40 if COMPILED else 3
-EVENTS = 20_000 if COMPILED else 20
+MANY = sized(40, 3)
+EVENTS = sized(20_000, 20)
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
 
 
@@ -201,7 +200,7 @@ def test_less_and_less_restitution_leads_to_none():
 def test_a_smooth_wall_leaves_the_angular_momentum():
     """Its force points to the centre, so ``Im(Z̄Ż)`` stays in an impact; and no drive feeds in."""
     for start in starts(4, 10):
-        motion = simulate(jeffcott(PAPER.replace(mu=0.0)), start, 100.0 if COMPILED else 20.0)
+        motion = simulate(jeffcott(PAPER.replace(mu=0.0)), start, sized(100, 20))
         log = motion.contacts
         assert len(log) > 3
         assert np.all(log.angular_speed_after - log.angular_speed == log.tangential_impulse)
