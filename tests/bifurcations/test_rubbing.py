@@ -19,7 +19,7 @@ from carom.bifurcations import (
     continue_rubbing,
     rubbing_orbits,
 )
-from carom.bifurcations.rubbing import lift_off_state, next_lift_off
+from carom.bifurcations.lift_offs import lift_off_state, next_lift_off
 from carom.outcome import Phase
 
 DEAD = PAPER.replace(omega=0.76, rho=0.1, mu=0.3, d=0.0)

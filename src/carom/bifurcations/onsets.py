@@ -10,7 +10,8 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.curves import EDGE, Curve, Plane
-from carom.bifurcations.rubbing import LiftOff, RubbingBranch, RubbingPoint, end_of_motions, next_lift_off
+from carom.bifurcations.lift_offs import LiftOff, known, next_lift_off
+from carom.bifurcations.rubbing import RubbingBranch, RubbingPoint, end_of_motions
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
@@ -96,7 +97,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
     )
     rows = []
     for (angle, x), y in zip(beside.unknowns.tolist(), beside.parameters.tolist(), strict=True):
-        period = _known(lift_off(angle, x, y)).time
+        period = known(lift_off(angle, x, y)).time
 
         def follow(angle: float, x: float, y: float, period: float = period) -> LiftOff | None:
             found = lift_off(angle, x, y)
@@ -105,7 +106,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
 
         end_angle, place = _end(follow, angle, np.array([x, y]), sizes)
         if plane.holds(*place):
-            rows.append((*place, _known(follow(end_angle, *place)).time))
+            rows.append((*place, known(follow(end_angle, *place)).time))
     if not rows:
         raise CaromError(f"the {point.kind} leaves the plane at once")
     points = np.array(rows)
@@ -169,9 +170,3 @@ def _stop(beside: Branch, end: Literal[0, -1]) -> str:
     if reason == "parameter limit" or at_edge:
         return EDGE
     return "other contacts" if reason in ("end of domain", "step too small") else reason
-
-
-def _known(found: LiftOff | None) -> LiftOff:
-    if found is None:
-        raise CaromError("a motion that was followed has no lift-off any more")
-    return found

@@ -6,8 +6,7 @@ normal acceleration inward, so the new impact of vanishing speed is a bounce, no
 the onset is where the chatter is complete at the very moment at which the normal force vanishes.  (With ``d = 0`` there is
 no chatter, and the onset lies on the single-impact orbit itself: :func:`~carom.bifurcations.conditions.pressed_on`.)
 
-At a lift-off ``r = 1``, ``ṙ = 0`` and ``N = ρ cos x + (1 + θ̇)² − ω² = 0`` with ``x = θ − φ``.  So a lift-off is known by
-its angle and the direction of whirl, and the motion from one lift-off to the next is a map of one variable: fixed points
+The motion from one lift-off to the next is a map of one variable (:mod:`~carom.bifurcations.lift_offs`): its fixed points
 are periodic motions with one lift-off a period, its slope is their only multiplier that is not zero, as contact forgets
 all else.  A branch of them ends where the lasting contact shrinks to nothing (its onset), or where the flights do: the
 normal force then just touches zero once a period, and beyond the rotor stays on the wall (permanent contact).
@@ -15,7 +14,6 @@ normal force then just touches zero once a period, and beyond the rotor stays on
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,32 +23,25 @@ from typing import Literal
 import numpy as np
 
 from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.bifurcations.lift_offs import LONGEST, LiftOff, Whirl, known, lift_off_state, next_lift_off, shift_of
 from carom.continuation import Steps, Watch, continue_branch
-from carom.outcome import CaromError, InputError, Phase
+from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 from carom.roots import bracketed_root
-from carom.rotors import Rotor, jeffcott
+from carom.rotors import jeffcott
 from carom.trajectories import State, Trajectory, simulate
 
 __all__ = [
-    "LiftOff",
     "RubbingBranch",
     "RubbingOrbit",
     "RubbingPoint",
     "continue_rubbing",
-    "lift_off_state",
-    "next_lift_off",
     "rubbing_orbits",
 ]
 
-Whirl = Literal[1, -1]
-
-LONGEST = 8.0 * math.pi
-"""Longest period searched, in ``1/Ω``: four turns of the shaft."""
 SAMPLES = 48
 HALVINGS = 10
 """Of the angles between the last that has a next lift-off and the first that has none."""
-MOST_EVENTS = 4000
 STEPS = Steps(first=0.01, largest=0.05, smallest=1e-7, tolerance=1e-9, most_points=400)
 DIFFERENCE = 1e-6
 FORCE_SHARE = 0.05
@@ -59,34 +50,6 @@ SAME_PERIOD = 0.02
 """Relative change of the period beyond which another motion has taken over."""
 FINEST = 1e-11
 """Relative step of the parameter at which the search for the end of a branch is over."""
-
-
-@dataclass(frozen=True)
-class LiftOff:
-    """The next lift-off after one, and what lies between.
-
-    Attributes
-    ----------
-    angle : float
-        ``x = θ − φ`` of the lift-off, rad.
-    whirl : {1, -1}
-        Sign of ``1 + θ̇``: forward or backward in the fixed frame.
-    time : float
-        Since the lift-off before, in ``1/Ω``.
-    impacts : int
-        Bounces in between, those left to the completion of the chatter not counted.
-    contact_time : float
-        Length of the lasting contact, in ``1/Ω``.
-    landing_force : float
-        Normal force with which it begins, in ``m c_r Ω²``; vanishes at the onset.
-    """
-
-    angle: float
-    whirl: Whirl
-    time: float
-    impacts: int
-    contact_time: float
-    landing_force: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,71 +143,6 @@ class RubbingBranch:
         return np.abs(self.multiplier) < 1.0
 
 
-def lift_off_state(rotor: Rotor, whirl: Whirl, angle: float) -> State | None:
-    """State of a rotor that lifts off the wall; ``None`` where the normal force does not fall through zero.
-
-    Parameters
-    ----------
-    rotor : Rotor
-    whirl : {1, -1}
-        Sign of ``1 + θ̇``.
-    angle : float
-        ``x = θ − φ`` in rad.
-
-    Returns
-    -------
-    State or None
-    """
-    gamma, omega, rho = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.rho
-    square = omega * omega - rho * math.cos(angle)
-    if not square > 0.0:
-        return None
-    turning = whirl * math.sqrt(square)
-    # Ṅ with θ̈ = −γ(1 + θ̇) − ρ sin x, as there is no friction without a normal force.
-    pull = rho * math.sin(angle)
-    if -pull * (turning - 1.0) - 2.0 * turning * (gamma * turning + pull) >= 0.0:
-        return None
-    position = cmath.rect(1.0, angle + rotor.parameters.phi)
-    return State(position, 1j * (turning - 1.0) * position)
-
-
-def next_lift_off(rotor: Rotor, whirl: Whirl, angle: float, longest: float = LONGEST) -> LiftOff | None:
-    """Follow a rotor from a lift-off to the next; ``None`` if there is none within the time ``longest``."""
-    start = lift_off_state(rotor, whirl, angle)
-    if start is None:
-        return None
-    # Most periods are short: look a turn ahead first.
-    reach = min(longest, math.tau)
-    while reach < longest:
-        found = _first_lift_off(simulate(rotor, start, reach, max_events=MOST_EVENTS))
-        if found is not None:
-            return found
-        reach *= 2.0
-    return _first_lift_off(simulate(rotor, start, longest, max_events=MOST_EVENTS))
-
-
-def _first_lift_off(motion: Trajectory) -> LiftOff | None:
-    """The first lift-off of a motion that begins with one."""
-    rotor = motion.rotor
-    flying = motion.segment_phases == Phase.FLIGHT
-    # Rounding may leave the rotor on the wall for an instant before it lifts.
-    first = int(np.argmax(flying))
-    landing = first + int(np.argmin(flying[first:]))
-    lifting = landing + int(np.argmax(flying[landing:]))
-    if flying[landing] or not flying[lifting] or not flying[first]:
-        return None
-    position, velocity = motion.rotor.state(motion.segment_amplitudes[lifting])
-    times = motion.segment_starts
-    return LiftOff(
-        angle=cmath.phase(complex(position) * cmath.exp(-1j * rotor.parameters.phi)),
-        whirl=1 if (np.conj(position) * velocity).imag > -1.0 else -1,
-        time=float(times[lifting]),
-        impacts=landing - first - 1,
-        contact_time=float(times[lifting] - times[landing]),
-        landing_force=float(motion.forces(times[landing : landing + 1])[0][0]),
-    )
-
-
 def rubbing_orbits(
     parameters: Parameters, longest: float = LONGEST, samples: int = SAMPLES
 ) -> tuple[RubbingOrbit, ...]:
@@ -267,10 +165,11 @@ def rubbing_orbits(
     rotor = jeffcott(parameters)
     angles = np.linspace(-math.pi, math.pi, samples + 1).tolist()
     found = []
-    for whirl in (1, -1):
+    whirls: tuple[Whirl, Whirl] = (1, -1)
+    for whirl in whirls:
 
         def shift(angle: float, whirl: Whirl = whirl) -> float:
-            return _shift(next_lift_off(rotor, whirl, angle, longest), whirl, angle)
+            return shift_of(next_lift_off(rotor, whirl, angle, longest), whirl, angle)
 
         for low, high in _brackets(shift, angles):
             try:
@@ -302,78 +201,95 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float,
         Unknown parameter, or an interval without the motion.
     """
     along = axis(orbit.parameters, parameter)
-    base, whirl = Numbers.of(orbit.parameters), orbit.whirl
+    base = Numbers.of(orbit.parameters)
     present = along.get(base)
     if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
         raise InputError(parameter, interval, f"an interval that holds the motion's own value {present:.6g}")
-
-    def lift_off(angle: float, p: float) -> LiftOff | None:
-        return next_lift_off(jeffcott(along.set(base, p).parameters), whirl, angle)
-
-    def residual(u: np.ndarray, p: float) -> np.ndarray:
-        try:
-            return np.array([_shift(lift_off(float(u[0]), p), whirl, float(u[0]))])
-        except InputError:
-            return np.full(1, np.nan)
-
-    def multiplier(angle: float, p: float) -> float:
-        ends = [residual(np.array([angle + side]), p)[0] for side in (DIFFERENCE, -DIFFERENCE)]
-        return float(1.0 + (ends[0] - ends[1]) / (2.0 * DIFFERENCE))
-
+    lift_offs = _Map(along, base, orbit.whirl)
     size = max(abs(present), 0.1 * (interval[1] - interval[0]))
     branch = continue_branch(
-        residual,
+        lambda u, p: np.array([lift_offs.shift(float(u[0]), p)]),
         np.array([orbit.angle]),
         present,
         interval,
-        watches=[Watch("period-doubling", lambda u, p: 1.0 + multiplier(float(u[0]), p))],
+        watches=[Watch("period-doubling", lambda u, p: 1.0 + lift_offs.multiplier(float(u[0]), p))],
         steps=STEPS,
         scales=np.array([1.0, size]),
     )
     rows = list(zip(branch.unknowns[:, 0].tolist(), branch.parameters.tolist(), strict=True))
-    course = [_known(lift_off(*row)) for row in rows]
-    forces = np.array([entry.landing_force for entry in course])
-    special = [
-        RubbingPoint(
-            point.kind,
-            point.parameter,
-            float(point.unknowns[0]),
-            _known(lift_off(float(point.unknowns[0]), point.parameter)).time,
-            point.place,
-        )
-        for point in branch.special
-        if point.kind != "branch point"
-    ]
+    course = [known(lift_offs.after(*row)) for row in rows]
+    special = []
+    for point in branch.special:
+        if point.kind != "branch point":
+            angle = float(point.unknowns[0])
+            period = known(lift_offs.after(angle, point.parameter)).time
+            special.append(RubbingPoint(point.kind, point.parameter, angle, period, point.place))
     stops: list[str] = list(branch.stops)
     for end in (0, -1):
-        if stops[end] not in ("end of domain", "step too small"):
-            continue
-        stops[end] = "longest period" if course[end].time > 0.98 * LONGEST else "other contacts"
-        if len(rows) > 1 and forces[end] < FORCE_SHARE * forces.max():
-            stops[end] = "contact-onset" if course[end].contact_time < 0.5 * course[end].time else "permanent-contact"
+        if stops[end] in ("end of domain", "step too small"):
+            stops[end] = _why_it_ends(course, end)
+        if stops[end] in ("contact-onset", "permanent-contact"):
             points = np.array(rows if end == -1 else rows[::-1])
-
-            def same(angle: float, p: float, period: float = course[end].time) -> float:
-                found = lift_off(angle, p)
-                alike = found is not None and abs(found.time - period) < SAME_PERIOD * period
-                return _shift(found, whirl, angle) if alike else math.nan
-
-            angle, value = _towards_end(same, points, size)
-            period = _known(lift_off(angle, value)).time
+            angle, value = _towards_end(lift_offs.alike(course[end].time), points, size)
+            period = known(lift_offs.after(angle, value)).time
             special.append(RubbingPoint(stops[end], value, angle, period, 0.0 if end == 0 else len(rows) - 1.0))
     return RubbingBranch(
         axis=along,
-        whirl=whirl,
+        whirl=orbit.whirl,
         values=branch.parameters,
         angle=branch.unknowns[:, 0],
         period=np.array([entry.time for entry in course]),
         contact_time=np.array([entry.contact_time for entry in course]),
-        landing_force=forces,
-        multiplier=np.array([multiplier(*row) for row in rows]),
+        landing_force=np.array([entry.landing_force for entry in course]),
+        multiplier=np.array([lift_offs.multiplier(*row) for row in rows]),
         impacts=np.array([entry.impacts for entry in course]),
         special=tuple(sorted(special, key=lambda point: point.place)),
         stops=(stops[0], stops[1]),
     )
+
+
+@dataclass(frozen=True)
+class _Map:
+    """The map of lift-offs as a function of the angle and of a parameter."""
+
+    along: Axis
+    base: Numbers
+    whirl: Whirl
+
+    def after(self, angle: float, value: float) -> LiftOff | None:
+        """The next lift-off."""
+        try:
+            rotor = jeffcott(self.along.set(self.base, value).parameters)
+        except InputError:
+            return None
+        return next_lift_off(rotor, self.whirl, angle)
+
+    def shift(self, angle: float, value: float) -> float:
+        """How far it is from the last, in rad."""
+        return shift_of(self.after(angle, value), self.whirl, angle)
+
+    def multiplier(self, angle: float, value: float) -> float:
+        """Slope of the map."""
+        ends = [self.shift(angle + side, value) for side in (DIFFERENCE, -DIFFERENCE)]
+        return 1.0 + (ends[0] - ends[1]) / (2.0 * DIFFERENCE)
+
+    def alike(self, period: float) -> Callable[[float, float], float]:
+        """The same shift, but only of motions with nearly this period."""
+
+        def shift(angle: float, value: float) -> float:
+            found = self.after(angle, value)
+            same = found is not None and abs(found.time - period) < SAME_PERIOD * period
+            return shift_of(found, self.whirl, angle) if same else math.nan
+
+        return shift
+
+
+def _why_it_ends(course: list[LiftOff], end: Literal[0, -1]) -> str:
+    """Why a branch ends at its first or last motion, where the equations do."""
+    last = course[end]
+    if len(course) > 1 and last.landing_force < FORCE_SHARE * max(entry.landing_force for entry in course):
+        return "contact-onset" if last.contact_time < 0.5 * last.time else "permanent-contact"
+    return "longest period" if last.time > 0.98 * LONGEST else "other contacts"
 
 
 def _brackets(shift: Callable[[float], float], angles: list[float]) -> list[tuple[float, float]]:
@@ -413,21 +329,8 @@ def _orbit(parameters: Parameters, whirl: Whirl, angle: float, longest: float) -
     here = next_lift_off(rotor, whirl, angle, longest)
     if here is None:
         return None
-    ends = [_shift(next_lift_off(rotor, whirl, angle + side, longest), whirl, angle + side) for side in (1e-6, -1e-6)]
+    ends = [shift_of(next_lift_off(rotor, whirl, angle + side, longest), whirl, angle + side) for side in (1e-6, -1e-6)]
     return RubbingOrbit(parameters, whirl, angle, here, 1.0 + (ends[0] - ends[1]) / 2e-6)
-
-
-def _shift(found: LiftOff | None, whirl: Whirl, angle: float) -> float:
-    """How far the next lift-off is from the last, in rad; ``nan`` if there is none like it."""
-    if found is None or found.whirl != whirl:
-        return math.nan
-    return math.remainder(found.angle - angle, math.tau)
-
-
-def _known(found: LiftOff | None) -> LiftOff:
-    if found is None:
-        raise CaromError("a motion that was followed has no lift-off any more")
-    return found
 
 
 def end_of_motions(

@@ -1,0 +1,133 @@
+"""The map from one lift-off to the next: a rotor leaves the wall, bounces, chatters into lasting contact and lifts off.
+
+At a lift-off ``r = 1``, ``ṙ = 0`` and ``N = ρ cos x + (1 + θ̇)² − ω² = 0`` with ``x = θ − φ``, so the angle and the direction of
+whirl tell the state.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carom.outcome import CaromError, Phase
+from carom.rotors import Rotor
+from carom.trajectories import State, Trajectory, simulate
+
+__all__ = ["LONGEST", "LiftOff", "Whirl", "known", "lift_off_state", "next_lift_off", "shift_of"]
+
+Whirl = Literal[1, -1]
+
+LONGEST = 8.0 * math.pi
+"""Longest time to the next lift-off, in ``1/Ω``: four turns of the shaft."""
+MOST_EVENTS = 4000
+
+
+@dataclass(frozen=True)
+class LiftOff:
+    """The next lift-off after one, and what lies between.
+
+    Attributes
+    ----------
+    angle : float
+        ``x = θ − φ`` of the lift-off, rad.
+    whirl : {1, -1}
+        Sign of ``1 + θ̇``: forward or backward in the fixed frame.
+    time : float
+        Since the lift-off before, in ``1/Ω``.
+    impacts : int
+        Bounces in between, those left to the completion of the chatter not counted.
+    contact_time : float
+        Length of the lasting contact, in ``1/Ω``.
+    landing_force : float
+        Normal force with which it begins, in ``m c_r Ω²``; vanishes at the onset.
+    """
+
+    angle: float
+    whirl: Whirl
+    time: float
+    impacts: int
+    contact_time: float
+    landing_force: float
+
+
+def lift_off_state(rotor: Rotor, whirl: Whirl, angle: float) -> State | None:
+    """State of a rotor that lifts off the wall; ``None`` where the normal force does not fall through zero.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    whirl : {1, -1}
+        Sign of ``1 + θ̇``.
+    angle : float
+        ``x = θ − φ`` in rad.
+
+    Returns
+    -------
+    State or None
+    """
+    gamma, omega, rho = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.rho
+    square = omega * omega - rho * math.cos(angle)
+    if not square > 0.0:
+        return None
+    turning = whirl * math.sqrt(square)
+    # Ṅ with θ̈ = −γ(1 + θ̇) − ρ sin x, as there is no friction without a normal force.
+    pull = rho * math.sin(angle)
+    if -pull * (turning - 1.0) - 2.0 * turning * (gamma * turning + pull) >= 0.0:
+        return None
+    position = cmath.rect(1.0, angle + rotor.parameters.phi)
+    return State(position, 1j * (turning - 1.0) * position)
+
+
+def next_lift_off(rotor: Rotor, whirl: Whirl, angle: float, longest: float = LONGEST) -> LiftOff | None:
+    """Follow a rotor from a lift-off to the next; ``None`` if there is none within the time ``longest``."""
+    start = lift_off_state(rotor, whirl, angle)
+    if start is None:
+        return None
+    # Most periods are short: look a turn ahead first.
+    reach = min(longest, math.tau)
+    while reach < longest:
+        found = _first_lift_off(simulate(rotor, start, reach, max_events=MOST_EVENTS))
+        if found is not None:
+            return found
+        reach *= 2.0
+    return _first_lift_off(simulate(rotor, start, longest, max_events=MOST_EVENTS))
+
+
+def _first_lift_off(motion: Trajectory) -> LiftOff | None:
+    """The first lift-off of a motion that begins with one."""
+    rotor = motion.rotor
+    flying = motion.segment_phases == Phase.FLIGHT
+    # Rounding may leave the rotor on the wall for an instant before it lifts.
+    first = int(np.argmax(flying))
+    landing = first + int(np.argmin(flying[first:]))
+    lifting = landing + int(np.argmax(flying[landing:]))
+    if flying[landing] or not flying[lifting] or not flying[first]:
+        return None
+    position, velocity = motion.rotor.state(motion.segment_amplitudes[lifting])
+    times = motion.segment_starts
+    return LiftOff(
+        angle=cmath.phase(complex(position) * cmath.exp(-1j * rotor.parameters.phi)),
+        whirl=1 if (np.conj(position) * velocity).imag > -1.0 else -1,
+        time=float(times[lifting]),
+        impacts=landing - first - 1,
+        contact_time=float(times[lifting] - times[landing]),
+        landing_force=float(motion.forces(times[landing : landing + 1])[0][0]),
+    )
+
+
+def shift_of(found: LiftOff | None, whirl: Whirl, angle: float) -> float:
+    """How far the next lift-off is from the last, in rad; ``nan`` if there is none like it."""
+    if found is None or found.whirl != whirl:
+        return math.nan
+    return math.remainder(found.angle - angle, math.tau)
+
+
+def known(found: LiftOff | None) -> LiftOff:
+    """A lift-off that must exist, as its motion was followed."""
+    if found is None:
+        raise CaromError("a motion that was followed has no lift-off any more")
+    return found
