@@ -8,6 +8,7 @@ import subprocess
 import sys
 from collections.abc import Iterable, Sequence
 
+import numpy as np
 from IPython import get_ipython
 from IPython.display import Markdown
 from matplotlib.figure import Figure
@@ -16,14 +17,16 @@ __all__ = ["checks", "command_help", "number", "table"]
 
 
 def number(value: object, digits: int = 10) -> str:
-    """A number with that many significant digits; anything else as it is."""
+    """A number with that many significant digits, yes or no; anything else as it is."""
     if value is None:
         return "–"
-    if isinstance(value, bool) or not isinstance(value, (int, float, complex)):
+    if isinstance(value, (bool, np.bool_)):
+        return "yes" if value else "no"
+    if not isinstance(value, (int, float, complex)):
         return str(value)
     if isinstance(value, complex):
         return f"{value.real:.{digits}g} {'+' if value.imag >= 0 else '−'} {abs(value.imag):.{digits}g} i"
-    return f"{value:.{digits}g}".replace("-", "−")
+    return f"{value + 0.0:.{digits}g}".replace("-", "−")
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[object]], digits: int = 10) -> Markdown:
