@@ -251,6 +251,21 @@ def test_sliding_on_a_smooth_wall_is_a_pendulum(amplitude):
     assert not friction.any()
 
 
+@pytest.mark.jit_only
+@pytest.mark.parametrize("gamma", [0.1, 1e-2, 1e-3])
+def test_a_slide_along_a_smooth_wall_lasts_as_long_as_damping_is_weak(gamma):
+    """Without unbalance ``W' = −γW``, and ``N = W² − ω²`` vanishes after ``ln(W₀/ω)/γ``."""
+    parameters = PAPER.replace(gamma=gamma, mu=0.0, rho=0.0)
+    rotor, start = jeffcott(parameters), on_wall(0.3, 2.5)
+    motion = simulate(rotor, start, 1e3 / gamma, settle=True)
+    (contact,) = motion.lasting_contacts
+    # The whirl is a product of as many factors as there are steps, each with its rounding error.
+    steps = len(motion.segment_starts)
+    assert contact.end == pytest.approx(math.log(2.5 / parameters.omega) / gamma, rel=4 * EPSILON * steps + 1e-12)
+    assert motion.outcome is Outcome.LEVITATED
+    assert simulate(rotor, start, 1e3 / gamma, settle=True, max_events=steps // 2).outcome is Outcome.EVENT_LIMIT
+
+
 # ------------------------------------------------------------------------------------------------ ρ = 0: balanced
 
 
