@@ -1,5 +1,8 @@
 """Bad input: one line that names the field, the value and what is allowed; exit code 2; nothing written."""
 
+import sys
+import time
+import weakref
 from pathlib import Path
 
 import pytest
@@ -257,6 +260,26 @@ def test_interrupt(monkeypatch, carom, machine):
 
     assert (code, out) == (INTERRUPTED, "")
     assert err.count("\n") <= 1
+
+
+def test_interrupt_in_a_place_that_hands_nothing_on(monkeypatch, carom, machine):
+    """Python ignores what is raised in the callback of a weak reference."""
+
+    def interrupted(*_):
+        class Thing:
+            pass
+
+        thing = Thing()
+        reference = weakref.ref(thing, _raise(KeyboardInterrupt))
+        del thing
+        time.sleep(20.0)
+        return reference
+
+    monkeypatch.setattr("carom.parameters.load_case", interrupted)
+    hook = sys.unraisablehook
+
+    assert carom("study", machine) == (INTERRUPTED, "", "carom: interrupted\n")
+    assert sys.unraisablehook is hook
 
 
 def test_file_system_error_is_one_line(monkeypatch, carom, machine):

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import _thread
 import os
 import sys
-from collections.abc import Sequence
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -22,6 +25,8 @@ from carom.outcome import CaromError
 __all__ = ["app", "main"]
 
 FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
+AGAIN = 0.01
+"""Seconds after which an interruption that was lost is made again."""
 
 # The error of a wrong option or argument, wherever this typer keeps its click.
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
@@ -79,8 +84,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
-        code = app(args=words, prog_name="carom", standalone_mode=False)
-        sys.stdout.flush()
+        with _interruptions_heeded():
+            code = app(args=words, prog_name="carom", standalone_mode=False)
+            sys.stdout.flush()
     except CaromError as problem:
         return _complain(str(problem), BAD_INPUT)
     except UsageError as problem:
@@ -100,6 +106,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
         name = type(problem).__name__
         return _complain(f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {problem}", FAILURE)
     return code if isinstance(code, int) else 0
+
+
+@contextmanager
+def _interruptions_heeded() -> Iterator[None]:
+    """Interrupt again where Python cannot hand an interruption on: in finalizers and callbacks of weak references."""
+    usual = sys.unraisablehook
+
+    def told(lost: sys.UnraisableHookArgs) -> None:
+        if not issubclass(lost.exc_type, KeyboardInterrupt):
+            usual(lost)
+            return
+        again = threading.Timer(AGAIN, _thread.interrupt_main)
+        again.daemon = True
+        again.start()
+
+    sys.unraisablehook = told
+    try:
+        yield
+    finally:
+        sys.unraisablehook = usual
 
 
 def _complain(message: str, code: int) -> int:
