@@ -18,6 +18,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from carom import paper as paper
     from carom import plots as plots
     from carom.attractors import Attractor as Attractor
     from carom.attractors import AttractorSet as AttractorSet
@@ -168,7 +169,7 @@ _HOMES = {
     "smallest_unrecovered_kick": "basins",
     "study": "study",
 }
-_SUBPACKAGES = ("plots",)
+_SUBPACKAGES = ("paper", "plots")
 
 __all__ = ["__version__", *_HOMES, *_SUBPACKAGES]  # noqa: PLE0604  (all of them are strings)
 

@@ -25,9 +25,10 @@ def paper(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Reproduce the paper this program builds on: its figures, and every number printed in it beside ours.
+    """Reproduce the paper carom builds on: its figures and numbers.
 
-    Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Misprinted formulas are evaluated beside the
+    Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Every number it prints stands beside ours,
+    and its propositions beside what holds of them. Misprinted formulas are evaluated beside the
     right ones; figure 6b gains the curves of grazing and period doubling and the regions a stable rub divides.
     """
     with progress("loading") as tell:
@@ -61,6 +62,7 @@ def _print_reproduction(found: Reproduction) -> None:
     )
     screen.print()
     screen.print(_misprints(found))
+    screen.print(_claims(found))
     screen.print(_regions(found))
 
 
@@ -96,6 +98,16 @@ def _misprints(found: Reproduction) -> Table:
     for row in found.misprints:
         wrong = "" if row.printed_value is None else f"{row.printed_value:.6g}"
         table.add_row(row.place, row.printed, row.right, row.quantity, wrong, f"{row.value:.6g}")
+    return table
+
+
+def _claims(found: Reproduction) -> Table:
+    table = _table("Statements of the source")
+    for heading in ("where", "statement", "holds", "found"):
+        table.add_column(heading)
+    for claim in found.claims:
+        style = "" if claim.holds else "yellow"
+        table.add_row(claim.place, claim.statement, "yes" if claim.holds else "no", claim.found, style=style)
     return table
 
 

@@ -9,6 +9,8 @@
 ...     print(row.place, row.quantity, row.printed, row.value, row.agrees, row.note)
 >>> for row in found.misprints:                    # or paper.misprints()
 ...     print(row.place, row.printed, row.right, row.printed_value, row.value)
+>>> for claim in found.claims:                     # propositions, and what holds of them
+...     print(claim.place, claim.statement, claim.holds, claim.found)
 >>> paper.write_paper(found, "out")                # figure-2.svg, figure-2.png, …, paper.json, table.md
 
 ``carom paper --out DIR`` does the same.  The parts can be had alone: :func:`shown_motions` (figure 2),
@@ -17,6 +19,7 @@
 """
 
 from carom.paper.branches import FirstPair, first_pair
+from carom.paper.claims import Claim, claims
 from carom.paper.document import markdown, paper_document
 from carom.paper.extrema import Extremum, ExtremumLine, RadiusDiagram, extremum_lines, radius_diagram, radius_extrema
 from carom.paper.misprinted_forms import Misprint, misprints
@@ -31,6 +34,7 @@ from carom.paper.writing import write_paper
 
 __all__ = [
     "Birth",
+    "Claim",
     "DampingStiffnessPlane",
     "Extremum",
     "ExtremumLine",
@@ -46,6 +50,7 @@ __all__ = [
     "Reproduction",
     "ShownMotion",
     "birth",
+    "claims",
     "damping_stiffness_plane",
     "extremum_lines",
     "figures",

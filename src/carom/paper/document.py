@@ -55,6 +55,10 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
             }
             for row in found.misprints
         ],
+        "claims": [
+            {"where": claim.place, "statement": claim.statement, "holds": claim.holds, "found": claim.found}
+            for claim in found.claims
+        ],
         "curves": [
             {
                 "kind": curve.kind,
@@ -137,6 +141,11 @@ def markdown(found: Reproduction) -> str:
             )
             for row in found.misprints
         ],
+    )
+    lines += ["", "## Statements", ""]
+    lines += _table(
+        ("where", "statement", "holds", "found"),
+        [(claim.place, claim.statement, "yes" if claim.holds else "no", claim.found) for claim in found.claims],
     )
     lines += ["", "## Regions of figure 6b", ""]
     lines += _table(

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from carom.paper.branches import FirstPair, first_pair
+from carom.paper.claims import Claim, claims
 from carom.paper.extrema import RadiusDiagram, radius_diagram
 from carom.paper.misprinted_forms import Misprint, misprints
 from carom.paper.motions import ShownMotion, shown_motions
@@ -50,6 +51,7 @@ class Reproduction:
         Figure 6b.
     numbers : tuple of PrintedNumber
     misprints : tuple of Misprint
+    claims : tuple of Claim
     """
 
     motions: tuple[ShownMotion, ...]
@@ -59,6 +61,7 @@ class Reproduction:
     plane: DampingStiffnessPlane
     numbers: tuple[PrintedNumber, ...]
     misprints: tuple[Misprint, ...]
+    claims: tuple[Claim, ...]
 
 
 def reproduce(progress: Callable[[float, str], None] | None = None) -> Reproduction:
@@ -84,4 +87,13 @@ def reproduce(progress: Callable[[float, str], None] | None = None) -> Reproduct
     tell(0.7, "following the curves of figure 6b")
     plane = damping_stiffness_plane(pair)
     tell(0.9, "comparing the numbers")
-    return Reproduction(motions, periods, pair, radii, plane, numbers(pair, plane), misprints(pair, plane))
+    return Reproduction(
+        motions,
+        periods,
+        pair,
+        radii,
+        plane,
+        numbers(pair, plane),
+        misprints(pair, plane),
+        claims(pair, plane),
+    )

@@ -1,0 +1,128 @@
+"""The propositions and general statements of the source paper, each with what holds of it for the machine."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from carom.orbits import single_impact_orbits
+from carom.paper.branches import FirstPair, first_pair
+from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.paper.source import machine_at
+from carom.propositions import fixed_points, simultaneous_folds
+from carom.rotors import jeffcott
+
+__all__ = ["Claim", "claims"]
+
+SAME_FOLD = 1e-9
+"""Distance in damping below which two folds are simultaneous; rounding leaves about 1e-13."""
+WEAKEST = 0.01
+"""Damping at which the longer pairs are looked at: 15 pairs."""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the source paper, tested on its machine.
+
+    Attributes
+    ----------
+    place : str
+    statement : str
+    holds : bool
+    found : str
+        What was computed, in words.
+    """
+
+    place: str
+    statement: str
+    holds: bool
+    found: str
+
+
+def claims(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None = None) -> tuple[Claim, ...]:
+    """Test the statements in the order of the text.
+
+    Parameters
+    ----------
+    pair : FirstPair, optional
+        The branches of the first pair of orbits; followed here by default.
+    plane : DampingStiffnessPlane, optional
+        Likewise.
+
+    Returns
+    -------
+    tuple of Claim
+    """
+    branches = pair or first_pair()
+    drawn = plane or damping_stiffness_plane(branches)
+    return (*_propositions(branches), _longer_pairs(), _stability(branches), _third_region(drawn))
+
+
+def _propositions(branches: FirstPair) -> tuple[Claim, ...]:
+    many, weak = fixed_points(machine_at(0.1)), fixed_points(machine_at(0.06))
+    folds = simultaneous_folds(machine_at(0.1))
+    cycles = branches.hopf.cycles
+    return (
+        Claim(
+            "Proposition 4.1",
+            "there are finitely many fixed points, two for each zero of F₁",
+            many.total == 4 * many.pairs,
+            f"at γ = 0.1, {many.words}",
+        ),
+        Claim(
+            "Proposition 4.1",
+            "for γ < γ* half of the fixed points are admissible",
+            2 * weak.admissible == weak.total,
+            f"at γ = 0.06, {weak.words}",
+        ),
+        Claim(
+            "Proposition 4.2",
+            "B1,a meets B1,b where B1,c meets B1,d",
+            folds.distance < SAME_FOLD,
+            f"the folds are at γ = {folds.lower.value:.10f} and {folds.upper.value:.10f}",
+        ),
+        Claim(
+            "Proposition 4.3",
+            "at γ* two orbits shrink into the equilibrium, on the side where it is admissible",
+            len(cycles) == 2 and branches.hopf.subcritical,
+            f"{len(cycles)} orbits at γ* = {branches.hopf.gamma:.10f}: {', '.join(cycle.criticality for cycle in cycles)}",
+        ),
+    )
+
+
+def _longer_pairs() -> Claim:
+    longer = [
+        orbit for orbit in single_impact_orbits(jeffcott(machine_at(WEAKEST))) if not orbit.name.startswith("B1,")
+    ]
+    possible = sum(orbit.admissible for orbit in longer)
+    return Claim(
+        "section 4, below Proposition 4.3",
+        "fixed points of the pairs n > 1 are virtual",
+        possible == 0,
+        f"at γ = {WEAKEST:g}, {possible} of {len(longer)} are admissible",
+    )
+
+
+def _stability(branches: FirstPair) -> Claim:
+    stable = {
+        name
+        for branch in (branches.slow, branches.fast)
+        for name, settled in zip(branch.names, branch.stable, strict=True)
+        if settled
+    }
+    return Claim(
+        "section 4a",
+        "only B1,d is ever stable",
+        stable == {"B1,d"},
+        f"stable somewhere along γ: {', '.join(sorted(stable)) or 'none'}",
+    )
+
+
+def _third_region(plane: DampingStiffnessPlane) -> Claim:
+    parts = [region for region in plane.regions if region.source == "R3"]
+    rubbing = [region.part for region in parts if region.motions.rub]
+    return Claim(
+        "section 4b, region R3",
+        "nothing but levitation is named (the text leaves out rubs), as if it were safe",
+        not rubbing,
+        f"a stable synchronous rub exists in {', '.join(rubbing)}" if rubbing else "no stable rub exists there",
+    )
