@@ -44,7 +44,7 @@ def checks(rows: Iterable[tuple[str, float, float]]) -> Markdown:
     for words, error, allowed in rows:
         if not abs(error) <= allowed:
             raise ArithmeticError(f"{words}: error {error:.3g}, allowed {allowed:.3g}")
-        shown.append((words, f"{abs(error):.1e}", f"{allowed:.0e}"))
+        shown.append((words, f"{abs(error):.1e}" if error else "0", f"{allowed:.0e}" if allowed else "0"))
     return table(("checked here", "largest error", "allowed"), shown)
 
 
