@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 
@@ -26,6 +27,8 @@ __all__ = ["Motions", "Region", "RegionMap", "motions_at", "region_map"]
 THIN = 0.05
 """Share of the plane below which a region's point is looked for between those of the grid."""
 LOOK_AROUND, FINER = 6, 5
+BETWEEN = 12
+"""Points looked at between two groups of grid points with the same motions."""
 SAME_POINT = 1e-6
 """Distance, in widths of the plane, below which codimension-2 points are the same."""
 
@@ -310,8 +313,18 @@ def _regions(parameters: Parameters, plane: Plane, grid: int, progress: Callable
         for j, y in enumerate(ys):
             found[i, j] = motions_at(plane.at(parameters, float(x), float(y)))
         progress((i + 1) / grid)
+
+    def joins(first: tuple[int, int], second: tuple[int, int]) -> bool:
+        """Whether all points between two cells have the same motions."""
+        shares = np.linspace(0.0, 1.0, BETWEEN + 2)[1:-1]
+        places = [
+            [axis[a] + share * (axis[b] - axis[a]) for axis, a, b in zip((xs, ys), first, second, strict=True)]
+            for share in shares
+        ]
+        return all(motions_at(plane.at(parameters, *place)) == found[first] for place in places)
+
     regions = []
-    for cells in _connected(found):
+    for cells in _merged(_connected(found), found, joins):
         i, j = max(cells, key=lambda cell: _depth(cell, cells, grid))
         place, share = (float(xs[i]), float(ys[j])), len(cells) / grid**2
         if share < THIN:
@@ -364,6 +377,25 @@ def _connected(found: dict[tuple[int, int], Motions]) -> list[set[tuple[int, int
                     border.append(other)
         groups.append(group)
     return groups
+
+
+def _merged(
+    groups: list[set[tuple[int, int]]],
+    found: dict[tuple[int, int], Motions],
+    joins: Callable[[tuple[int, int], tuple[int, int]], bool],
+) -> list[set[tuple[int, int]]]:
+    """Join groups of equal motions that a narrow place between the grid points seems to part."""
+    merged: list[set[tuple[int, int]]] = []
+    for group in sorted(groups, key=len, reverse=True):
+        for other in merged:
+            if found[next(iter(other))] == found[next(iter(group))]:
+                pair = min(product(other, group), key=lambda cells: np.hypot(*np.subtract(*cells)))
+                if joins(*pair):
+                    other |= group
+                    break
+        else:
+            merged.append(group)
+    return merged
 
 
 def _depth(cell: tuple[int, int], cells: set[tuple[int, int]], grid: int) -> int:

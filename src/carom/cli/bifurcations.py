@@ -24,6 +24,22 @@ Out = Annotated[
 Virtual = Annotated[
     bool, typer.Option("--virtual", help="Follow orbits of higher pairs too that are virtual wherever looked at.")
 ]
+Lasting = Annotated[
+    bool,
+    typer.Option(
+        "--lasting", help="Follow periodic motions with a stretch of rub too, to where lasting contact begins or stays."
+    ),
+]
+Sampled = Annotated[
+    int,
+    typer.Option(
+        metavar="N",
+        min=0,
+        max=10_000,
+        help="Simulate N disturbances at each of 31 values and show where they settle: irregular bouncing, rolling, …",
+    ),
+]
+Seed = Annotated[int, typer.Option(metavar="N", min=0, help="Seed of these disturbances.")]
 NEAR = (0.25, 2.5)
 """Default range of a parameter, in its present value."""
 
@@ -37,13 +53,17 @@ def bifurcations(
     end: Annotated[str, typer.Option("--to", metavar="B", help="Its last value.")],
     settings: Settings = None,
     virtual: Virtual = False,
+    lasting: Lasting = False,
+    attractors: Sampled = 0,
+    seed: Seed = 0,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
     """Find the bifurcations along one parameter.
 
     Follows all equilibria and all orbits with one impact a period; lists folds, period doublings, Neimark-Sacker
-    points, grazing, boundary equilibria, non-smooth Hopf points and folds of rubs.
+    points, grazing, boundary equilibria, non-smooth Hopf points, folds of rubs and the limit of rolling.  Along the
+    speed it is a run-up diagram: damping and stiffness stay, what they mean to the rotor changes with the speed.
     """
     from carom.bifurcations import Numbers, axis, bifurcation_diagram
     from carom.bifurcations.documents import diagram_document
@@ -59,7 +79,10 @@ def bifurcations(
             varied.name,
             interval,
             virtual=virtual,
-            progress=lambda share: tell(share, "following orbits"),
+            lasting=lasting,
+            attractors=attractors,
+            seed=seed,
+            progress=lambda share: tell(share, "following motions"),
         )
     document = diagram_document(parameters, diagram)
     if directory is not None:
@@ -85,6 +108,7 @@ def regions(
     settings: Settings = None,
     grid: Annotated[int, typer.Option(metavar="N", min=2, max=400, help="Points a side that decide the regions.")] = 24,
     virtual: Virtual = False,
+    lasting: Lasting = False,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
@@ -112,6 +136,7 @@ def regions(
             Plane(axes[0].name, axes[1].name, *ranges),
             grid=grid,
             virtual=virtual,
+            lasting=lasting,
             progress=lambda share: tell(share, "counting motions"),
         )
     document = regions_document(parameters, found)
@@ -185,16 +210,38 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     for point in diagram.points:
         table.add_row(
             _shown(diagram.axis, point.value),
-            point.kind,
+            f"{point.kind} ({point.detail})" if point.detail else point.kind,
             point.branch,
             "" if point.period is None else f"{point.period:.8g}",
-            "" if point.radial_speed is None else f"{point.radial_speed + 0.0:.6f}",
+            "" if point.radial_speed is None else f"{round(point.radial_speed, 6) + 0.0:.6f}",
             "" if point.admissible else "virtual",
             style="" if point.admissible else "dim",
         )
     screen.print(table if diagram.points else "No bifurcation on this range.")
     for branch in diagram.orbits:
         screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
+    for number, motion in enumerate(diagram.rubbing, start=1):
+        whirl = "forward" if motion.whirl > 0 else "backward"
+        screen.print(
+            f"Bouncing with rub {number} ({whirl} whirl at the lift-off): ends {motion.stops[0]}, {motion.stops[1]}"
+        )
+    if diagram.attractors:
+        _print_attractors(diagram)
+
+
+def _print_attractors(diagram: Diagram) -> None:
+    """Range of the parameter over which each simulated attractor was met."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, title="Where disturbances settled", title_justify="left")
+    for heading in ("motion", "met from", "to", "largest share of disturbances"):
+        table.add_column(heading)
+    for name in dict.fromkeys(sample.name for sample in diagram.attractors):
+        alike = [sample for sample in diagram.attractors if sample.name == name]
+        ends = (_shown(diagram.axis, sample.value) for sample in (alike[0], alike[-1]))
+        table.add_row(name, *ends, f"{100 * max(sample.share for sample in alike):.0f} %")
+    console().print(table)
 
 
 def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
@@ -219,11 +266,14 @@ def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
             meetings.add_row(point.kind, *at, "" if point.admissible else "virtual")
         screen.print(meetings)
     listed = Table(box=box.SIMPLE_HEAD, title="Regions", title_justify="left")
-    for heading in ("share", "for example at", "motions"):
+    for heading in ("share", "for example at", "region", "motions"):
         listed.add_column(heading)
     for region in found.regions:
         place = ", ".join(f"{value:.6g}" for value in region.point)
-        listed.add_row(f"{100 * region.share:.1f} %", place, region.motions.words)
+        words = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
+        listed.add_row(f"{100 * region.share:.1f} %", place, region.motions.region, words)
     screen.print(listed)
+    if found.everywhere:
+        screen.print(f"In every region: {', '.join(found.everywhere)}")
     for words in found.lost:
         screen.print(f"Not followed: {words}")

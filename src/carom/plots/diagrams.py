@@ -12,14 +12,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import Normal, Stroke
 
+from carom.plots.coexistence import coexistence, row_of_point, rows_of
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Axis, Curve, Diagram, EquilibriumBranch, OrbitBranch, RegionMap
+    from carom.bifurcations import Axis, Curve, Diagram, EquilibriumBranch, OrbitBranch, Region, RegionMap, SpecialValue
 
 __all__ = [
+    "BOUNDARIES",
     "CURVES",
     "POINTS",
     "bifurcation_diagram",
@@ -42,6 +45,9 @@ POINTS = MappingProxyType(
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
         "boundary-equilibrium": Look("#009e73", "levitation meets the wall", marker="p"),
         "rub-fold": Look("#cc79a7", "fold of rub equilibria", marker="X"),
+        "contact-onset": Look("#7a4fa3", "lasting contact begins", marker="^"),
+        "permanent-contact": Look("#7a4fa3", "contact becomes permanent", marker="o"),
+        "rolling-limit": Look("#882255", "rolling no longer holds", marker="d"),
     }
 )
 """Markers of special points (read-only)."""
@@ -56,9 +62,20 @@ CURVES = MappingProxyType(
         "slip-stop": Look("#e69f00", "friction stops the slip", line=":", width=1.1),
         "boundary-equilibrium": Look("#009e73", "levitation meets the wall", line="-", width=1.4),
         "rub-fold": Look("#cc79a7", "fold of rub equilibria", line="--", width=1.4),
+        "contact-onset": Look("#7a4fa3", "lasting contact begins", line="-", width=1.1),
+        "permanent-contact": Look("#7a4fa3", "contact becomes permanent", line="--", width=1.1),
+        "rolling-limit": Look("#882255", "rolling no longer holds", line="-.", width=1.1),
     }
 )
 """Lines of curves in two parameters (read-only)."""
+
+BOUNDARIES = MappingProxyType(
+    {
+        "persistence": Look("#009e73", "levitation goes over into rub", marker="p"),
+        "non-smooth fold": Look("#009e73", "levitation and saddle rub vanish", marker="8"),
+    }
+)
+"""Markers of boundary equilibria of which it is known what becomes of levitation (read-only)."""
 
 _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
 
@@ -74,32 +91,54 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        180 mm wide.  Above the radial speed of the orbits at the impact; below what keeps the equilibria admissible: the
-        clearance left to contact-free levitation and the normal force of the rubs.  The shaft speed is shown in rpm.
+        180 mm wide.  Above the radial speed of the orbits at the impact; in the middle what keeps the equilibria
+        admissible: the clearance left to contact-free levitation and the normal force of the rubs; below which motions
+        exist: broad bars where they are stable, and what simulated disturbances settled to.  The shaft speed is in rpm.
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 0.75 * TWO_COLUMNS), layout="constrained")
-    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
+    rows = len(rows_of(diagram))
+    strip = 0.18 * rows
+    figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip), layout="constrained")
+    upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
     unit = parameter_unit(diagram.axis)
     for branch in diagram.orbits:
         _orbit_branch(upper, branch, unit)
+    _attractor_speeds(upper, diagram, unit)
     upper.axhline(0.0, color="#1a1a1a", lw=0.5)
     for equilibrium in diagram.equilibria:
         _equilibrium_branch(lower, equilibrium, unit)
     lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
+    coexistence(below, diagram, unit)
+    heights = dict(zip(rows_of(diagram), below.get_yticks()[:rows], strict=True))
     for point in diagram.points:
-        place = point.value / unit
-        if point.radial_speed is None:
-            mark_point(lower, point.kind, place, _height(diagram, point.branch, point.value), point.admissible)
+        place, row = point.value / unit, row_of_point(point.branch)
+        if row is not None:
+            if row in heights:
+                mark_point(below, point.kind, place, float(heights[row]), point.admissible)
+        elif point.radial_speed is None:
+            height = _height(diagram, point.branch, point.value)
+            _mark(lower, _look_of(point), place, height, point.admissible)
         else:
             mark_point(upper, point.kind, place, point.radial_speed, point.admissible)
     upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
-    lower.set_ylabel("gap left; force of rub\n" r"($c_r$; $m c_r\Omega^2$)")
-    lower.set_xlabel(parameter_label(diagram.axis))
-    lower.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
-    lower.set_ylim(-0.25, max(0.6, float(np.nanmax([_top(branch) for branch in diagram.equilibria]))))
+    lower.set_ylabel("gap ($c_r$); force\n" r"of rub ($m c_r\Omega^2$)")
+    below.set_xlabel(parameter_label(diagram.axis))
+    below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
+    lower.set_ylim(-0.25, max(0.6, max(_top(branch) for branch in diagram.equilibria)))
     upper.set_ylim(*_limits(diagram))
+    figure.align_ylabels([upper, lower])
     figure.legend(handles=_diagram_key(diagram), loc="outside lower center", ncols=4)
     return figure
+
+
+def _attractor_speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
+    """Impacts of simulated attractors."""
+    for sample in diagram.attractors:
+        values = np.full(len(sample.radial_speeds), sample.value / unit)
+        axes.plot(values, sample.radial_speeds, ls="none", marker=".", ms=2.0, mew=0.0, color="#1a1a1a", alpha=0.6)
+
+
+def _look_of(point: SpecialValue) -> Look:
+    return BOUNDARIES.get(point.detail, POINTS[point.kind])
 
 
 def _orbit_branch(axes: Axes, branch: OrbitBranch, unit: float) -> None:
@@ -201,7 +240,10 @@ def _height(diagram: Diagram, branch: str, value: float) -> float:
 
 def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = True) -> None:
     """Mark a special point; hollow where it happens to virtual motions only."""
-    look = POINTS[kind]
+    _mark(axes, POINTS[kind], x, y, admissible)
+
+
+def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
     face = look.colour if admissible else "none"
     axes.plot([x], [y], ls="none", marker=look.marker, ms=5.0, mfc=face, mec=look.colour, mew=0.8, zorder=5)
 
@@ -209,7 +251,8 @@ def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = Tru
 def _limits(diagram: Diagram) -> tuple[float, float]:
     """Range that shows what is admissible, with a margin of the virtual."""
     speeds = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
-    shown = np.concatenate([*speeds, [0.0]]) if speeds else np.zeros(1)
+    speeds += [sample.radial_speeds for sample in diagram.attractors]
+    shown = np.concatenate([*speeds, [0.0]])
     high = float(shown.max()) or 1.0
     return -0.12 * high, 1.1 * high
 
@@ -223,8 +266,17 @@ def _diagram_key(diagram: Diagram) -> list[Line2D]:
     entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free levitation: gap"))
     for line, words in (("-", "stable rub: normal force"), ("--", "saddle rub: normal force")):
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
-    present = {point.kind for point in diagram.points}
-    return entries + [point_key(look) for kind, look in POINTS.items() if kind in present]
+    if any(len(sample.radial_speeds) for sample in diagram.attractors):
+        entries.append(
+            Line2D([], [], ls="none", marker=".", ms=3.0, mew=0.0, color="#1a1a1a", label="simulated impacts")
+        )
+    if diagram.attractors:
+        ring = Line2D([], [], ls="none", marker="o", ms=4.0, mfc="#ffffff", mec="#1a1a1a", mew=0.6)
+        ring.set_label("simulated, by share of disturbances")
+        entries.append(ring)
+    present = {_look_of(point).words: _look_of(point) for point in diagram.points}
+    ordered = [look for look in (*POINTS.values(), *BOUNDARIES.values()) if look.words in present]
+    return entries + [point_key(look) for look in ordered]
 
 
 def point_key(look: Look) -> Line2D:
@@ -259,7 +311,8 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     for number, region in enumerate(found.regions, start=1):
         if region.share > 0.004:
             x, y = np.array(region.point) / units
-            drawn.annotate(str(number), (x, y), ha="center", va="center", fontsize=8, color="#3d4f66")
+            text = drawn.annotate(str(number), (x, y), ha="center", va="center", fontsize=8, color="#3d4f66", zorder=7)
+            text.set_path_effects([Stroke(linewidth=2.5, foreground="#ffffff"), Normal()])
     drawn.set_xlabel(parameter_label(axes[0]))
     drawn.set_ylabel(parameter_label(axes[1]))
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
@@ -273,13 +326,20 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     if found.codimension2:
         lines.append(Line2D([], [], ls="none", marker="o", ms=4.5, color="#1a1a1a", label="two at once"))
     numbered = [
-        Line2D([], [], ls="none", label=f"{number}: {region.motions.words}")
+        Line2D([], [], ls="none", label=f"{number}: {region.motions.region}: {_words(found, region)}")
         for number, region in enumerate(found.regions, start=1)
         if region.share > 0.004
     ]
+    if found.everywhere:
+        numbered.append(Line2D([], [], ls="none", label=f"everywhere: {', '.join(found.everywhere)}"))
     figure.legend(handles=lines, loc="outside upper center", ncols=3)
     figure.legend(handles=numbered, loc="outside lower center", ncols=2, handlelength=0.0, fontsize=6.5)
     return figure
+
+
+def _words(found: RegionMap, region: Region) -> str:
+    """Motions of a region but for those of all regions."""
+    return ", ".join(part for part in region.motions.parts if part not in found.everywhere)
 
 
 def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:

@@ -1,0 +1,177 @@
+"""Which motions exist where, as bars along a parameter: the panel below a bifurcation diagram."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from carom.plots.style import LOOKS, OUTCOMES
+
+if TYPE_CHECKING:
+    from carom.bifurcations import AttractorSample, Diagram, OrbitBranch
+
+Interval = tuple[float, float]
+
+__all__ = ["ROWS", "coexistence", "row_of_point", "rows_of"]
+
+ROWS = ("levitation", "forward rub", "bouncing", "bouncing with rub", "irregular bouncing", "backward whirl")
+"""From top to bottom."""
+_OF_OUTCOME = {
+    "levitated": "levitation",
+    "forward-rub": "forward rub",
+    "bouncing": "bouncing",
+    "mixed": "bouncing with rub",
+    "rolling": "backward whirl",
+    "backward-whirl": "backward whirl",
+}
+_COLOURS = {
+    "levitation": OUTCOMES["levitated"].colour,
+    "forward rub": OUTCOMES["forward-rub"].colour,
+    "bouncing": OUTCOMES["bouncing"].colour,
+    "bouncing with rub": OUTCOMES["mixed"].colour,
+    "irregular bouncing": "#3d3d3d",
+    "backward whirl": OUTCOMES["rolling"].colour,
+}
+_THICK = 4.5
+_LARGEST = 26.0
+
+
+def rows_of(diagram: Diagram) -> list[str]:
+    """Rows that have anything in them."""
+    present = {_row_of_sample(sample) for sample in diagram.attractors}
+    equilibria = {branch.kind: branch for branch in diagram.equilibria}
+    exists = {
+        "levitation": equilibria["contact-free"].admissible.any(),
+        "forward rub": (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
+        "bouncing": any(branch.admissible.any() for branch in diagram.orbits),
+        "bouncing with rub": bool(diagram.rubbing),
+        "backward whirl": diagram.rolling.holds.any(),
+    }
+    return [row for row in ROWS if exists.get(row, False) or row in present]
+
+
+def row_of_point(branch: str) -> str | None:
+    """Row in which a special point of a branch is marked; ``None`` if it has a place in another panel."""
+    if branch.startswith("rubbing"):
+        return "bouncing with rub"
+    return "backward whirl" if branch == "rolling" else None
+
+
+def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
+    """Draw a bar over the range of every motion: broad where it is stable, a thin dashed line where it repels.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    diagram : carom.bifurcations.Diagram
+    unit : float
+        What the parameter is divided by.
+    """
+    rows = rows_of(diagram)
+    heights = {row: float(len(rows) - place) for place, row in enumerate(rows)}
+    for row, (stable, unstable) in _ranges(diagram).items():
+        if row in heights:
+            look = LOOKS["unstable"]
+            for low, high in _joined(unstable):
+                axes.plot(
+                    [low / unit, high / unit],
+                    [heights[row]] * 2,
+                    color=look.colour,
+                    ls=look.line,
+                    lw=look.width,
+                    zorder=1.5,
+                )
+            for low, high in _joined(stable):
+                ends = [low / unit, high / unit]
+                axes.plot(ends, [heights[row]] * 2, color=_COLOURS[row], lw=_THICK, solid_capstyle="butt")
+    for sample in diagram.attractors:
+        _dot(axes, sample, heights[_row_of_sample(sample)], unit)
+    axes.set_yticks([heights[row] for row in rows], rows)
+    axes.tick_params(axis="y", length=0, which="both")
+    axes.minorticks_off()
+    axes.set_ylim(0.4, len(rows) + 0.6)
+
+
+def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]]:
+    """Ranges of the stable and of the unstable motions of each row."""
+    equilibria = {branch.kind: branch for branch in diagram.equilibria}
+    marks = [point.value for point in diagram.points if point.radial_speed is None]
+    levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
+    found = {
+        "levitation": (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
+        "forward rub": (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
+        "backward whirl": (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
+        "bouncing": _on_orbits(diagram.orbits),
+    }
+    for motion in diagram.rubbing:
+        stable, unstable = found.setdefault("bouncing with rub", ([], []))
+        for i in range(len(motion) - 1):
+            group = stable if motion.stable[i] and motion.stable[i + 1] else unstable
+            group.append(_interval(motion.values[i], motion.values[i + 1]))
+    return found
+
+
+def _interval(first: float, second: float) -> Interval:
+    return min(first, second), max(first, second)
+
+
+def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[Interval]:
+    """Steps of a growing grid where a motion exists, up to the special point that ends it between two values."""
+    steps = []
+    for i in range(len(values) - 1):
+        low, high = float(values[i]), float(values[i + 1])
+        if there[i] != there[i + 1]:
+            between = [mark for mark in marks if low <= mark <= high] or [0.5 * (low + high)]
+            low, high = (low, between[0]) if there[i] else (between[-1], high)
+        if there[i] or there[i + 1]:
+            steps.append((low, high))
+    return steps
+
+
+def _on_orbits(branches: tuple[OrbitBranch, ...]) -> tuple[list[Interval], list[Interval]]:
+    """Stretches of branches with stable and with unstable orbits; each has the look of the orbit it touches."""
+    stable: list[Interval] = []
+    unstable: list[Interval] = []
+    for branch in branches:
+        places = np.concatenate([np.arange(len(branch)), [point.place for point in branch.special]])
+        values = np.concatenate([branch.values, [point.value for point in branch.special]])
+        order = np.argsort(places, kind="stable")
+        places, values = places[order], values[order]
+        whole = places == np.floor(places)
+        for i in range(len(places) - 1):
+            orbit = min(int(places[i + 1] if whole[i + 1] else np.floor(places[i])), len(branch) - 1)
+            if branch.admissible[orbit]:
+                group = stable if branch.stable[orbit] else unstable
+                group.append(_interval(values[i], values[i + 1]))
+    return stable, unstable
+
+
+def _joined(intervals: list[Interval]) -> list[Interval]:
+    """Overlapping intervals joined to one."""
+    joined: list[Interval] = []
+    for low, high in sorted(intervals):
+        if joined and low <= joined[-1][1] + 1e-12 * abs(high):
+            joined[-1] = joined[-1][0], max(high, joined[-1][1])
+        else:
+            joined.append((low, high))
+    return joined
+
+
+def _row_of_sample(sample: AttractorSample) -> str:
+    irregular = sample.name.startswith("irregular")
+    return "irregular bouncing" if irregular else _OF_OUTCOME[sample.outcome]
+
+
+def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:
+    """Area in proportion to the share of disturbances; a motion that none of them reached is a ring of its own size."""
+    axes.scatter(
+        [sample.value / unit],
+        [height],
+        s=_LARGEST * max(sample.share, 0.1),
+        facecolor="#ffffff" if sample.share else "none",
+        edgecolor="#1a1a1a",
+        linewidth=0.6,
+        zorder=4,
+    )
