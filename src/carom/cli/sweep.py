@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -101,7 +101,7 @@ def _duration(seconds: float) -> str:
     return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
 
 
-def _failures(plan: SweepPlan, tally: Tally) -> list[dict[str, object]]:
+def _failures(plan: SweepPlan, tally: Tally) -> list[dict[str, Any]]:
     if not tally.failed:
         return []
     from carom.sweeps.store import SweepStore
@@ -109,7 +109,7 @@ def _failures(plan: SweepPlan, tally: Tally) -> list[dict[str, object]]:
     return SweepStore(tally.store, plan).failures()
 
 
-def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, object]]) -> dict[str, object]:
+def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:
     return {
         "store": str(tally.store),
         "kind": plan.task.kind,
@@ -127,7 +127,11 @@ def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, object]]) 
     }
 
 
-def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, object]]) -> None:
+def _place(failure: dict[str, Any]) -> str:
+    return ", ".join(f"{name} = {value:.6g}" for name, value in failure["values"].items())
+
+
+def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> None:
     from rich import box
     from rich.table import Table
 
@@ -146,7 +150,7 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, object]]) -> 
     else:
         screen.print("Nothing was left to compute.")
     for failure in failures[:_SHOWN]:
-        screen.print(f"Failed at {failure['values']}: {failure['error']}", soft_wrap=True)
+        screen.print(f"Failed at {_place(failure)}: {failure['error']}", soft_wrap=True)
     if tally.failed:
         screen.print(f"All failures: {tally.store}/failures; try them again with --retry-failed", soft_wrap=True)
     screen.print(f"Results: {tally.store} (carom.open_sweep in Python)", soft_wrap=True)

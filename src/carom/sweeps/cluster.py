@@ -46,7 +46,7 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
 
     _check_versions(client)
     pending: dict[Future[Chunk], int] = {}
-    ready = as_completed()
+    ready = as_completed(loop=client.loop)
 
     def submit() -> None:
         slots = sum(client.ncores().values()) or 1

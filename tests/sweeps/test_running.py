@@ -1,0 +1,216 @@
+"""The same bytes whoever computes, and whatever ends the sweep in the middle."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from itertools import count
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sweep_tasks import Deadly, Drawn, Failing, basins_plan, plan_of, stored_bytes
+
+from carom.outcome import CaromError, InputError
+from carom.sweeps import load_sweep, open_sweep, run_sweep
+from carom.sweeps.local import AHEAD, on_processes, on_threads
+
+SWEEP = """
+machine = "machine.toml"
+chunk = 1
+[axes.gamma]
+from = 0.3
+to = 0.9
+count = 30
+[axes.mu]
+values = [0.1, 0.15]
+[basins]
+starts = 150
+disturbance = {kind = "state"}
+"""
+MACHINE = """
+[dimensionless]
+gamma = 0.1
+omega = 0.76
+rho = 0.428
+phi = 0.21
+mu = 0.15
+d = 0.95
+radius_ratio = 57.1
+"""
+posix = pytest.mark.skipif(os.name != "posix", reason="sends signals")
+
+
+@pytest.mark.jit_only
+def test_threads_and_processes_give_the_same_bytes(tmp_path):
+    plan = basins_plan()
+    stores = {}
+    for name, options in {
+        "one thread": {"workers": 1, "threads": True},
+        "two threads": {"workers": 2, "threads": True},
+        "two processes": {"workers": 2},
+    }.items():
+        tally = run_sweep(plan, tmp_path / name, **options)
+        assert (tally.done, tally.computed) == (20, 20)
+        stores[name] = stored_bytes(tmp_path / name)
+
+    assert stores["one thread"] == stores["two threads"] == stores["two processes"]
+    assert len(stores["one thread"]) > 12
+
+
+@pytest.mark.jit_only
+@posix
+def test_killed_sweep_goes_on_to_the_same_bytes(tmp_path):
+    (tmp_path / "machine.toml").write_text(MACHINE)
+    (tmp_path / "sweep.toml").write_text(SWEEP)
+    store = tmp_path / "s.zarr"
+    command = [sys.executable, "-m", "carom", "sweep", str(tmp_path / "sweep.toml"), "--out", str(store)]
+    process = subprocess.Popen([*command, "--workers", "2"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    status = store / "status" / "c"
+    while process.poll() is None and len(list(status.glob("*/*"))) < 4:
+        time.sleep(0.005)
+    process.kill()
+    _, errors = process.communicate()
+    plan = load_sweep(tmp_path / "sweep.toml")
+    kept = stored_bytes(store)
+    finished = len(list(status.glob("*/*")))
+
+    assert process.returncode == -signal.SIGKILL, errors
+    assert 4 <= finished < 60
+    tally = run_sweep(plan, store, workers=1, threads=True)
+    assert (tally.done, tally.computed) == (60, 60 - finished)
+    run_sweep(plan, tmp_path / "whole.zarr", workers=2, threads=True)
+    assert stored_bytes(store) == stored_bytes(tmp_path / "whole.zarr")
+    # What was finished has not been written again, nor changed.
+    assert all(stored_bytes(store)[name] == data for name, data in kept.items())
+
+
+@posix
+def test_interrupt_says_how_to_go_on(tmp_path):
+    (tmp_path / "machine.toml").write_text(MACHINE)
+    (tmp_path / "sweep.toml").write_text(SWEEP.replace("150", "100000"))
+    store = tmp_path / "s.zarr"
+    command = [sys.executable, "-m", "carom", "sweep", str(tmp_path / "sweep.toml"), "--out", str(store)]
+    process = subprocess.Popen(
+        [*command, "--workers", "2"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    while process.poll() is None and not store.exists():
+        time.sleep(0.01)
+    time.sleep(0.3)
+    os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C does: to the workers too
+    output, errors = process.communicate()
+
+    assert (process.returncode, output) == (130, "")
+    assert errors == f"carom: interrupted; the same command goes on with {store}\n"
+
+
+@posix
+def test_lost_process_is_replaced_and_its_chunk_tried_again(tmp_path):
+    plan = plan_of(Deadly(above=0.55, trace=str(tmp_path / "trace")))
+    tally = run_sweep(plan, tmp_path / "s.zarr", workers=2)
+
+    assert (tmp_path / "trace").exists()
+    assert (tally.done, tally.failed) == (10, 0)
+
+
+@posix
+def test_chunk_that_kills_every_process_fails_and_the_others_go_on(tmp_path):
+    plan = plan_of(Deadly(above=0.95))
+    tally = run_sweep(plan, tmp_path / "s.zarr", workers=2)
+    data = open_sweep(tmp_path / "s.zarr")
+
+    assert (tally.done, tally.failed) == (8, 2)
+    np.testing.assert_array_equal(data.status, [1] * 8 + [2] * 2)
+    told = (tmp_path / "s.zarr" / "failures" / "0000004.json").read_text()
+    assert "the process that computed it ended (signal 9), 2 times" in told
+
+
+@posix
+def test_worker_killed_from_outside_costs_nothing(tmp_path):
+    import multiprocessing
+
+    plan, killed = plan_of(Drawn(seconds_taken=0.1)), []
+
+    def kill_one(tally):
+        if not killed:
+            killed.append(multiprocessing.active_children()[0].pid)
+            os.kill(killed[0], signal.SIGKILL)
+
+    tally = run_sweep(plan, tmp_path / "s.zarr", workers=2, progress=kill_one)
+    run_sweep(plan, tmp_path / "other.zarr", workers=1, threads=True)
+
+    assert killed
+    assert (tally.done, tally.failed) == (10, 0)
+    assert stored_bytes(tmp_path / "s.zarr") == stored_bytes(tmp_path / "other.zarr")
+    assert not multiprocessing.active_children()
+
+
+@pytest.mark.parametrize("compute", [on_threads, on_processes])
+def test_chunks_are_taken_from_the_plan_as_they_are_needed(compute):
+    taken = []
+
+    def endless():
+        for number in count():
+            taken.append(number)
+            yield number % 5
+
+    chunks = compute(plan_of(Drawn()), endless(), 2)
+    for received in range(1, 12):
+        next(chunks)
+        assert len(taken) <= received + 2 * (2 * AHEAD)  # given to the workers, and received but not yet asked for
+    chunks.close()
+
+
+def test_process_that_cannot_start_is_an_error(monkeypatch):
+    monkeypatch.setattr("carom.sweeps.local._serve", os._exit)  # takes one argument, gets two: ends at once
+
+    with pytest.raises(CaromError, match="worker processes end before they begin"):
+        list(on_processes(plan_of(Drawn()), iter(range(5)), 1))
+
+
+def test_progress_tells_how_far_and_how_fast(tmp_path):
+    told = []
+    plan = plan_of(Failing(above=0.75), chunk=5)
+    last = run_sweep(plan, tmp_path / "s.zarr", workers=1, threads=True, progress=told.append)
+
+    assert [(tally.done, tally.failed, tally.waiting) for tally in told] == [(5, 0, 5), (7, 3, 0)]
+    assert told[0].left == pytest.approx(5 / told[0].rate)
+    assert (last.computed, last.points) == (10, 10)
+
+
+def test_threads_run_at_the_same_time(tmp_path):
+    meet = threading.Barrier(2, timeout=60)
+
+    class Meeting(Drawn):
+        def evaluate(self, case, seed):
+            meet.wait()
+            return super().evaluate(case, seed)
+
+    assert run_sweep(plan_of(Meeting(), count=8), tmp_path / "s.zarr", workers=2, threads=True).done == 8
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [({"workers": 0}, "--workers = 0"), ({"threads": True, "scheduler": "tcp://x:1"}, "--threads = given")],
+)
+def test_options_that_do_not_go(tmp_path, options, words):
+    with pytest.raises(InputError, match=words):
+        run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", **options)
+
+
+@pytest.mark.jit_only
+def test_workers_that_start_at_once_share_an_empty_cache_of_kernels(tmp_path):
+    """Two processes that compile the same kernels into one directory at the same time."""
+    code = "import carom, sweep_tasks; rotor = carom.jeffcott(sweep_tasks.DAMPED);"
+    code += "print(rotor.fly(rotor.amplitudes(0.1j, 0.2), [1.0, 2.0]).tolist())"
+    environment = {**os.environ, "CAROM_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(Path(__file__).parents[1])}
+    started = [
+        subprocess.Popen([sys.executable, "-c", code], env=environment, stdout=subprocess.PIPE, text=True)
+        for _ in range(2)
+    ]
+    answers = [process.communicate()[0] for process in started]
+
+    assert answers[0] == answers[1] != ""
+    assert list(tmp_path.rglob("*.nbi"))
