@@ -122,7 +122,7 @@ def _third_region(plane: DampingStiffnessPlane) -> Claim:
     rubbing = [region.part for region in parts if region.motions.rub]
     return Claim(
         "section 4b, region R3",
-        "nothing but levitation is named (the text leaves out rubs), as if it were safe",
+        "levitation is the only motion named; the text leaves out rubs",
         not rubbing,
         f"a stable synchronous rub exists in {', '.join(rubbing)}" if rubbing else "no stable rub exists there",
     )

@@ -91,6 +91,7 @@ def _region(region: NamedRegion) -> dict[str, Any]:
         "orbits": motions.orbits,
         "stable_orbits": motions.stable_orbits,
         "rub": motions.rub,
+        "rolling": motions.rolling,
         "note": region.words,
     }
 

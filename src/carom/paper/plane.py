@@ -14,15 +14,15 @@ __all__ = ["DampingStiffnessPlane", "NamedRegion", "damping_stiffness_plane", "f
 PLANE = Plane("gamma", "omega", (0.02, 0.42), (0.68, 0.9))
 STEPS = Steps(first=0.01, largest=0.05, sharpest_turn=0.15)
 REGIONS = (
-    ("R1", (0.125, 0.84), "B1,d and the rub are stable"),
-    ("R1", (0.0735, 0.86), "B1,d has lost its stability: of the simple motions only the rub is stable"),
-    ("R1", (0.04, 0.82), "B1,d has grazed and is virtual: of the simple motions only the rub is stable"),
-    ("R2", (0.28, 0.86), "not empty, as the text leaves it: the rub is stable"),
-    ("R3", (0.27, 0.745), "not levitation alone, as the text leaves it: the rub is stable too"),
-    ("R3", (0.395, 0.715), "beyond the fold of the rubs: levitation is the only simple motion"),
-    ("R4", (0.13, 0.72), "levitation, B1,d and the rub are stable"),
-    ("R4", (0.0765, 0.7), "B1,d has lost its stability: levitation and the rub are stable"),
-    ("R4", (0.04, 0.72), "B1,d has grazed and is virtual: levitation and the rub are stable"),
+    ("R1", (0.125, 0.84), "B1,d is stable"),
+    ("R1", (0.0735, 0.86), "B1,d has lost its stability in a period doubling"),
+    ("R1", (0.04, 0.82), "B1,d has grazed and is virtual"),
+    ("R2", (0.28, 0.86), "the text names no motion: a forward rub is stable"),
+    ("R3", (0.27, 0.745), "the text names levitation alone: a forward rub is stable too"),
+    ("R3", (0.395, 0.715), "beyond the fold of the rubs no forward rub is left"),
+    ("R4", (0.13, 0.72), "B1,d is stable"),
+    ("R4", (0.0765, 0.7), "B1,d has lost its stability in a period doubling"),
+    ("R4", (0.04, 0.72), "B1,d has grazed and is virtual"),
 )
 """Name in the source paper, a place inside, and what our refinement adds."""
 
@@ -67,6 +67,12 @@ class DampingStiffnessPlane:
     plane: Plane
     curves: tuple[Curve, ...]
     regions: tuple[NamedRegion, ...]
+
+    @property
+    def everywhere(self) -> tuple[str, ...]:
+        """Motions that all regions have, in words."""
+        first, *others = (region.motions.parts for region in self.regions)
+        return tuple(part for part in first if all(part in parts for parts in others))
 
     def curve(self, kind: str) -> Curve:
         """The curve of a kind."""

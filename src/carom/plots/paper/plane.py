@@ -48,9 +48,19 @@ def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
     _plane(map_axes, plane)
     left.legend(handles=branch_key(("stable", "unstable", "virtual"), MARKED), loc="outside lower center", ncols=2)
     right.legend(handles=_curve_key(plane), loc="outside lower center", ncols=2)
-    words = [Line2D([], [], ls="none", label=f"{region.part}: {region.motions.words}") for region in plane.regions]
+    words = [Line2D([], [], ls="none", label=text) for text in _region_words(plane)]
     below.legend(handles=words, loc="center", ncols=2, handlelength=0.0, handletextpad=0.0, fontsize=6.5)
     return figure
+
+
+def _region_words(plane: DampingStiffnessPlane) -> list[str]:
+    """The motions of each region; what all have is said once."""
+    common = plane.everywhere
+    words = [
+        f"{region.part}: {', '.join(part for part in region.motions.parts if part not in common)}"
+        for region in plane.regions
+    ]
+    return [*words, f"in all of them: {', '.join(common)}"] if common else words
 
 
 def _multipliers(axes: Axes, pair: FirstPair) -> None:
