@@ -5,22 +5,19 @@ from __future__ import annotations
 import os
 import subprocess
 from pathlib import Path
+from statistics import median
 
 import numba
-import numpy as np
 import pytest
-from peers import HeyokaBounces, scipy_bounces
-from workload import MOST_IMPACTS, UNTIL, source_paper_machine
+from against_peers.bouncing import HeyokaFlights, ScipyFlights, bounces
+from workload import MOST_IMPACTS, UNTIL, Bounces, amplitudes_of, source_paper_machine
 
-from carom.core.advance import INSIDE_ALL, advance
 from carom.core.events import INSIDE, first_crossing
-from carom.core.fate import memory
-from carom.core.layout import rub_workspace, workspace
-from carom.outcome import Phase
-from carom.trajectories import EventLog
+from carom.core.layout import workspace
 
 GAMMAS = (0.1, 0.15)
-FLYING = int(Phase.FLIGHT)
+SCIPY, HEYOKA = "SciPy DOP853 events, rtol 1e-10", "heyoka, terminal event, called from Python"
+HEYOKA_ALONE = "heyoka, terminal event, its own share"
 
 
 @numba.njit
@@ -32,38 +29,18 @@ def all_crossings(rotor, table, amplitudes, until, work):
     return found
 
 
-@numba.njit
-def all_bounces(rotor, table, starts, until, times, phases, planes, before, after, recollection, work, rub):
-    impacts = 0
-    amplitudes = np.empty_like(starts[0])
-    for i in range(starts.shape[0]):
-        amplitudes[:] = starts[i]
-        _, _, events, _, _ = advance(
-            rotor,
-            table,
-            amplitudes,
-            until,
-            FLYING,
-            INSIDE_ALL,
-            times,
-            phases,
-            planes,
-            before,
-            after,
-            recollection,
-            work,
-            rub,
-        )
-        impacts += events
-    return impacts
+def note(benchmark, who, unit, units, **beside):
+    benchmark.extra_info.update(who=who, unit=unit, units=units, **beside)
 
 
-def amplitudes_of(rotor, starts):
-    return np.array([rotor.amplitudes(*start) for start in starts])
-
-
-def note(benchmark, who, unit, units):
-    benchmark.extra_info.update(who=who, unit=unit, units=units)
+def run_heyoka(benchmark, peer, work, unit):
+    """Time a piece of work, and how much of it passes in the integrator itself."""
+    units = work()
+    benchmark(work)
+    peer.seconds = 0.0
+    for _ in range(5):
+        work()
+    note(benchmark, HEYOKA, unit, units, beside={HEYOKA_ALONE: peer.seconds / 5 / units})
 
 
 def test_flights_carom(benchmark, starts):
@@ -75,63 +52,66 @@ def test_flights_carom(benchmark, starts):
 
 def test_flights_heyoka(benchmark, starts):
     pytest.importorskip("heyoka")
-    peer = HeyokaBounces(source_paper_machine(0.1).parameters)
-    some = starts[:200]
+    peer = HeyokaFlights(source_paper_machine(0.1).parameters)
     benchmark.group = "first crossing, gamma = 0.1"
-    benchmark(lambda: sum(peer(start, UNTIL, 1) for start in some))
-    note(benchmark, "heyoka, terminal event", "flight", len(some))
+    run_heyoka(benchmark, peer, lambda: len([peer(*start, UNTIL) for start in starts[:200]]), "flight")
 
 
 def test_flights_scipy(benchmark, starts):
-    parameters = source_paper_machine(0.1).parameters
-    some = starts[:10]
+    peer = ScipyFlights(source_paper_machine(0.1).parameters, 1e-10)
     benchmark.group = "first crossing, gamma = 0.1"
-    benchmark(lambda: sum(scipy_bounces(parameters, start, UNTIL, 1) for start in some))
-    note(benchmark, "SciPy DOP853 events, rtol 1e-10", "flight", len(some))
+    benchmark(lambda: [peer(*start, UNTIL) for start in starts[:10]])
+    note(benchmark, SCIPY, "flight", 10)
 
 
 @pytest.mark.parametrize("gamma", GAMMAS)
 def test_impacts_carom(benchmark, starts, gamma):
-    rotor = source_paper_machine(gamma)
-    log = EventLog.empty(MOST_IMPACTS, 2)
-    work = memory(2, stop_at_landing=True), workspace(2), rub_workspace(2)
-    begin = amplitudes_of(rotor, starts)
     benchmark.group = f"sequence of impacts, gamma = {gamma}"
-    impacts = benchmark(all_bounces, rotor.arrays, rotor.table, begin, UNTIL, *log, *work)
+    impacts = benchmark(Bounces(source_paper_machine(gamma), starts))
     note(benchmark, "carom", "impact", impacts)
+
+
+def count_impacts(peer, parameters, starts):
+    return sum(len(bounces(peer, parameters, *start, UNTIL, MOST_IMPACTS)[0]) for start in starts)
 
 
 @pytest.mark.parametrize("gamma", GAMMAS)
 def test_impacts_heyoka(benchmark, starts, gamma):
     pytest.importorskip("heyoka")
-    peer = HeyokaBounces(source_paper_machine(gamma).parameters)
-    some = starts[:20]
+    parameters = source_paper_machine(gamma).parameters
+    peer = HeyokaFlights(parameters)
     benchmark.group = f"sequence of impacts, gamma = {gamma}"
-    impacts = benchmark(lambda: sum(peer(start, UNTIL, MOST_IMPACTS) for start in some))
-    note(benchmark, "heyoka, terminal event", "impact", impacts)
+    run_heyoka(benchmark, peer, lambda: count_impacts(peer, parameters, starts[:20]), "impact")
 
 
 @pytest.mark.parametrize("gamma", GAMMAS)
 def test_impacts_scipy(benchmark, starts, gamma):
     parameters = source_paper_machine(gamma).parameters
+    peer = ScipyFlights(parameters, 1e-10)
     benchmark.group = f"sequence of impacts, gamma = {gamma}"
-    impacts = benchmark.pedantic(
-        lambda: sum(scipy_bounces(parameters, start, UNTIL, MOST_IMPACTS) for start in starts[:2]), rounds=3
-    )
-    note(benchmark, "SciPy DOP853 events, rtol 1e-10", "impact", impacts)
+    impacts = benchmark.pedantic(count_impacts, args=(peer, parameters, starts[:2]), rounds=3)
+    note(benchmark, SCIPY, "impact", impacts)
 
 
 @pytest.mark.parametrize("gamma", GAMMAS)
-def test_impacts_hand_written(benchmark, gamma):
-    """The ceiling: a hand-written C++ program, if CAROM_LIMIT_DIR holds it built (``scalar`` and ``ics.bin``)."""
+def test_impacts_beside_a_hand_written_program(benchmark, starts, gamma):
+    """The ceiling: a hand-written C++ program, if CAROM_LIMIT_DIR holds it built (``scalar`` and ``ics.bin``).
+
+    The two take turns.  Its own clock is that of the day: trust the ratio where nothing else runs.
+    """
     folder = Path(os.environ.get("CAROM_LIMIT_DIR", ""))
     if not os.environ.get("CAROM_LIMIT_DIR") or not (folder / "scalar").exists():
         pytest.skip("CAROM_LIMIT_DIR does not name a folder with the program 'scalar'")
-    benchmark.group = f"sequence of impacts, gamma = {gamma}"
-    told = benchmark.pedantic(
-        lambda: subprocess.run(["./scalar", str(gamma), "5"], cwd=folder, capture_output=True, text=True, check=True),
-        rounds=1,
-    ).stdout
-    line = next(line for line in told.splitlines() if "BERN" in line)
-    cost = 1e-9 * float(line.split(" ns/imp")[0].split()[-1])
-    note(benchmark, "C++, scalar, by its own clock", "impact", benchmark.stats.stats.median / cost)
+    costs = []
+
+    def run_hand_written():
+        command = ["./scalar", str(gamma), "1"]
+        told = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
+        line = next(line for line in told.splitlines() if "BERN" in line)
+        costs.append(1e-9 * float(line.split(" ns/imp")[0].split()[-1]))
+
+    run = Bounces(source_paper_machine(gamma), starts)
+    impacts = run()
+    benchmark.group = f"sequence of impacts, in turns, gamma = {gamma}"
+    benchmark.pedantic(run, setup=run_hand_written, rounds=9)
+    note(benchmark, "carom", "impact", impacts, beside={"C++, scalar, by its own clock": median(costs)})

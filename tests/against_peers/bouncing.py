@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import cmath
 from functools import cache
-from time import perf_counter
+from time import process_time
 from typing import NamedTuple
 
 import numpy as np
@@ -147,9 +147,9 @@ class HeyokaFlights:
         run.time = 0.0
         run.state[:] = position.real, position.imag, velocity.real, velocity.imag
         run.reset_cooldowns()
-        begin = perf_counter()
+        begin = process_time()
         outcome, _, _, steps, *_ = run.propagate_until(horizon)
-        self.seconds += perf_counter() - begin
+        self.seconds += process_time() - begin
         x, y, p, q = run.state
         # heyoka numbers terminal events −1, −2, …
         return Flight(int(outcome) == -1, run.time, complex(x, y), complex(p, q), steps)
