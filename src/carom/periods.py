@@ -15,7 +15,8 @@ there is ``F₁ > 0``.  Up to there, ``g̃(z) = −1/2 − Σ_{k≠0} 1/(z − 2
     |g̃⁽ⁿ⁾(z)| ≤ 2 n! (δ^{−n−1} + ζ(n+1) (2π)^{−n−1}),      δ = min_{k≠0} |z − 2πik|,
 
 hence a bound of ``|F₁''|`` on any interval, and ``g(z) = Σ e^{mz}`` a sharper one far out.  Near a pole both bounds and
-``|F₁''|`` itself grow alike, so the intervals there shrink with the distance and no faster.  An interval is discarded, or
+``|F₁''|`` itself grow alike, so the intervals there shrink with the distance and no faster, unless the pole is one of the
+imaginary part alone (no damping and no friction).  An interval is discarded, or
 accepted as monotone, only when that bound proves it; one on which ``F₁`` cannot be told from zero in double precision
 holds a double root, or a single one if ``F₁`` changes sign across it.  So roots are counted right to the last pair.
 """
