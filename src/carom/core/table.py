@@ -25,8 +25,12 @@ from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, table_record
 __all__ = ["flight_table"]
 
 LONGEST_BLOCK = 3.0
+"""Longest time of a block.
+
+This and the next two, like DEGREE and LEVELS, were chosen by the sweep in ``docs/decisions/002-first-crossing.md``.
+"""
 LARGEST_PHASE = 5.3
-"""Largest ``|λ|`` times the length of a block.  Measured: docs/decisions/002."""
+"""Largest ``|λ|`` times the length of a block."""
 SHORTENING = 4.0
 """Ratio of the lengths of successive blocks."""
 SAMPLES = 48
