@@ -1,0 +1,170 @@
+"""Basins: every disturbance ends as it does alone, and the dataset says how it was done."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+import carom
+from carom.basins import Basin, basins
+from carom.disturbances import (
+    AnyState,
+    BaseShock,
+    ContactRelease,
+    Grid,
+    Sample,
+    StateSlice,
+    UnbalanceStep,
+    VelocityKick,
+)
+from carom.outcome import InputError, Outcome
+
+pytestmark = pytest.mark.jit_only
+
+SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+MACHINE = PAPER.replace(gamma=0.15, rho=0.3, scales=SCALES)
+"""Levitation, B1,d and the synchronous rub coexist, each with a basin of some size."""
+
+
+@pytest.fixture(scope="module")
+def rotor():
+    return carom.jeffcott(MACHINE)
+
+
+@pytest.fixture(scope="module")
+def kicks(rotor):
+    return basins(rotor, Grid(VelocityKick(1.0), (10, 12)), source={"machine_file": "machine.toml"})
+
+
+def test_each_ends_as_simulated_alone(rotor, kicks):
+    speeds, directions = kicks.plan.values()
+    for i in range(0, 10, 3):
+        for k in range(0, 12, 4):
+            alone = carom.simulate(rotor, carom.kick(speeds[i], directions[k]), 2e5, settle=True)
+            assert kicks.outcomes[i, k] == alone.outcome
+            assert kicks.dataset["time"].values[i, k] == pytest.approx(alone.time, rel=1e-12)
+
+
+def test_motions_have_the_names_of_the_attractors(rotor):
+    basin = basins(rotor, Grid(StateSlice(), (24, 24)))
+    assert set(basin.fractions) == {"levitation", "B1,d", "synchronous rub"}
+    assert sum(basin.fractions.values()) == pytest.approx(1.0)
+    index, outcomes = basin.dataset["motion"].values, basin.outcomes
+    for name, outcome in (
+        ("levitation", Outcome.LEVITATED),
+        ("B1,d", Outcome.BOUNCING),
+        ("synchronous rub", Outcome.FORWARD_RUB),
+    ):
+        np.testing.assert_array_equal(index == basin.motions.index(name), outcomes == outcome)
+    assert basin.starts == basin.exists.sum() < 24 * 24
+    assert (index[~basin.exists] == -1).all()
+
+
+def test_period_doubled_bouncing_has_a_name_of_its_own():
+    rotor = carom.jeffcott(PAPER.replace(gamma=0.0832))
+    basin = basins(rotor, Grid(VelocityKick(1.0), (3, 8)))
+    assert "2-impact bouncing" in basin.fractions
+    assert "B1,d" not in basin.fractions
+
+
+def test_threads_change_nothing(rotor, kicks):
+    one, two = (
+        basins(rotor, kicks.plan, threads=threads, source={"machine_file": "machine.toml"}) for threads in (1, 2)
+    )
+    assert one.dataset.identical(two.dataset)
+    assert one.dataset.identical(kicks.dataset)
+
+
+@pytest.mark.parametrize(
+    "plan",
+    [
+        Grid(VelocityKick(1.0), (4, 5)),
+        Grid(BaseShock(1.0, 0.7), (4, 5)),
+        Grid(UnbalanceStep(0.5), (4, 5)),
+        Grid(ContactRelease("rotating"), (7,)),
+        Grid(StateSlice(0.1 + 0.2j), (4, 5)),
+        Sample(AnyState(1.0), 20, seed=3),
+    ],
+)
+def test_a_file_holds_all_it_takes_to_do_it_again(rotor, plan, tmp_path):
+    basin = basins(rotor, plan)
+    basin.save(tmp_path / "basins.nc")
+    read = Basin.load(tmp_path / "basins.nc")
+    assert read.plan == plan
+    assert read.parameters == MACHINE
+    assert read.dataset.identical(basin.dataset)
+    assert basins(read.rotor, read.plan).dataset.identical(basin.dataset)
+
+
+def test_the_dataset_follows_the_conventions(kicks):
+    dataset = kicks.dataset
+    outcome = dataset["outcome"]
+    flags = dict(zip(outcome.attrs["flag_values"].tolist(), outcome.attrs["flag_meanings"].split(), strict=True))
+    assert flags[20] == "levitated"
+    assert flags[-1] == "no_start"
+    assert set(np.unique(outcome.values)) <= set(flags)
+    for name, variable in dataset.variables.items():
+        assert variable.attrs["long_name"], name
+        assert "units" in variable.attrs or "flag_values" in variable.attrs, name
+    np.testing.assert_allclose(dataset["speed_si"], dataset["speed"] * SCALES.velocity)
+    assert dataset["speed_si"].attrs["units"] == "m/s"
+    assert {"carom", "numba", "numpy"} == {part.split()[0] for part in dataset.attrs["source"].split(", ")}
+    assert dataset.attrs["machine_file"] == "machine.toml"
+    assert json.loads(dataset.attrs["parameters"]) == MACHINE.as_dict()
+    assert "proof" in dataset.attrs["criteria"]
+
+
+def test_starts_given_up_count_as_lost(rotor):
+    basin = basins(rotor, Grid(VelocityKick(1.0), (6, 6)), until=3.0)
+    assert basin.unresolved > 0
+    assert "unresolved: time-reached" in basin.fractions
+    assert basin.share_recovered.count == (basin.outcomes == Outcome.LEVITATED).sum()
+    assert list(basin.fractions)[-1].startswith("unresolved")
+
+
+def test_shares_of_a_sample_have_an_interval(rotor):
+    basin = basins(rotor, Sample(VelocityKick(1.0), 200, seed=1))
+    share = basin.share_recovered
+    assert share.low < share.fraction < share.high
+    assert "95 % confidence" in share.words
+    assert basin.share_of("levitation") == share
+    with pytest.raises(InputError, match="one of"):
+        basin.share_of("flying")
+
+
+def test_no_levitation_no_kick():
+    grounded = carom.jeffcott(PAPER.replace(gamma=0.05))
+    with pytest.raises(InputError, match="possible"):
+        basins(grounded, Grid(VelocityKick(), (3, 3)))
+    released = basins(grounded, Grid(ContactRelease(), (5,)))
+    assert released.share_recovered.count == 0
+
+
+def test_files_that_hold_no_basin(tmp_path):
+    with pytest.raises(InputError, match="cannot be read"):
+        Basin.load(tmp_path / "nothing.nc")
+    (tmp_path / "text.nc").write_text("no data")
+    with pytest.raises(InputError, match="cannot be read"):
+        Basin.load(tmp_path / "text.nc")
+    import xarray
+
+    xarray.Dataset({"other": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    with pytest.raises(InputError, match="must hold"):
+        Basin.load(tmp_path / "other.nc")
+
+
+def test_a_failed_write_leaves_the_old_file(kicks, tmp_path, monkeypatch):
+    target = tmp_path / "basins.nc"
+    target.write_text("before")
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("xarray.Dataset.to_netcdf", full)
+    with pytest.raises(InputError, match="No space left"):
+        kicks.save(target)
+    assert target.read_text() == "before"
+    assert [path.name for path in tmp_path.iterdir()] == ["basins.nc"]

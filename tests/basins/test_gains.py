@@ -1,0 +1,124 @@
+"""Gain maps: each node is the basin of its machine, and the least change is enough."""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+import carom
+from carom.basins import GainMap, basin_entropy, basins, gain_map, integrity, least_gain_change
+from carom.bifurcations import vary
+from carom.disturbances import Grid, Sample, VelocityKick
+from carom.outcome import InputError
+
+pytestmark = pytest.mark.jit_only
+
+SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+MACHINE = PAPER.replace(gamma=0.152, scales=SCALES)
+KICKS = Grid(VelocityKick.in_si(SCALES, 0.02), (10, 10))
+RANGES = ((7.0e5, 1.4e6), (500.0, 4500.0))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return gain_map(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, source={"machine_file": "machine.toml"})
+
+
+def test_each_node_is_the_basin_of_its_machine(found):
+    levitates = found.dataset["levitates"].values > 0.0
+    assert levitates.any()
+    assert not levitates.all()
+    for i, stiffness in enumerate(found.dataset["stiffness"].values):
+        for k, damping in enumerate(found.dataset["damping"].values):
+            machine = vary(vary(MACHINE, "stiffness", stiffness), "damping", damping)
+            rotor = carom.jeffcott(machine)
+            node = found.dataset.isel(stiffness=i, damping=k)
+            assert levitates[i, k] == (abs(rotor.equilibrium) < 1.0)
+            if not levitates[i, k]:
+                assert node["recovered"] == 0.0
+                continue
+            basin = basins(rotor, KICKS)
+            assert node["recovered"] == basin.share_recovered.fraction
+            assert node["integrity"] == pytest.approx(integrity(basin).local)
+            if len(set(basin.motions)) == len(set(basin.outcomes.flat)):
+                assert node["basin_entropy"] == pytest.approx(basin_entropy(basin).whole)
+
+
+def test_the_present_machine(found):
+    assert found.present == pytest.approx((MACHINE.omega**2 * SCALES.stiffness, 0.152 * SCALES.damping))
+    share = basins(carom.jeffcott(MACHINE), KICKS).share_recovered
+    assert found.present_share == share
+
+
+def test_neither_threads_nor_chunks_matter(found, monkeypatch):
+    monkeypatch.setattr(sys.modules[gain_map.__module__], "CHUNK", 250)
+    again = gain_map(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, threads=1, source={"machine_file": "machine.toml"})
+    assert again.dataset.identical(found.dataset)
+
+
+def test_the_least_change_is_enough_and_half_of_it_is_not(found):
+    change = least_gain_change(found, 0.95)
+    assert 0.0 < change.size < 0.5
+    shares = []
+    for part in (1.0, 0.97):
+        values = [now * (1.0 + part * relative) for now, relative in zip(found.present, change.changes, strict=True)]
+        machine = vary(vary(MACHINE, "stiffness", values[0]), "damping", values[1])
+        shares.append(basins(carom.jeffcott(machine), KICKS).share_recovered.fraction)
+    assert shares[0] == change.share.fraction >= 0.95
+    assert shares[1] < 0.95
+    assert change.values == pytest.approx(
+        [now * (1 + part) for now, part in zip(found.present, change.changes, strict=True)]
+    )
+
+
+def test_no_change_and_no_way(found):
+    assert least_gain_change(found, 0.1).changes == (0.0, 0.0)
+    narrow = gain_map(MACHINE, KICKS, shape=(2, 2), ranges=((9.7e5, 9.9e5), (1390.0, 1410.0)))
+    assert least_gain_change(narrow, 0.99) is None
+    with pytest.raises(InputError, match="wanted"):
+        least_gain_change(found, 1.5)
+
+
+def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
+    found = gain_map(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
+    slow = vary(vary(MACHINE, "speed", 120.0), "damping", 3000.0)
+    plan = Grid(VelocityKick.in_si(slow.scales, 0.02), (10, 10))
+    assert plan.model.fastest != pytest.approx(KICKS.model.fastest, rel=0.1)
+    share = basins(carom.jeffcott(slow), plan).share_recovered
+    assert found.dataset["recovered"].values[0, 0] == pytest.approx(share.fraction, abs=0.011)
+
+
+def test_samples_and_dimensionless_axes_and_files(tmp_path):
+    plan = Sample(VelocityKick(0.2), 60, seed=5)
+    found = gain_map(PAPER.replace(gamma=0.15), plan, ("omega", "gamma"), shape=(3, 4))
+    low, middle, high = (found.dataset[name].values for name in ("recovered_low", "recovered", "recovered_high"))
+    able = found.dataset["levitates"].values > 0.0
+    assert (low <= middle).all()
+    assert (middle <= high).all()
+    assert (low[able] < high[able]).all()
+    assert np.isnan(found.dataset["basin_entropy"].values).all()
+    found.save(tmp_path / "gains.nc")
+    read = GainMap.load(tmp_path / "gains.nc")
+    assert read.dataset.identical(found.dataset)
+    assert (read.plan, read.present, read.present_share) == (found.plan, found.present, found.present_share)
+    assert [axis.name for axis in read.axes] == ["omega", "gamma"]
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        ({"names": ("gamma", "gamma")}, "two different"),
+        ({"names": ("gama", "omega")}, "gamma"),
+        ({"shape": (1, 4)}, "at least 2"),
+        ({"ranges": ((2.0, 1.0), None)}, "growing"),
+        ({"ranges": ((1.0, math.inf), None)}, "growing"),
+        ({"ranges": (None, (-1.0, 10.0))}, "damping"),
+    ],
+)
+def test_what_cannot_be_mapped(words, complaint):
+    with pytest.raises(InputError, match=complaint):
+        gain_map(MACHINE, KICKS, **words)

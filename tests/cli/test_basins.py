@@ -1,0 +1,169 @@
+"""``carom basins`` as a user calls it."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from carom.basins import Basin, GainMap
+from carom.outcome import Outcome
+
+pytestmark = pytest.mark.jit_only
+
+
+def test_json_has_the_promised_keys(carom, machine):
+    code, out, err = carom("basins", machine, "--grid", "10x12", "--fastest", "40 mm/s", "--json")
+    assert (code, err) == (0, "")
+    document = json.loads(out)
+    assert document["starts"] == 120
+    assert document["unresolved"] == 0
+    assert sum(document["fractions"].values()) == pytest.approx(1.0)
+    assert set(document["fractions"]) == {"levitation", "synchronous rub", "B1,d"}
+    scale = 0.7e-3 * 184.2
+    assert document["smallest_unrecovered_kick_si"] == pytest.approx(document["smallest_unrecovered_kick"] * scale)
+    assert 0.0 < document["harmless_kick"] < document["smallest_unrecovered_kick"] < 0.04 / scale
+    assert document["recovered"]["fraction"] == document["fractions"]["levitation"]
+    assert document["disturbances"]["model"]["fastest"] == pytest.approx(0.04 / scale)
+
+
+def test_the_kick_found_is_lost_and_the_json_says_how_to_see_it(carom, machine):
+    _, out, _ = carom("basins", machine, "--grid", "6x6", "--fastest", "20 mm/s", "--json")
+    document = json.loads(out)
+    kick = f"{document['smallest_unrecovered_kick']!r},{document['smallest_unrecovered_kick_angle']!r}"
+    _, shown, _ = carom("simulate", machine, "--kick", kick, "--json")
+    assert json.loads(shown)["outcome"] == document["smallest_unrecovered_kick_outcome"] != "levitated"
+
+
+def test_sample_is_seeded(carom, dimensionless):
+    words = ("basins", dimensionless, "--disturbance", "state", "--starts", "80", "--json")
+    first, again, other = (carom(*words, "--seed", seed)[1] for seed in ("1", "1", "2"))
+    assert first == again != other
+    document = json.loads(first)
+    assert document["starts"] == 80
+    assert document["recovered"]["method"].startswith("Wilson")
+    assert "smallest_unrecovered_kick_si" not in document
+
+
+def test_table_and_files(carom, machine, tmp_path):
+    out = tmp_path / "out"
+    code, shown, err = carom(
+        "basins", machine, "--grid", "8x8", "--fastest", "20 mm/s", "--gains", "3x3", "--out", out, "--set", "mu=0.1"
+    )
+    assert code == 0
+    assert f"Written to {out}" in err
+    for text in (
+        "where they end",
+        "levitation",
+        "mm/s",
+        "Back to levitation",
+        "Smallest kick",
+        "provably",
+        "Present machine",
+    ):
+        assert text in shown
+    files = sorted(path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file())
+    figures = [f"figures/{stem}.{ending}" for stem in ("basins", "gain-map") for ending in ("png", "svg")]
+    assert files == ["basins.json", "basins.nc", *figures, "gains.nc"]
+    basin, gains = Basin.load(out / "basins.nc"), GainMap.load(out / "gains.nc")
+    document = json.loads((out / "basins.json").read_text())
+    assert document["fractions"] == basin.fractions
+    assert basin.parameters.mu == 0.1
+    assert basin.dataset.attrs["machine_file"] == "keogh-cole.toml"
+    assert "touchdown bearing" in basin.dataset.attrs["machine_text"]
+    assert basin.dataset.attrs["settings"] == "mu=0.1"
+    np.testing.assert_allclose(document["gains"]["recovered"], gains.dataset["recovered"].values)
+    assert document["gains"]["parameters"] == ["stiffness", "damping"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("kick-plane", "--grid", "6x6", "--fastest", "30 mm/s"),
+        ("shock", "--grid", "5x6", "--peak", "6 g", "--duration", "5 ms"),
+        ("shock", "--starts", "20", "--peak", "60 m/s^2", "--duration", "1"),
+        ("unbalance", "--grid", "5x6", "--before", "0.1 mm"),
+        ("unbalance", "--grid", "5x6"),
+        ("release", "--grid", "9", "--release", "rotating"),
+        ("slice", "--grid", "8x8"),
+        ("state", "--starts", "30", "--fastest", "0.5"),
+    ],
+)
+def test_every_disturbance(carom, machine, tmp_path, words):
+    code, shown, err = carom("basins", machine, "--disturbance", *words, "--out", tmp_path / "out")
+    assert (code, err.count("\n")) == (0, 1)
+    assert "Back to levitation" in shown
+    assert (tmp_path / "out" / "figures" / "basins.png").stat().st_size > 10_000
+
+
+def test_gravities_are_not_grams(carom, machine):
+    words = ("basins", machine, "--disturbance", "shock", "--grid", "2x2", "--duration", "5 ms", "--json")
+    peaks = [
+        json.loads(carom(*words, "--peak", peak)[1])["disturbances"]["model"]["peak"]
+        for peak in ("6 g", "6g", f"{6 * 9.80665} m/s^2")
+    ]
+    assert peaks == pytest.approx([6 * 9.80665 / (0.7e-3 * 184.2**2)] * 3)
+
+
+def test_unbalance_by_default_up_to_where_the_clearance_is_filled(carom, machine):
+    _, out, _ = carom("basins", machine, "--disturbance", "unbalance", "--grid", "4x4", "--json")
+    document = json.loads(out)
+    assert document["starts"] == 16
+    numbers = document["parameters"]
+    fills = math.hypot(numbers["omega"] ** 2 - 1.0, numbers["gamma"])
+    assert document["disturbances"]["model"]["largest"] == pytest.approx(fills)
+
+
+def test_no_kick_is_lost(carom, machine):
+    words = ("basins", machine, "--set", "damping=9000 N s/m", "--grid", "4x4", "--fastest", "50 mm/s")
+    code, out, _ = carom(*words, "--json")
+    document = json.loads(out)
+    assert code == 0
+    assert document["smallest_unrecovered_kick"] is None
+    assert document["smallest_unrecovered_kick_si"] is None
+    assert document["fractions"] == {"levitation": 1.0}
+    assert "Every kick tried comes back" in carom(*words)[1]
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (("--grid", "10"), "--grid = 10: must be 2 whole numbers such as 60x60"),
+        (("--grid", "0x5"), "--grid = 0x5"),
+        (("--grid", "99999x99999"), "at most"),
+        (("--grid", "5x5", "--starts", "10"), "--starts = 10: must be left out"),
+        (("--starts", "0"), "--starts = 0"),
+        (("--starts", "10", "--seed", "-1"), "--seed = -1"),
+        (("--disturbance", "hammer"), "--disturbance = hammer: must be one of: kick"),
+        (("--disturbance", "shock"), "--peak = nothing given"),
+        (("--disturbance", "shock", "--peak", "5 g"), "--duration = nothing given"),
+        (("--disturbance", "shock", "--peak", "5 kg", "--duration", "1 ms"), "--peak = 5 kg"),
+        (("--disturbance", "release", "--release", "up"), "--release = up"),
+        (("--disturbance", "state", "--grid", "5x5"), "--grid = 5x5"),
+        (("--fastest", "0"), "--fastest = 0"),
+        (("--fastest", "5 mm"), "--fastest = 5 mm"),
+        (("--gains", "1x5"), "--gains = 1x5"),
+        (("--gains", "5x5", "--plane", "damping"), "--plane = damping"),
+        (("--gains", "5x5", "--plane", "dampin,stiffness"), "did you mean damping"),
+        (("--gains", "5x5", "--x", "2e6,1e6"), "--x = 2e6,1e6"),
+        (("--wanted", "2"), "--wanted = 2"),
+        (("--out", ""), "--out"),
+        (("--set", "gamma=0.05"), "disturbance = |U*|"),
+    ],
+)
+def test_inputs_that_cannot_be_used(carom, machine, words, complaint):
+    code, out, err = carom("basins", machine, *words)
+    assert (code, out) == (2, "")
+    assert len(err.strip().splitlines()) == 1
+    assert complaint in err
+
+
+def test_levitation_is_not_needed_for_releases(carom, machine):
+    code, out, _ = carom("basins", machine, "--set", "gamma=0.05", "--disturbance", "release", "--grid", "6", "--json")
+    document = json.loads(out)
+    assert code == 0
+    assert document["smallest_unrecovered_kick"] is None
+    assert document["harmless_kick"] == 0.0
+    assert Outcome.LEVITATED.label not in document["fractions"]

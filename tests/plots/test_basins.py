@@ -1,0 +1,159 @@
+"""Figures of basins and gain maps show what the results hold, in words and with units."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import to_rgb
+
+import carom
+from carom import plots
+from carom.basins import basins, gain_map, least_gain_change, smallest_unrecovered_kick
+from carom.disturbances import (
+    AnyState,
+    BaseShock,
+    ContactRelease,
+    Grid,
+    KickPlane,
+    Sample,
+    StateSlice,
+    UnbalanceStep,
+    VelocityKick,
+)
+from carom.outcome import InputError, Outcome
+
+pytestmark = pytest.mark.jit_only
+
+SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+MACHINE = carom.Parameters(
+    gamma=0.15, omega=0.76, rho=0.3, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=SCALES
+)
+
+
+@pytest.fixture(scope="module")
+def rotor():
+    return carom.jeffcott(MACHINE)
+
+
+def painted(figure):
+    """Colours of the cells, one for each cell, of the first axes."""
+    (mesh,) = [entry for entry in figure.axes[0].collections if isinstance(entry, QuadMesh)]
+    mesh.update_scalarmappable()
+    return mesh.get_facecolors()[:, :3].reshape(-1, 3)
+
+
+def words(figure):
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def test_every_settled_outcome_has_a_look_of_its_own():
+    settled = [outcome for outcome in Outcome if outcome.settled]
+    looks = [plots.OUTCOMES[outcome.label] for outcome in settled]
+    assert len({look.colour for look in looks}) == len(looks)
+    assert len({look.words for look in looks}) == len(looks)
+    for look in looks:
+        # Told apart in grey by the hatch where not by the ground.
+        twins = [other for other in looks if other.hatch == look.hatch and other is not look]
+        for other in twins:
+            assert abs(grey(look.colour) - grey(other.colour)) > 0.08
+
+
+def grey(colour):
+    return float(np.dot(to_rgb(colour), (0.2126, 0.7152, 0.0722)))
+
+
+def test_kicks_by_size_and_direction(rotor):
+    basin = basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
+    smallest = smallest_unrecovered_kick(rotor, 1.0)
+    figure = plots.basin(basin, smallest)
+    green = np.array(to_rgb(plots.OUTCOMES["levitated"].colour))
+    shown = np.isclose(painted(figure), green).all(axis=1).sum()
+    assert shown == basin.recovered.sum()
+    round_, beside = figure.axes
+    assert round_.name == "polar"
+    (mark,) = [line for line in round_.get_lines() if line.get_gid() == "smallest"]
+    assert mark.get_ydata()[0] == pytest.approx(1e3 * smallest.speed * SCALES.velocity)
+    assert mark.get_xdata()[0] == pytest.approx(smallest.angle)
+    assert "(mm/s)" in round_.get_xlabel()
+    assert beside.get_xlabel() == "size of the kick (mm/s)"
+    assert any(text.startswith("levitates without contact, ") for text in words(figure))
+    assert "smallest kick that is lost" in words(figure)
+
+
+def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
+    basin = basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
+    steps = plots.basin(basin).axes[1].patches
+    tops = [patch.get_data().values for patch in steps]
+    assert tops[-1] == pytest.approx(np.full(12, 100.0))
+    assert tops[0] == pytest.approx(100.0 * basin.recovered.mean(axis=1))
+
+
+@pytest.mark.parametrize(
+    ("plan", "labels"),
+    [
+        (Grid(BaseShock.in_si(SCALES, 8.0, 5.0), (6, 8)), ("peak acceleration of the base (g)",)),
+        (Grid(UnbalanceStep.in_si(SCALES, 0.2e-3), (6, 8)), ("eccentricity before the step (mm)",)),
+        (Grid(KickPlane(1.0), (10, 10)), ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")),
+        (Grid(StateSlice(), (12, 12)), ("Re $U$", "Im $U$", "0.7 mm")),
+        (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),
+        (Sample(AnyState(1.0), 100), ("share of 100 starts (%), with 95 % confidence",)),
+    ],
+)
+def test_each_disturbance_has_its_picture(rotor, plan, labels):
+    figure = plots.basin(basins(rotor, plan), title="a title")
+    said = [text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel(), axes.get_title())]
+    for label in labels:
+        assert any(label in text for text in said), label
+    assert figure.get_suptitle() == "a title"
+
+
+def test_cells_are_where_their_start_is(rotor):
+    basin = basins(rotor, Grid(KickPlane(1.0), (10, 14)))
+    (mesh,) = [entry for entry in plots.basin(basin).axes[0].collections if isinstance(entry, QuadMesh)]
+    x, y = basin.dataset["radial_speed_si"].values, basin.dataset["tangential_speed_si"].values
+    corners = mesh.get_coordinates()
+    middles = 0.25 * (corners[1:, 1:] + corners[1:, :-1] + corners[:-1, 1:] + corners[:-1, :-1])
+    np.testing.assert_allclose(middles[0, :, 0], 1e3 * x)
+    np.testing.assert_allclose(middles[:, 0, 1], 1e3 * y)
+    np.testing.assert_array_equal(
+        np.isclose(np.asarray(mesh.get_array()), 0.0), basin.recovered.T
+    )  # the first in the order of outcomes is levitation
+
+
+def test_without_scales_units_are_those_of_the_equations():
+    rotor = carom.jeffcott(MACHINE.replace(scales=None))
+    figure = plots.basin(basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
+    assert r"c_\mathrm{r}\Omega" in figure.axes[1].get_xlabel()
+
+
+def test_a_grid_of_states_has_no_picture(rotor):
+    with pytest.raises(InputError, match="sample"):
+        plots.basin(basins(rotor, Grid(AnyState(1.0), (2, 2, 2, 2))))
+
+
+def test_gain_map(rotor):
+    plan = Grid(VelocityKick.in_si(SCALES, 0.08), (8, 8))
+    found = gain_map(MACHINE, plan, shape=(6, 7), ranges=((7e5, 1.6e6), (200.0, 4000.0)))
+    change = least_gain_change(found, 0.9)
+    figure = plots.gain_map(found, change)
+    axes, bar = figure.axes
+    assert axes.get_xlabel() == "P gain: stiffness of the levitation $k$ (N/m)"
+    assert axes.get_ylabel() == "D gain: damping of the levitation $c$ (N s/m)"
+    assert "comes back" in bar.get_ylabel()
+    (star,) = [line for line in axes.get_lines() if line.get_gid() == "present"]
+    assert (star.get_xdata()[0], star.get_ydata()[0]) == pytest.approx(found.present)
+    said = words(figure)
+    assert any(text.startswith("present machine: ") for text in said)
+    assert any(text.startswith("least change found for 90 %: P gain ") for text in said)
+    assert "no levitation without contact" in said
+    shares = next(entry for entry in axes.collections if isinstance(entry, QuadMesh)).get_array()
+    np.testing.assert_array_equal(np.asarray(shares), found.dataset["recovered"].values.T)
+
+
+def test_gain_map_of_dimensionless_parameters():
+    plan = Grid(VelocityKick(0.3), (5, 5))
+    found = gain_map(MACHINE.replace(scales=None), plan, ("omega", "gamma"), shape=(3, 3))
+    axes = plots.gain_map(found, title="a title").axes[0]
+    assert r"\omega" in axes.get_xlabel()
+    assert axes.get_title() == "a title"

@@ -1,0 +1,180 @@
+"""Disturbances in the engineer's terms give the states that mechanics says."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from machines import PAPER, rest_position
+
+import carom
+from carom.disturbances import (
+    GRAVITY,
+    AnyState,
+    BaseShock,
+    ContactRelease,
+    Grid,
+    KickPlane,
+    Sample,
+    StateSlice,
+    UnbalanceStep,
+    VelocityKick,
+    disturbances,
+)
+from carom.outcome import InputError
+
+SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+QUIET = PAPER.replace(rho=0.2)
+GROUNDED = PAPER.replace(gamma=0.05)
+"""Its equilibrium lies outside the wall."""
+
+
+@pytest.fixture
+def rotor():
+    return carom.jeffcott(QUIET)
+
+
+def test_kicks_are_those_of_simulate(rotor):
+    starts = VelocityKick(1.0).starts(rotor, np.array([0.3, 0.7]), np.array([0.2, 4.0]))
+    for place, (speed, angle) in enumerate([(0.3, 0.2), (0.7, 4.0)]):
+        state = carom.kick(speed, angle).state(rotor)
+        assert starts.positions[place] == pytest.approx(state.position, abs=1e-15)
+        assert starts.velocities[place] == pytest.approx(state.velocity, abs=1e-15)
+    assert starts.exists.all()
+    assert not starts.undecided.any()
+
+
+def test_a_radial_kick_points_away_from_the_centre(rotor):
+    starts = KickPlane(1.0).starts(rotor, np.array([0.5, 0.0]), np.array([0.0, 0.5]))
+    along = starts.velocities * rest_position(QUIET).conjugate() / abs(rest_position(QUIET))
+    assert along == pytest.approx([0.5, 0.5j], abs=1e-15)
+
+
+def test_nothing_can_be_kicked_out_of_levitation_where_there_is_none():
+    grounded = carom.jeffcott(GROUNDED)
+    assert abs(rest_position(GROUNDED)) > 1.0
+    for model in (VelocityKick(), KickPlane(), BaseShock(1.0, 0.5)):
+        assert not Grid(model, (3, 3)).starts(grounded).exists.any()
+
+
+def test_an_unbalance_step_starts_in_the_old_levitation(rotor):
+    before = QUIET.replace(rho=0.1, phi=QUIET.phi + 1.2)
+    starts = UnbalanceStep(0.5).starts(rotor, np.array([0.1]), np.array([1.2]))
+    assert starts.positions[0] == pytest.approx(rest_position(before), abs=1e-15)
+    assert starts.velocities[0] == 0.0
+
+
+def test_old_levitation_outside_the_wall_is_no_start(rotor):
+    fills = abs(complex(QUIET.omega**2 - 1.0, QUIET.gamma))
+    starts = UnbalanceStep(2.0 * fills).starts(rotor, np.array([0.9 * fills, 1.1 * fills]), np.zeros(2))
+    assert starts.exists.tolist() == [True, False]
+
+
+@pytest.mark.parametrize(("motion", "whirl"), [("fixed", 0.0), ("rotating", 1.0), ("rolling", -400 / 7)])
+def test_a_release_moves_along_the_wall(rotor, motion, whirl):
+    angles = np.linspace(0.0, 6.0, 7)
+    starts = ContactRelease(motion).starts(rotor, angles)
+    assert np.abs(starts.positions) == pytest.approx(np.ones(7), abs=1e-15)
+    local = starts.positions.conj() * starts.velocities
+    assert local.real == pytest.approx(np.zeros(7), abs=1e-13)
+    assert local.imag + 1.0 == pytest.approx(np.full(7, whirl), abs=1e-13)
+    slip = QUIET.radius_ratio + 1.0 + local.imag
+    assert (np.abs(slip) < 1e-12).all() == (motion == "rolling")
+
+
+def test_a_slice_keeps_to_the_clearance(rotor):
+    starts = Grid(StateSlice(0.3j), (20, 20)).starts(rotor)
+    x, y = np.meshgrid(*Grid(StateSlice(), (20, 20)).values(), indexing="ij")
+    np.testing.assert_array_equal(starts.exists, np.hypot(x, y) <= 1.0)
+    assert (starts.velocities == 0.3j).all()
+
+
+def test_states_are_even_over_both_discs():
+    sample = Sample(AnyState(1.5), 20_000, seed=4)
+    starts = sample.starts(carom.jeffcott(QUIET))
+    for values, radius in ((starts.positions, 1.0), (starts.velocities, 1.5)):
+        assert np.abs(values).max() <= radius
+        # A quarter of the area lies within half the radius; five standard errors.
+        share = (np.abs(values) < radius / 2).mean()
+        assert share == pytest.approx(0.25, abs=5 * math.sqrt(0.25 * 0.75 / 20_000))
+        assert abs(values.mean()) < 5 * radius / math.sqrt(2 * 20_000)
+
+
+def test_a_longer_sample_begins_with_the_shorter(rotor):
+    short, long = (Sample(AnyState(), count, seed=2).starts(rotor) for count in (50, 80))
+    np.testing.assert_array_equal(short.positions, long.positions[:50])
+    np.testing.assert_array_equal(short.velocities, long.velocities[:50])
+    other = Sample(AnyState(), 50, seed=3).starts(rotor)
+    assert (other.positions != short.positions).all()
+
+
+def test_cells_have_equal_weight():
+    radius = AnyState().coordinates[0]
+    assert np.diff(radius.edges(10) ** 2) == pytest.approx(np.full(10, 0.1))
+    speed, direction = Grid(VelocityKick(2.0), (4, 8)).values()
+    assert speed == pytest.approx([0.25, 0.75, 1.25, 1.75])
+    assert direction[0] == pytest.approx(math.pi / 8)
+
+
+def test_si_numbers_go_through_the_scales():
+    shock = BaseShock.in_si(SCALES, g=20.0, milliseconds=3.0)
+    assert shock.peak * SCALES.acceleration == pytest.approx(20.0 * GRAVITY)
+    assert shock.duration * SCALES.time == pytest.approx(3e-3)
+    assert shock.velocity_change * SCALES.velocity == pytest.approx(2.0 * 20.0 * GRAVITY * 3e-3 / math.pi)
+    assert VelocityKick.in_si(SCALES, 0.05).fastest * SCALES.velocity == pytest.approx(0.05)
+
+
+def test_rescaling_keeps_what_happens_in_si():
+    other = carom.Scales(mass=80.0, clearance=0.3e-3, speed=400.0)
+    shock = BaseShock.in_si(SCALES, g=20.0, milliseconds=3.0)
+    again = shock.rescaled(SCALES, other)
+    expected = BaseShock.in_si(other, g=20.0, milliseconds=3.0)
+    assert (again.peak, again.duration) == pytest.approx((expected.peak, expected.duration))
+    slice_ = StateSlice(0.1 + 0.2j).rescaled(SCALES, other)
+    assert slice_.velocity * other.velocity == pytest.approx((0.1 + 0.2j) * SCALES.velocity)
+    assert shock.rescaled(None, None) is shock
+
+
+def test_the_plane_of_kicks_by_its_short_name():
+    plan = disturbances(radial=8, tangential=6, fastest=0.4)
+    assert plan == Grid(KickPlane(0.4), (8, 6))
+    assert plan.starts(carom.jeffcott(QUIET)).positions.shape == (8, 6)
+
+
+@pytest.mark.parametrize(
+    ("make", "field"),
+    [
+        (lambda: VelocityKick(-1.0), "fastest"),
+        (lambda: VelocityKick(math.nan), "fastest"),
+        (lambda: BaseShock(1.0, 0.0), "duration"),
+        (lambda: BaseShock(math.inf, 1.0), "peak"),
+        (lambda: ContactRelease("sideways"), "motion"),
+        (lambda: StateSlice(complex(math.inf, 0.0)), "velocity"),
+        (lambda: Grid(VelocityKick(), (3,)), "grid"),
+        (lambda: Grid(VelocityKick(), (3, 0)), "grid"),
+        (lambda: Sample(VelocityKick(), 0), "starts"),
+        (lambda: Sample(VelocityKick(), 5, seed=-1), "seed"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(make, field):
+    with pytest.raises(InputError) as problem:
+        make()
+    assert problem.value.field == field
+
+
+def test_the_last_bit_does_not_depend_on_company(rotor):
+    """Starts of a part of a sample are those of the whole: chunks of a sweep give the same bits."""
+    model = AnyState()
+    values = Sample(model, 37, seed=9).values()
+    whole = model.starts(rotor, *values)
+    for first in range(37):
+        part = model.starts(rotor, *(value[first : first + 3] for value in values))
+        np.testing.assert_array_equal(part.positions, whole.positions[first : first + 3])
+        np.testing.assert_array_equal(part.velocities, whole.velocities[first : first + 3])
+
+
+def test_direction_is_that_of_the_rotating_frame(rotor):
+    starts = VelocityKick(1.0).starts(rotor, np.array([0.4]), np.array([0.5]))
+    assert cmath.phase(complex(starts.velocities[0])) == pytest.approx(0.5)
