@@ -5,6 +5,7 @@
 ``study``      ``carom study``
 ``simulate``   ``carom simulate``
 ``orbits``     ``carom orbits``
+``basins``     ``carom basins``, its tables in ``basin_tables``
 ``starts``     starts and times from text, with or without units
 ``tables``     tables for people
 ``terminal``   output, progress and options that commands share
