@@ -88,20 +88,21 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     look = LOOKS[orbit_look(orbit)]
     words = f"orbit, {look.words}"
     once = orbit_path(orbit, 1)[1]
-    _loop(rotating, orbit, once)
+    inner = magnifier(rotating, once)
+    _loop(rotating, orbit, once, arrow=inner is None)
     virtual = abs(orbit.rotor.equilibrium) > 1.0
     words_of_rest = f"{LOOKS['contact-free'].words}, virtual" if virtual else ""
     point(rotating, orbit.rotor.equilibrium, "contact-free", hollow=virtual, label=words_of_rest)
-    inner = magnifier(rotating, once)
     if inner is not None:
         inner.set_title(inner.get_title().removeprefix("enlarged "), fontsize=7, pad=2)
         _loop(inner, orbit, once)
         point(inner, orbit.rotor.equilibrium, "contact-free", label="")
-    count = max(1, round(motion.span / orbit.period))
+    # A second turn of an orbit that hardly leaves the wall would only fill the gaps of its dashes.
+    count = max(1, round(motion.span / orbit.period / (1 if inner is None else 2)))
     times, line = orbit_path(orbit, count)
     line = line * np.exp(1j * times)
     path(fixed, line, look, label=words)
-    direction_arrow(fixed, line[times <= 0.5 * motion.span], look)
+    direction_arrow(fixed, line[times <= 0.4 * motion.span], look)
     struck = line[:: (len(times) - 1) // count]
     impacts(fixed, struck, np.full(len(struck), orbit.angular_speed), size=4.0)
     times, line = orbit_path(orbit, SHOWN_PERIODS)
@@ -125,8 +126,9 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     radius.set_ylim(1.0 - 1.12 * depth, 1.0 + 0.12 * depth)
 
 
-def _loop(axes: Axes, orbit: Orbit, once: np.ndarray) -> None:
+def _loop(axes: Axes, orbit: Orbit, once: np.ndarray, arrow: bool = True) -> None:
     look = LOOKS[orbit_look(orbit)]
     path(axes, once, look, label=f"orbit, {look.words}")
-    direction_arrow(axes, once, look)
+    if arrow:
+        direction_arrow(axes, once, look)
     impacts(axes, once[:1], np.array([orbit.angular_speed]), size=4.5)
