@@ -38,7 +38,7 @@ class Multipliers:
             return ""
         leader = self.values[0]
         if abs(leader.imag) > 1e-9 * abs(leader):
-            return "in a growing oscillation from impact to impact"
+            return "in an oscillation from impact to impact"
         return "steadily to one side" if leader.real > 0 else "in alternation from impact to impact"
 
 

@@ -6,7 +6,7 @@ from carom.attractors import find_attractors
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.rotors import jeffcott
-from carom.study.endings import ending_words, hardest_impulse, kick_sizes, shown_example, touching
+from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, shown_example, touching
 from carom.trajectories import simulate
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -17,6 +17,20 @@ pytestmark = pytest.mark.jit_only
 @pytest.fixture(scope="module")
 def found():
     return find_attractors(jeffcott(SOURCE))
+
+
+@pytest.mark.parametrize(
+    ("attractor", "phrase"),
+    [
+        ("B1,d", "bouncing on B1,d"),
+        ("irregular bouncing", "in irregular bouncing"),
+        ("levitation", "in contact-free levitation"),
+        ("rolling", "in rolling backward whirl"),
+        ("unresolved: time-reached", "unresolved: time-reached"),
+    ],
+)
+def test_endings_follow_a_verb(attractor, phrase):
+    assert ending_phrase(attractor) == phrase
 
 
 def test_kick_sizes_hold_every_kick_once(found):

@@ -16,7 +16,7 @@ from carom.orbits import Orbit, OrbitSet, period_condition
 from carom.outcome import Outcome
 from carom.parameters import Zones
 from carom.study import Study
-from carom.study.endings import ending_words, shown_example
+from carom.study.endings import ending_phrase, shown_example
 from carom.trajectories import simulate
 
 __all__ = ["Picture", "pictures"]
@@ -129,8 +129,8 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
         yield Picture(
             f"disturbance-{_file_name(member.name)}",
             "disturbances",
-            f"After {what} at {study.wording.velocity(example.start.speed)} the rotor ends: {ending_words(member.name)}. "
-            f"So did {member.count} of {len(study.attractors.disturbances)} disturbances."
+            f"After {what} at {study.wording.velocity(example.start.speed)} the rotor ends {ending_phrase(member.name)}, "
+            f"as {'does' if member.count == 1 else 'do'} {member.count} of {len(study.attractors.disturbances)} disturbances."
             f"{PANELS if example.impacts else ''}",
             lambda example=example: _history(study, example),  # type: ignore[misc]
         )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from carom.attractors import Attractor, AttractorSet, Ending
 from carom.outcome import Outcome
 
-__all__ = ["KickSize", "ending_words", "hardest_impulse", "kick_sizes", "shown_example", "touching"]
+__all__ = ["KickSize", "ending_phrase", "ending_words", "hardest_impulse", "kick_sizes", "shown_example", "touching"]
 
 _WORDS = {
     "levitation": "contact-free levitation",
@@ -44,6 +44,12 @@ def ending_words(attractor: str) -> str:
     if attractor[:1] in ("B", "R") and attractor[1:2].isdigit():
         return f"bouncing on {attractor}"
     return _WORDS.get(attractor, attractor)
+
+
+def ending_phrase(attractor: str) -> str:
+    """The same after a verb: ``ends bouncing on B1,d``, ``ends in rolling backward whirl``."""
+    words = ending_words(attractor)
+    return words if words.startswith(("bouncing", "unresolved")) else f"in {words}"
 
 
 def touching(found: AttractorSet) -> tuple[Ending, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from carom.outcome import Outcome
-from carom.study.endings import ending_words, hardest_impulse, kick_sizes, touching
+from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
 from carom.study.ranges import Gain, Motion, free_spans
 from carom.study.wording import counted, listed, number
 from carom.whirl import Rolling, rolling, runaway_speed
@@ -180,18 +180,13 @@ def _endings(study: Study) -> str:
     counts = {member.name: member.count for member in found if member.count}
     if list(counts) == ["levitation"]:
         return "All of them came back to contact-free levitation."
-    parts = [f"{count} in {ending_words(name)}" for name, count in counts.items() if not _is_doing(name)]
-    parts += [f"{count} {ending_words(name)}" for name, count in counts.items() if _is_doing(name)]
+    parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}."
     touched = touching(found)
     back = sum(ending.outcome is Outcome.LEVITATED for ending in touched)
     if study.levitates and touched:
         text += f" Of the {len(touched)} that touched the wall {back or 'none'} came back to levitation."
     return text
-
-
-def _is_doing(name: str) -> bool:
-    return ending_words(name).startswith(("bouncing", "unresolved"))
 
 
 def _backward_whirl(study: Study) -> str:
@@ -211,8 +206,8 @@ def _backward_whirl(study: Study) -> str:
         f"Dry friction can drive the rotor backward round the bearing until it rolls there with "
         f"{_with_weight(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
         f"{bound} rules that out{_interrupted(study, roll)}. It surely gets there if, in lasting contact, its centre moves backward faster than "
-        f"{say.velocity(runaway.certain)} ({number(runaway.certain, 3)} times the speed of the shaft), and may from about "
-        f"{say.velocity(runaway.average)} on."
+        f"{say.velocity(runaway.certain)} (whirl at {number(runaway.certain, 3)} times the speed of the shaft), and it may get "
+        f"there from about {say.velocity(runaway.average)} on."
     )
 
 
@@ -280,8 +275,11 @@ def _safe_damping(study: Study) -> str:
         return f"The disturbances came back at every {name} tried {tried}."
     if limit.above > safe.highest:
         return f"Some disturbances did not come back even at the largest {name} tried {tried}."
-    last = ending_words(limit.motion)
-    return f"All disturbances came back at every {name} tried above {say.gain('gamma', limit.above)} {tried}; the last motion to go is {last}."
+    last = "the synchronous rub" if limit.motion == "synchronous rub" else ending_words(limit.motion)
+    return (
+        f"All disturbances came back at every {name} tried above {say.gain('gamma', limit.above)} {tried}; the last motion to "
+        f"go is {last}."
+    )
 
 
 FINDINGS = {

@@ -185,7 +185,7 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
         say.impulse(impulse),
         f"{say.force(impulse / orbit.period)} mean",
         share,
-        "" if orbit.stable else f"grows {orbit.multipliers.instability}",
+        "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}",
     )
 
 
