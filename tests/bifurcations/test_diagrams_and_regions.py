@@ -152,7 +152,7 @@ def test_regions_in_words():
     motions = motions_at(PAPER)
     assert motions.region == "R4 (stable orbit, rub)"
     assert motions.words == (
-        "contact-free levitation, stable forward rub, B1,d stable and B1,a, B1,b, B1,c unstable, backward rolling"
+        "contact-free levitation, stable forward rub, B1,d stable and B1,a/b/c unstable, backward rolling"
     )
     assert "levitation virtual" in motions_at(PAPER.replace(omega=0.9)).words
     without_friction = motions_at(PAPER.replace(mu=0.0))

@@ -66,3 +66,49 @@ def test_map_of_a_plane():
     assert axes.get_xlim() == pytest.approx(plane.first_range)
     drawn = np.concatenate([line.get_xdata() for line in axes.lines])
     assert np.abs(drawn - 0.1779723).min() < 1e-7
+
+
+SOFT = PAPER.replace(gamma=0.1, omega=0.34, rho=0.2, mu=0.2, d=0.6)
+
+
+def test_bars_say_what_exists_where():
+    found = bifurcations.bifurcation_diagram(PAPER, "gamma", (0.03, 0.4), attractors=3)
+    below = diagrams.bifurcation_diagram(found).axes[2]
+    rows = {text.get_text(): height for text, height in zip(below.get_yticklabels(), below.get_yticks(), strict=True)}
+    assert list(rows)[:3] == ["levitation", "forward rub", "bouncing"]
+    assert "backward whirl" in rows
+
+    def bars(row, width):
+        return sorted(
+            tuple(line.get_xdata())
+            for line in below.lines
+            if line.get_linewidth() == pytest.approx(width) and line.get_ydata()[0] == rows[row]
+        )
+
+    assert np.ravel(bars("levitation", 4.5)) == pytest.approx([0.0724686787, 0.4], abs=1e-9)
+    assert np.ravel(bars("forward rub", 4.5)) == pytest.approx([0.03, 0.3700060375], abs=1e-9)
+    assert np.ravel(bars("bouncing", 4.5)) == pytest.approx([0.0833814175, 0.1780277257], abs=1e-9)
+    assert np.ravel(bars("backward whirl", 4.5)) == pytest.approx([0.03, 0.4])
+    dots = [collection for collection in below.collections if len(collection.get_offsets())]
+    assert len(dots) == len(found.attractors)
+
+
+def fits(figure) -> bool:
+    """Whether no legend reaches beyond the figure or over its axes."""
+    figure.draw_without_rendering()
+    page = figure.bbox
+    for legend in figure.legends:
+        box = legend.get_window_extent()
+        inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
+        if not inside or any(box.overlaps(axes.get_tightbbox()) for axes in figure.axes):
+            return False
+    return True
+
+
+@pytest.mark.parametrize("parameters", [PAPER, SOFT])
+def test_legends_fit(parameters):
+    found = bifurcations.bifurcation_diagram(parameters, "gamma", (0.02, 0.4))
+    assert fits(diagrams.bifurcation_diagram(found))
+    plane = bifurcations.Plane("gamma", "omega", (0.02, 0.4), (0.3, 1.0))
+    regions = bifurcations.region_map(parameters, plane, grid=16)
+    assert fits(diagrams.region_map(regions, plane.axes(parameters)))

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.curves import EDGE, Curve, Plane
-from carom.bifurcations.lift_offs import LiftOff, known, next_lift_off
+from carom.bifurcations.lift_offs import LiftOff, next_lift_off
 from carom.bifurcations.rubbing import RubbingBranch, RubbingPoint, end_of_motions
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.outcome import CaromError, InputError
@@ -97,16 +97,19 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
     )
     rows = []
     for (angle, x), y in zip(beside.unknowns.tolist(), beside.parameters.tolist(), strict=True):
-        period = known(lift_off(angle, x, y)).time
+        here = lift_off(angle, x, y)
+        if here is None:
+            continue
 
-        def follow(angle: float, x: float, y: float, period: float = period) -> LiftOff | None:
+        def follow(angle: float, x: float, y: float, period: float = here.time) -> LiftOff | None:
             found = lift_off(angle, x, y)
             alike = found is not None and found.whirl == whirl and abs(found.time - period) < NEARBY * period
             return found if alike else None
 
         end_angle, place = _end(follow, angle, np.array([x, y]), sizes)
-        if plane.holds(*place):
-            rows.append((*place, known(follow(end_angle, *place)).time))
+        last = follow(end_angle, *place)
+        if last is not None and plane.holds(*place):
+            rows.append((*place, last.time))
     if not rows:
         raise CaromError(f"the {point.kind} leaves the plane at once")
     points = np.array(rows)

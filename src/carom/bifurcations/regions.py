@@ -77,7 +77,7 @@ class Motions:
     def parts(self) -> tuple[str, ...]:
         """The motions in words, one entry for each kind."""
         orbits = [
-            f"{', '.join(names)} {words}"
+            f"{_listed(names)} {words}"
             for names, words in ((self.stable_names, "stable"), (self.unstable_names, "unstable"))
             if names
         ]
@@ -92,6 +92,15 @@ class Motions:
     def words(self) -> str:
         """The motions in words."""
         return ", ".join(self.parts)
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    """``B1,a/b/c, B2,d``: letters of a pair together."""
+    pairs: dict[str, list[str]] = {}
+    for name in names:
+        pair, letter = name.split(",")
+        pairs.setdefault(pair, []).append(letter)
+    return ", ".join(f"{pair},{'/'.join(letters)}" for pair, letters in pairs.items())
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,7 +31,7 @@ _COLOURS = {
     "forward rub": OUTCOMES["forward-rub"].colour,
     "bouncing": OUTCOMES["bouncing"].colour,
     "bouncing with rub": OUTCOMES["mixed"].colour,
-    "irregular bouncing": "#3d3d3d",
+    "irregular bouncing": OUTCOMES["irregular"].colour,
     "backward whirl": OUTCOMES["rolling"].colour,
 }
 _THICK = 4.5

@@ -108,26 +108,38 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
         _equilibrium_branch(lower, equilibrium, unit)
     lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
     coexistence(below, diagram, unit)
-    heights = dict(zip(rows_of(diagram), below.get_yticks()[:rows], strict=True))
-    for point in diagram.points:
-        place, row = point.value / unit, row_of_point(point.branch)
-        if row is not None:
-            if row in heights:
-                mark_point(below, point.kind, place, float(heights[row]), point.admissible)
-        elif point.radial_speed is None:
-            height = _height(diagram, point.branch, point.value)
-            _mark(lower, _look_of(point), place, height, point.admissible)
-        else:
-            mark_point(upper, point.kind, place, point.radial_speed, point.admissible)
     upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
     lower.set_ylabel("gap ($c_r$); force\n" r"of rub ($m c_r\Omega^2$)")
     below.set_xlabel(parameter_label(diagram.axis))
     below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
     lower.set_ylim(-0.25, max(0.6, max(_top(branch) for branch in diagram.equilibria)))
     upper.set_ylim(*_limits(diagram))
+    marked = _mark_points(diagram, (upper, lower, below), unit)
     figure.align_ylabels([upper, lower])
-    figure.legend(handles=_diagram_key(diagram), loc="outside lower center", ncols=4)
+    figure.legend(handles=_diagram_key(diagram, marked), loc="outside lower center", ncols=4)
     return figure
+
+
+def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float) -> list[Look]:
+    """Mark the special points in the panels; the looks of those in view, each once."""
+    upper, lower, below = panels
+    rows = rows_of(diagram)
+    heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
+    seen = set()
+    for point in diagram.points:
+        row, look = row_of_point(point.branch), _look_of(point)
+        axes, height = upper, point.radial_speed
+        if row is not None:
+            axes, height = below, heights.get(row)
+        elif height is None:
+            axes, height = lower, _height(diagram, point.branch, point.value)
+        if height is None:
+            continue
+        _mark(axes, look, point.value / unit, float(height), point.admissible)
+        low, high = axes.get_ylim()
+        if low <= height <= high:
+            seen.add(look.words)
+    return [look for look in (*POINTS.values(), *BOUNDARIES.values()) if look.words in seen]
 
 
 def _attractor_speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
@@ -245,7 +257,9 @@ def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = Tru
 
 def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
     face = look.colour if admissible else "none"
-    axes.plot([x], [y], ls="none", marker=look.marker, ms=5.0, mfc=face, mec=look.colour, mew=0.8, zorder=5)
+    # What is no bifurcation stays behind.
+    size, order = (3.6, 4.9) if look is POINTS["radius-extremum"] else (5.0, 5.0)
+    axes.plot([x], [y], ls="none", marker=look.marker, ms=size, mfc=face, mec=look.colour, mew=0.8, zorder=order)
 
 
 def _limits(diagram: Diagram) -> tuple[float, float]:
@@ -257,14 +271,18 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
     return -0.12 * high, 1.1 * high
 
 
-def _diagram_key(diagram: Diagram) -> list[Line2D]:
+def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
     entries = []
     if diagram.orbits:
         for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
             style = LOOKS[look]
             entries.append(Line2D([], [], color=style.colour, ls=style.line, lw=style.width, label=words))
     entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free levitation: gap"))
-    for line, words in (("-", "stable rub: normal force"), ("--", "saddle rub: normal force")):
+    admissible = {branch.kind for branch in diagram.equilibria if branch.admissible.any()}
+    for line, kind in (("-", "stable rub"), ("--", "saddle rub")):
+        if kind not in admissible:
+            continue
+        words = f"{kind}: normal force"
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
     if any(len(sample.radial_speeds) for sample in diagram.attractors):
         entries.append(
@@ -274,9 +292,7 @@ def _diagram_key(diagram: Diagram) -> list[Line2D]:
         ring = Line2D([], [], ls="none", marker="o", ms=4.0, mfc="#ffffff", mec="#1a1a1a", mew=0.6)
         ring.set_label("simulated, by share of disturbances")
         entries.append(ring)
-    present = {_look_of(point).words: _look_of(point) for point in diagram.points}
-    ordered = [look for look in (*POINTS.values(), *BOUNDARIES.values()) if look.words in present]
-    return entries + [point_key(look) for look in ordered]
+    return entries + [point_key(look) for look in marked]
 
 
 def point_key(look: Look) -> Line2D:
@@ -326,7 +342,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     if found.codimension2:
         lines.append(Line2D([], [], ls="none", marker="o", ms=4.5, color="#1a1a1a", label="two at once"))
     numbered = [
-        Line2D([], [], ls="none", label=f"{number}: {region.motions.region}: {_words(found, region)}")
+        Line2D([], [], ls="none", label=f"{number}: {region.motions.source_region}: {_words(found, region)}")
         for number, region in enumerate(found.regions, start=1)
         if region.share > 0.004
     ]
