@@ -48,8 +48,8 @@ def words(figure):
 
 
 def test_every_settled_outcome_has_a_look_of_its_own():
-    settled = [outcome for outcome in Outcome if outcome.settled]
-    looks = [plots.OUTCOMES[outcome.label] for outcome in settled]
+    settled = [outcome.label for outcome in Outcome if outcome.settled]
+    looks = [plots.OUTCOMES[label] for label in (*settled, "irregular")]
     assert len({look.colour for look in looks}) == len(looks)
     assert len({look.words for look in looks}) == len(looks)
     for look in looks:

@@ -19,14 +19,14 @@ from matplotlib.ticker import MaxNLocator
 from carom.outcome import InputError, Outcome
 from carom.plots.plane import Floats, clearance_circle, label_frame, point
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, styled
-from carom.plots.words import number
+from carom.plots.words import number, orbit_symbol
 
 if TYPE_CHECKING:
     from carom.basins import Basin, SmallestKick
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
-__all__ = ["basin", "outcome_shares"]
+__all__ = ["basin"]
 
 _PALER = (0.0, 0.4, 0.65, 0.8)
 """How much white the further motions of one outcome are mixed with."""
@@ -41,11 +41,14 @@ class _Shown:
     """A motion as it is drawn."""
 
     index: int
-    outcome: Outcome
+    look: Look
     colour: str
-    hatch: str
     words: str
     share: float
+
+    @property
+    def hatch(self) -> str:
+        return self.look.hatch
 
     @property
     def patch(self) -> Patch:
@@ -92,28 +95,6 @@ def basin(basin: Basin, smallest: SmallestKick | None = None, title: str | None 
     raise InputError("basin", f"a grid of {kind}", "kicks, shocks, unbalance steps, releases, a slice, or a sample")
 
 
-@styled
-def outcome_shares(basin: Basin, *, axes: Axes) -> Figure:
-    """Draw the share of each motion over the size of kicks or shocks into axes of a figure.
-
-    Parameters
-    ----------
-    basin : carom.basins.Basin
-        On a grid of size and direction.
-    axes : matplotlib.axes.Axes
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure of the axes.
-    """
-    _stacked(axes, basin, _shown(basin))
-    owner = axes.get_figure(root=True)
-    if owner is None:
-        raise InputError("axes", axes, "must belong to a figure")
-    return owner
-
-
 def _shown(basin: Basin) -> list[_Shown]:
     """Motions in the order of their outcome; those of one outcome differ in how pale they are."""
     index, outcomes, shares = basin.dataset["motion"].values, basin.outcomes, basin.fractions
@@ -123,17 +104,17 @@ def _shown(basin: Basin) -> list[_Shown]:
         found.append((place, name, outcome, shares[name]))
     shown: list[_Shown] = []
     for place, name, outcome, share in sorted(found, key=lambda entry: (entry[2], -entry[3])):
-        look = OUTCOMES[outcome.label]
-        alike = sum(entry.outcome is outcome for entry in shown)
+        look = OUTCOMES["irregular" if name.startswith("irregular") else outcome.label]
+        alike = sum(entry.look is look for entry in shown)
         colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
-        shown.append(_Shown(place, outcome, colour, look.hatch, _words(look, name), share))
+        shown.append(_Shown(place, look, colour, _words(look, name), share))
     return shown
 
 
 def _words(look: Look, name: str) -> str:
-    if name in ("levitation", "rolling", "backward whirl") or name.startswith("unresolved"):
-        return look.words
-    symbol = rf"${name[0]}_{{\mathrm{{{name[1:]}}}}}$" if name[0] == "B" and name[1:2].isdigit() else name
+    if name in ("levitation", "rolling", "backward whirl") or name.startswith(("unresolved", "irregular bouncing")):
+        return look.words if name != "irregular bouncing with rub" else f"{look.words}, with rub"
+    symbol = orbit_symbol(name) if name[0] == "B" and name[1:2].isdigit() else name
     return f"{look.words}: {symbol}"
 
 

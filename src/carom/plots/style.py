@@ -126,16 +126,17 @@ OUTCOMES = MappingProxyType(
     {
         "levitated": Look("#009e73", "levitates without contact"),
         "bouncing": Look("#0072b2", "keeps bouncing", hatch="...."),
-        "mixed": Look("#56b4e9", "alternates between bounces and lasting contact"),
+        "irregular": Look("#3d3d3d", "keeps bouncing irregularly", hatch="...."),
+        "mixed": Look("#56b4e9", "keeps alternating between bounces and lasting contact"),
         "forward-rub": Look("#cc79a7", "rubs in forward whirl", hatch="\\\\\\\\"),
         "backward-whirl": Look("#7a4fa3", "slides in backward whirl", hatch="xxxx"),
         "rolling": Look("#882255", "rolls in backward whirl", hatch="////"),
-        "grazing": Look("#3d3d3d", "grazes the wall, undecided"),
-        "time-reached": Look("#a6a6a6", "not settled in time"),
-        "event-limit": Look("#a6a6a6", "not settled within the events allowed"),
+        "grazing": Look("#000000", "grazes the wall, undecided"),
+        "time-reached": Look("#a6a6a6", "time reached"),
+        "event-limit": Look("#a6a6a6", "limit of events reached"),
     }
 )
-"""Where motions end, by the label of their :class:`~carom.outcome.Outcome`: the colours of basins."""
+"""Where motions end, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own."""
 
 WORKS = MappingProxyType(
     {

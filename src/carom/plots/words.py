@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from carom.plots.style import LOOKS
+from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
     from carom.bifurcations import Axis
@@ -29,20 +29,6 @@ __all__ = [
     "times_larger",
     "turns",
 ]
-
-
-_ENDINGS = {
-    "event-limit": "limit of events reached",
-    "chatter": "chatter, goes over into lasting contact",
-    "grazing": "grazes the wall, undecided",
-    "levitated": "levitates without contact",
-    "bouncing": "keeps bouncing",
-    "mixed": "keeps alternating between bounces and lasting contact",
-    "forward-rub": "rubs in forward whirl",
-    "backward-whirl": "slides in backward whirl",
-    "rolling": "rolls in backward whirl",
-}
-"""Where the label of an outcome, with a space for the hyphen, is not yet said in words."""
 
 
 def orbit_symbol(name: str) -> str:
@@ -70,7 +56,9 @@ def orbit_title(orbit: Orbit) -> str:
 
 def ending(outcome: Outcome) -> str:
     """How a motion ended, in words short enough for a legend."""
-    return _ENDINGS.get(outcome.label, outcome.label.replace("-", " "))
+    if outcome.label in OUTCOMES:
+        return OUTCOMES[outcome.label].words
+    return "chatter, goes over into lasting contact" if outcome.label == "chatter" else outcome.label.replace("-", " ")
 
 
 def number(value: float, digits: int = 4) -> str:
