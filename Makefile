@@ -47,7 +47,7 @@ coverage: $(TEST) ## report what the tests cover: the kernels with the compiler 
 	$(PYTEST) -m jit_only --cov --cov-append --cov-report=term-missing:skip-covered $(ARGS)
 
 bench: $(TEST) ## time carom beside its peers
-	$(BIN)/pytest -p benchmark --benchmark-only --benchmark-timer=time.process_time -o pythonpath=benchmarks benchmarks $(ARGS)
+	$(BIN)/pytest -p benchmark --benchmark-only -o pythonpath=benchmarks benchmarks $(ARGS)
 
 docs: $(DOCS) ## build the documentation; its examples are executed
 	rm -rf docs/reference/generated

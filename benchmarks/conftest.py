@@ -1,7 +1,4 @@
-"""Benchmarks: carom beside its peers in one run, told as cost per unit of work and as ratios.
-
-`make bench` reads the processor's time, which a busy machine disturbs less than the time of day.
-"""
+"""Benchmarks: carom beside its peers in one run, told as cost per unit of work and as ratios."""
 
 from __future__ import annotations
 
