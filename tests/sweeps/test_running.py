@@ -16,6 +16,7 @@ from sweep_tasks import Deadly, Drawn, Failing, basins_plan, plan_of, stored_byt
 from carom.outcome import CaromError, InputError
 from carom.sweeps import load_sweep, open_sweep, run_sweep
 from carom.sweeps.local import AHEAD, on_processes, on_threads
+from carom.sweeps.studies import StudyTask
 
 SWEEP = """
 machine = "machine.toml"
@@ -61,6 +62,15 @@ def test_threads_and_processes_give_the_same_bytes(tmp_path):
 
 
 @pytest.mark.jit_only
+def test_studies_are_the_same_on_processes(tmp_path):
+    plan = plan_of(StudyTask(12, False, (0.3, 0.4, 0.5), has_scales=False), count=6, chunk=1)
+    run_sweep(plan, tmp_path / "thread", workers=1, threads=True)
+    run_sweep(plan, tmp_path / "processes", workers=2)
+
+    assert stored_bytes(tmp_path / "thread") == stored_bytes(tmp_path / "processes")
+
+
+@pytest.mark.jit_only
 @posix
 def test_killed_sweep_goes_on_to_the_same_bytes(tmp_path):
     (tmp_path / "machine.toml").write_text(MACHINE)
@@ -85,6 +95,26 @@ def test_killed_sweep_goes_on_to_the_same_bytes(tmp_path):
     assert stored_bytes(store) == stored_bytes(tmp_path / "whole.zarr")
     # What was finished has not been written again, nor changed.
     assert all(stored_bytes(store)[name] == data for name, data in kept.items())
+
+
+@posix
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes in /proc")
+def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
+    code = "import sweep_tasks as s; from carom.sweeps import run_sweep; plan = s.plan_of(s.Drawn(600.0), 2, 1);"
+    code += f"run_sweep(plan, {str(tmp_path / 's.zarr')!r}, workers=2)"
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
+    process = subprocess.Popen([sys.executable, "-c", code], env=environment)
+    workers = []
+    while process.poll() is None and len(workers) < 3:  # the third is the tracker of resources
+        time.sleep(0.05)
+        workers = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    time.sleep(1.0)
+    process.kill()
+    process.wait()
+    while any(Path(f"/proc/{worker}").exists() for worker in workers):
+        time.sleep(0.05)
+
+    assert len(workers) == 3
 
 
 @posix

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
+from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
 from carom.outcome import CaromError, InputError
@@ -22,6 +23,8 @@ __all__ = ["SLURM", "connect", "on_cluster"]
 OPTION = "--scheduler"
 SLURM = "slurm"
 _PATIENCE = "20s"
+_LOOK_AROUND = 2.0
+"""Seconds without a result after which to look for workers that have come."""
 
 
 def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Generator[Chunk, None, None]:
@@ -42,11 +45,11 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
     CaromError
         The scheduler is lost, or a worker has another version of carom.
     """
-    from distributed import CancelledError, KilledWorker, as_completed
+    from distributed import CancelledError, KilledWorker
 
     _check_versions(client)
     pending: dict[Future[Chunk], int] = {}
-    ready = as_completed(loop=client.loop)
+    ready: SimpleQueue[Future[Chunk]] = SimpleQueue()
 
     def submit() -> None:
         slots = sum(client.ncores().values()) or 1
@@ -54,12 +57,16 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
             # Impure, and with a key of its own: a chunk that is tried again is computed again.
             future = client.submit(compute_chunk, plan, number, pure=False)
             pending[future] = number
-            ready.add(future)
+            future.add_done_callback(ready.put)
 
     try:
         submit()
         while pending:
-            future = next(ready)
+            try:
+                future = ready.get(timeout=_LOOK_AROUND)
+            except Empty:
+                submit()  # to workers that have come since
+                continue
             number = pending.pop(future)
             try:
                 chunk = future.result()

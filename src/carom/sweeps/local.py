@@ -168,12 +168,21 @@ def _ending(process: SpawnProcess) -> str:
 
 def _serve(plan: SweepPlan, pipe: connection.Connection) -> None:
     """Compute what comes through the pipe until its other end is closed."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     try:
         pipe.send("ready")
         while True:
             pipe.send(compute_chunk(plan, pipe.recv()))
     except (EOFError, OSError):
         return
+
+
+def _end_with_parent() -> None:
+    """End at once, in the middle of a chunk, when the process that would have stored it is gone."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
 
 
 @contextmanager

@@ -58,8 +58,7 @@ class SweepStore:
                 create(self.path, plan)
             else:
                 check_same(self.path, plan)
-            self._finished = _finished(self.path / STATUS.name / "c", plan)
-            self._failed = _failed_points(self.path / FAILURES, self._finished)
+            self._look()
         except OSError as problem:
             raise self._refusal(problem) from None
         self._lock: int | None = None
@@ -67,19 +66,21 @@ class SweepStore:
 
     # ------------------------------------------------------------------------------------------- what is there
 
+    def _look(self) -> None:
+        self._finished = _finished(self.path / STATUS.name / "c", self.plan)
+        self._failed = _failed_points(self.path / FAILURES, self._finished)
+        self._failures = sum(self._failed.values())
+        self._points = _points(self._finished, self.plan)
+
     @property
     def done(self) -> int:
         """Points that have been computed, failed ones left out."""
-        plan = self.plan
-        finished = int(np.count_nonzero(self._finished))
-        if finished == plan.chunks:
-            return plan.points - self.failed
-        return sum(plan.size(int(number)) for number in np.flatnonzero(self._finished)) - self.failed
+        return self._points - self.failed
 
     @property
     def failed(self) -> int:
         """Points that failed."""
-        return sum(self._failed.values())
+        return self._failures
 
     def waiting(self, retry_failed: bool = False) -> Iterator[int]:
         """Chunks that are not finished, in order; then those with failures, if they are to be tried again."""
@@ -105,7 +106,7 @@ class SweepStore:
                 (self.path / directory).mkdir(exist_ok=True)
             for part in (self.path / PARTS).iterdir():  # of a process that was killed
                 part.unlink()
-            self._finished = _finished(self.path / STATUS.name / "c", self.plan)
+            self._look()  # now that nobody else writes
         except BlockingIOError:
             raise InputError(OPTION, self.path, "another sweep is writing to it; let it end, or stop it") from None
         except OSError as problem:
@@ -154,8 +155,10 @@ class SweepStore:
                 failures.unlink(missing_ok=True)
         except OSError as problem:
             raise self._refusal(problem, told=True) from None
-        self._finished[number] = True
-        self._failed.pop(number, None)
+        if not self._finished[number]:
+            self._finished[number] = True
+            self._points += plan.size(number)
+        self._failures += len(chunk.failures) - self._failed.pop(number, 0)
         if chunk.failures:
             self._failed[number] = len(chunk.failures)
 
@@ -219,6 +222,16 @@ def _finished(directory: Path, plan: SweepPlan) -> np.ndarray:
 
     look(directory, ())
     return found.ravel()
+
+
+def _points(finished: np.ndarray, plan: SweepPlan) -> int:
+    """Points of the finished chunks; those at the ends of the grid are smaller."""
+    weights = finished.reshape(plan.chunk_grid).astype(np.int64)
+    for count, chunk, chunks in reversed(list(zip(plan.shape, plan.chunk_shape, plan.chunk_grid, strict=True))):
+        sizes = np.full(chunks, chunk)
+        sizes[-1] = count - chunk * (chunks - 1)
+        weights = weights @ sizes
+    return int(weights)
 
 
 def _failed_points(directory: Path, finished: np.ndarray) -> dict[int, int]:
