@@ -51,7 +51,7 @@ bench: $(TEST) ## time carom beside its peers
 
 docs: $(DOCS) ## build the documentation; its examples are executed
 	rm -rf docs/reference/generated
-	$(BIN)/sphinx-build -W --keep-going -j auto docs build/docs $(ARGS)
+	$(BIN)/sphinx-build -E -W --keep-going -j auto docs build/docs $(ARGS)
 	@echo "Documentation: $(CURDIR)/build/docs/index.html"
 
 lock: ## lock the dependencies anew; ARGS=--upgrade takes the newest
