@@ -105,3 +105,13 @@ def test_undamped_resonance_is_refused():
     machine = PAPER.replace(rho=0.1, gamma=0.0)
     with pytest.raises(InputError, match="duration"):
         after(machine, 0.1, math.pi / machine.omega, 0.0)
+
+
+def test_a_shock_knows_of_no_other():
+    machine = carom.jeffcott(PAPER.replace(rho=0.2, gamma=0.3, d=0.3))
+    peaks, directions = np.linspace(0.1, 12.0, 9), np.linspace(0.0, 6.0, 9)
+    together = states_after_shocks(machine, peaks, 1.7, directions)
+    for place in range(9):
+        alone = states_after_shocks(machine, peaks[place : place + 1], 1.7, directions[place : place + 1])
+        for one, all_ in zip(alone, together, strict=True):
+            assert one[0] == all_[place]

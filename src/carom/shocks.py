@@ -22,6 +22,7 @@ import math
 import numpy as np
 
 from carom.core.advance import INSIDE_ALL, advance
+from carom.core.fate import forget
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
@@ -30,6 +31,7 @@ from carom.trajectories import EventLog, fresh_memory
 __all__ = ["shaken", "states_after_shocks"]
 
 MODES = 4
+EVENT_LIMIT, TIME_REACHED, FLIGHT = int(Outcome.EVENT_LIMIT), int(Outcome.TIME_REACHED), int(Phase.FLIGHT)
 LOGGED = 256
 MOST_EVENTS = 1_000_000
 LEAST_DISTANCE = 1e-6
@@ -86,28 +88,40 @@ def states_after_shocks(
         The wall was grazed so nearly that double precision cannot decide.
     """
     during = shaken(rotor, duration)
+    arrays, table = during.arrays, during.table
+    rest, exponents = during.equilibrium, arrays.exponents.tolist()
+    rows, rate_rows = arrays.rows[0].tolist(), arrays.rate_rows[0].tolist()
     log, work, rub = EventLog.empty(LOGGED, MODES), workspace(MODES), rub_workspace(MODES)
+    recollection = fresh_memory(during, 0)
     positions, velocities = np.empty((2, *peaks.shape), complex)
     undecided = np.zeros(peaks.shape, bool)
     for place in np.ndindex(peaks.shape):
-        amplitudes = _at_rest(during, float(peaks[place]), float(directions[place]))
-        recollection = fresh_memory(during, 0)
-        outcome, phase, plane, events, time = Outcome.EVENT_LIMIT, int(Phase.FLIGHT), INSIDE_ALL, 0, 0.0
-        while outcome is Outcome.EVENT_LIMIT and events < MOST_EVENTS:
-            code, passed, count, phase, plane = advance(
-                during.arrays, during.table, amplitudes, duration - time, phase, plane, *log, recollection, work, rub
+        amplitudes = _at_rest(exponents, float(peaks[place]), float(directions[place]))
+        forget(recollection)
+        outcome, phase, plane, events, time = EVENT_LIMIT, FLIGHT, INSIDE_ALL, 0, 0.0
+        while outcome == EVENT_LIMIT and events < MOST_EVENTS:
+            outcome, passed, count, phase, plane = advance(
+                arrays, table, amplitudes, duration - time, phase, plane, *log, recollection, work, rub
             )
-            outcome, events, time = Outcome(code), events + count, time + passed
-        position, velocity = (complex(value) for value in during.state(amplitudes))
+            events, time = events + count, time + passed
+        values = amplitudes.tolist()
+        position = _sum(rest, rows, values)
         positions[place] = position / abs(position) if plane >= 0 else position
-        velocities[place] = velocity
-        undecided[place] = outcome is not Outcome.TIME_REACHED
+        velocities[place] = _sum(0j, rate_rows, values)
+        undecided[place] = outcome != TIME_REACHED
     return positions, velocities, undecided
 
 
-def _at_rest(during: Rotor, peak: float, direction: float) -> np.ndarray:
+def _sum(start: complex, row: list[complex], amplitudes: list[complex]) -> complex:
+    """Sum of products, one by one: the last bit of array arithmetic depends on the place in the array."""
+    for weight, amplitude in zip(row, amplitudes, strict=True):
+        start += weight * amplitude
+    return start
+
+
+def _at_rest(exponents: list[complex], peak: float, direction: float) -> np.ndarray:
     """Amplitudes of the levitating rotor when a pulse begins."""
-    lower, upper, first, second = (complex(value) for value in during.arrays.exponents)
+    lower, upper, first, second = exponents
     force = cmath.rect(peak, direction) / 2j
     shares = [-force / ((first - lower) * (first - upper)), force / ((second - lower) * (second - upper))]
     driven = -(shares[0] + shares[1])

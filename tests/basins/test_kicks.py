@@ -86,3 +86,8 @@ def test_speeds_that_make_no_sense(fastest):
 def test_no_levitation():
     with pytest.raises(InputError, match="levitation"):
         smallest_unrecovered_kick(carom.jeffcott(PAPER.replace(gamma=0.05)))
+
+
+def test_unstable_levitation():
+    with pytest.raises(InputError, match="gamma"):
+        smallest_unrecovered_kick(carom.jeffcott(PAPER.replace(gamma=-0.01, rho=0.1)))

@@ -21,7 +21,7 @@ NARROWED = 4
 BESIDE = 8
 """Directions to each side of the best one so far, in each round."""
 BELOW = 24
-"""Speeds below that of the best one so far, tried in each of them."""
+"""Speeds up to that of the best one so far, tried in each of them."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def harmless_kick(rotor: Rotor) -> float:
     response ``g = e^{−γτ/2}/ω`` is that of the first turning point ``τ = arctan(2w/γ)/w``, ``w = √(ω² − γ²/4)``;
     beyond critical damping the hyperbolic form holds.  Contact is impossible while ``v g < 1 − |U*|``.
 
-    Zero where the rotor cannot levitate inside the wall or nothing damps it.
+    Zero where the rotor cannot levitate inside the wall or its levitation is unstable.
     """
     numbers = rotor.parameters
     gap = 1.0 - abs(rotor.equilibrium)
@@ -121,10 +121,12 @@ def smallest_unrecovered_kick(
     Raises
     ------
     InputError
-        The rotor cannot levitate inside the wall.
+        The rotor cannot levitate inside the wall, or its levitation is unstable.
     """
     if abs(rotor.equilibrium) >= 1.0:
         raise InputError("kick", f"|U*| = {abs(rotor.equilibrium):.6g}", "needs levitation inside the wall")
+    if rotor.parameters.gamma < 0.0:
+        raise InputError("gamma", rotor.parameters.gamma, "at least 0: there is no levitation to come back to")
     if not (np.isfinite(fastest) and fastest > 0.0):
         raise InputError("fastest", fastest, "a speed above 0, in c_r Omega")
     harmless = harmless_kick(rotor)
@@ -140,7 +142,7 @@ def smallest_unrecovered_kick(
         apart /= NARROWED
         _, speed, angle, _ = search.best
         beside = angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
-        search.look(beside, np.linspace(max(harmless, 0.5 * speed), speed, BELOW + 1))
+        search.look(beside, np.linspace(harmless, speed, BELOW + 1))
     recovered, speed, angle, outcome = search.best
     return SmallestKick(
         speed, math.remainder(angle, 2.0 * math.pi), outcome, recovered, harmless, tolerance, search.tried

@@ -57,10 +57,11 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     """Print what a gain map says about the present machine."""
     share = found.dataset["recovered"].values
     able = found.dataset["levitates"].values > 0.0
+    back = f"{100 * found.present_share.fraction:.4g} %"
     here = ", ".join(
         _value(axis.field.words, value, axis.field.unit) for axis, value in zip(found.axes, found.present, strict=True)
     )
-    screen.print(f"Present machine: {here}; {found.present_share.words} come back.")
+    screen.print(f"Present machine: {here}; {back} of the disturbances come back.")
     shape = " x ".join(str(size) for size in share.shape)
     enough = float((share >= wanted).mean())
     screen.print(
@@ -102,7 +103,7 @@ def _tried(basin: Basin) -> str:
 def _kicks(basin: Basin, smallest: SmallestKick | None, harmless: float) -> list[str]:
     scales = basin.scales
     if harmless <= 0.0:
-        return ["No kick is proven harmless: the rotor does not levitate inside the wall with damping."]
+        return ["No kick is proven harmless: the rotor has no stable levitation inside the wall."]
     proven = f"Kicks up to {_speed(harmless, scales)} provably never reach the wall."
     if smallest is None:
         return ["Every kick tried comes back.", proven]

@@ -141,11 +141,12 @@ def _follow(
         source=source,
         progress=lambda done: tell(share * done, f"following {plan.count} starts"),
     )
-    if abs(rotor.equilibrium) >= 1.0:
-        return basin, None, 0.0
+    harmless = harmless_kick(rotor)
+    if harmless == 0.0:
+        return basin, None, harmless
     tell(share, "looking for the smallest kick that is lost")
     kick_limit = plan.model.coordinates[0].high if plan.model.kind in ("kick", "kick-plane") else FASTEST
-    return basin, smallest_unrecovered_kick(rotor, kick_limit, threads=threads), harmless_kick(rotor)
+    return basin, smallest_unrecovered_kick(rotor, kick_limit, threads=threads), harmless
 
 
 def _map(
