@@ -14,6 +14,7 @@ from machines import PAPER
 
 from carom.contacts import LastingContact, polar
 from carom.equilibria import equilibria
+from carom.ledger import energy_ledger
 from carom.outcome import Phase
 from carom.parameters import Parameters, Scales
 from carom.rotors import jeffcott
@@ -151,6 +152,74 @@ def test_force_at_the_synchronous_rub_in_newtons():
     x = math.asin(-(PAPER.gamma + PAPER.mu * kappa) / (PAPER.rho * math.hypot(1.0, PAPER.mu))) - math.atan(PAPER.mu)
     newtons = SCALES.mass * SCALES.clearance * SCALES.speed**2 * (PAPER.rho * math.cos(x) + kappa)
     assert SCALES.force * normal[0] == pytest.approx(newtons, rel=1e-9)
+
+
+def test_a_history_holds_forces_slip_and_powers_in_contact_only():
+    parameters = PAPER.replace(gamma=0.2, d=0.5)
+    motion = simulate(jeffcott(parameters), START, 40.0)
+    history = motion.history()
+    touching = history.phase != Phase.FLIGHT
+    assert np.array_equal(history.time, motion.sample())
+    assert touching.any()
+    assert not touching.all()
+    normal, friction = motion.forces(history.time)
+    position, velocity = motion.at(history.time)
+    assert np.array_equal(history.normal_force, normal)
+    assert np.array_equal(history.friction_force, friction)
+    assert np.allclose(history.angle, np.angle(position), rtol=0, atol=1e-15)
+    assert np.all(history.gap >= -1e-12)
+    assert np.all(np.abs(history.gap[touching]) <= 1e-12)
+    assert np.allclose(
+        history.slip[touching], parameters.radius_ratio + 1.0 + (position.conj() * velocity).imag[touching]
+    )
+    for values in (
+        history.normal_force,
+        history.friction_force,
+        history.slip,
+        history.friction_power,
+        history.drive_power,
+    ):
+        assert not values[~touching].any()
+        assert values[touching].all()
+    assert np.all(history.friction_power[touching] < 0.0)
+
+
+def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
+    """Sliding at the synchronous rub, where both are steady: ``−μN(s + 1)`` lost as heat and ``μNs`` from the drive."""
+    rotor = jeffcott(PAPER)
+    rub = next(entry for entry in equilibria(rotor) if entry.kind == "rub" and entry.stable)
+    resting = simulate(rotor, State(rub.position), 20.0)
+    history, ledger = resting.history(np.linspace(0.0, 20.0, 11)), energy_ledger(resting)
+    for power, work, slip in (
+        (history.friction_power, ledger.friction, -PAPER.radius_ratio - 1.0),
+        (history.drive_power, ledger.drive, PAPER.radius_ratio),
+    ):
+        assert np.allclose(power, PAPER.mu * rub.normal_force * slip, rtol=1e-9, atol=0)
+        assert work[-1] == pytest.approx(20.0 * power[0], rel=1e-9)
+    si = history.in_si(SCALES)
+    watts = si["friction_force"][0] * si["slip"][0]
+    assert np.allclose(si["friction_power"][0], watts, rtol=1e-12, atol=0)
+    assert [si[name][1] for name in ("normal_force", "slip", "friction_power", "gap", "time")] == [
+        "N",
+        "m/s",
+        "W",
+        "m",
+        "s",
+    ]
+
+
+@pytest.mark.parametrize("scales", [None, SCALES])
+def test_a_history_goes_to_a_file(scales, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    motion = simulate(jeffcott(PAPER.replace(gamma=0.2, d=0.5)), START, 40.0)
+    table = motion.history(np.linspace(0.0, 40.0, 300)).to_dataset(scales)
+    table.to_netcdf(tmp_path / "history.nc", engine="h5netcdf")
+    with xarray.open_dataset(tmp_path / "history.nc", engine="h5netcdf", decode_times=False) as read:
+        assert read["phase"].attrs["flag_meanings"] == "flight forward_slip backward_slip rolling"
+        assert read["phase"].attrs["flag_values"].tolist() == [0, 1, 2, 3]
+        assert read["normal_force"].attrs["units"] == ("N" if scales else "m c_r Omega^2")
+        assert np.array_equal(read["normal_force"].values, table["normal_force"].values)
+        assert np.array_equal(read["time"].values, table["time"].values)
 
 
 def test_impulses_and_forces_add_up_to_the_change_of_momentum():

@@ -1,9 +1,10 @@
-"""What the touchdown bearing gets: impacts and lasting contacts of a motion, with impulses and works."""
+"""What the touchdown bearing gets: impacts and lasting contacts of a motion, with impulses, forces and works."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
     from carom.parameters import Scales
 
-__all__ = ["ContactLog", "LastingContact", "polar"]
+__all__ = ["ContactHistory", "ContactLog", "LastingContact", "phase_flags", "polar"]
 
 
 @dataclass(frozen=True)
@@ -40,8 +41,38 @@ class LastingContact:
         return "roll" if self.phase is Phase.ROLLING else "slide"
 
 
+class _Table:
+    """Columns with units, one entry each along a dimension.
+
+    ``columns`` holds the name of each, the property of :class:`~carom.parameters.Scales` that turns it into SI units (empty
+    where it has none), the SI unit and what it is.
+    """
+
+    dimension: ClassVar[str]
+    columns: ClassVar[dict[str, tuple[str, str, str]]]
+
+    def in_si(self, scales: Scales) -> dict[str, tuple[np.ndarray, str]]:
+        """Columns with their SI units: name to (values, unit)."""
+        return {
+            name: (getattr(self, name) * (getattr(scales, scale) if scale else 1), unit)
+            for name, (scale, unit, _) in self.columns.items()
+        }
+
+    def to_dataset(self, scales: Scales | None = None) -> xarray.Dataset:
+        """Table with units and long names as attributes; in SI if scales are given."""
+        import xarray
+
+        si = self.in_si(scales) if scales else {}
+        columns = {}
+        for name, (scale, unit, words) in self.columns.items():
+            own_unit = _DIMENSIONLESS_UNITS[scale] if scale else unit
+            values, unit = si.get(name, (getattr(self, name), own_unit))
+            columns[name] = (self.dimension, values, {"units": unit, "long_name": words})
+        return xarray.Dataset(columns)
+
+
 @dataclass(frozen=True, eq=False)
-class ContactLog:
+class ContactLog(_Table):
     """Impacts of a motion, one entry each, in the order of time.
 
     All arrays have shape (n,).  Lengths are in ``c_r``, times in ``1/Ω``, impulses in ``m c_r Ω``, energies in
@@ -81,6 +112,23 @@ class ContactLog:
     contact_work: np.ndarray
     drive_work: np.ndarray
 
+    dimension: ClassVar[str] = "impact"
+    columns: ClassVar[dict[str, tuple[str, str, str]]] = {
+        "time": ("time", "s", "time of impact"),
+        "angle": ("", "rad", "angle of impact in the co-rotating frame"),
+        "radial_speed": ("velocity", "m/s", "radial speed before impact"),
+        "angular_speed": ("speed", "rad/s", "angular speed before impact, co-rotating frame"),
+        "radial_speed_after": ("velocity", "m/s", "radial speed after impact"),
+        "angular_speed_after": ("speed", "rad/s", "angular speed after impact, co-rotating frame"),
+        "normal_impulse": ("impulse", "N s", "normal impulse of the bearing on the rotor"),
+        "tangential_impulse": ("impulse", "N s", "friction impulse of the bearing on the rotor"),
+        "slip_before": ("velocity", "m/s", "slip velocity before impact"),
+        "slip_after": ("velocity", "m/s", "slip velocity after impact"),
+        "sticks": ("", "1", "whether friction stopped the slip"),
+        "contact_work": ("energy", "J", "work of the impact on the contact point"),
+        "drive_work": ("energy", "J", "work of the shaft's drive through friction"),
+    }
+
     @classmethod
     def from_states(
         cls,
@@ -116,48 +164,107 @@ class ContactLog:
     def __len__(self) -> int:
         return len(self.time)
 
-    def in_si(self, scales: Scales) -> dict[str, tuple[np.ndarray, str]]:
-        """Columns with their SI units: name to (values, unit)."""
-        return {
-            name: (getattr(self, name) * (getattr(scales, scale) if scale else 1), unit)
-            for name, (scale, unit, _) in _COLUMNS.items()
-        }
+
+@dataclass(frozen=True, eq=False)
+class ContactHistory(_Table):
+    """Forces and slip of lasting contact at chosen times.
+
+    All arrays have shape (n,).  Times are in ``1/Ω``, forces in ``m c_r Ω²``, speeds in ``c_r Ω``, powers in ``m c_r² Ω³``,
+    lengths in ``c_r``.  In flight forces, slip and powers are zero.
+
+    Attributes
+    ----------
+    time, angle : ndarray
+        Time and angle ``θ`` of the rotor in the co-rotating frame.
+    phase : ndarray of int
+        :class:`~carom.outcome.Phase`.
+    gap : ndarray
+        Distance from the wall, ``1 − |U|``.
+    normal_force, friction_force : ndarray
+        Force of the bearing on the rotor: inward, and along growing ``θ``.
+    slip : ndarray
+        Slip velocity ``v = s + 1 + θ̇`` of the contact point.
+    friction_power : ndarray
+        Power of friction on the contact point, ``F v``: never positive, lost as heat.
+    drive_power : ndarray
+        Power that the shaft's drive feeds in through friction, ``−F s``.
+    """
+
+    time: np.ndarray
+    phase: np.ndarray
+    angle: np.ndarray
+    gap: np.ndarray
+    normal_force: np.ndarray
+    friction_force: np.ndarray
+    slip: np.ndarray
+    friction_power: np.ndarray
+    drive_power: np.ndarray
+
+    dimension: ClassVar[str] = "time"
+    columns: ClassVar[dict[str, tuple[str, str, str]]] = {
+        "time": ("time", "s", "time"),
+        "phase": ("", "1", "kind of motion"),
+        "angle": ("", "rad", "angle in the co-rotating frame"),
+        "gap": ("length", "m", "distance from the wall"),
+        "normal_force": ("force", "N", "normal force of the bearing on the rotor"),
+        "friction_force": ("force", "N", "friction force of the bearing on the rotor, along growing angle"),
+        "slip": ("velocity", "m/s", "slip velocity"),
+        "friction_power": ("power", "W", "power of friction on the contact point"),
+        "drive_power": ("power", "W", "power of the shaft's drive through friction"),
+    }
+
+    @classmethod
+    def from_states(
+        cls,
+        rotor: Rotor,
+        times: np.ndarray,
+        phases: np.ndarray,
+        state: tuple[np.ndarray, np.ndarray],
+        forces: tuple[np.ndarray, np.ndarray],
+    ) -> ContactHistory:
+        """History from positions and velocities, and normal and friction forces, each of shape (n,)."""
+        position, velocity = state
+        drive = float(rotor.arrays.drive[0])
+        normal, friction = forces
+        slip = np.where(phases == Phase.FLIGHT, 0.0, drive + (position.conj() * velocity).imag)
+        return cls(
+            time=times,
+            phase=phases,
+            angle=np.angle(position),
+            gap=1.0 - np.abs(position),
+            normal_force=normal,
+            friction_force=friction,
+            slip=slip,
+            friction_power=friction * slip,
+            drive_power=-(drive - 1.0) * friction,
+        )
 
     def to_dataset(self, scales: Scales | None = None) -> xarray.Dataset:
         """Table with units and long names as attributes; in SI if scales are given."""
-        import xarray
-
-        si = self.in_si(scales) if scales else {}
-        columns = {}
-        for name, (scale, _, words) in _COLUMNS.items():
-            values, unit = si.get(name, (getattr(self, name), _DIMENSIONLESS_UNITS.get(scale, "1")))
-            columns[name] = ("impact", values, {"units": unit, "long_name": words})
-        return xarray.Dataset(columns)
+        dataset = super().to_dataset(scales)
+        del dataset["phase"].attrs["units"]
+        dataset["phase"].attrs |= phase_flags(Phase)
+        return dataset
 
 
-_COLUMNS = {
-    "time": ("time", "s", "time of impact"),
-    "angle": ("", "rad", "angle of impact in the co-rotating frame"),
-    "radial_speed": ("velocity", "m/s", "radial speed before impact"),
-    "angular_speed": ("speed", "rad/s", "angular speed before impact, co-rotating frame"),
-    "radial_speed_after": ("velocity", "m/s", "radial speed after impact"),
-    "angular_speed_after": ("speed", "rad/s", "angular speed after impact, co-rotating frame"),
-    "normal_impulse": ("impulse", "N s", "normal impulse of the bearing on the rotor"),
-    "tangential_impulse": ("impulse", "N s", "friction impulse of the bearing on the rotor"),
-    "slip_before": ("velocity", "m/s", "slip velocity before impact"),
-    "slip_after": ("velocity", "m/s", "slip velocity after impact"),
-    "sticks": ("", "1", "whether friction stopped the slip"),
-    "contact_work": ("energy", "J", "work of the impact on the contact point"),
-    "drive_work": ("energy", "J", "work of the shaft's drive through friction"),
-}
+def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:
+    """Attributes that say what the numbers of phases mean, by the CF conventions."""
+    kinds = list(phases)
+    return {
+        "flag_values": np.array(kinds, np.int8),
+        "flag_meanings": " ".join(phase.label.replace("-", "_") for phase in kinds),
+    }
+
 
 _DIMENSIONLESS_UNITS = {
-    "": "1",
     "time": "1/Omega",
+    "length": "c_r",
     "velocity": "c_r Omega",
     "speed": "Omega",
+    "force": "m c_r Omega^2",
     "impulse": "m c_r Omega",
     "energy": "m c_r^2 Omega^2",
+    "power": "m c_r^2 Omega^3",
 }
 
 

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.contacts import ContactLog, LastingContact
+from carom.contacts import ContactHistory, ContactLog, LastingContact
 from carom.core.advance import INSIDE_ALL, advance
 from carom.core.fate import memory
 from carom.core.impact import set_on_wall
@@ -204,6 +204,12 @@ class Trajectory:
         grip = np.where(phases == Phase.ROLLING, -local.imag, -slip_sign * arrays.friction[0] * push)
         touching = phases != Phase.FLIGHT
         return np.where(touching, push, 0.0), np.where(touching, grip, 0.0)
+
+    def history(self, times: np.ndarray | None = None) -> ContactHistory:
+        """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
+        times = self.sample() if times is None else np.asarray(times, float)
+        _, phases = self._amplitudes_at(times)
+        return ContactHistory.from_states(self.rotor, times, phases, self.at(times), self.forces(times))
 
     def sample(self, count: int = 2000) -> np.ndarray:
         """Times for drawing: about ``count`` even ones, every event, and the last instant before each."""

@@ -28,6 +28,7 @@ def test_scales_are_products_of_mass_clearance_and_speed():
     assert scales.force == pytest.approx(1187.5374, rel=1e-15)
     assert scales.impulse == pytest.approx(6.447, rel=1e-15)
     assert scales.energy == pytest.approx(0.83127618, rel=1e-15)
+    assert scales.power == pytest.approx(153.121072356, rel=1e-15)
     assert scales.damping == pytest.approx(9210, rel=1e-15)
     assert scales.stiffness == pytest.approx(1696482, rel=1e-15)
 

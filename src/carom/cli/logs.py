@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.contacts import phase_flags
 from carom.outcome import InputError, Phase
 
 if TYPE_CHECKING:
@@ -97,14 +98,12 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
     for name, words in (("start", "start"), ("end", "end")):
         times = np.array([getattr(contact, name) * scale for contact in contacts], float)
         dataset[f"contact_{name}"] = ("contact", times, {"units": unit, "long_name": f"{words} of lasting contact"})
-    kinds = [phase for phase in Phase if phase is not Phase.FLIGHT]
     dataset["contact_phase"] = (
         "contact",
         np.array([contact.phase for contact in contacts], np.int8),
         {
             "long_name": "kind of lasting contact",
-            "flag_values": np.array(kinds, np.int8),
-            "flag_meanings": " ".join(phase.label.replace("-", "_") for phase in kinds),
+            **phase_flags(phase for phase in Phase if phase is not Phase.FLIGHT),
         },
     )
     dataset.attrs = {

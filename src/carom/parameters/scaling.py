@@ -87,6 +87,11 @@ class Scales:
         return self.force * self.clearance
 
     @property
+    def power(self) -> float:
+        """Unit of power: m c_r² Ω³, W."""
+        return self.energy * self.speed
+
+    @property
     def damping(self) -> float:
         """Unit of damping: m Ω, N s/m; the damping of a machine is gamma of these."""
         return self.mass * self.speed

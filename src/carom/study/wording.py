@@ -82,7 +82,7 @@ class Wording:
         """A power given in ``m c_r² Ω³``."""
         if self.scales is None:
             return f"{number(value, 3)} m c_r² Ω³"
-        return _with_prefix(value * self.scales.energy * self.scales.speed, "W", least=1.0)
+        return _with_prefix(value * self.scales.power, "W", least=1.0)
 
     def per_second(self, period: float) -> str:
         """How often something of this period, in ``1/Ω``, happens."""
