@@ -7,9 +7,10 @@ import math
 import numpy as np
 import pytest
 from machines import PAPER, path, rest_position
+from scipy.integrate import solve_ivp
 
 import carom
-from carom.basins import harmless_kick, smallest_unrecovered_kick
+from carom.basins import harmless_kick, harmless_shock, smallest_unrecovered_kick
 from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
@@ -75,6 +76,25 @@ def test_a_finer_scan_finds_no_smaller_one():
 
 def test_a_machine_that_always_comes_back():
     assert smallest_unrecovered_kick(carom.jeffcott(PAPER.replace(gamma=0.6, rho=0.1)), 0.5) is None
+
+
+@pytest.mark.parametrize("duration", [0.02, 0.7, 4.0])
+def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
+    """Followed in the fixed frame by a general solver through the pulse and after it, in many directions."""
+    peak = harmless_shock(carom.jeffcott(MACHINE), duration)
+    gamma, omega, rest = MACHINE.gamma, MACHINE.omega, abs(rest_position(MACHINE))
+
+    def rate(time, state):
+        push = peak * math.sin(math.pi * time / duration) if time < duration else 0.0
+        return [state[1], -push - gamma * state[1] - omega**2 * state[0]]
+
+    # The coefficients are real: the deviation stays on a line, and adds to the levitation at worst.
+    during = solve_ivp(rate, (0.0, duration), [0.0, 0.0], rtol=1e-10, atol=1e-12, max_step=duration / 50)
+    after = solve_ivp(rate, (duration, duration + 12.0), during.y[:, -1], rtol=1e-10, atol=1e-12, max_step=0.02)
+    farthest = max(np.abs(during.y[0]).max(), np.abs(after.y[0]).max())
+    assert farthest <= 1.0 - rest
+    if duration < 0.1:
+        assert farthest == pytest.approx(1.0 - rest, rel=1e-3)
 
 
 @pytest.mark.parametrize("fastest", [0.0, -1.0, math.nan, math.inf])

@@ -19,7 +19,7 @@ from carom.basins.classification import Basin, basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainChange, GainMap, gain_map, least_gain_change
 from carom.basins.integrity import Integrity, integrity
-from carom.basins.kicks import SmallestKick, harmless_kick, smallest_unrecovered_kick
+from carom.basins.kicks import SmallestKick, harmless_kick, harmless_shock, smallest_unrecovered_kick
 from carom.basins.shares import Share
 
 __all__ = [
@@ -35,6 +35,7 @@ __all__ = [
     "basins",
     "gain_map",
     "harmless_kick",
+    "harmless_shock",
     "integrity",
     "least_gain_change",
     "rub_neighbourhood",

@@ -15,8 +15,9 @@ from carom.basins.classification import Basin
 from carom.basins.entropy import basin_entropy
 from carom.basins.gains import GainChange, GainMap
 from carom.basins.integrity import integrity
-from carom.basins.kicks import SmallestKick
+from carom.basins.kicks import SmallestKick, harmless_shock
 from carom.basins.shares import Share
+from carom.disturbances import BaseShock
 from carom.outcome import InputError
 
 __all__ = ["basin_document"]
@@ -66,6 +67,11 @@ def basin_document(
         document["smallest_unrecovered_kick_si"] = smallest.speed * scales.velocity if smallest else None
         document["harmless_kick_si"] = harmless * scales.velocity
         document["scales_si"] = {name: getattr(scales, name) for name in ("mass", "clearance", "speed")}
+    model = basin.plan.model
+    if isinstance(model, BaseShock):
+        document["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
+        if scales is not None:
+            document["harmless_shock_si"] = document["harmless_shock"] * scales.acceleration
     if gains is not None:
         document["gains"] = _gains(gains, change)
     return document

@@ -12,7 +12,7 @@ from carom.ensembles import settle_all
 from carom.outcome import InputError, Outcome
 from carom.rotors import Rotor
 
-__all__ = ["SmallestKick", "harmless_kick", "smallest_unrecovered_kick"]
+__all__ = ["SmallestKick", "harmless_kick", "harmless_shock", "smallest_unrecovered_kick"]
 
 DIRECTIONS, SPEEDS = 96, 96
 TOLERANCE = 1e-3
@@ -71,6 +71,28 @@ def harmless_kick(rotor: Rotor) -> float:
     if gap <= 0.0 or gamma < 0.0:
         return 0.0
     return max(0.0, gap * (1.0 - 1e-9) / _largest_response(gamma, omega))
+
+
+def harmless_shock(rotor: Rotor, duration: float) -> float:
+    """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
+
+    The deviation is the shock folded with the response to a kick, which is at most ``g`` (:func:`harmless_kick`): no larger
+    than ``g`` times the change of velocity through the pulse, ``2âT/π``.  A bound, and sharp for short pulses.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    duration : float
+        ``T``, in ``1/Ω``.
+
+    Returns
+    -------
+    float
+        In ``c_r Ω²``.
+    """
+    if not (np.isfinite(duration) and duration > 0.0):
+        raise InputError("duration", duration, "a time above 0, in 1/Omega")
+    return harmless_kick(rotor) * math.pi / (2.0 * duration)
 
 
 def _largest_response(gamma: float, omega: float) -> float:

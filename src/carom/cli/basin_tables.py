@@ -49,7 +49,7 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestKick | None, ha
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
     if basin.unresolved:
         screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")
-    for line in (*_kicks(basin, smallest, harmless), *_measures(basin)):
+    for line in (*_kicks(basin, smallest, harmless), *_shocks(basin), *_measures(basin)):
         screen.print(line)
 
 
@@ -114,6 +114,17 @@ def _kicks(basin: Basin, smallest: SmallestKick | None, harmless: float) -> list
         f"(bracketed to {100 * smallest.tolerance:g} %, {smallest.tried} kicks tried)."
     )
     return [found, proven]
+
+
+def _shocks(basin: Basin) -> list[str]:
+    from carom.basins import harmless_shock
+    from carom.disturbances import BaseShock
+
+    model = basin.plan.model
+    if not isinstance(model, BaseShock):
+        return []
+    bound = _size(model.coordinates[0], harmless_shock(basin.rotor, model.duration), basin.scales)
+    return [f"Shocks of this duration up to {bound} provably never bring the rotor to the wall."]
 
 
 def _measures(basin: Basin) -> list[str]:
