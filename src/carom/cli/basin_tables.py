@@ -137,9 +137,8 @@ def _measures(basin: Basin) -> list[str]:
     except InputError:
         pass
     else:
-        text = (
-            f"Integrity: the ball of disturbances that all come back has {found.local:.4g} of the largest radius tried"
-        )
+        reach = _size(basin.coordinates[0], found.local * found.whole, basin.scales)
+        text = f"Integrity: disturbances up to {reach} all come back, {found.local:.4g} of the largest radius tried"
         more = f"; the largest ball anywhere {found.largest:.4g}" if math.isfinite(found.largest) else ""
         lines.append(f"{text}{more}.")
     try:
