@@ -10,7 +10,7 @@ from typing import NamedTuple
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Parameters, Scales, unknown_name
 
-__all__ = ["Axis", "Numbers", "axis", "value_of", "vary"]
+__all__ = ["Axis", "Numbers", "axis", "value_of", "vary", "within"]
 
 
 class Numbers(NamedTuple):
@@ -110,6 +110,13 @@ def vary(parameters: Parameters, name: str, value: float) -> Parameters:
 def value_of(parameters: Parameters, name: str) -> float:
     """Present value of a parameter, in SI units if it is a physical one."""
     return axis(parameters, name).get(Numbers.of(parameters))
+
+
+def within(value: float, interval: tuple[float, float]) -> float:
+    """A value that rounding has put just outside an interval, put on its edge; any other as it is."""
+    slack = 1e-12 * max(abs(interval[0]), abs(interval[1]))
+    nearest = min(max(value, interval[0]), interval[1])
+    return nearest if abs(value - nearest) <= slack else value
 
 
 def _with_speed(numbers: Numbers, speed: float) -> Numbers:

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.bifurcations.axes import Axis, Numbers, axis, within
 from carom.bifurcations.conditions import (
     TESTS,
     conditions_at,
@@ -24,6 +24,8 @@ from carom.outcome import InputError
 __all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]
 
 STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
+NOTHING = 1e-8
+"""Radial speed, or share of the period, that is zero but for rounding."""
 SMALL = 1e-4
 """Radial speed of an orbit that stands for those that shrink to a point."""
 WATCHED = (
@@ -179,7 +181,7 @@ def continue_orbit(
     """
     base = Numbers.of(orbit.rotor.parameters)
     along = axis(orbit.rotor.parameters, parameter)
-    present = along.get(base)
+    present = within(along.get(base), interval)
     if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
         raise InputError(parameter, interval, f"an interval that holds the orbit's own value {present:.6g}")
     if not orbit.name.startswith("B"):
@@ -221,13 +223,17 @@ def continue_orbit(
 def _bifurcation(point: SpecialPoint, along: Axis, base: Numbers, pair: str) -> Bifurcation | None:
     """The special point in terms of orbits; ``None`` if it is none.
 
-    A fold is no branch point, and two real multipliers with a product of one are no Neimark–Sacker bifurcation.
+    A fold is no branch point, and two real multipliers with a product of one are no Neimark–Sacker bifurcation.  The height
+    of the radius changes sign too where the orbit shrinks to nothing, and, without rebound, where its maximum comes out of
+    the impact as lasting contact begins: neither is grazing.
     """
     numbers = along.set(base, point.parameter)
     at = numbers, float(point.unknowns[0]), float(point.unknowns[1])
     conditions = conditions_at(*at)
     kind = point.kind
     if kind == "branch point" or (kind == "neimark-sacker" and abs(conditions.pair_sum) >= 2.0):
+        return None
+    if kind == "grazing" and (abs(at[2]) < NOTHING or not profile_at(*at).top > NOTHING * at[1]):
         return None
     if kind == "fold" and abs(conditions.speed_fold) < abs(conditions.period_fold):
         kind = "speed-fold"

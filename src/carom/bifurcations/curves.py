@@ -19,6 +19,8 @@ __all__ = ["KINDS", "Codimension2Point", "Curve", "Plane", "continue_curve"]
 
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 EDGE = "edge of the plane"
+BOUNDLESS, FASTEST = "radial speed without bound", 30.0
+"""Radial speed, in ``c_r Ω``, at which a curve is not followed any further: it goes where ``a₁₂`` vanishes."""
 VANISHING = 1e-2
 """Period, or part of a period, that has shrunk to nothing where the equations end."""
 
@@ -80,7 +82,7 @@ class Codimension2Point:
         For example ``"fold + boundary-equilibrium"``.
     value : tuple of float
         In the plane.
-    period : float
+    period, radial_speed : float
         Of the orbit; ``nan`` for equilibria.
     admissible : bool
         Whether it happens to a motion of the machine, or to one that just stops being one.
@@ -89,6 +91,7 @@ class Codimension2Point:
     kind: str
     value: tuple[float, float]
     period: float
+    radial_speed: float
     admissible: bool
 
 
@@ -111,7 +114,7 @@ class Curve:
     stops : tuple of two str
         Why it ends at either end: ``"edge of the plane"``, ``"closed loop"``, the codimension-2 point where the bifurcation
         ceases (``"resonance 1:1"`` or ``"1:2"`` of a Neimark–Sacker curve), ``"grazing meets the impact"`` (the time of
-        grazing reaches an end of the period), ``"period vanishes"``, or why the continuation gave up
+        grazing reaches an end of the period), ``"period vanishes"``, ``"radial speed without bound"``, or why the continuation gave up
         (:class:`~carom.continuation.Branch`).
     """
 
@@ -220,13 +223,14 @@ def continue_curve(
         return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), name in definition.ends)
 
     edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
+    bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), ends_branch=True)] if definition.unknowns else []
     sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
     branch = continue_branch(
         _equations(kind, numbers),
         np.array([*guess, start[0]]),
         float(start[1]),
         plane.second_range,
-        watches=[edge, *(watch(name) for name in (*definition.watched, *definition.ends))],
+        watches=[edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=np.array([*np.ones(definition.unknowns), *sizes]),
     )
@@ -283,7 +287,7 @@ def _curve(kind: str, plane: Plane, branch: Branch, numbers: Callable[[np.ndarra
             Codimension2Point(
                 f"{kind} + {point.kind}",
                 (float(point.unknowns[-1]), point.parameter),
-                float(point.unknowns[0]) if of_orbits else np.nan,
+                *(_orbit(kind, point.unknowns) if of_orbits else (np.nan, np.nan)),
                 happens(point.unknowns, point.parameter, 1e-6),
             )
             for point in branch.special
@@ -301,7 +305,7 @@ def _stop(kind: str, branch: Branch, end: Literal[0, -1]) -> str:
     if reason != "end of domain":
         return reason
     for point in branch.special:
-        if point.kind in (EDGE, *KINDS[kind].ends) and np.array_equal(point.unknowns, branch.unknowns[end]):
+        if point.kind in (EDGE, BOUNDLESS, *KINDS[kind].ends) and np.array_equal(point.unknowns, branch.unknowns[end]):
             return point.kind
     unknowns = branch.unknowns[end]
     if KINDS[kind].unknowns and unknowns[0] < VANISHING:

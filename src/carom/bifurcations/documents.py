@@ -73,7 +73,13 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
             for curve in found.curves
         ],
         "codim2": [
-            {"kind": point.kind, "value": list(point.value), "period": point.period, "admissible": point.admissible}
+            {
+                "kind": point.kind,
+                "value": list(point.value),
+                "period": point.period,
+                "radial_speed": point.radial_speed,
+                "admissible": point.admissible,
+            }
             for point in found.codimension2
         ],
         "regions": [

@@ -22,7 +22,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.bifurcations.axes import Axis, Numbers, axis, within
 from carom.bifurcations.lift_offs import LONGEST, LiftOff, Whirl, known, lift_off_state, next_lift_off, shift_of
 from carom.continuation import Steps, Watch, continue_branch
 from carom.outcome import CaromError, InputError
@@ -202,7 +202,7 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float,
     """
     along = axis(orbit.parameters, parameter)
     base = Numbers.of(orbit.parameters)
-    present = along.get(base)
+    present = within(along.get(base), interval)
     if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
         raise InputError(parameter, interval, f"an interval that holds the motion's own value {present:.6g}")
     lift_offs = _Map(along, base, orbit.whirl)
