@@ -110,8 +110,8 @@ def test_determinant_of_the_planar_rotor():
         assert low * high < 0.0
 
 
-def test_determinant_of_a_rotor_with_four_modes():
-    """Against the matrix exponential of the modes and the reset written as real matrices."""
+def four_modes() -> SimpleNamespace:
+    """A rotor of four modes, two of them a pair, whose impulse does not move the contact at once."""
     random = np.random.default_rng(8)
     exponents = np.array([-0.3 - 1.9j, -0.2 - 0.4j, -0.1 + 0.7j, -0.05 - 2.2j])
     row, column = random.normal(size=(2, 4)) + 1j * random.normal(size=(2, 4))
@@ -126,8 +126,14 @@ def test_determinant_of_a_rotor_with_four_modes():
         restitution=np.array([0.8]),
         drive=np.array([50.0]),
     )
-    rotor = SimpleNamespace(arrays=arrays, generator=generator_of(arrays))
-    generator = np.diag(exponents)
+    return SimpleNamespace(arrays=arrays, generator=generator_of(arrays))
+
+
+def test_determinant_of_a_rotor_with_four_modes():
+    """Against the matrix exponential of the modes and the reset written as real matrices."""
+    rotor = four_modes()
+    row, column = rotor.arrays.rows[0], rotor.arrays.columns[:, 0]
+    generator = np.diag(rotor.arrays.exponents)
     generator[1, 0] = 1.0
 
     def real(matrix):
@@ -145,3 +151,24 @@ def test_determinant_of_a_rotor_with_four_modes():
         assert cycle_determinant(rotor, period, direction) == pytest.approx(expected, rel=1e-10)
         free = np.linalg.det(flown - np.eye(8))
         assert expected == pytest.approx(free * float(condition.value(np.asarray(period))), rel=1e-9)
+
+
+def test_cycles_of_a_rotor_with_four_modes():
+    """At the roots the determinant changes sign, and the linearised motion returns to its start after the impact.
+
+    The velocity along the wall's normal changes sign in the flight, so the impact is one: it comes in outward.
+    """
+    rotor = four_modes()
+    row, column = rotor.arrays.rows[0], rotor.arrays.columns[:, 0]
+    generator = np.diag(rotor.arrays.exponents)
+    generator[1, 0] = 1.0
+    periods = PeriodCondition(rotor).roots(20.0).periods
+    assert len(periods) >= 2
+    for period in periods:
+        low, high = (cycle_determinant(rotor, period * (1.0 + shift)) for shift in (-1e-8, 1e-8))
+        assert low * high < 0.0
+        # The state before the impact c solves c = e^{MT}(c − b): an impact of unit speed.
+        flown = expm(generator * period)
+        kick = column * 1.8 * (1.0 + 0.2j)
+        before = np.linalg.solve(np.eye(4) - flown, -flown @ kick)
+        assert (row @ generator @ before).real == pytest.approx(1.0, abs=1e-9)

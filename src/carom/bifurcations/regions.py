@@ -336,7 +336,7 @@ def _regions(parameters: Parameters, plane: Plane, grid: int, progress: Callable
     for cells in _merged(_connected(found), found, joins):
         i, j = max(cells, key=lambda cell: _depth(cell, cells, grid))
         place, share = (float(xs[i]), float(ys[j])), len(cells) / grid**2
-        if share < THIN:
+        if share < THIN or _depth((i, j), cells, grid) < 3:
             place = _centred(parameters, plane, grid, found[i, j], place)
         regions.append(Region(found[i, j], place, share))
     return tuple(sorted(regions, key=lambda region: -region.share))

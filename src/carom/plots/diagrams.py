@@ -146,7 +146,7 @@ def _attractor_speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
     """Impacts of simulated attractors."""
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
-        axes.plot(values, sample.radial_speeds, ls="none", marker=".", ms=2.0, mew=0.0, color="#1a1a1a", alpha=0.6)
+        axes.plot(values, sample.radial_speeds, ls="none", marker=".", ms=3.2, mew=0.0, color="#1a1a1a", zorder=4)
 
 
 def _look_of(point: SpecialValue) -> Look:
@@ -286,7 +286,7 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
     if any(len(sample.radial_speeds) for sample in diagram.attractors):
         entries.append(
-            Line2D([], [], ls="none", marker=".", ms=3.0, mew=0.0, color="#1a1a1a", label="simulated impacts")
+            Line2D([], [], ls="none", marker=".", ms=4.0, mew=0.0, color="#1a1a1a", label="simulated impacts")
         )
     if diagram.attractors:
         ring = Line2D([], [], ls="none", marker="o", ms=4.0, mfc="#ffffff", mec="#1a1a1a", mew=0.6)
