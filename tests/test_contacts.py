@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from compilation import sized
 from drawn_motions import EVENTS, MANY
 from hypothesis import given
 from hypothesis import strategies as st
@@ -23,6 +24,7 @@ from carom.trajectories import State, Trajectory, kick, simulate
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 EPSILON = 2.0**-52
+INSTANTS = sized(400, 12)
 
 
 @pytest.fixture(scope="module")
@@ -154,6 +156,7 @@ def test_force_at_the_synchronous_rub_in_newtons():
     assert SCALES.force * normal[0] == pytest.approx(newtons, rel=1e-9)
 
 
+@pytest.mark.jit_only
 def test_a_history_holds_forces_slip_and_powers_in_contact_only():
     parameters = PAPER.replace(gamma=0.2, d=0.5)
     motion = simulate(jeffcott(parameters), START, 40.0)
@@ -222,6 +225,7 @@ def test_a_history_goes_to_a_file(scales, tmp_path):
         assert np.array_equal(read["time"].values, table["time"].values)
 
 
+@pytest.mark.jit_only
 def test_impulses_and_forces_add_up_to_the_change_of_momentum():
     """Over a touchdown with bounces, sliding and flight: ``U̇`` integrates all forces, those of the wall among them.
 
@@ -276,7 +280,7 @@ def check_every_instant(motion: Trajectory) -> None:
     """Contact presses, friction stays in its cone and never pushes with the slip, and the rotor neither leaves nor enters."""
     parameters = motion.rotor.parameters
     for stretch in motion.lasting_contacts:
-        times = np.linspace(stretch.start, stretch.end, 400, endpoint=False)
+        times = np.linspace(stretch.start, stretch.end, INSTANTS, endpoint=False)
         normal, friction = motion.forces(times)
         position, velocity = motion.at(times)
         local = position.conj() * velocity
