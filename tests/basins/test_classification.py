@@ -72,6 +72,16 @@ def test_period_doubled_bouncing_has_a_name_of_its_own():
     assert "B1,d" not in basin.fractions
 
 
+def test_irregular_bouncing_is_told_from_periodic():
+    rotor = carom.jeffcott(PAPER.replace(gamma=0.082))
+    basin = basins(rotor, Grid(VelocityKick(1.0), (3, 8)), patience=1500)
+    irregular = basin.dataset["motion"].values == basin.motions.index("irregular bouncing")
+    assert irregular.sum() > 12
+    assert (basin.outcomes[irregular] == Outcome.BOUNCING).all()
+    assert (basin.dataset["multiplicity"].values[irregular] == 0).all()
+    assert "1500 impacts" in basin.dataset.attrs["criteria"]
+
+
 def test_motions_that_are_alike_are_found_without_comparing_all(rotor):
     rng = np.random.default_rng(0)
     features = rng.integers(0, 3, (4, 200)).astype(float)

@@ -24,7 +24,7 @@ __all__ = ["basins"]
 CELLS = 60
 RELEASES = 360
 STARTS = 10_000
-MOST_STARTS = 20_000_000
+MOST_STARTS = 5_000_000
 """More would not fit into the memory of a common machine; larger sets are the business of sweeps."""
 KINDS = ("kick", "kick-plane", "shock", "unbalance", "release", "slice", "state")
 
