@@ -41,6 +41,44 @@ def test_table_and_files(capsys, tmp_path):
     assert document["interval"] == pytest.approx([104.71975512, 314.15926536])
 
 
+def test_run_up_with_all_motions(capsys):
+    """Along the speed gamma and omega move together while rho stays; simulated attractors lie on the known motions."""
+    words = ["bifurcations", MACHINE, "--along", "speed", "--from", "1000 rpm", "--to", "3000 rpm"]
+    assert main([*words, "--attractors", "4", "--seed", "3", "--lasting", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    details = {point["detail"] for point in document["points"] if point["kind"] == "boundary-equilibrium"}
+    assert details == {"persistence", "non-smooth fold"}
+    assert all(document["rolling"]["holds"])
+    samples = document["attractors"]
+    assert {"levitation", "rolling", "synchronous rub", "B1,d"} <= {sample["name"] for sample in samples}
+    assert len({sample["value"] for sample in samples}) == 31
+    (levitation,) = [branch for branch in document["equilibria"] if branch["kind"] == "contact-free"]
+    there = dict(zip(levitation["values"], levitation["admissible"], strict=True))
+    for sample in samples:
+        assert 0.0 <= sample["share"] <= 1.0
+        if sample["name"] == "levitation":
+            nearest = min(there, key=lambda value: abs(value - sample["value"]))
+            assert there[nearest]
+        if sample["name"] == "B1,d":
+            known = [
+                speed
+                for branch in document["branches"]
+                for value, speed in zip(branch["values"], branch["radial_speed"], strict=True)
+                if abs(value - sample["value"]) < 5.0
+            ]
+            assert min(abs(speed - sample["radial_speeds"][0]) for speed in known) < 0.05
+
+
+def test_simulated_attractors_are_the_same_for_the_same_seed(capsys):
+    words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.05", "--to", "0.2", "--attractors", "2", "--json"]
+    documents = []
+    for _ in range(2):
+        assert main(words) == 0
+        documents.append(json.loads(capsys.readouterr().out))
+    assert documents[0]["attractors"] == documents[1]["attractors"]
+    assert documents[0]["rubbing"] == []
+
+
 def test_plane_as_json(capsys):
     words = ["regions", PAPER, "--plane", "gamma,omega", "--x", "0.02,0.4", "--y", "0.6,1.0", "--grid", "6", "--json"]
     assert main(words) == 0
@@ -49,6 +87,12 @@ def test_plane_as_json(capsys):
     (point,) = [entry for entry in document["codim2"] if entry["kind"] == "fold + boundary-equilibrium"]
     assert point["value"] == pytest.approx([0.1779723, 0.7811076], abs=5e-8)
     assert sum(region["share"] for region in document["regions"]) == pytest.approx(1.0)
+    for region in document["regions"]:
+        assert len(region["stable_orbit_names"]) == region["stable_orbits"]
+        assert region["name"].startswith(region["source_region"])
+        assert ("stable forward rub" in region["words"]) is region["rub"]
+    for curve in document["curves"]:
+        assert set(curve["ends"]) <= {"edge of the plane", "closed loop"}
 
 
 def test_plane_as_tables_around_the_machine(capsys, tmp_path):
