@@ -143,7 +143,7 @@ def test_chunk_that_kills_every_worker_is_told_as_failed(tmp_path):
     assert "too many workers were lost" in (tmp_path / "s.zarr" / "failures" / "0000001.json").read_text()
 
 
-def test_lost_scheduler_is_one_line_and_what_was_finished_is_kept(tmp_path):
+def test_lost_scheduler_is_one_line_and_what_was_finished_is_kept(tmp_path, capfd):
     plan = plan_of(Drawn(seconds_taken=0.05), count=40, chunk=1)
     own = Cluster(tmp_path)
     try:
@@ -160,6 +160,7 @@ def test_lost_scheduler_is_one_line_and_what_was_finished_is_kept(tmp_path):
         own.close()
 
     assert "\n" not in str(caught.value)
+    assert capfd.readouterr().err == ""  # no traceback of the connection either
     tally = run_sweep(plan, tmp_path / "s.zarr", workers=1, threads=True)
     assert tally.done == 40
     assert tally.computed <= 37

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from importlib.metadata import version
@@ -107,18 +108,38 @@ def connect(scheduler: str, workers: int | None) -> Iterator[Client]:
     except ImportError:
         remedy = 'needs dask.distributed; install it with: pip install "carom[cluster]"'
         raise InputError(OPTION, scheduler, remedy) from None
+    with _quiet(), _connected(Client, scheduler, workers) as client:
+        yield client
+
+
+@contextmanager
+def _connected(kind: type[Client], scheduler: str, workers: int | None) -> Iterator[Client]:
     if scheduler == SLURM:
-        with _slurm_jobs(workers) as cluster, Client(cluster) as client:
+        with _slurm_jobs(workers) as cluster, kind(cluster) as client:
             yield client
         return
     place = {"scheduler_file": scheduler} if Path(scheduler).is_file() else {"address": scheduler}
     try:
-        client = Client(**place, timeout=_PATIENCE, set_as_default=False)
+        client = kind(**place, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as problem:
         allowed = "must be the address of a Dask scheduler that can be reached, such as tcp://host:8786, or its file"
         raise InputError(OPTION, scheduler, f"{allowed}, or {SLURM} ({type(problem).__name__})") from None
     with client:
         yield client
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep tracebacks of lost connections, which are told as one line, out of the output."""
+    loggers = [logging.getLogger(name) for name in logging.root.manager.loggerDict if name.startswith("distributed")]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
 
 
 @contextmanager
