@@ -222,7 +222,7 @@ def test_dimensionless_case_has_no_machine_table():
     result = study(SOURCE)
 
     assert machine_rows(result.case) == []
-    assert "gamma = 0.1" in finding(result, "What would change it")
+    assert "Gamma (this machine: 0.1)" in finding(result, "What would change it")
     assert all(row.value == "" for row in threshold_rows(result))
 
 

@@ -45,4 +45,13 @@ def test_a_balanced_rotor_has_one_limit_of_rolling():
     parameters = SOURCE.replace(rho=0.0)
     roll = rolling(carom.jeffcott(parameters))
     assert roll.largest_damping == pytest.approx(roll.damping_bound, rel=1e-15)
-    assert "rules that out. It surely gets there" in said_of(parameters)
+    text = said_of(parameters)
+    assert "rules that out. It surely gets there" in text
+    # The two speeds of the runaway agree as well.
+    assert "it may get there" not in text
+
+
+def test_dimensionless_limits_are_bare_numbers():
+    text = said_of(SOURCE.replace(scales=None))
+    assert "only gamma above 8.57 rules that out (from 8.562 on it can roll" in text
+    assert "that takes gamma = 8.57)" in said_of(SOURCE.replace(scales=None, gamma=9.0))

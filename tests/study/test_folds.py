@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from carom.orbits import single_impact_orbits
 from carom.parameters import Parameters
 from carom.periods import PeriodCondition
 from carom.rotors import jeffcott
@@ -117,3 +118,14 @@ def test_dip_is_the_lowest_minimum_of_many_samples(gamma):
 
 def test_no_dip_where_the_condition_never_falls_below_its_start():
     assert deepest_dip(SOURCE.replace(gamma=0.5)) == (np.inf, np.inf)
+
+
+@pytest.mark.parametrize("gain", ["gamma", "omega"])
+def test_a_balanced_rotor_has_no_orbit_along_either_gain(gain):
+    """``F₁`` does not know the unbalance and has roots all the same; no orbit belongs to them."""
+    balanced = single_impact_range(SOURCE.replace(rho=0.0), gain)
+    unbalanced = single_impact_range(SOURCE, gain)
+    assert unbalanced.spans
+    assert balanced.spans == ()
+    assert balanced.searched == unbalanced.searched
+    assert len(single_impact_orbits(jeffcott(SOURCE.replace(rho=0.0)))) == 0

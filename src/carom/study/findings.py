@@ -8,7 +8,7 @@ from carom.outcome import Outcome
 from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
 from carom.study.ranges import Gain, Motion, free_spans
 from carom.study.wording import counted, listed, number
-from carom.whirl import Rolling, rolling, runaway_speed
+from carom.whirl import Rolling, Runaway, rolling, runaway_speed
 
 if TYPE_CHECKING:
     from carom.equilibria import Equilibrium
@@ -196,7 +196,8 @@ def _backward_whirl(study: Study) -> str:
     if roll.damping_bound <= 0.0:
         return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
     if gamma > roll.damping_bound:
-        return f"Damping is so strong that no backward whirl in lasting contact sustains itself (that takes {bound})."
+        least = bound if say.scales else f"gamma = {bound}"
+        return f"Damping is so strong that no backward whirl in lasting contact sustains itself (that takes {least})."
     if not roll.holds:
         return (
             "The rotor cannot roll backward round the bearing for a whole turn, but backward whirl that slides for a part of "
@@ -206,8 +207,8 @@ def _backward_whirl(study: Study) -> str:
         f"Dry friction can drive the rotor backward round the bearing until it rolls there with "
         f"{_with_weight(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
         f"{bound} rules that out{_interrupted(study, roll)}. It surely gets there if, in lasting contact, its centre moves backward faster than "
-        f"{say.velocity(runaway.certain)} (whirl at {number(runaway.certain, 3)} times the speed of the shaft), and it may get "
-        f"there from about {say.velocity(runaway.average)} on."
+        f"{say.velocity(runaway.certain)} (whirl at {number(runaway.certain, 3)} times the speed of the shaft)"
+        f"{_perhaps(study, runaway)}."
     )
 
 
@@ -217,6 +218,12 @@ def _interrupted(study: Study, roll: Rolling) -> str:
     if every_angle == bound:
         return ""
     return f" (from {every_angle} on it can roll for a part of each turn only, and slides in between)"
+
+
+def _perhaps(study: Study, runaway: Runaway) -> str:
+    """From which lower speed on the unbalance decides whether backward whirl runs away."""
+    certain, average = study.wording.velocity(runaway.certain), study.wording.velocity(runaway.average)
+    return "" if certain == average else f", and it may get there from about {average} on"
 
 
 def _with_weight(study: Study, force: float) -> str:
@@ -270,17 +277,22 @@ def _safe_damping(study: Study) -> str:
     """What simulations at other dampings add to the ranges."""
     say, safe = study.wording, study.safe_damping
     limit, name = safe.within_reach, say.gain_name("gamma")
-    tried = f"(simulated at dampings up to {say.gain('gamma', safe.highest)})"
+    tried = f"(simulated up to {say.gain('gamma', safe.highest)})"
     if limit is None:
         return f"The disturbances came back at every {name} tried {tried}."
     if limit.above > safe.highest:
         return f"Some disturbances did not come back even at the largest {name} tried {tried}."
-    last = "the synchronous rub" if limit.motion == "synchronous rub" else ending_words(limit.motion)
+    last = _LAST.get(limit.motion, ending_words(limit.motion))
     return (
         f"All disturbances came back at every {name} tried above {say.gain('gamma', limit.above)} {tried}; the last motion to "
         f"go is {last}."
     )
 
+
+_LAST = {
+    "synchronous rub": "the synchronous rub",
+    "rolling": "rolling backward whirl, which above it these disturbances do not reach",
+}
 
 FINDINGS = {
     "Levitation": _levitation,

@@ -46,6 +46,8 @@ class _Point:
 def single_impact_range(parameters: Parameters, gain: Gain, progress: Progress | None = None) -> MotionRange | None:
     """Where ``F₁`` has roots, which orbits with one impact a period and forward slip need.
 
+    A balanced rotor has no such orbit (:func:`~carom.orbits.single_impact_orbits`), whatever the roots: ``U* = 0``.
+
     Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a
     quarter of the machine's own to four times it.
 
@@ -66,14 +68,15 @@ def single_impact_range(parameters: Parameters, gain: Gain, progress: Progress |
     values = _gains(parameters, gain)
     if values is None:
         return None
-    points = []
-    for done, value in enumerate(values):
+    searched = Span(Edge(float(values[0])), Edge(float(values[-1])))
+    points: list[_Point] = []
+    spans: tuple[Span, ...] = ()
+    for done, value in enumerate(values if parameters.rho > 0.0 else ()):
         points.append(_dip_at(parameters, gain, float(value), sign_only=True))
         if progress:
             progress((done + 1) / (len(values) + 4))
-    points = _with_narrow_windows(parameters, gain, points)
-    spans = _spans(parameters, gain, points)
-    searched = Span(Edge(float(values[0])), Edge(float(values[-1])))
+    if points:
+        spans = _spans(parameters, gain, _with_narrow_windows(parameters, gain, points))
     if progress:
         progress(1.0)
     return MotionRange("single-impact", gain, spans, searched, float(values[1] / values[0] - 1.0))

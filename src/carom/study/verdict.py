@@ -102,7 +102,8 @@ def _what_may_hold(study: Study) -> list[str]:
     tried = study.attractors.disturbances
     lost = sum(ending.outcome is not Outcome.LEVITATED for ending in tried)
     if lost:
-        holds.append(f"it did not come back from {lost} of {len(tried)} disturbances tried")
+        share = f"{lost} of {len(tried)}" if lost < len(tried) else f"any of the {lost}"
+        holds.append(f"it did not come back from {share} disturbances tried")
     if not study.orbits.complete and not study.stable_orbits:
         holds.append("not all of its periodic motions could be searched")
     return holds

@@ -62,7 +62,7 @@ class Wording:
 
     def time(self, value: float) -> str:
         """A time given in ``1/Ω``."""
-        return self._quantity(value, "time", "s", "/Ω")
+        return f"{number(value, 3)}/Ω" if self.scales is None else self._quantity(value, "time", "s", "")
 
     def velocity(self, value: float) -> str:
         """A velocity given in ``c_r Ω``."""
@@ -91,9 +91,9 @@ class Wording:
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
     def gain(self, gain: Gain, value: float) -> str:
-        """Damping or stiffness given as ``gamma`` or ``omega``, with its unit."""
+        """Damping or stiffness given as ``gamma`` or ``omega``, with its unit; a bare number where the machine is not known."""
         if self.scales is None:
-            return f"{gain} = {number(value)}"
+            return number(value)
         return f"{number(self.gain_in_si(gain, value))} {self.gain_unit(gain)}"
 
     def gain_in_si(self, gain: Gain, value: float) -> float:
@@ -121,20 +121,17 @@ class Wording:
             if from_start and to_end:
                 return f"for every value{self._looked_at(gain, searched)}"
             if from_start:
-                parts.append(f"below {self._bare(gain, span.high.value)}")
+                parts.append(f"below {self.gain(gain, span.high.value)}")
             elif to_end:
-                parts.append(f"above {self._bare(gain, span.low.value)}")
+                parts.append(f"above {self.gain(gain, span.low.value)}")
             else:
-                parts.append(f"from {self._bare(gain, span.low.value)} to {self._bare(gain, span.high.value)}")
+                parts.append(f"from {self.gain(gain, span.low.value)} to {self.gain(gain, span.high.value)}")
         return " and ".join(parts)
 
     def _looked_at(self, gain: Gain, searched: Span | None) -> str:
         if searched is None:
             return ""
-        return f" searched ({self._bare(gain, searched.low.value)} to {self._bare(gain, searched.high.value)})"
-
-    def _bare(self, gain: Gain, value: float) -> str:
-        return number(value) if self.scales is None else self.gain(gain, value)
+        return f" searched ({self.gain(gain, searched.low.value)} to {self.gain(gain, searched.high.value)})"
 
     def _quantity(self, value: float, scale: str, unit: str, own_unit: str) -> str:
         if self.scales is None:
