@@ -28,8 +28,11 @@ if TYPE_CHECKING:
     from carom.basins import basin_entropy as basin_entropy
     from carom.basins import basins as basins
     from carom.basins import gain_map as gain_map
+    from carom.basins import harmless_kick as harmless_kick
+    from carom.basins import harmless_shock as harmless_shock
     from carom.basins import integrity as integrity
     from carom.basins import least_gain_change as least_gain_change
+    from carom.basins import rub_neighbourhood as rub_neighbourhood
     from carom.basins import smallest_unrecovered_kick as smallest_unrecovered_kick
     from carom.bifurcations import Diagram as Diagram
     from carom.bifurcations import OrbitBranch as OrbitBranch
@@ -147,6 +150,8 @@ _HOMES = {
     "equilibria": "equilibria",
     "find_attractors": "attractors",
     "gain_map": "basins",
+    "harmless_kick": "basins",
+    "harmless_shock": "basins",
     "impact_map": "maps",
     "integrity": "basins",
     "jeffcott": "rotors",
@@ -161,8 +166,9 @@ _HOMES = {
     "region_map": "bifurcations",
     "rolling": "whirl",
     "rub_limit": "whirl",
-    "runaway_speed": "whirl",
+    "rub_neighbourhood": "basins",
     "run_sweep": "sweeps",
+    "runaway_speed": "whirl",
     "settle_all": "ensembles",
     "simulate": "trajectories",
     "single_impact_orbits": "orbits",

@@ -31,7 +31,7 @@ __all__ = ["GainChange", "GainMap", "gain_map", "least_gain_change"]
 
 AROUND = (0.5, 2.0)
 """Default range of a parameter, in its present value."""
-CHUNK = 200_000
+CHUNK = 50_000
 """Starts that are in memory at a time, about."""
 HALVINGS = 8
 CANDIDATES = 8
