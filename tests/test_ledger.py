@@ -51,3 +51,17 @@ def test_a_missing_account_would_show():
     ledger = energy_ledger(motion)
     without_drive = np.abs(ledger.energy - ledger.energy[0] - ledger.supplied + ledger.drive).max()
     assert without_drive > 1e-2 * np.abs(ledger.drive).max()
+
+
+def test_energies_in_joules():
+    scales = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+    ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
+    table, plain = ledger.to_dataset(scales), ledger.to_dataset()
+    assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(
+        ("kinetic", "spring", "unbalance", "damping", "impacts", "friction", "drive"), "J"
+    )
+    assert table["times"].attrs["units"] == "s"
+    joules = 50.0 * (0.7e-3 * 184.2) ** 2
+    assert np.allclose(table["friction"], joules * ledger.friction, rtol=1e-14, atol=0)
+    assert np.array_equal(plain["drive"], ledger.drive)
+    assert plain["drive"].attrs["units"] == "m c_r^2 Omega^2"

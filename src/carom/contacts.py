@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from carom.parameters import Scales
 
-__all__ = ["ContactHistory", "ContactLog", "LastingContact", "phase_flags", "polar"]
+__all__ = ["ContactHistory", "ContactLog", "LastingContact", "Table", "phase_flags", "polar"]
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class LastingContact:
         return "roll" if self.phase is Phase.ROLLING else "slide"
 
 
-class _Table:
+class Table:
     """Columns with units, one entry each along a dimension.
 
     ``columns`` holds the name of each, the property of :class:`~carom.parameters.Scales` that turns it into SI units (empty
@@ -72,7 +72,7 @@ class _Table:
 
 
 @dataclass(frozen=True, eq=False)
-class ContactLog(_Table):
+class ContactLog(Table):
     """Impacts of a motion, one entry each, in the order of time.
 
     All arrays have shape (n,).  Lengths are in ``c_r``, times in ``1/Ω``, impulses in ``m c_r Ω``, energies in
@@ -166,7 +166,7 @@ class ContactLog(_Table):
 
 
 @dataclass(frozen=True, eq=False)
-class ContactHistory(_Table):
+class ContactHistory(Table):
     """Forces and slip of lasting contact at chosen times.
 
     All arrays have shape (n,).  Times are in ``1/Ω``, forces in ``m c_r Ω²``, speeds in ``c_r Ω``, powers in ``m c_r² Ω³``,

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
+from carom.contacts import Table
 from carom.outcome import Phase
 from carom.trajectories import Trajectory
 
@@ -17,7 +19,7 @@ LONGEST_PIECE = 1.5
 
 
 @dataclass(frozen=True, eq=False)
-class EnergyLedger:
+class EnergyLedger(Table):
     """Running energies of a motion in the fixed frame, in ``m c_r² Ω²``.
 
     All arrays have shape (k,): values at ``times``, which begin at zero and hold the ends of all segments.  Works are
@@ -45,6 +47,18 @@ class EnergyLedger:
     impacts: np.ndarray
     friction: np.ndarray
     drive: np.ndarray
+
+    dimension: ClassVar[str] = "times"
+    columns: ClassVar[dict[str, tuple[str, str, str]]] = {
+        "times": ("time", "s", "time"),
+        "kinetic": ("energy", "J", "kinetic energy of the rotor centre"),
+        "spring": ("energy", "J", "energy of the bearing's stiffness"),
+        "unbalance": ("energy", "J", "work of the unbalance since the start"),
+        "damping": ("energy", "J", "work of the bearing's damping since the start"),
+        "impacts": ("energy", "J", "work at the contact point in impacts since the start"),
+        "friction": ("energy", "J", "work of friction in lasting contact since the start"),
+        "drive": ("energy", "J", "work of the shaft's drive through friction since the start"),
+    }
 
     @property
     def energy(self) -> np.ndarray:
