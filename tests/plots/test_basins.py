@@ -147,8 +147,16 @@ def test_gain_map(rotor):
     assert any(text.startswith("present machine: ") for text in said)
     assert any(text.startswith("least change found for 90 %: P gain ") for text in said)
     assert "no levitation without contact" in said
+    levitates = found.dataset["levitates"].values.T > 0.0
     shares = next(entry for entry in axes.collections if isinstance(entry, QuadMesh)).get_array()
-    np.testing.assert_array_equal(np.asarray(shares), found.dataset["recovered"].values.T)
+    np.testing.assert_array_equal(np.ma.getmaskarray(shares), ~levitates)
+    np.testing.assert_array_equal(shares[levitates], found.dataset["recovered"].values.T[levitates])
+    other = plots.gain_map(found, measure="basin_entropy")
+    shades = next(entry for entry in other.axes[0].collections if isinstance(entry, QuadMesh)).get_array()
+    np.testing.assert_array_equal(shades[levitates], found.dataset["basin_entropy"].values.T[levitates])
+    assert "entropy" in other.axes[1].get_ylabel()
+    with pytest.raises(InputError, match="measure"):
+        plots.gain_map(found, measure="beauty")
 
 
 def test_gain_map_of_dimensionless_parameters():

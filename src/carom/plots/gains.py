@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
+from carom.outcome import InputError
 from carom.plots.plane import one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import number, parameter_label, parameter_unit
@@ -26,6 +26,13 @@ __all__ = ["gain_map"]
 
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their lines."""
+_MEASURES = {
+    "recovered": ("share of the disturbances that comes back", True),
+    "integrity": ("largest size of which none is lost, of the largest tried", True),
+    "basin_entropy": ("basin entropy of the outcomes", False),
+    "boundary_basin_entropy": ("boundary basin entropy of the outcomes", False),
+}
+"""What shades can tell, and whether it is a share."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
 _GROUND = "#e6e6e6"
 """Ground of machines that cannot levitate."""
@@ -35,7 +42,12 @@ _SHADES = "cividis"
 
 @styled
 def gain_map(
-    found: GainMap, change: GainChange | None = None, title: str | None = None, *, axes: Axes | None = None
+    found: GainMap,
+    change: GainChange | None = None,
+    title: str | None = None,
+    *,
+    measure: str = "recovered",
+    axes: Axes | None = None,
 ) -> Figure:
     """Draw the share of disturbances that comes back, with contours, the present machine and the least change.
 
@@ -45,6 +57,8 @@ def gain_map(
     change : carom.basins.GainChange, optional
         Least change that reaches a wanted share, to be drawn as an arrow.
     title : str, optional
+    measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy"}
+        What the shades tell; the contours are those of the share that comes back.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 126 mm wide.
 
@@ -52,62 +66,73 @@ def gain_map(
     -------
     matplotlib.figure.Figure
         Both axes in SI units where the parameters are physical.
+
+    Raises
+    ------
+    InputError
+        No such measure.
     """
+    if measure not in _MEASURES:
+        raise InputError("measure", measure, f"one of: {', '.join(_MEASURES)}")
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     units = [parameter_unit(axis) for axis in found.axes]
     x, y = (found.dataset[axis.name].values / unit for axis, unit in zip(found.axes, units, strict=True))
-    share = found.dataset["recovered"].values
-    mesh = drawn.pcolormesh(x, y, share.T, cmap=_SHADES, vmin=0.0, vmax=1.0, shading="nearest", rasterized=True)
-    handles: list[Line2D | Patch] = []
     grounded = found.dataset["levitates"].values == 0.0
+    _shades(figure, drawn, (x, y), np.ma.masked_where(grounded, found.dataset[measure].values), measure)
+    handles: list[Line2D | Patch] = []
     if grounded.any():
-        drawn.pcolormesh(
-            x,
-            y,
-            np.ma.masked_where(~grounded, np.ones(grounded.shape)).T,
-            cmap=ListedColormap([_GROUND]),
-            shading="nearest",
-            rasterized=True,
-        )
+        drawn.set_facecolor(_GROUND)
         handles.append(Patch(facecolor=_GROUND, edgecolor="#a6a6a6", lw=0.4, label="no levitation without contact"))
-    lines = _contours(drawn, x, y, np.ma.masked_where(grounded, share))
-    here = [value / unit for value, unit in zip(found.present, units, strict=True)]
-    now = found.present_share
+    handles += _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
+    here = found.present[0] / units[0], found.present[1] / units[1]
     drawn.plot(*here, marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", gid="present", clip_on=False)
-    words = f"present machine: {number(100.0 * now.fraction, 3)} % come back"
-    handles += lines
+    words = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
     handles.append(Line2D([], [], marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", label=words))
     if change is not None and change.size > 0.0:
-        there = [value / unit for value, unit in zip(change.values, units, strict=True)]
-        drawn.annotate(
-            "",
-            (there[0], there[1]),
-            (here[0], here[1]),
-            arrowprops={"arrowstyle": "-|>", "color": "white", "lw": 1.6, "shrinkA": 4},
-        )
-        drawn.annotate(
-            "",
-            (there[0], there[1]),
-            (here[0], here[1]),
-            arrowprops={"arrowstyle": "-|>", "color": "#d55e00", "lw": 0.9, "shrinkA": 4},
-        )
-        changes = ", ".join(
-            f"{_NAMES.get(axis.name, axis.name)} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}")
-            for axis, part in zip(found.axes, change.changes, strict=True)
-        )
-        label = f"least change found for {100 * change.wanted:g} %: {changes}"
-        handles.append(Line2D([], [], color="#d55e00", lw=1.2, marker=">", markevery=[1], ms=4, label=label))
+        there = change.values[0] / units[0], change.values[1] / units[1]
+        handles.append(_arrow(drawn, here, there, found, change))
     drawn.set_xlabel(_label(found.axes[0]))
     drawn.set_ylabel(_label(found.axes[1]))
     drawn.set_xlim(x[0], x[-1])
     drawn.set_ylim(y[0], y[-1])
-    bar = figure.colorbar(mesh, ax=drawn, format=PercentFormatter(1.0), pad=0.02)
-    bar.set_label("share of the disturbances that comes back")
-    bar.outline.set_linewidth(0.5)
     if title:
         drawn.set_title(title)
     figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure
+
+
+def _shades(
+    figure: Figure, axes: Axes, places: tuple[np.ndarray, np.ndarray], values: np.ma.MaskedArray, measure: str
+) -> None:
+    """Shades of a measure and their bar."""
+    words, share = _MEASURES[measure]
+    highest = 1.0 if share else max(float(np.nan_to_num(values.filled(0.0)).max()), 1e-3)
+    mesh = axes.pcolormesh(
+        *places,
+        np.ma.masked_invalid(values).T,
+        cmap=_SHADES,
+        vmin=0.0,
+        vmax=highest,
+        shading="nearest",
+        rasterized=True,
+    )
+    bar = figure.colorbar(mesh, ax=axes, format=PercentFormatter(1.0) if share else None, pad=0.02)
+    bar.set_label(words)
+    bar.outline.set_linewidth(0.5)
+
+
+def _arrow(
+    axes: Axes, here: tuple[float, float], there: tuple[float, float], found: GainMap, change: GainChange
+) -> Line2D:
+    """Arrow from the present machine along the least change, and its entry in the legend."""
+    for colour, width in (("white", 1.6), ("#d55e00", 0.9)):
+        axes.annotate("", there, here, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": width, "shrinkA": 4})
+    changes = ", ".join(
+        f"{_NAMES.get(axis.name, axis.name)} {100.0 * part:+.3g} %".replace("-", "\N{MINUS SIGN}")
+        for axis, part in zip(found.axes, change.changes, strict=True)
+    )
+    label = f"least change found for {100 * change.wanted:g} %: {changes}"
+    return Line2D([], [], color="#d55e00", lw=1.2, marker=">", markevery=[1], ms=4, label=label)
 
 
 def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> list[Line2D]:
