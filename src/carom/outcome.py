@@ -66,7 +66,7 @@ _MEANINGS = {
     Outcome.CONTACT: "The flight reaches the wall with an outward radial velocity.",
     Outcome.GRAZING: (
         "The path touches the wall so nearly tangentially that double precision cannot decide whether it hits; "
-        "move the start by more than 1e-12 to decide."
+        "move the start by more than 1e-12 to decide. Without damping a motion may go on grazing for ever."
     ),
     Outcome.TIME_REACHED: "The motion was followed to the time asked for without settling.",
     Outcome.EVENT_LIMIT: "The motion was stopped at the largest allowed number of events; raise max_events.",
