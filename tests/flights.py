@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 
 import numpy as np
@@ -89,11 +90,18 @@ class Task:
         return min(away, 2.0 * relative * spread * (self.flight.fastest + speed) * time * (1.0 + phase))
 
 
-def compare(task: Task, horizon: float, tally: Tally) -> Crossing | None:
+def by_kernel(task: Task, horizon: float) -> tuple[int, float]:
+    """Outcome and time of the first crossing, by the kernel for single motions."""
+    work = workspace(len(task.amplitudes))
+    return events.first_crossing(task.arrays, task.table, task.plane, task.amplitudes, horizon, task.start, work)
+
+
+def compare(
+    task: Task, horizon: float, tally: Tally, search: Callable[[Task, float], tuple[int, float]] = by_kernel
+) -> Crossing | None:
     """Fly a task both ways and enter the verdict in the tally."""
     expected = first_crossing(task.flight, horizon, task.radial_speed)
-    work = workspace(len(task.amplitudes))
-    code, time = events.first_crossing(task.arrays, task.table, task.plane, task.amplitudes, horizon, task.start, work)
+    code, time = search(task, horizon)
     outcome = Outcome(code)
     tally.tried += 1
     example = (outcome.label, time, expected, task)

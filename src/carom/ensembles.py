@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.core.advance import INSIDE_ALL
-from carom.core.ensemble import follow_each
-from carom.core.layout import rub_workspace, workspace
+from carom.core.ensemble import Motions, Task, Tools, follow_each
+from carom.core.lanes import lanes_record
+from carom.core.layout import LANES, rub_workspace, workspace
 from carom.outcome import InputError, Outcome
 from carom.rotors import Rotor
 from carom.trajectories import WALL_TOLERANCE, EventLog, fresh_memory
@@ -22,10 +23,9 @@ LONGEST = 2e5
 """Time after which a motion that has not settled is given up, in ``1/Ω``."""
 PATIENCE = 20_000
 MOST_EVENTS = 1_000_000
-PORTION = 2048
+PORTION = 8192
 """Starts of one machine that a thread takes at a time: some milliseconds to a second of work."""
-LOGGED = 256
-"""Events a kernel logs before it is asked to go on: few, to stay in the cache."""
+MODES = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,29 +195,27 @@ def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, np.ndarra
 
 def _settle_portion(rotor: Rotor, places: np.ndarray, endings: Endings, limits: _Limits) -> int:
     """Follow some starts of one machine and note their endings; return their number."""
-    positions, velocities = endings.positions[places], endings.velocities[places]
-    planes = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, 0, INSIDE_ALL)
-    modes = len(rotor.eigenvalues)
-    notes = (
-        np.empty(len(places), np.int8),
-        np.empty(len(places)),
-        np.empty(len(places), np.int64),
-        np.empty(len(places), np.int64),
+    positions = endings.positions[places]
+    motions = Motions(
+        positions=positions,
+        velocities=endings.velocities[places],
+        planes=np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, 0, INSIDE_ALL),
+        outcomes=np.empty(len(places), np.int8),
+        times=np.empty(len(places)),
+        impacts=np.empty(len(places), np.int64),
+        multiplicities=np.empty(len(places), np.int64),
     )
-    follow_each(
-        rotor.arrays,
-        rotor.table,
-        positions,
-        velocities,
-        planes,
-        limits.until,
-        limits.max_events,
-        notes,
-        tuple(EventLog.empty(LOGGED, modes)),
-        fresh_memory(rotor, limits.patience if limits.settle else 0),
-        workspace(modes),
-        rub_workspace(modes),
-    )
-    endings.outcomes[places], endings.times[places], endings.impacts[places], endings.multiplicities[places] = notes
-    endings.positions[places], endings.velocities[places] = positions, velocities
+    task = Task(rotor.arrays, rotor.table, limits.until, limits.max_events)
+    # Uncompiled, a lane that has nothing to divide warns.
+    with np.errstate(all="ignore"):
+        follow_each(task, motions, _tools(fresh_memory(rotor, limits.patience if limits.settle else 0)))
+    for name, values in motions._asdict().items():
+        if name != "planes":
+            getattr(endings, name)[places] = values
     return len(places)
+
+
+def _tools(memory: np.record) -> Tools:
+    log = EventLog.empty(1, MODES)
+    memories = np.array([memory] * LANES, memory.dtype)
+    return Tools(lanes_record(), memories, *log, workspace(MODES), rub_workspace(MODES), np.empty(MODES, complex))

@@ -70,21 +70,22 @@ def load_polynomial(table, depth, level, work):
 
 @part
 def sign_changes(polynomial, level, floor, remainder):
-    """Sign changes of ``f`` on the block: their number (2: more, or unknown), and the coefficient after the first.
+    """Whether ``f`` may cross the wall on the block: 0 (no), 1 (perhaps), 2 (not to be decided); and where it may first.
 
-    The error of the coefficients grows from ``floor``, the rounding of ``f`` at the start, by ``remainder`` at the end.
+    Looked at is the polynomial plus the bound of its error, which grows from ``floor``, the rounding of ``f`` at the start,
+    by ``remainder`` at the end.  It has no root where none of its coefficients is positive, and at most two, the first of
+    them upward, where the positive ones follow one another.  The second answer is the number of the first of these.
     """
     share = remainder / DEGREE
-    first, last = DEGREE, -1
+    first, last, number = DEGREE, -1, 0
     for j in range(DEGREE):
-        error = floor + share * (j + 1)
-        if polynomial[j] + error >= 0.0:
+        if polynomial[j] + (floor + share * (j + 1)) >= 0.0:
             first = min(first, j)
-        if polynomial[j] - error <= 0.0:
             last = j
-    if -floor <= level != 0.0 or (first == 0 and level >= 0.0) or first < last:
+            number += 1
+    if -floor <= level != 0.0 or (first == 0 and level >= 0.0) or last - first + 1 > number > 0:
         return 2, first
-    return (1 if first < DEGREE else 0), first
+    return (1 if number > 0 else 0), first
 
 
 @part

@@ -1,90 +1,268 @@
-"""Many motions in one call: each followed to where it settles, of which only the ending is kept."""
+"""Many motions in one call: each followed to where it settles, of which only the ending is kept.
+
+Motions of a rotor with one pair of modes fly side by side in :mod:`carom.core.lanes`.  Whenever a lane needs more than a
+plain flight and a plain impact, its motion is followed on singly by :mod:`carom.core.advance`, until it flies again, and
+a motion that has ended makes room for the next.
+"""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from carom.core.advance import advance
-from carom.core.fate import forget
-from carom.core.flow import displacement, velocity
+from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
+from carom.core.fate import forget, impacts_until_noted, levitates, recurs
+from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import set_on_wall
-from carom.core.layout import kernel, part
+from carom.core.lanes import CLEARED, LATE, NOTED, STRUCK, TOUCHING, fly_lanes, surely_flies
+from carom.core.layout import LANES, LEVELS, kernel, part, passage
 from carom.outcome import Outcome, Phase
 
-__all__ = ["follow_each"]
+__all__ = ["Motions", "Task", "Tools", "follow_each"]
 
-EVENT_LIMIT, FLIGHT = int(Outcome.EVENT_LIMIT), int(Phase.FLIGHT)
+EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
+BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(Outcome.MIXED)
+FLIGHT = int(Phase.FLIGHT)
+GOES_ON, SINGLY, NONE_YET = -1, -2, -3
+"""What becomes of a lane's motion that has not ended: it flies on; it is to be followed singly; there is none."""
+VACANT, IDLE = -1.0, -1
+"""Verdict on a lane that wants a motion, and the motion of one for which there is none left."""
+NOWHERE = 1e300
+
+
+class Task(NamedTuple):
+    """The rotor (:func:`~carom.rotors.second_order_record`), its table, and how far and how long to follow a motion."""
+
+    rotor: np.record
+    table: np.record
+    until: float
+    most_events: int
+
+
+class Motions(NamedTuple):
+    """Starts, and on return ends, as arrays of shape (M,).
+
+    Position and velocity; plane whose wall the start lies on, or −1; and on return outcome, time, number of impacts and
+    multiplicity as :func:`~carom.core.advance.advance` and its memory state them.
+    """
+
+    positions: np.ndarray
+    velocities: np.ndarray
+    planes: np.ndarray
+    outcomes: np.ndarray
+    times: np.ndarray
+    impacts: np.ndarray
+    multiplicities: np.ndarray
+
+
+class Tools(NamedTuple):
+    """What a call needs to work with: lanes, a memory for each, and what ``advance`` takes, with a log of one event."""
+
+    lanes: np.record
+    memories: np.ndarray
+    times: np.ndarray
+    phases: np.ndarray
+    planes: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    work: np.record
+    rub: np.record
+    amplitudes: np.ndarray
 
 
 @kernel
-def follow_each(rotor, table, positions, velocities, planes, until, most_events, endings, log, memory, work, rub):
-    """Follow motions of a rotor with two modes one after the other, in place; none depends on another.
+def follow_each(task, motions, tools):
+    """Follow motions; none depends on another.
 
     Parameters
     ----------
-    rotor, table : records of :mod:`carom.core.layout`
-    positions, velocities : complex arrays, shape (M,)
-        The starts; on return the ends.
-    planes : int array, shape (M,)
-        Plane whose wall a start lies on, or −1.
-    until : float
-        Longest time to follow a motion.
-    most_events : int
-        Events after which a motion is given up with ``EVENT_LIMIT``, to a whole log.
-    endings : tuple of arrays, each of shape (M,)
-        Outcome, time, impacts and multiplicity of each motion, as :func:`~carom.core.advance.advance` and its memory
-        state them.
-    log : tuple of arrays
-        Room for events, written over again and again; see :func:`~carom.core.advance.advance`.
-    memory, work, rub : records
-        As :func:`~carom.core.advance.advance` takes them.
+    task : Task
+    motions : Motions
+    tools : Tools
     """
-    outcomes, times, impacts, multiplicities = endings
-    log_times, log_phases, log_planes, before, after = log
-    amplitudes = np.empty(2, np.complex128)
-    for start in range(positions.shape[0]):
-        _set_state(rotor, positions[start], velocities[start], amplitudes)
-        forget(memory)
-        if planes[start] >= 0:
-            set_on_wall(rotor, planes[start], amplitudes)
-        outcome, phase, plane = EVENT_LIMIT, FLIGHT, planes[start]
-        reached, events, struck = 0.0, 0, 0
-        while outcome == EVENT_LIMIT and events < most_events:
-            departed = phase
-            outcome, time, count, phase, plane = advance(
-                rotor, table, amplitudes, until - reached, phase, plane,
-                log_times, log_phases, log_planes, before, after, memory, work, rub,
-            )  # fmt: skip
-            reached += time
-            events += count
-            struck += _impacts(departed, log_phases, before, after, count)
-        outcomes[start], times[start], impacts[start] = outcome, reached, struck
-        multiplicities[start] = memory.period
-        positions[start], velocities[start] = displacement(rotor, 0, amplitudes), velocity(rotor, 0, amplitudes)
+    lanes = tools.lanes
+    taken, busy, looks = 0, LANES, LANES
+    lanes.verdict[:], lanes.motion[:] = VACANT, 0
+    while busy > 0:
+        for lane in range(LANES if looks > 0 else 0):
+            if lanes.verdict[lane] == STRUCK or lanes.motion[lane] == IDLE:
+                continue
+            outcome = _look_at(task, tools, lane)
+            while outcome != GOES_ON:
+                if outcome == SINGLY:
+                    outcome = _follow_singly(task, tools, lane)
+                    continue
+                if outcome != NONE_YET:
+                    _note_end(task.rotor, motions, tools, lane, outcome)
+                if taken == motions.positions.shape[0]:
+                    _empty(lanes, lane)
+                    busy -= 1
+                    break
+                outcome = _begin(task, motions, tools, lane, taken)
+                taken += 1
+        looks = fly_lanes(task.rotor, task.table, task.until, lanes)
+
+
+@passage
+def _begin(task, motions, tools, lane, motion):
+    """Give a lane a motion; how it goes on."""
+    lanes, memory, amplitudes = tools.lanes, tools.memories[lane], tools.amplitudes
+    _set_state(task.rotor, motions.positions[motion], motions.velocities[motion], amplitudes)
+    plane = motions.planes[motion]
+    if plane >= 0:
+        set_on_wall(task.rotor, plane, amplitudes)
+    forget(memory)
+    lanes.motion[lane], lanes.plane[lane] = motion, plane
+    lanes.struck[lane], lanes.events[lane], lanes.stalled[lane] = 0, 0, 0
+    lanes.clock[lane], lanes.quiet[lane] = 0.0, 0.0
+    if plane >= 0 and not surely_flies(task.rotor, amplitudes):
+        return SINGLY
+    _board(task, tools, lane)
+    return GOES_ON
+
+
+@passage
+def _look_at(task, tools, lane):
+    """Do for a lane what is left to do after its verdict; how its motion ends or goes on."""
+    lanes, memory, amplitudes = tools.lanes, tools.memories[lane], tools.amplitudes
+    verdict = lanes.verdict[lane]
+    if verdict == VACANT:
+        return NONE_YET
+    if verdict == CLEARED:
+        _copy_state(lanes, lane, amplitudes)
+        return LEVITATED if memory.patience > 0 and levitates(task.rotor, amplitudes, tools.work) else GOES_ON
+    quiet = int(lanes.quiet[lane])
+    lanes.quiet[lane] = 0.0
+    lanes.events[lane] += quiet
+    lanes.struck[lane] += quiet
+    memory.events += quiet
+    memory.since += quiet
+    if verdict in (NOTED, TOUCHING):
+        lanes.events[lane] += 1
+        lanes.struck[lane] += 1
+        _copy_arrival(lanes, lane, amplitudes)
+        if memory.patience > 0 and recurs(memory, amplitudes):
+            lanes.struck[lane] -= 1
+            return MIXED if memory.rubbed > 0 else BOUNCING
+        _copy_state(lanes, lane, amplitudes)
+        if lanes.events[lane] >= task.most_events:
+            return EVENT_LIMIT
+        if verdict == NOTED:
+            _watch(task, lanes, lane, memory)
+            return GOES_ON
+        lanes.plane[lane] = 0
+        return SINGLY
+    if verdict == LATE:
+        # The lane has seen that nothing is met before.
+        _copy_state(lanes, lane, amplitudes)
+        flight_increments(task.rotor, amplitudes, task.until - lanes.clock[lane], tools.work.increments)
+        for k in range(amplitudes.shape[0]):
+            amplitudes[k] += tools.work.increments[k]
+        lanes.clock[lane] = task.until
+        return TIME_REACHED
+    if lanes.open[lane] == 0.0 and lanes.depth[lane] < LEVELS:
+        _watch(task, lanes, lane, memory)
+        return GOES_ON
+    _copy_state(lanes, lane, amplitudes)
+    lanes.plane[lane] = 0 if lanes.level[lane] == 0.0 else INSIDE_ALL
+    return SINGLY
+
+
+@passage
+def _follow_singly(task, tools, lane):
+    """Follow the motion of ``tools.amplitudes`` event by event until it flies freely and may board its lane again."""
+    lanes, memory, amplitudes, rotor = tools.lanes, tools.memories[lane], tools.amplitudes, task.rotor
+    phase, plane = FLIGHT, lanes.plane[lane]
+    while True:
+        departed = phase
+        outcome, time, count, phase, plane = advance(
+            rotor, task.table, amplitudes, task.until - lanes.clock[lane], phase, plane,
+            tools.times, tools.phases, tools.planes, tools.before, tools.after, memory, tools.work, tools.rub,
+        )  # fmt: skip
+        lanes.clock[lane] += time
+        lanes.events[lane] += count
+        if departed == FLIGHT and phase == FLIGHT and count > 0 and _changed(tools.before[0], tools.after[0]):
+            lanes.struck[lane] += 1
+        if outcome != EVENT_LIMIT:
+            return outcome
+        lanes.stalled[lane] = lanes.stalled[lane] + 1 if time <= SHORTEST else 0
+        if lanes.stalled[lane] == STALLED:
+            return GRAZING
+        if lanes.events[lane] >= task.most_events:
+            return EVENT_LIMIT
+        if phase == FLIGHT and memory.lifting == 0 and (plane < 0 or surely_flies(rotor, amplitudes)):
+            lanes.plane[lane] = plane
+            _board(task, tools, lane)
+            return GOES_ON
+
+
+@part
+def _board(task, tools, lane):
+    """Put the motion of ``tools.amplitudes``, in free flight, on a lane."""
+    lanes, amplitudes = tools.lanes, tools.amplitudes
+    lanes.lower_re[lane], lanes.lower_im[lane] = amplitudes[0].real, amplitudes[0].imag
+    lanes.upper_re[lane], lanes.upper_im[lane] = amplitudes[1].real, amplitudes[1].imag
+    lanes.level[lane] = 0.0
+    if lanes.plane[lane] < 0:
+        lanes.level[lane] = squared_modulus(displacement(task.rotor, 0, amplitudes)) - 1.0
+    lanes.depth[lane] = 0.0
+    _watch(task, lanes, lane, tools.memories[lane])
+
+
+@part
+def _watch(task, lanes, lane, memory):
+    """State whose recurrence a lane has to note, and the number of impacts after which it has to be looked at."""
+    due = task.most_events - lanes.events[lane]
+    reference_lower, reference_upper = complex(NOWHERE, 0.0), complex(NOWHERE, 0.0)
+    if memory.patience > 0:
+        due = min(due, impacts_until_noted(memory))
+        reference_lower, reference_upper = memory.reference[0], memory.reference[1]
+    lanes.due[lane], lanes.watched[lane] = float(due), 1.0 if memory.patience > 0 else 0.0
+    lanes.reference_lower_re[lane], lanes.reference_lower_im[lane] = reference_lower.real, reference_lower.imag
+    lanes.reference_upper_re[lane], lanes.reference_upper_im[lane] = reference_upper.real, reference_upper.imag
+
+
+@part
+def _note_end(rotor, motions, tools, lane, outcome):
+    """Note where the motion of a lane has ended, in ``tools.amplitudes``."""
+    lanes, motion = tools.lanes, tools.lanes.motion[lane]
+    motions.outcomes[motion], motions.times[motion] = outcome, lanes.clock[lane]
+    motions.impacts[motion], motions.multiplicities[motion] = lanes.struck[lane], tools.memories[lane].period
+    motions.positions[motion] = displacement(rotor, 0, tools.amplitudes)
+    motions.velocities[motion] = velocity(rotor, 0, tools.amplitudes)
+
+
+@part
+def _empty(lanes, lane):
+    """Give a lane an idle motion, which never meets the wall."""
+    lanes.lower_re[lane], lanes.lower_im[lane], lanes.upper_re[lane], lanes.upper_im[lane] = 0.0, 0.0, 0.0, 0.0
+    lanes.level[lane], lanes.clock[lane], lanes.depth[lane] = -0.5, -NOWHERE, 0.0
+    lanes.motion[lane], lanes.watched[lane] = IDLE, 0.0
+
+
+@part
+def _copy_state(lanes, lane, amplitudes):
+    amplitudes[0] = complex(lanes.lower_re[lane], lanes.lower_im[lane])
+    amplitudes[1] = complex(lanes.upper_re[lane], lanes.upper_im[lane])
+
+
+@part
+def _copy_arrival(lanes, lane, amplitudes):
+    amplitudes[0] = complex(lanes.arrival_lower_re[lane], lanes.arrival_lower_im[lane])
+    amplitudes[1] = complex(lanes.arrival_upper_re[lane], lanes.arrival_upper_im[lane])
+
+
+@part
+def _changed(before, after):
+    return before[0] != after[0] or before[1] != after[1]
 
 
 @part
 def _set_state(rotor, position, speed, amplitudes):
-    """Amplitudes of two modes with this displacement and velocity at the first plane.
+    """Amplitudes of a displacement and a velocity.
 
     Not left to array arithmetic, whose last bit depends on the place of a number in its array.
     """
-    rows, rates = rotor.rows[0], rotor.rate_rows[0]
     change = position - rotor.offsets[0]
-    determinant = rows[0] * rates[1] - rows[1] * rates[0]
-    amplitudes[0] = (change * rates[1] - speed * rows[1]) / determinant
-    amplitudes[1] = (speed * rows[0] - change * rates[0]) / determinant
-
-
-@kernel
-def _impacts(phase, phases, before, after, count):
-    """Number of impacts among logged events that begin in a phase: from flight to flight with a changed state."""
-    struck = 0
-    for event in range(count):
-        if phase == FLIGHT and phases[event] == FLIGHT:
-            for k in range(before.shape[1]):
-                if before[event, k] != after[event, k]:
-                    struck += 1
-                    break
-        phase = phases[event]
-    return struck
+    amplitudes[0], amplitudes[1] = speed - rotor.exponents[1] * change, change

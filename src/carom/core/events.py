@@ -2,11 +2,12 @@
 
 The search moves only over times that are proven free of a crossing.  Two proofs are used:
 
-1. *Block.*  The Bernstein coefficients of ``f = |y|² − 1`` on a block, plus the bound of their error, are all negative:
-   no crossing.  If instead they change sign once, the root is polished on the exact flight and accepted when
-   ``f'² > 4 R M₂`` (``R`` error bound of the polynomial, ``M₂ ≥ |f''|``).  That proves it the first one: ``f`` rises all
-   along the last ``w = f'/M₂`` before the root, and at ``root − w`` the polynomial plus its error is negative.  What a
-   block leaves open is looked at again on shorter ones, whose polynomials are closer.
+1. *Block.*  The Bernstein coefficients of ``f = |y|² − 1`` on a block, plus the bound of their error, are those of a
+   polynomial ``q ≥ f``.  All negative: no crossing.  If the positive ones follow one another, ``q`` has at most two roots;
+   a root of ``f`` is then polished on the exact flight and accepted when ``f'² > 4 R M₂`` (``R`` error bound of the
+   polynomial, ``M₂ ≥ |f''|``).  That proves it the first one: ``f`` rises all along the last ``w = f'/M₂`` before the root,
+   ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a root between; had it been positive before,
+   that would make three.  What a block leaves open is looked at again on shorter ones, whose polynomials are closer.
 2. *Steps* for what the shortest block leaves open: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so the first root of the right side
    is a time that cannot be behind a crossing.  The steps converge to a transversal crossing quadratically.
 
@@ -164,6 +165,9 @@ def _polish(rotor, table, plane, origin, level, time, curvature, least_square, w
     value, slope, bend, third = look_at_node(table, node, origin, level, work)
     time = node * table.spacing + _householder_step(value, slope, bend, third)
     for _ in range(8):
+        # Off the nodes the series mean nothing.
+        if time < 0.0 or time > table.durations[0]:
+            return False, time
         value, slope, bend, third = _measure(rotor, table, plane, origin, level, time, work)
         if slope * slope <= least_square or slope <= 0.0:
             return False, time

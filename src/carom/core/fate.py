@@ -20,7 +20,18 @@ from carom.core.block import basis_amplitudes
 from carom.core.flow import squared_modulus
 from carom.core.layout import kernel, record
 
-__all__ = ["NEAR", "approaches_turn", "forget", "forget_rub", "levitates", "memory", "near_rub", "recurs", "same_state"]
+__all__ = [
+    "NEAR",
+    "approaches_turn",
+    "forget",
+    "forget_rub",
+    "impacts_until_noted",
+    "levitates",
+    "memory",
+    "near_rub",
+    "recurs",
+    "same_state",
+]
 
 NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
@@ -114,6 +125,15 @@ def recurs(memory, amplitudes):
     _renew(memory, amplitudes)
     memory.rubbed = 0
     return memory.events >= memory.patience
+
+
+@kernel
+def impacts_until_noted(memory):
+    """Number of the next impact, from now, that :func:`recurs` has to see even if its state recurs to nothing."""
+    if memory.events == 0:
+        return 1
+    number = min(memory.renewal - memory.since, memory.patience - memory.events)
+    return min(number, memory.candidate - memory.since) if memory.candidate > 0 else number
 
 
 @kernel

@@ -18,6 +18,7 @@ from platformdirs import user_cache_path
 
 __all__ = [
     "DEGREE",
+    "LANES",
     "LEVELS",
     "NODES",
     "ORDER",
@@ -44,6 +45,9 @@ NODES = 64
 """Intervals of the longest block at whose ends the basis functions are tabulated."""
 TERMS = 8
 """Terms of the Taylor series of the basis functions."""
+CACHE_LINE = 64
+LANES = 16
+"""Motions that are followed side by side: two vectors of eight doubles, which hide each other's waiting."""
 
 
 def rotor_record(
@@ -195,9 +199,14 @@ def rub_workspace(modes: int) -> np.record:
 
 
 def record(**fields: np.ndarray) -> np.record:
-    """Pack arrays and scalars into one record that kernels take by address."""
-    layout = [(name, values.dtype, values.shape) for name, values in fields.items()]
-    table = np.zeros(1, np.dtype(layout, align=True)).view(np.recarray)
+    """Pack arrays and scalars into one record that kernels take by address.
+
+    It begins at a multiple of 64 bytes, so that arrays of a multiple of that length never straddle cache lines.
+    """
+    layout = np.dtype([(name, values.dtype, values.shape) for name, values in fields.items()], align=True)
+    room = np.zeros(layout.itemsize + CACHE_LINE, np.uint8)
+    first = -room.ctypes.data % CACHE_LINE
+    table = room[first : first + layout.itemsize].view(layout).view(np.recarray)
     for name, values in fields.items():
         table[name][0] = values
     packed: np.record = table[0]

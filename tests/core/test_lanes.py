@@ -1,0 +1,119 @@
+"""Motions side by side: no crossing missed or invented, no lane disturbed by another."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from compilation import COMPILED
+from flights import Tally, Task, by_kernel, compare, inside_task, near_grazing_task, random_wall_task, rotors
+
+from carom.core import events
+from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
+from carom.core.layout import LANES, LEVELS
+from carom.outcome import Outcome
+
+pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")
+"""Uncompiled, a lane that has nothing to divide warns."""
+
+HORIZON = 15.0
+STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "verdict")
+
+
+def count(flights: int) -> int:
+    """How many flights to try."""
+    return math.ceil(flights * (1.0 if COMPILED else 0.01))
+
+
+def board(lanes: np.record, lane: int, task: Task) -> None:
+    lower, upper = task.amplitudes
+    lanes.lower_re[lane], lanes.lower_im[lane] = lower.real, lower.imag
+    lanes.upper_re[lane], lanes.upper_im[lane] = upper.real, upper.imag
+    inside = task.start == events.INSIDE
+    lanes.level[lane] = abs(task.arrays.offsets[0] + upper) ** 2 - 1.0 if inside else 0.0
+    lanes.clock[lane], lanes.depth[lane], lanes.quiet[lane], lanes.due[lane] = 0.0, 0.0, 0.0, 1e9
+
+
+def by_lane(lane: int, undecided: list[Task]) -> Callable[[Task, float], tuple[int, float]]:
+    """First crossing in one of the lanes; what none of its proofs decides, by the kernel for single motions."""
+
+    def search(task: Task, horizon: float) -> tuple[int, float]:
+        lanes = lanes_record()
+        board(lanes, lane, task)
+        while True:
+            fly_lanes(task.arrays, task.table, horizon, lanes)
+            verdict = lanes.verdict[lane]
+            if verdict == LATE:
+                return Outcome.CLEAR, horizon
+            if verdict == OPEN and (lanes.open[lane] > 0.0 or lanes.depth[lane] == LEVELS):
+                undecided.append(task)
+                return by_kernel(task, horizon)
+            if verdict not in (CLEARED, OPEN):
+                return Outcome.CONTACT, lanes.clock[lane]
+
+    return search
+
+
+def test_random_flights(record_property):
+    tally, undecided = Tally("random flights in lanes"), []
+    for number, (rotor, rng) in enumerate(rotors(900, count(1_000))):
+        for _ in range(20):
+            compare(inside_task(rotor, rng), HORIZON, tally, by_lane(number % LANES, undecided))
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert len(undecided) < 0.1 * tally.tried
+
+
+def test_starts_on_the_wall(record_property):
+    tally, undecided = Tally("starts on the wall in lanes"), []
+    for number, (rotor, rng) in enumerate(rotors(901, count(1_000))):
+        for kind in range(10):
+            task = random_wall_task(rotor, rng, kind % 3)
+            if task is not None:
+                compare(task, HORIZON, tally, by_lane(number % LANES, undecided))
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert len(undecided) < 0.5 * tally.tried
+
+
+def test_near_grazing_flights(record_property):
+    tally, undecided = Tally("near-grazing flights in lanes"), []
+    for number, (rotor, rng) in enumerate(rotors(902, count(1_000))):
+        for _ in range(20):
+            drawn = near_grazing_task(rotor, rng)
+            if drawn is not None:
+                compare(drawn[0], drawn[1] + 5.0, tally, by_lane(number % LANES, undecided))
+    record_property("flights", tally.as_property())
+    tally.check()
+    assert tally.tried >= count(2_000)
+    assert len(undecided) < 0.9 * tally.tried
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_lane_knows_nothing_of_the_others(seed):
+    rotor, rng = rotors(910 + seed, 1)[0]
+    tasks = [inside_task(rotor, rng) for _ in range(LANES)]
+    straight, turned = lanes_record(), lanes_record()
+    for lane, task in enumerate(tasks):
+        board(straight, lane, task)
+        board(turned, (5 * lane + 3) % LANES, task)
+    for _ in range(20):
+        fly_lanes(rotor.arrays, rotor.table, 1e9, straight)
+        fly_lanes(rotor.arrays, rotor.table, 1e9, turned)
+    places = [(5 * lane + 3) % LANES for lane in range(LANES)]
+    for name in STATE:
+        np.testing.assert_array_equal(getattr(straight, name), getattr(turned, name)[places], err_msg=name)
+
+
+def test_what_is_open_or_late_stays_where_it_was():
+    rotor, rng = rotors(920, 1)[0]
+    lanes = lanes_record()
+    for lane in range(LANES):
+        board(lanes, lane, inside_task(rotor, rng))
+    before = {name: getattr(lanes, name).copy() for name in STATE}
+    fly_lanes(rotor.arrays, rotor.table, 1e-9, lanes)
+    assert np.isin(lanes.verdict, (LATE, OPEN)).all()
+    for name in STATE[:-1]:
+        np.testing.assert_array_equal(getattr(lanes, name), before[name], err_msg=name)
