@@ -177,8 +177,25 @@ def test_scheduler_that_cannot_be_reached_is_named(address, tmp_path, monkeypatc
 def test_worker_of_another_version_is_refused(cluster, tmp_path, monkeypatch):
     monkeypatch.setattr("carom.sweeps.cluster.version", lambda name: "9.9")
 
-    with pytest.raises(CaromError, match=r"worker at tcp://.* has carom .*, this is 9\.9"):
+    with pytest.raises(CaromError, match=r"worker on .* has carom .*, this is 9\.9; install"):
         run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler=str(cluster.file))
+
+
+def test_worker_that_knows_other_code_is_one_line(cluster, tmp_path):
+    class Unknown(Drawn):
+        """A task whose module the workers have, without this class."""
+
+    Unknown.__module__, Unknown.__qualname__ = "sweep_tasks", "Unknown"
+    import sweep_tasks
+
+    sweep_tasks.Unknown = Unknown
+    try:
+        with pytest.raises(CaromError, match=r"a worker cannot load carom .*Unknown") as caught:
+            run_sweep(plan_of(Unknown()), tmp_path / "s.zarr", scheduler=str(cluster.file))
+    finally:
+        del sweep_tasks.Unknown
+
+    assert "\n" not in str(caught.value)
 
 
 def test_slurm_asks_for_jobs(tmp_path, monkeypatch):

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
 from queue import Empty, SimpleQueue
+from socket import gethostname
 from typing import TYPE_CHECKING
 
 from carom.outcome import CaromError, InputError
@@ -48,7 +49,7 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
     """
     from distributed import CancelledError, KilledWorker
 
-    _check_versions(client)
+    here = version("carom")
     pending: dict[Future[Chunk], int] = {}
     ready: SimpleQueue[Future[Chunk]] = SimpleQueue()
 
@@ -56,7 +57,7 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
         slots = sum(client.ncores().values()) or 1
         for number in islice(numbers, max(AHEAD * slots - len(pending), 0)):
             # Impure, and with a key of its own: a chunk that is tried again is computed again.
-            future = client.submit(compute_chunk, plan, number, pure=False)
+            future = client.submit(_compute, plan, number, here, pure=False)
             pending[future] = number
             future.add_done_callback(ready.put)
 
@@ -73,6 +74,9 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
                 chunk = future.result()
             except KilledWorker:
                 chunk = failed_chunk(plan, number, "too many workers were lost while they computed it")
+            except (ImportError, AttributeError, RuntimeError) as problem:  # chunks themselves raise nothing
+                reason = " ".join(str(problem.__cause__ or problem).split())
+                raise CaromError(f"a worker cannot load carom ({reason}); install {here} there") from None
             submit()
             yield chunk
     except (CancelledError, OSError) as problem:
@@ -160,12 +164,9 @@ def _slurm_jobs(workers: int | None) -> Iterator[object]:
         yield cluster
 
 
-def _check_versions(client: Client) -> None:
-    here = version("carom")
-    for address, there in client.run(_version).items():
-        if there != here:
-            raise CaromError(f"the worker at {address} has carom {there}, this is {here}; install the same on both")
-
-
-def _version() -> str:
-    return version("carom")
+def _compute(plan: SweepPlan, number: int, wanted: str) -> Chunk:
+    """Compute a chunk on a worker, if it is the same carom."""
+    there = version("carom")
+    if there != wanted:
+        raise CaromError(f"the worker on {gethostname()} has carom {there}, this is {wanted}; install the same on both")
+    return compute_chunk(plan, number)
