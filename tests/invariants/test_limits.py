@@ -249,6 +249,8 @@ def test_sliding_on_a_smooth_wall_is_a_pendulum(amplitude):
     expected = parameters.rho * np.cos(angle) + (1.0 + speed) ** 2 - parameters.omega**2
     assert np.abs(normal - expected).max() < 1e-12
     assert not friction.any()
+    # It swings for ever, and settles nowhere.
+    assert simulate(motion.rotor, motion.start, motion.time, settle=True).outcome is Outcome.TIME_REACHED
 
 
 @pytest.mark.jit_only
