@@ -86,6 +86,22 @@ def test_fold_meets_the_boundary_equilibrium(curves):
     assert condition.slope(np.array([point.period])) == pytest.approx(0.0, abs=1e-10)
 
 
+def test_non_smooth_hopf_curve_turns_back_where_the_two_cycles_meet():
+    """It lies on the curve of the boundary equilibrium, as far as F₁ has roots; there the short period becomes the long."""
+    branch = continue_orbit(single_impact_orbits(jeffcott(PAPER))["B1,a"], "gamma", (0.02, 0.17))
+    point = next(point for point in branch.special if point.kind == "non-smooth-hopf")
+    curve = continue_curve("non-smooth-hopf", point.numbers.parameters, PLANE, (point.period, point.radial_speed))
+    for (x, y), period in zip(curve.points, curve.periods, strict=True):
+        rotor = jeffcott(PAPER.replace(gamma=x, omega=y))
+        assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-10)
+        roots = PeriodCondition(rotor).roots(20.0).periods
+        assert np.abs(roots - period).min() < 1e-7
+    (meeting,) = [point for point in curve.codimension2 if point.kind == "non-smooth-hopf + fold"]
+    assert meeting.value == pytest.approx((0.1779723, 0.7811076), abs=5e-8)
+    assert curve.points[:, 0].max() <= meeting.value[0] + 1e-6
+    assert curve.periods.min() < meeting.period < curve.periods.max()
+
+
 def test_every_pair_of_parameters():
     """Friction and restitution move the fold; unbalance does not, as ``F₁`` does not depend on it."""
     orbit = single_impact_orbits(jeffcott(PAPER))["B1,d"]

@@ -159,6 +159,7 @@ KINDS: dict[str, _Kind] = {
     "grazing": _Kind(3, ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop")),
     "slip-stop": _Kind(2, ("fold", "period-doubling", "grazing")),
     "contact-onset": _Kind(2, ("fold", "period-doubling", "grazing", "slip-stop")),
+    "non-smooth-hopf": _Kind(2, ("fold", "period-doubling", "neimark-sacker", "grazing", "slip-stop")),
     "boundary-equilibrium": _Kind(0, ("rub-fold",)),
     "rub-fold": _Kind(0, ("boundary-equilibrium",)),
     "rolling-limit": _Kind(0, ("boundary-equilibrium", "rub-fold")),
@@ -233,6 +234,8 @@ def continue_curve(
         watches=[edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=np.array([*np.ones(definition.unknowns), *sizes]),
+        # Where the second parameter turns back nothing happens but that.
+        folds="turning point",
     )
     return _curve(kind, plane, branch, numbers)
 
@@ -274,7 +277,7 @@ def _curve(kind: str, plane: Plane, branch: Branch, numbers: Callable[[np.ndarra
         return speed > -slack and slips and not profile_at(at, period, max(speed, 1e-4)).height >= slack
 
     absent = np.full(len(branch), np.nan)
-    slack = 1e-9 if kind in ("grazing", "slip-stop", "contact-onset") else 0.0
+    slack = 1e-9 if kind in ("grazing", "slip-stop", "contact-onset", "non-smooth-hopf") else 0.0
     rows = list(zip(branch.unknowns, branch.parameters.tolist(), strict=True))
     return Curve(
         kind=kind,
@@ -302,7 +305,7 @@ def _stop(kind: str, branch: Branch, end: Literal[0, -1]) -> str:
     reason = branch.stops[end]
     if reason == "parameter limit":
         return EDGE
-    if reason != "end of domain":
+    if reason not in ("end of domain", "step too small"):
         return reason
     for point in branch.special:
         if point.kind in (EDGE, BOUNDLESS, *KINDS[kind].ends) and np.array_equal(point.unknowns, branch.unknowns[end]):

@@ -150,11 +150,15 @@ class RegionMap:
 
     @property
     def codimension2(self) -> tuple[Codimension2Point, ...]:
-        """Points where two curves meet, each once."""
+        """Points where two curves meet, each once.
+
+        A non-smooth Hopf bifurcation is a boundary equilibrium with orbits, and its points are told as such.
+        """
         widths = np.ptp([self.plane.first_range, self.plane.second_range], axis=1)
         found: list[Codimension2Point] = []
-        for point in (point for curve in self.curves for point in curve.codimension2):
-            parts = set(point.kind.split(" + "))
+        ordered = sorted(self.curves, key=lambda curve: curve.kind == "non-smooth-hopf")
+        for point in (point for curve in ordered for point in curve.codimension2):
+            parts = set(point.kind.replace("non-smooth-hopf", "boundary-equilibrium").split(" + "))
             if not any(
                 parts == set(other.kind.split(" + "))
                 and np.abs((np.subtract(point.value, other.value)) / widths).max() < SAME_POINT
@@ -272,7 +276,7 @@ def region_map(
 
 
 def _starts(diagram: Diagram, virtual: bool) -> list[SpecialValue]:
-    """Special points that lie on curves; a non-smooth Hopf point lies on that of the boundary equilibrium."""
+    """Special points that lie on curves."""
     return [
         point
         for point in diagram.points
@@ -300,17 +304,20 @@ def _passes(curve: Curve, at: Parameters, start: SpecialValue) -> bool:
     ahead = np.diff(points, axis=0)
     share = np.clip(((place - points[:-1]) * ahead).sum(axis=1) / np.maximum((ahead**2).sum(axis=1), 1e-300), 0.0, 1.0)
     distance = np.linalg.norm(points[:-1] + share[:, None] * ahead - place, axis=1)
-    nearest = int(np.argmin(distance))
     # Between points the curve bends off its chord by less than an eighth of the step.
-    if distance[nearest] > 0.125 * np.linalg.norm(ahead[nearest]) + 1e-9:
-        return False
+    near = np.flatnonzero(distance <= 0.125 * np.linalg.norm(ahead, axis=1) + 1e-9)
+    return any(_same_orbit(curve, int(i), float(share[i]), start) for i in near)
+
+
+def _same_orbit(curve: Curve, step: int, share: float, start: SpecialValue) -> bool:
+    """Whether the orbit on a step of a curve is that of the start."""
     if start.period is None:
         return True
-    weights = np.array([1.0 - share[nearest], share[nearest]])
-    period = weights @ curve.periods[nearest : nearest + 2]
+    weights = np.array([1.0 - share, share])
+    period = weights @ curve.periods[step : step + 2]
     if not abs(period - start.period) < 0.02 * start.period:
         return False
-    speed = weights @ curve.radial_speeds[nearest : nearest + 2]
+    speed = weights @ curve.radial_speeds[step : step + 2]
     return start.radial_speed is None or bool(abs(speed - start.radial_speed) < 0.02)
 
 
