@@ -15,6 +15,7 @@ from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria_and_orbits
 from carom.plots.spectra import multipliers, spectrum
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, applied
+from carom.plots.sweeps import sweep_map
 from carom.plots.touchdowns import energies, forces, regimes, touchdown
 
 __all__ = [
@@ -37,5 +38,6 @@ __all__ = [
     "regimes",
     "save",
     "spectrum",
+    "sweep_map",
     "touchdown",
 ]
