@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from compilation import COMPILED
 
 import carom
 from carom.ensembles import Endings, settle_all
 from carom.outcome import InputError, Outcome
 
 SAME = ("outcomes", "times", "impacts", "multiplicities", "positions", "velocities")
+
+
+MANY = 40 if COMPILED else 4
 
 
 def starts(count: int, seed: int = 3) -> tuple[np.ndarray, np.ndarray]:
@@ -33,7 +37,7 @@ def machine() -> carom.Parameters:
 @pytest.mark.jit_only
 def test_each_ends_as_it_does_alone(machine):
     rotor = carom.jeffcott(machine)
-    positions, velocities = starts(24)
+    positions, velocities = starts(24 if COMPILED else 2)
     together = settle_all(rotor, positions, velocities)
     for place in range(len(positions)):
         alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 2e5, settle=True)
@@ -41,13 +45,13 @@ def test_each_ends_as_it_does_alone(machine):
         assert together.multiplicities[place] == alone.multiplicity
         # The last digits differ, and with them by how many impacts a state has come near to itself.
         assert together.impacts[place] == pytest.approx(len(alone.contacts), abs=3)
-    assert len(np.unique(together.outcomes)) == 3
+    assert len(np.unique(together.outcomes)) == 3 or not COMPILED
 
 
 @pytest.mark.parametrize("restitution", [0.95, 0.5, 0.0])
 def test_each_moves_as_it_does_alone(machine, restitution):
     rotor = carom.jeffcott(machine.replace(d=restitution))
-    positions, velocities = starts(40)
+    positions, velocities = starts(MANY)
     together = settle_all(rotor, positions, velocities, until=20.0, settle=False)
     for place in range(len(positions)):
         alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 20.0)
@@ -59,7 +63,7 @@ def test_each_moves_as_it_does_alone(machine, restitution):
 
 def test_threads_and_company_change_nothing(machine):
     rotor = carom.jeffcott(machine)
-    positions, velocities = starts(40)
+    positions, velocities = starts(MANY)
     one = settle_all(rotor, positions, velocities, threads=1)
     assert_same(one, settle_all(rotor, positions, velocities, threads=3))
     half = settle_all(rotor, positions[::2], velocities[::2])
@@ -69,9 +73,9 @@ def test_threads_and_company_change_nothing(machine):
 
 @pytest.mark.jit_only
 def test_starts_may_have_machines_of_their_own(machine):
-    rotors = [carom.jeffcott(machine.replace(gamma=gamma)) for gamma in (0.1, 0.3, 0.6)]
-    positions, velocities = starts(30)
-    which = np.arange(30) % 3
+    rotors = [carom.jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
+    positions, velocities = starts(MANY)
+    which = np.arange(MANY) % 3
     mixed = settle_all(rotors, positions, velocities, which=which)
     for number, rotor in enumerate(rotors):
         alone = settle_all(rotor, positions[which == number], velocities[which == number])

@@ -135,7 +135,10 @@ def _refined_root(polynomial, lane, level, place):
         half_bend, slope, value = half_bend * u + slope, slope * u + value, value * u + factor
         u -= value * slope / (slope * slope - value * half_bend)
     refined = 1.0 / (1.0 + u) if far else u / (1.0 + u)
-    return min(max(refined, place - 1.0 / DEGREE), place + 1.0 / DEGREE)
+    lowest, highest = place - 1.0 / DEGREE, place + 1.0 / DEGREE
+    # In this order what is no number becomes one.
+    refined = refined if refined > lowest else lowest
+    return refined if refined < highest else highest
 
 
 @part
@@ -163,7 +166,7 @@ def sum_all_series(table, lanes):
 
 
 @part
-def step_towards_root(rotor, lanes):
+def step_towards_root(rotor, spacing, lanes):
     """Move each guess by a Householder step; of a lane that is free, the guess is the end of the block."""
     offset, lower, upper = rotor.offsets[0], rotor.exponents[0], rotor.exponents[1]
     offset_re, offset_im = offset.real, offset.imag
@@ -176,7 +179,8 @@ def step_towards_root(rotor, lanes):
             a0_re + change_re, a0_im + change_im, lower_re, lower_im, upper_re, upper_im,
         )  # fmt: skip
         step = householder_step(value, slope, bend, third)
-        step = 0.0 if lanes.free[lane] > 0.0 else step
+        # No step off the series, nor one that is no number.
+        step = step if (lanes.free[lane] == 0.0) & (abs(step) <= spacing) else 0.0
         guess, rest = lanes.guess[lane], lanes.rest[lane]
         lanes.guess[lane] = guess + step
         lanes.rest[lane] = rest + step

@@ -88,7 +88,7 @@ def fly_lanes(rotor, table, until, lanes):
             undecided = examine(table, depth, lanes)
     look_up_nodes(table, lanes)
     sum_all_series(table, lanes)
-    step_towards_root(rotor, lanes)
+    step_towards_root(rotor, table.spacing, lanes)
     sum_all_series(table, lanes)
     return _arrive(rotor, table.spacing, until, lanes)
 
