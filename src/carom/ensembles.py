@@ -23,8 +23,9 @@ LONGEST = 2e5
 """Time after which a motion that has not settled is given up, in ``1/Ω``."""
 PATIENCE = 20_000
 MOST_EVENTS = 1_000_000
-PORTION = 8192
-"""Starts of one machine that a thread takes at a time: some milliseconds to a second of work."""
+LARGEST_PORTION, SMALLEST_PORTION = 8192, 256
+"""Starts of one machine that a thread takes at a time: some milliseconds to a second of work, and many for each lane."""
+PORTIONS_PER_THREAD = 4
 MODES = 2
 
 
@@ -127,8 +128,11 @@ def settle_all(
         velocities=velocities.ravel().copy(),
     )
     limits = _Limits(until, settle, patience, max_events)
-    portions = list(_portions(which.ravel(), len(rotors)))
-    with ThreadPoolExecutor(threads or available_cores()) as pool:
+    threads = threads or available_cores()
+    portion = positions.size // (PORTIONS_PER_THREAD * threads)
+    portion = min(max(portion, SMALLEST_PORTION), LARGEST_PORTION)
+    portions = list(_portions(which.ravel(), len(rotors), portion))
+    with ThreadPoolExecutor(threads) as pool:
         work = [pool.submit(_settle_portion, rotors[machine], places, endings, limits) for machine, places in portions]
         done = 0
         try:
@@ -184,13 +188,13 @@ def _check(positions: np.ndarray, velocities: np.ndarray, until: float, max_even
         raise InputError("threads", threads, "a whole number of at least 1")
 
 
-def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, np.ndarray]]:
+def _portions(which: np.ndarray, machines: int, size: int) -> Iterator[tuple[int, np.ndarray]]:
     """Machine and places of starts that make one piece of work."""
     order = np.argsort(which, kind="stable")
     ends = np.searchsorted(which[order], np.arange(machines + 1))
     for machine in range(machines):
-        for first in range(ends[machine], ends[machine + 1], PORTION):
-            yield machine, order[first : min(first + PORTION, ends[machine + 1])]
+        for first in range(ends[machine], ends[machine + 1], size):
+            yield machine, order[first : min(first + size, ends[machine + 1])]
 
 
 def _settle_portion(rotor: Rotor, places: np.ndarray, endings: Endings, limits: _Limits) -> int:
