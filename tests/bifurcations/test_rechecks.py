@@ -18,6 +18,8 @@ from carom.outcome import Phase
 from carom.periods import PeriodCondition
 from carom.trajectories import State
 
+pytestmark = pytest.mark.jit_only
+
 SOFT = PAPER.replace(omega=0.35, rho=0.2)
 SOFTER = PAPER.replace(gamma=0.1, omega=0.34, rho=0.2, mu=0.2, d=0.6)
 SMALL = PAPER.replace(radius_ratio=0.8, mu=0.4, gamma=0.12)

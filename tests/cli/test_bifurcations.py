@@ -41,6 +41,7 @@ def test_table_and_files(capsys, tmp_path):
     assert document["interval"] == pytest.approx([104.71975512, 314.15926536])
 
 
+@pytest.mark.jit_only
 def test_run_up_with_all_motions(capsys):
     """Along the speed gamma and omega move together while rho stays; simulated attractors lie on the known motions."""
     words = ["bifurcations", MACHINE, "--along", "speed", "--from", "1000 rpm", "--to", "3000 rpm"]
@@ -69,6 +70,7 @@ def test_run_up_with_all_motions(capsys):
             assert min(abs(speed - sample["radial_speeds"][0]) for speed in known) < 0.05
 
 
+@pytest.mark.jit_only
 def test_simulated_attractors_are_the_same_for_the_same_seed(capsys):
     words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.05", "--to", "0.2", "--attractors", "2", "--json"]
     documents = []
