@@ -203,3 +203,15 @@ def test_places_grow_along_the_branch():
     branch = continue_branch(cubic, np.array([0.0]), 0.0, (-2, 2), watches=[Watch("zero", lambda u, p: u[0] - 0.9)])
     assert [point.kind for point in branch.special] in (["fold", "fold", "zero"], ["zero", "fold", "fold"])
     assert all(first.place < second.place for first, second in pairwise(branch.special))
+
+
+def test_a_limit_that_cannot_be_located_is_not_stepped_over():
+    """Just beyond the limit the equations are not defined, and further on they are: no point is moved to the limit."""
+
+    def residual(u, p):
+        return np.array([np.nan if 1.0 < p < 1.02 else u[0] - p**2])
+
+    branch = continue_branch(residual, np.array([0.25]), 0.5, (0.0, 1.0), steps=Steps(first=0.05, largest=0.05))
+    assert branch.parameters.max() <= 1.0
+    assert branch.unknowns[:, 0] == pytest.approx(branch.parameters**2, abs=1e-9)
+    assert branch.stops == ("parameter limit", "end of domain")

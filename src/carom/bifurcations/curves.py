@@ -21,6 +21,8 @@ STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 EDGE = "edge of the plane"
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, at which a curve is not followed any further: it goes where ``a₁₂`` vanishes."""
+ROUNDING = 1e-9
+"""Of places on the edge, in widths of the plane."""
 VANISHING = 1e-2
 """Period, or part of a period, that has shrunk to nothing where the equations end."""
 
@@ -55,9 +57,11 @@ class Plane:
                 raise InputError(name, f"{limits[0]:g} to {limits[1]:g}", "a range of two growing finite values")
 
     def holds(self, x: float, y: float) -> bool:
-        """Whether a point lies in it."""
-        (left, right), (low, high) = self.first_range, self.second_range
-        return left <= x <= right and low <= y <= high
+        """Whether a point lies in it, but for rounding."""
+        return all(
+            low - ROUNDING * (high - low) <= value <= high + ROUNDING * (high - low)
+            for value, (low, high) in ((x, self.first_range), (y, self.second_range))
+        )
 
     def axes(self, base: Parameters) -> tuple[Axis, Axis]:
         """Both parameters, checked against what is known of the machine and its ranges."""

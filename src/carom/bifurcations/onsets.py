@@ -106,7 +106,9 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
             alike = found is not None and found.whirl == whirl and abs(found.time - period) < NEARBY * period
             return found if alike else None
 
-        end_angle, place = _end(follow, angle, np.array([x, y]), sizes)
+        # At an edge of the plane the end is looked for along the edge.
+        stays = 1 if y in plane.second_range else 0 if _on_edge(x, plane.first_range) else None
+        end_angle, place = _end(follow, angle, np.array([x, y]), sizes, stays)
         last = follow(end_angle, *place)
         if last is not None and plane.holds(*place):
             rows.append((*place, last.time))
@@ -135,9 +137,16 @@ def _beside(branch: RubbingBranch, point: RubbingPoint) -> tuple[float, float, f
 
 
 def _end(
-    follow: Callable[[float, float, float], LiftOff | None], angle: float, place: np.ndarray, sizes: np.ndarray
+    follow: Callable[[float, float, float], LiftOff | None],
+    angle: float,
+    place: np.ndarray,
+    sizes: np.ndarray,
+    stays: int | None,
 ) -> tuple[float, tuple[float, float]]:
-    """End of the motions, from one whose landing force is small, along the parameter that changes it more."""
+    """End of the motions, from one whose landing force is small, along the parameter that changes it more.
+
+    If a parameter is to stay, it does unless the other has next to no influence.
+    """
 
     def at(angle: float, moved: np.ndarray) -> np.ndarray:
         found = follow(angle, float(moved[0]), float(moved[1]))
@@ -156,6 +165,8 @@ def _end(
     if not np.isfinite(falls).all():
         raise CaromError("the motion beside the onset has no derivative")
     steepest = int(np.argmax(np.abs(falls)))
+    if stays is not None and abs(falls[1 - stays]) > 1e-3 * abs(falls[stays]):
+        steepest = 1 - stays
     towards = -math.copysign(1.0, falls[steepest]) * sizes * np.eye(2)[steepest]
 
     def residual(angle: float, share: float) -> float:
@@ -165,6 +176,10 @@ def _end(
     end_angle, share = end_of_motions(residual, (angle, 0.0), lean, 1e-4, slope, FINEST)
     end = place + share * towards
     return end_angle, (float(end[0]), float(end[1]))
+
+
+def _on_edge(value: float, limits: tuple[float, float]) -> bool:
+    return min(abs(value - limit) for limit in limits) < 1e-6 * (limits[1] - limits[0])
 
 
 def _stop(beside: Branch, end: Literal[0, -1]) -> str:

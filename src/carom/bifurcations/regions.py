@@ -114,11 +114,14 @@ class Region:
         A point well inside.
     share : float
         Fraction of the plane.
+    places : ndarray, shape (n, 2)
+        The grid points.
     """
 
     motions: Motions
     point: tuple[float, float]
     share: float
+    places: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -345,7 +348,7 @@ def _regions(parameters: Parameters, plane: Plane, grid: int, progress: Callable
         place, share = (float(xs[i]), float(ys[j])), len(cells) / grid**2
         if share < THIN or _depth((i, j), cells, grid) < 3:
             place = _centred(parameters, plane, grid, found[i, j], place)
-        regions.append(Region(found[i, j], place, share))
+        regions.append(Region(found[i, j], place, share, np.array([(xs[k], ys[m]) for k, m in sorted(cells)])))
     return tuple(sorted(regions, key=lambda region: -region.share))
 
 

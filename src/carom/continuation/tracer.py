@@ -175,19 +175,22 @@ class _Tracer:
         here.watched = self._watched(here)
         length = self.steps.first
         while len(path.points) < self.steps.most_points:
-            there = self._step(here, length)
-            if there is None:
+            there, share, ending, known = self._step(here, length), None, None, len(path.special)
+            if there is not None:
+                there.watched = self._watched(there)
+                if there.watched[0] < 0.0 and here.watched[0] <= 1e-9:
+                    path.stop = "parameter limit"
+                    return path
+                share = self._return(path, here, there, heading)
+                ending = self._locate(path, here, there, length, share)
+            # A step over the limit on which the limit was not found is too long as well.
+            if there is None or (there.watched[0] < 0.0 and not ending and not share):
+                del path.special[known:]
                 length *= 0.5
                 if length < self.steps.smallest:
                     path.stop = self._stuck(here)
                     return path
                 continue
-            there.watched = self._watched(there)
-            if there.watched[0] < 0.0 and here.watched[0] <= 1e-9:
-                path.stop = "parameter limit"
-                return path
-            share = self._return(path, here, there, heading)
-            ending = self._locate(path, here, there, length, share)
             if ending or share:
                 path.points += [] if ending else [start]
                 path.stop = ending or "closed loop"

@@ -61,7 +61,7 @@ CURVES = MappingProxyType(
         "grazing": Look("#0072b2", "grazing", line=(0.0, (6.0, 1.5, 1.0, 1.5)), width=1.1),
         "slip-stop": Look("#e69f00", "friction stops the slip", line=":", width=1.1),
         "boundary-equilibrium": Look("#009e73", "levitation meets the wall", line="-", width=1.2),
-        "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", line=(0.0, (1.0, 1.0)), width=3.2),
+        "non-smooth-hopf": Look("#a3dcca", "non-smooth Hopf bifurcation", line="-", width=4.5),
         "rub-fold": Look("#cc79a7", "fold of rub equilibria", line="--", width=1.4),
         "contact-onset": Look("#7a4fa3", "lasting contact begins", line="-", width=1.1),
         "permanent-contact": Look("#7a4fa3", "contact becomes permanent", line="--", width=1.1),
@@ -319,7 +319,8 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS), layout="constrained")
     drawn = figure.subplots()
     units = np.array([parameter_unit(axis) for axis in axes])
-    for curve in found.curves:
+    # The broad line of non-smooth Hopf bifurcations lies below that of the boundary equilibria.
+    for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
         curve_line(drawn, curve, units)
     for point in found.codimension2:
         x, y = np.array(point.value) / units
@@ -327,7 +328,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
         drawn.plot([x], [y], ls="none", marker="o", ms=4.5, mfc=face, mec="#1a1a1a", zorder=6)
     for number, region in enumerate(found.regions, start=1):
         if region.share > 0.004:
-            x, y = np.array(region.point) / units
+            x, y = _clear_place(found, region) / units
             text = drawn.annotate(str(number), (x, y), ha="center", va="center", fontsize=8, color="#3d4f66", zorder=7)
             text.set_path_effects([Stroke(linewidth=2.5, foreground="#ffffff"), Normal()])
     drawn.set_xlabel(parameter_label(axes[0]))
@@ -352,6 +353,24 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     figure.legend(handles=lines, loc="outside upper center", ncols=3)
     figure.legend(handles=numbered, loc="outside lower center", ncols=2, handlelength=0.0, fontsize=6.5)
     return figure
+
+
+def _clear_place(found: RegionMap, region: Region) -> np.ndarray:
+    """The point of a region, or that of its grid points farthest from all curves and from the edges if it is farther."""
+    low, high = np.transpose([found.plane.first_range, found.plane.second_range])
+    shares = np.linspace(0.0, 1.0, 8)[:, None, None]
+    lines = [np.zeros((0, 2))]
+    for curve in found.curves:
+        places = (curve.points - low) / (high - low)
+        lines.append((places[:-1] + shares * np.diff(places, axis=0)).reshape(-1, 2))
+    drawn = np.concatenate(lines)
+    candidates = np.vstack([region.point, region.places])
+    inside = (candidates - low) / (high - low)
+    room = np.minimum(inside, 1.0 - inside).min(axis=1)
+    if len(drawn):
+        room = np.minimum(room, np.linalg.norm(inside[:, None] - drawn, axis=2).min(axis=1))
+    best = int(np.argmax(room))
+    return np.asarray(candidates[best if room[best] > 1.2 * room[0] else 0])
 
 
 def _words(found: RegionMap, region: Region) -> str:
