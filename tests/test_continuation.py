@@ -209,7 +209,7 @@ def test_a_limit_that_cannot_be_located_is_not_stepped_over():
     """Just beyond the limit the equations are not defined, and further on they are: no point is moved to the limit."""
 
     def residual(u, p):
-        return np.array([np.nan if 1.0 < p < 1.02 else u[0] - p**2])
+        return np.array([np.nan if 1.0 < p < 1.01 else u[0] - p**2])
 
     branch = continue_branch(residual, np.array([0.25]), 0.5, (0.0, 1.0), steps=Steps(first=0.05, largest=0.05))
     assert branch.parameters.max() <= 1.0
