@@ -54,6 +54,7 @@ def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
     assert sorted(answers) == [(False, False), (True, True)]
 
 
+@pytest.mark.jit_only
 def test_without_rebound_the_motions_with_lasting_contact_end_at_the_same_value(onset):
     """A second route: not one formula of the orbits, but a simulated map from lift-off to lift-off."""
     ends = []
