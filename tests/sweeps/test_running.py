@@ -117,18 +117,25 @@ def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
     assert len(workers) == 3
 
 
+@pytest.mark.parametrize("moment", [0.0, 0.05, 0.3])
 @posix
-def test_interrupt_says_how_to_go_on(tmp_path):
+def test_interrupt_says_how_to_go_on(tmp_path, moment):
     (tmp_path / "machine.toml").write_text(MACHINE)
-    (tmp_path / "sweep.toml").write_text(SWEEP.replace("150", "100000"))
+    (tmp_path / "sweep.toml").write_text(SWEEP.replace("150", "20000"))
     store = tmp_path / "s.zarr"
     command = [sys.executable, "-m", "carom", "sweep", str(tmp_path / "sweep.toml"), "--out", str(store)]
     process = subprocess.Popen(
-        [*command, "--workers", "2"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        [*command, "--workers", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        # Where the tests run in the background, what they start is deaf to Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
     while process.poll() is None and not store.exists():
         time.sleep(0.01)
-    time.sleep(0.3)
+    time.sleep(moment)
     os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C does: to the workers too
     output, errors = process.communicate()
 

@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 from itertools import chain, islice
 from multiprocessing import connection
 from multiprocessing.context import SpawnProcess
-from typing import Any
 
 from carom.outcome import CaromError
 from carom.sweeps.chunk import Chunk, compute_chunk, failed_chunk
@@ -187,17 +186,19 @@ def _end_with_parent() -> None:
 
 @contextmanager
 def _inherited() -> Iterator[None]:
-    """What processes started here inherit: one thread of linear algebra, and no ear for Ctrl-C, which is ours to treat."""
+    """What processes started here inherit: one thread of linear algebra, and no ear for Ctrl-C, which is ours to treat.
+
+    A Ctrl-C in the meantime is not lost: it is heard when they have started.
+    """
     before: dict[str, str | None] = {name: os.environ.get(name) for name in _SINGLE}
     os.environ.update(dict.fromkeys(_SINGLE, "1"))
-    handler: Any = None
-    if threading.current_thread() is threading.main_thread():
-        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    can_block = hasattr(signal, "pthread_sigmask")
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if can_block else set()
     try:
         yield
     finally:
-        if handler is not None:
-            signal.signal(signal.SIGINT, handler)
+        if can_block:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         for name, value in before.items():
             if value is None:
                 del os.environ[name]
