@@ -45,6 +45,7 @@ def onset():
     raise AssertionError("no onset of lasting contact")
 
 
+@pytest.mark.jit_only
 def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
     answers = []
     for shift in (-1e-9, 1e-9):
@@ -54,6 +55,7 @@ def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
     assert sorted(answers) == [(False, False), (True, True)]
 
 
+@pytest.mark.jit_only
 @pytest.mark.jit_only
 def test_without_rebound_the_motions_with_lasting_contact_end_at_the_same_value(onset):
     """A second route: not one formula of the orbits, but a simulated map from lift-off to lift-off."""
@@ -66,6 +68,7 @@ def test_without_rebound_the_motions_with_lasting_contact_end_at_the_same_value(
     assert min(abs(period - onset.period) for _, period in ends) < 1e-6
 
 
+@pytest.mark.jit_only
 def test_curve_of_the_onset_without_rebound(onset):
     plane = Plane("gamma", "rho", (0.01, 0.1), (0.08, 0.12))
     curve = continue_curve("contact-onset", onset.numbers.parameters, plane, (onset.period, onset.radial_speed))
@@ -85,6 +88,7 @@ def chatter() -> RubbingBranch:
     return continue_rubbing(orbit, "gamma", (0.02, 0.4))
 
 
+@pytest.mark.jit_only
 def test_motion_with_lasting_contact_repeats_in_simulation():
     (orbit,) = rubbing_orbits(CHATTERING)
     motion = orbit.trajectory(1.0 + 1e-9)
@@ -98,6 +102,7 @@ def test_motion_with_lasting_contact_repeats_in_simulation():
     assert not orbit.stable
 
 
+@pytest.mark.jit_only
 def test_lasting_contact_begins_where_the_chatter_is_only_just_complete(chatter):
     """Within 1e-7 the fixed point of the simulated map from lift-off to lift-off ceases to be."""
     assert chatter.stops == ("contact-onset", "permanent-contact")
@@ -141,16 +146,19 @@ def least_force_of_steady_whirl(gamma: float, mu: float = CHATTERING.mu) -> floa
     return float(least.fun)
 
 
+@pytest.mark.jit_only
 def test_contact_becomes_permanent_where_a_steady_whirl_is_only_just_pressed_on(chatter):
     (point,) = [point for point in chatter.special if point.kind == "permanent-contact"]
     assert least_force_of_steady_whirl(point.value - 1e-9) < 0.0 < least_force_of_steady_whirl(point.value + 1e-9)
 
 
+@pytest.mark.jit_only
 def test_contact_shrinks_towards_the_onset(chatter):
     assert chatter.contact_time[0] < 0.01 < chatter.contact_time[len(chatter) // 2]
     assert chatter.landing_force[0] < 0.01 * chatter.landing_force.max()
 
 
+@pytest.mark.jit_only
 def test_onsets_are_among_the_points_of_a_diagram(chatter):
     found = bifurcation_diagram(CHATTERING, "gamma", (0.1, 0.3), lasting=True)
     expected = {point.kind: point.value for point in chatter.special}
@@ -175,6 +183,7 @@ def test_lift_offs_leave_the_wall():
     assert lifted > 10
 
 
+@pytest.mark.jit_only
 def test_inputs_that_cannot_be_used():
     (orbit,) = rubbing_orbits(CHATTERING)
     with pytest.raises(InputError, match="interval that holds"):
@@ -182,6 +191,7 @@ def test_inputs_that_cannot_be_used():
 
 
 @pytest.mark.parametrize("names", [("gamma", "mu"), ("d", "gamma")])
+@pytest.mark.jit_only
 def test_curves_of_both_onsets(chatter, names):
     ranges = {"gamma": (0.02, 0.4), "mu": (0.25, 0.32), "d": (0.4, 0.6)}
     plane = Plane(*names, *(ranges[name] for name in names))
@@ -201,6 +211,7 @@ def test_curves_of_both_onsets(chatter, names):
                 assert values == pytest.approx([at.gamma], abs=1e-6)
 
 
+@pytest.mark.jit_only
 def test_curves_need_an_onset_on_the_plane(chatter):
     point = chatter.special[0]
     with pytest.raises(InputError, match="a plane with gamma"):

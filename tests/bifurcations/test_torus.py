@@ -60,6 +60,7 @@ def growth_an_impact(gamma: float) -> tuple[float, float]:
     return abs(root), abs(np.angle(root))
 
 
+@pytest.mark.jit_only
 def test_disturbances_spiral_out_before_and_in_after(torus):
     """By simulation alone: the disturbance turns by the angle of the pair, and grows on one side only."""
     angle = abs(np.angle(torus.orbit.multipliers.values[0]))
