@@ -12,7 +12,7 @@ import numpy as np
 from carom.core.advance import INSIDE_ALL
 from carom.core.ensemble import Motions, Task, Tools, follow_each
 from carom.core.lanes import lanes_record
-from carom.core.layout import LANES, rub_workspace, workspace
+from carom.core.layout import rub_workspace, workspace
 from carom.outcome import InputError, Outcome
 from carom.rotors import Rotor
 from carom.trajectories import WALL_TOLERANCE, EventLog, fresh_memory
@@ -221,5 +221,4 @@ def _settle_portion(rotor: Rotor, places: np.ndarray, endings: Endings, limits: 
 
 def _tools(memory: np.record) -> Tools:
     log = EventLog.empty(1, MODES)
-    memories = np.array([memory] * LANES, memory.dtype)
-    return Tools(lanes_record(), memories, *log, workspace(MODES), rub_workspace(MODES), np.empty(MODES, complex))
+    return Tools(lanes_record(), memory, *log, workspace(MODES), rub_workspace(MODES), np.empty(MODES, complex))

@@ -13,9 +13,9 @@ import numpy as np
 
 from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
 from carom.core.fate import forget, impacts_until_noted, levitates, recurs
-from carom.core.flow import displacement, flight_increments, squared_modulus, velocity
+from carom.core.flow import copy, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import set_on_wall
-from carom.core.lanes import CLEARED, LATE, NOTED, STRUCK, TOUCHING, fly_lanes, surely_flies
+from carom.core.lanes import CLEARED, LATE, OPEN, STRUCK, TOUCHING, fly_lanes, surely_flies
 from carom.core.layout import LANES, LEVELS, kernel, part, passage
 from carom.outcome import Outcome, Phase
 
@@ -57,10 +57,13 @@ class Motions(NamedTuple):
 
 
 class Tools(NamedTuple):
-    """What a call needs to work with: lanes, a memory for each, and what ``advance`` takes, with a log of one event."""
+    """What a call needs to work with: lanes, and what ``advance`` takes, with a log of one event.
+
+    The loop itself touches records only: with every array that a kernel is handed goes the counting of its holders.
+    """
 
     lanes: np.record
-    memories: np.ndarray
+    memory: np.record
     times: np.ndarray
     phases: np.ndarray
     planes: np.ndarray
@@ -81,137 +84,139 @@ def follow_each(task, motions, tools):
     motions : Motions
     tools : Tools
     """
-    lanes = tools.lanes
+    lanes, memory, work = tools.lanes, tools.memory, tools.work
+    count = motions.positions.shape[0]
     taken, busy, looks = 0, LANES, LANES
     lanes.verdict[:], lanes.motion[:] = VACANT, 0
     while busy > 0:
         for lane in range(LANES if looks > 0 else 0):
             if lanes.verdict[lane] == STRUCK or lanes.motion[lane] == IDLE:
                 continue
-            outcome = _look_at(task, tools, lane)
+            outcome = _look_at(task, lanes, memory, work, lane)
             while outcome != GOES_ON:
                 if outcome == SINGLY:
                     outcome = _follow_singly(task, tools, lane)
                     continue
                 if outcome != NONE_YET:
-                    _note_end(task.rotor, motions, tools, lane, outcome)
-                if taken == motions.positions.shape[0]:
+                    _note_end(task.rotor, motions, lanes, memory, work, lane, outcome)
+                if taken == count:
                     _empty(lanes, lane)
                     busy -= 1
                     break
-                outcome = _begin(task, motions, tools, lane, taken)
+                outcome = _begin(task, motions, lanes, memory, work, lane, taken)
                 taken += 1
         looks = fly_lanes(task.rotor, task.table, task.until, lanes)
 
 
 @passage
-def _begin(task, motions, tools, lane, motion):
+def _begin(task, motions, lanes, memory, work, lane, motion):
     """Give a lane a motion; how it goes on."""
-    lanes, memory, amplitudes = tools.lanes, tools.memories[lane], tools.amplitudes
-    _set_state(task.rotor, motions.positions[motion], motions.velocities[motion], amplitudes)
+    _set_state(task.rotor, motions.positions[motion], motions.velocities[motion], work.current)
     plane = motions.planes[motion]
     if plane >= 0:
-        set_on_wall(task.rotor, plane, amplitudes)
+        set_on_wall(task.rotor, plane, work.current)
     forget(memory)
+    _put_memory_by(lanes, memory, lane)
     lanes.motion[lane], lanes.plane[lane] = motion, plane
     lanes.struck[lane], lanes.events[lane], lanes.stalled[lane] = 0, 0, 0
     lanes.clock[lane], lanes.quiet[lane] = 0.0, 0.0
-    if plane >= 0 and not surely_flies(task.rotor, amplitudes):
+    if plane >= 0 and not surely_flies(task.rotor, work.current):
         return SINGLY
-    _board(task, tools, lane)
+    _board(task, lanes, memory, work, lane)
     return GOES_ON
 
 
 @passage
-def _look_at(task, tools, lane):
-    """Do for a lane what is left to do after its verdict; how its motion ends or goes on."""
-    lanes, memory, amplitudes = tools.lanes, tools.memories[lane], tools.amplitudes
+def _look_at(task, lanes, memory, work, lane):
+    """Do for a lane what is left to do after its verdict; how its motion ends or goes on.
+
+    A motion that ends, or is to be followed singly, is left in ``work.current``.
+    """
     verdict = lanes.verdict[lane]
     if verdict == VACANT:
         return NONE_YET
+    _copy_state(lanes, lane, work.current)
     if verdict == CLEARED:
-        _copy_state(lanes, lane, amplitudes)
-        return LEVITATED if memory.patience > 0 and levitates(task.rotor, amplitudes, tools.work) else GOES_ON
-    quiet = int(lanes.quiet[lane])
-    lanes.quiet[lane] = 0.0
-    lanes.events[lane] += quiet
-    lanes.struck[lane] += quiet
-    memory.events += quiet
-    memory.since += quiet
-    if verdict in (NOTED, TOUCHING):
-        lanes.events[lane] += 1
-        lanes.struck[lane] += 1
-        _copy_arrival(lanes, lane, amplitudes)
-        if memory.patience > 0 and recurs(memory, amplitudes):
-            lanes.struck[lane] -= 1
-            return MIXED if memory.rubbed > 0 else BOUNCING
-        _copy_state(lanes, lane, amplitudes)
-        if lanes.events[lane] >= task.most_events:
-            return EVENT_LIMIT
-        if verdict == NOTED:
-            _watch(task, lanes, lane, memory)
-            return GOES_ON
-        lanes.plane[lane] = 0
-        return SINGLY
+        return LEVITATED if memory.patience > 0 and levitates(task.rotor, work.current, work) else GOES_ON
     if verdict == LATE:
         # The lane has seen that nothing is met before.
-        _copy_state(lanes, lane, amplitudes)
-        flight_increments(task.rotor, amplitudes, task.until - lanes.clock[lane], tools.work.increments)
-        for k in range(amplitudes.shape[0]):
-            amplitudes[k] += tools.work.increments[k]
+        flight_increments(task.rotor, work.current, task.until - lanes.clock[lane], work.increments)
+        for k in range(work.current.shape[0]):
+            work.current[k] += work.increments[k]
+        lanes.struck[lane] += int(lanes.quiet[lane])
         lanes.clock[lane] = task.until
         return TIME_REACHED
-    if lanes.open[lane] == 0.0 and lanes.depth[lane] < LEVELS:
-        _watch(task, lanes, lane, memory)
+    if verdict == OPEN and lanes.open[lane] == 0.0 and lanes.depth[lane] < LEVELS:
         return GOES_ON
-    _copy_state(lanes, lane, amplitudes)
-    lanes.plane[lane] = 0 if lanes.level[lane] == 0.0 else INSIDE_ALL
-    return SINGLY
+    _note_quiet(lanes, lane)
+    if verdict == OPEN:
+        lanes.plane[lane] = 0 if lanes.level[lane] == 0.0 else INSIDE_ALL
+        return SINGLY
+    lanes.events[lane] += 1
+    lanes.struck[lane] += 1
+    _copy_arrival(lanes, lane, work.arrival)
+    _fetch_memory(lanes, memory, lane)
+    if memory.patience > 0 and recurs(memory, work.arrival):
+        lanes.struck[lane] -= 1
+        copy(work.arrival, work.current)
+        return MIXED if memory.rubbed > 0 else BOUNCING
+    _put_memory_by(lanes, memory, lane)
+    if lanes.events[lane] >= task.most_events:
+        return EVENT_LIMIT
+    if verdict == TOUCHING:
+        lanes.plane[lane] = 0
+        return SINGLY
+    _watch(task, lanes, memory, lane)
+    return GOES_ON
 
 
 @passage
 def _follow_singly(task, tools, lane):
-    """Follow the motion of ``tools.amplitudes`` event by event until it flies freely and may board its lane again."""
-    lanes, memory, amplitudes, rotor = tools.lanes, tools.memories[lane], tools.amplitudes, task.rotor
+    """Follow the motion of ``work.current`` event by event until it flies freely and may board its lane again."""
+    lanes, memory, amplitudes, work = tools.lanes, tools.memory, tools.amplitudes, tools.work
     phase, plane = FLIGHT, lanes.plane[lane]
-    while True:
+    _fetch_memory(lanes, memory, lane)
+    outcome, follows = EVENT_LIMIT, True
+    while follows:
         departed = phase
+        copy(work.current, amplitudes)
         outcome, time, count, phase, plane = advance(
-            rotor, task.table, amplitudes, task.until - lanes.clock[lane], phase, plane,
-            tools.times, tools.phases, tools.planes, tools.before, tools.after, memory, tools.work, tools.rub,
+            task.rotor, task.table, amplitudes, task.until - lanes.clock[lane], phase, plane,
+            tools.times, tools.phases, tools.planes, tools.before, tools.after, memory, work, tools.rub,
         )  # fmt: skip
+        copy(amplitudes, work.current)
         lanes.clock[lane] += time
         lanes.events[lane] += count
         if departed == FLIGHT and phase == FLIGHT and count > 0 and _changed(tools.before[0], tools.after[0]):
             lanes.struck[lane] += 1
-        if outcome != EVENT_LIMIT:
-            return outcome
         lanes.stalled[lane] = lanes.stalled[lane] + 1 if time <= SHORTEST else 0
-        if lanes.stalled[lane] == STALLED:
-            return GRAZING
-        if lanes.events[lane] >= task.most_events:
-            return EVENT_LIMIT
-        if phase == FLIGHT and memory.lifting == 0 and (plane < 0 or surely_flies(rotor, amplitudes)):
-            lanes.plane[lane] = plane
-            _board(task, tools, lane)
-            return GOES_ON
+        if outcome == EVENT_LIMIT and lanes.stalled[lane] == STALLED:
+            outcome = GRAZING
+        flies = phase == FLIGHT and memory.lifting == 0 and (plane < 0 or surely_flies(task.rotor, work.current))
+        follows = outcome == EVENT_LIMIT and lanes.events[lane] < task.most_events and not flies
+    if outcome != EVENT_LIMIT or lanes.events[lane] >= task.most_events:
+        return outcome
+    lanes.plane[lane] = plane
+    _put_memory_by(lanes, memory, lane)
+    _board(task, lanes, memory, work, lane)
+    return GOES_ON
 
 
 @part
-def _board(task, tools, lane):
-    """Put the motion of ``tools.amplitudes``, in free flight, on a lane."""
-    lanes, amplitudes = tools.lanes, tools.amplitudes
-    lanes.lower_re[lane], lanes.lower_im[lane] = amplitudes[0].real, amplitudes[0].imag
-    lanes.upper_re[lane], lanes.upper_im[lane] = amplitudes[1].real, amplitudes[1].imag
+def _board(task, lanes, memory, work, lane):
+    """Put the motion of ``work.current``, in free flight, on a lane."""
+    lower, upper = work.current[0], work.current[1]
+    lanes.lower_re[lane], lanes.lower_im[lane] = lower.real, lower.imag
+    lanes.upper_re[lane], lanes.upper_im[lane] = upper.real, upper.imag
     lanes.level[lane] = 0.0
     if lanes.plane[lane] < 0:
-        lanes.level[lane] = squared_modulus(displacement(task.rotor, 0, amplitudes)) - 1.0
+        lanes.level[lane] = squared_modulus(displacement(task.rotor, 0, work.current)) - 1.0
     lanes.depth[lane] = 0.0
-    _watch(task, lanes, lane, tools.memories[lane])
+    _watch(task, lanes, memory, lane)
 
 
 @part
-def _watch(task, lanes, lane, memory):
+def _watch(task, lanes, memory, lane):
     """State whose recurrence a lane has to note, and the number of impacts after which it has to be looked at."""
     due = task.most_events - lanes.events[lane]
     reference_lower, reference_upper = complex(NOWHERE, 0.0), complex(NOWHERE, 0.0)
@@ -224,13 +229,45 @@ def _watch(task, lanes, lane, memory):
 
 
 @part
-def _note_end(rotor, motions, tools, lane, outcome):
-    """Note where the motion of a lane has ended, in ``tools.amplitudes``."""
-    lanes, motion = tools.lanes, tools.lanes.motion[lane]
+def _note_quiet(lanes, lane):
+    """Enter in the books the plain impacts of a lane since it was last looked at."""
+    quiet = int(lanes.quiet[lane])
+    lanes.quiet[lane] = 0.0
+    lanes.events[lane] += quiet
+    lanes.struck[lane] += quiet
+    lanes.seen[lane] += quiet
+    lanes.since[lane] += quiet
+
+
+@part
+def _fetch_memory(lanes, memory, lane):
+    """Take up what a lane's motion remembers; what it remembers of a rub ends with the rub."""
+    memory.events, memory.since, memory.renewal = lanes.seen[lane], lanes.since[lane], lanes.renewal[lane]
+    memory.candidate, memory.rubbed, memory.lifting = lanes.candidate[lane], lanes.rubbed[lane], 0
+    memory.period = 0
+    memory.reference[0] = complex(lanes.kept_lower_re[lane], lanes.kept_lower_im[lane])
+    memory.reference[1] = complex(lanes.kept_upper_re[lane], lanes.kept_upper_im[lane])
+
+
+@part
+def _put_memory_by(lanes, memory, lane):
+    """Keep what a lane's motion remembers."""
+    lanes.seen[lane], lanes.since[lane], lanes.renewal[lane] = memory.events, memory.since, memory.renewal
+    lanes.candidate[lane], lanes.rubbed[lane] = memory.candidate, memory.rubbed
+    lower, upper = memory.reference[0], memory.reference[1]
+    lanes.kept_lower_re[lane], lanes.kept_lower_im[lane] = lower.real, lower.imag
+    lanes.kept_upper_re[lane], lanes.kept_upper_im[lane] = upper.real, upper.imag
+
+
+@part
+def _note_end(rotor, motions, lanes, memory, work, lane, outcome):
+    """Note where the motion of a lane has ended, in ``work.current``."""
+    motion = lanes.motion[lane]
     motions.outcomes[motion], motions.times[motion] = outcome, lanes.clock[lane]
-    motions.impacts[motion], motions.multiplicities[motion] = lanes.struck[lane], tools.memories[lane].period
-    motions.positions[motion] = displacement(rotor, 0, tools.amplitudes)
-    motions.velocities[motion] = velocity(rotor, 0, tools.amplitudes)
+    motions.impacts[motion] = lanes.struck[lane]
+    motions.multiplicities[motion] = memory.period if outcome in (BOUNCING, MIXED) else 0
+    motions.positions[motion] = displacement(rotor, 0, work.current)
+    motions.velocities[motion] = velocity(rotor, 0, work.current)
 
 
 @part
