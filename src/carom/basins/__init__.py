@@ -10,14 +10,16 @@
 ``entropy``         basin entropy and boundary basin entropy
 ``absorbing``       a proven neighbourhood of the synchronous rub
 ``gains``           all that against two parameters: gain maps
+``changes``         the least change of both that brings back a wanted share
 ``document``        results as JSON
 ==================  ==================================================================================
 """
 
 from carom.basins.absorbing import RubNeighbourhood, rub_neighbourhood
+from carom.basins.changes import GainChange, least_gain_change
 from carom.basins.classification import Basin, basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
-from carom.basins.gains import GainChange, GainMap, gain_map, least_gain_change
+from carom.basins.gains import GainMap, gain_map
 from carom.basins.integrity import Integrity, integrity
 from carom.basins.kicks import SmallestKick, harmless_kick, harmless_shock, smallest_unrecovered_kick
 from carom.basins.shares import Share

@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from carom.basins.changes import GainChange
 from carom.basins.classification import Basin
 from carom.basins.entropy import basin_entropy
-from carom.basins.gains import GainChange, GainMap
+from carom.basins.gains import GainMap
 from carom.basins.integrity import integrity
 from carom.basins.kicks import SmallestKick, harmless_shock
 from carom.basins.shares import Share

@@ -27,42 +27,12 @@ if TYPE_CHECKING:
 
     import xarray
 
-__all__ = ["GainChange", "GainMap", "gain_map", "least_gain_change"]
+__all__ = ["GainMap", "gain_map", "measured"]
 
 AROUND = (0.5, 2.0)
 """Default range of a parameter, in its present value."""
 CHUNK = 50_000
 """Starts that are in memory at a time, about."""
-HALVINGS = 8
-CANDIDATES = 8
-"""Nodes towards which the least change is looked for."""
-WANTED = 0.99
-
-
-@dataclass(frozen=True)
-class GainChange:
-    """The least change of two parameters, in proportion, found to bring back a wanted share.
-
-    Attributes
-    ----------
-    values : tuple of float
-        New values, in the units of the map.
-    changes : tuple of float
-        Relative to the present ones.
-    share : Share
-        That comes back with them.
-    wanted : float
-    """
-
-    values: tuple[float, float]
-    changes: tuple[float, float]
-    share: Share
-    wanted: float
-
-    @property
-    def size(self) -> float:
-        """Root of the sum of the squared relative changes."""
-        return math.hypot(*self.changes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,7 +163,7 @@ def gain_map(
     nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
     present = tuple(varied.get(Numbers.of(parameters)) for varied in axes)
     measures = []
-    for done, found in enumerate(_measured(parameters, disturbances, axes, [*nodes, present], limits), start=1):
+    for done, found in enumerate(measured(parameters, disturbances, axes, [*nodes, present], limits), start=1):
         measures.append(found)
         if progress:
             progress(done / (len(nodes) + 1))
@@ -207,83 +177,6 @@ def gain_map(
         "present_starts": now["total"],
     }
     return GainMap(dataset)
-
-
-def least_gain_change(
-    found: GainMap,
-    wanted: float = WANTED,
-    *,
-    threads: int | None = None,
-) -> GainChange | None:
-    """Least change of the two parameters, in proportion, that brings back a wanted share of the disturbances.
-
-    Of the nodes of the map that do, the nearest few (relative changes, Euclidean) are taken; on the straight line from
-    the present machine to each the change is then bisected.  In other directions there may be a smaller one.
-    For a sample the lower end of the confidence interval has to reach the wanted share.
-
-    Parameters
-    ----------
-    found : GainMap
-    wanted : float
-        Share, 0 to 1.
-    threads : int, optional
-
-    Returns
-    -------
-    GainChange or None
-        ``None`` if no node of the map reaches it; no change if the present machine does.
-
-    Raises
-    ------
-    InputError
-        A share out of range, or a parameter that is zero now.
-    """
-    if not 0.0 < wanted <= 1.0:
-        raise InputError("wanted", wanted, "a share above 0 and at most 1")
-    present = found.present
-    if not all(present):
-        raise InputError("wanted", wanted, "needs parameters other than 0 now, as changes are relative")
-    if found.present_share.low >= wanted:
-        return GainChange(present, (0.0, 0.0), found.present_share, wanted)
-    x, y = (found.dataset[varied.name].values / now - 1.0 for varied, now in zip(found.axes, present, strict=True))
-    size = np.hypot(x[:, None], y[None, :])
-    good = found.dataset["recovered_low"].values >= wanted
-    if not good.any():
-        return None
-    nearest = np.argsort(np.where(good, size, np.inf), axis=None, kind="stable")[: min(CANDIDATES, int(good.sum()))]
-    found_changes = []
-    for place in zip(*np.unravel_index(nearest, size.shape), strict=True):
-        goal = float(x[place[0]]), float(y[place[1]])
-        part, share = _least_part(found, goal, wanted, threads)
-        found_changes.append(GainChange(*_moved(present, goal, part), share, wanted))
-    return min(found_changes, key=lambda change: change.size)
-
-
-def _moved(
-    present: tuple[float, float], goal: tuple[float, float], part: float
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Values, and relative changes, a part of the way to a goal."""
-    changes = part * goal[0], part * goal[1]
-    return (present[0] * (1.0 + changes[0]), present[1] * (1.0 + changes[1])), changes
-
-
-def _least_part(found: GainMap, goal: tuple[float, float], wanted: float, threads: int | None) -> tuple[float, Share]:
-    """Part of the way to a goal that is enough, and the share there."""
-
-    def share(part: float) -> Share:
-        node, _ = _moved(found.present, goal, part)
-        (entry,) = _measured(found.parameters, found.plan, found.axes, [node], {"threads": threads})
-        return Share.of(entry["count"], entry["total"], drawn=isinstance(found.plan, Sample))
-
-    low, high, best = 0.0, 1.0, share(1.0)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        tried = share(middle)
-        if tried.low >= wanted:
-            high, best = middle, tried
-        else:
-            low = middle
-    return high, best
 
 
 def _values(parameters: Parameters, varied: Axis, given: tuple[float, float] | None, count: int) -> np.ndarray:
@@ -301,7 +194,7 @@ def _values(parameters: Parameters, varied: Axis, given: tuple[float, float] | N
     return np.linspace(low, high, count)
 
 
-def _measured(
+def measured(
     parameters: Parameters,
     plan: Plan,
     axes: tuple[Axis, Axis],

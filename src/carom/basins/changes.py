@@ -1,0 +1,123 @@
+"""The least change of two parameters that brings back a wanted share of disturbances."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.basins.gains import GainMap, measured
+from carom.basins.shares import Share
+from carom.disturbances import Sample
+from carom.outcome import InputError
+
+__all__ = ["GainChange", "least_gain_change"]
+
+HALVINGS = 8
+CANDIDATES = 8
+"""Nodes towards which the least change is looked for."""
+WANTED = 0.99
+
+
+@dataclass(frozen=True)
+class GainChange:
+    """The least change of two parameters, in proportion, found to bring back a wanted share.
+
+    Attributes
+    ----------
+    values : tuple of float
+        New values, in the units of the map.
+    changes : tuple of float
+        Relative to the present ones.
+    share : Share
+        That comes back with them.
+    wanted : float
+    """
+
+    values: tuple[float, float]
+    changes: tuple[float, float]
+    share: Share
+    wanted: float
+
+    @property
+    def size(self) -> float:
+        """Root of the sum of the squared relative changes."""
+        return math.hypot(*self.changes)
+
+
+def least_gain_change(
+    found: GainMap,
+    wanted: float = WANTED,
+    *,
+    threads: int | None = None,
+) -> GainChange | None:
+    """Least change of the two parameters, in proportion, that brings back a wanted share of the disturbances.
+
+    Of the nodes of the map that do, the nearest few (relative changes, Euclidean) are taken; on the straight line from
+    the present machine to each the change is then bisected.  In other directions there may be a smaller one.
+    For a sample the lower end of the confidence interval has to reach the wanted share.
+
+    Parameters
+    ----------
+    found : GainMap
+    wanted : float
+        Share, 0 to 1.
+    threads : int, optional
+
+    Returns
+    -------
+    GainChange or None
+        ``None`` if no node of the map reaches it; no change if the present machine does.
+
+    Raises
+    ------
+    InputError
+        A share out of range, or a parameter that is zero now.
+    """
+    if not 0.0 < wanted <= 1.0:
+        raise InputError("wanted", wanted, "a share above 0 and at most 1")
+    present = found.present
+    if not all(present):
+        raise InputError("wanted", wanted, "needs parameters other than 0 now, as changes are relative")
+    if found.present_share.low >= wanted:
+        return GainChange(present, (0.0, 0.0), found.present_share, wanted)
+    x, y = (found.dataset[varied.name].values / now - 1.0 for varied, now in zip(found.axes, present, strict=True))
+    size = np.hypot(x[:, None], y[None, :])
+    good = found.dataset["recovered_low"].values >= wanted
+    if not good.any():
+        return None
+    nearest = np.argsort(np.where(good, size, np.inf), axis=None, kind="stable")[: min(CANDIDATES, int(good.sum()))]
+    found_changes = []
+    for place in zip(*np.unravel_index(nearest, size.shape), strict=True):
+        goal = float(x[place[0]]), float(y[place[1]])
+        part, share = _least_part(found, goal, wanted, threads)
+        found_changes.append(GainChange(*_moved(present, goal, part), share, wanted))
+    return min(found_changes, key=lambda change: change.size)
+
+
+def _moved(
+    present: tuple[float, float], goal: tuple[float, float], part: float
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Values, and relative changes, a part of the way to a goal."""
+    changes = part * goal[0], part * goal[1]
+    return (present[0] * (1.0 + changes[0]), present[1] * (1.0 + changes[1])), changes
+
+
+def _least_part(found: GainMap, goal: tuple[float, float], wanted: float, threads: int | None) -> tuple[float, Share]:
+    """Part of the way to a goal that is enough, and the share there."""
+
+    def share(part: float) -> Share:
+        node, _ = _moved(found.present, goal, part)
+        (entry,) = measured(found.parameters, found.plan, found.axes, [node], {"threads": threads})
+        return Share.of(entry["count"], entry["total"], drawn=isinstance(found.plan, Sample))
+
+    low, high, best = 0.0, 1.0, share(1.0)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        tried = share(middle)
+        if tried.low >= wanted:
+            high, best = middle, tried
+        else:
+            low = middle
+    return high, best

@@ -1,0 +1,148 @@
+"""Disturbances of the levitating rotor: kicks and shocks."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
+from carom.disturbances.model import FASTEST, Disturbance
+from carom.parameters import Scales
+from carom.rotors import Rotor
+from carom.shocks import states_after_shocks
+
+__all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
+
+GRAVITY = 9.80665
+"""Standard acceleration of free fall, m/s²."""
+
+
+@dataclass(frozen=True)
+class VelocityKick(Disturbance):
+    """A blow to the levitating rotor that changes its velocity at once.
+
+    Attributes
+    ----------
+    fastest : float
+        Largest change of velocity, in ``c_r Ω``.  Directions are angles in the co-rotating frame, as those of
+        :func:`~carom.trajectories.kick`.
+    """
+
+    fastest: float = FASTEST
+    kind: ClassVar[str] = "kick"
+    measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
+
+    @classmethod
+    def in_si(cls, scales: Scales, metres_per_second: float) -> VelocityKick:
+        """With the largest change of velocity in m/s."""
+        return cls(metres_per_second / scales.velocity)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Size and direction."""
+        return speed_coordinate("speed", "size of the kick", 0.0, self.fastest), angle_coordinate(
+            "direction", "direction of the kick"
+        )
+
+    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+        """Levitation with the velocity changed."""
+        speed, direction = values
+        velocity = complex_of(speed * np.cos(direction), speed * np.sin(direction))
+        return Starts.of(rotor.equilibrium, velocity, _levitates(rotor))
+
+
+@dataclass(frozen=True)
+class KickPlane(Disturbance):
+    """The same blow, by its parts outward and along the whirl, as seen from the centre of the bearing.
+
+    Attributes
+    ----------
+    fastest : float
+        Largest part, in ``c_r Ω``.
+    """
+
+    fastest: float = FASTEST
+    kind: ClassVar[str] = "kick-plane"
+    measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
+
+    @classmethod
+    def in_si(cls, scales: Scales, metres_per_second: float) -> KickPlane:
+        """With the largest part in m/s."""
+        return cls(metres_per_second / scales.velocity)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Radial and tangential part."""
+        return (
+            speed_coordinate("radial_speed", "kick outward", -self.fastest, self.fastest),
+            speed_coordinate("tangential_speed", "kick in the sense of rotation", -self.fastest, self.fastest),
+        )
+
+    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+        """Levitation with the velocity changed."""
+        radial, tangential = values
+        outward = outward_from(rotor)
+        velocity = complex_of(
+            outward.real * radial - outward.imag * tangential, outward.imag * radial + outward.real * tangential
+        )
+        return Starts.of(rotor.equilibrium, velocity, _levitates(rotor))
+
+
+@dataclass(frozen=True)
+class BaseShock(Disturbance):
+    """The housing, bearings and all, is accelerated by ``a(t) = â sin(πt/T)`` along a line for a time ``T``.
+
+    The motion of the levitating rotor relative to the housing is followed exactly through the pulse, contacts included
+    (:mod:`carom.shocks`); the start is the state at its end.  Directions are those of the acceleration in the fixed
+    frame, measured from the real axis of the co-rotating frame at the instant when the pulse begins.
+
+    Attributes
+    ----------
+    peak : float
+        Largest peak acceleration ``â``, in ``c_r Ω²``.
+    duration : float
+        ``T``, in ``1/Ω``.
+    """
+
+    peak: float
+    duration: float
+    kind: ClassVar[str] = "shock"
+    measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time"}
+
+    @classmethod
+    def in_si(cls, scales: Scales, g: float, milliseconds: float) -> BaseShock:
+        """With the largest peak in standard gravities and the duration in ms."""
+        return cls(g * GRAVITY / scales.acceleration, 1e-3 * milliseconds / scales.time)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Peak acceleration and direction."""
+        peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration", "m/s^2")
+        return peak, angle_coordinate("direction", "direction of the shock")
+
+    @property
+    def velocity_change(self) -> float:
+        """Of the housing through the largest pulse, ``2âT/π``, in ``c_r Ω``."""
+        return 2.0 * self.peak * self.duration / math.pi
+
+    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+        """State at the end of the pulse."""
+        peaks, directions = np.broadcast_arrays(*values)
+        if not _levitates(rotor):
+            return Starts.of(np.zeros(peaks.shape, complex), 0j, False)
+        positions, velocities, undecided = states_after_shocks(rotor, peaks, self.duration, directions)
+        return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided)
+
+
+def outward_from(rotor: Rotor) -> complex:
+    """Direction from the centre of the bearing to the levitating rotor; the heavy side where it is in the centre."""
+    rest = rotor.equilibrium
+    return rest / abs(rest) if rest else cmath.rect(1.0, rotor.parameters.phi)
+
+
+def _levitates(rotor: Rotor) -> bool:
+    return abs(rotor.equilibrium) < 1.0

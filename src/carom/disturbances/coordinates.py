@@ -1,0 +1,115 @@
+"""Coordinates of disturbances, and the starts they lead to."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.parameters import Scales
+
+__all__ = ["Coordinate", "Starts", "angle_coordinate", "complex_of", "inside", "length_coordinate", "speed_coordinate"]
+
+TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One coordinate of a disturbance and its range.
+
+    Attributes
+    ----------
+    name, words : str
+    low, high : float
+        Dimensionless, or rad.
+    scale : str
+        Property of :class:`~carom.parameters.Scales` that turns it into SI; empty for angles.
+    unit : str
+        SI unit.
+    over_disc : bool
+        A radius: even over the area of a disc, not over the radius.
+    periodic : bool
+        An angle all round.
+    """
+
+    name: str
+    words: str
+    low: float
+    high: float
+    scale: str = ""
+    unit: str = "rad"
+    over_disc: bool = False
+    periodic: bool = False
+
+    def at(self, shares: np.ndarray) -> np.ndarray:
+        """Values that have these shares of the range, 0 to 1, below them."""
+        return self.high * np.sqrt(shares) if self.over_disc else self.low + (self.high - self.low) * shares
+
+    def edges(self, cells: int) -> np.ndarray:
+        """Ends of cells of equal weight, shape (cells + 1,)."""
+        return self.at(np.arange(cells + 1) / cells)
+
+    def middles(self, cells: int) -> np.ndarray:
+        """Middles, by weight, of cells of equal weight, shape (cells,)."""
+        return self.at((np.arange(cells) + 0.5) / cells)
+
+    def si(self, scales: Scales) -> float:
+        """How many SI units one unit of it is."""
+        return float(getattr(scales, self.scale)) if self.scale else 1.0
+
+
+def angle_coordinate(name: str, words: str) -> Coordinate:
+    """An angle all round."""
+    return Coordinate(name, words, 0.0, TURN, periodic=True)
+
+
+def speed_coordinate(name: str, words: str, low: float, high: float, over_disc: bool = False) -> Coordinate:
+    """A speed."""
+    return Coordinate(name, words, low, high, "velocity", "m/s", over_disc)
+
+
+def length_coordinate(name: str, words: str, low: float, high: float, over_disc: bool = False) -> Coordinate:
+    """A length."""
+    return Coordinate(name, words, low, high, "length", "m", over_disc)
+
+
+class Starts(NamedTuple):
+    """Starts of free motion in the co-rotating frame; arrays of one shape.
+
+    Attributes
+    ----------
+    positions, velocities : ndarray of complex
+    exists : ndarray of bool
+        Whether the disturbance is possible: the start lies inside the wall, the rotor could levitate before it.
+    undecided : ndarray of bool
+        The disturbance itself grazes the wall, and double precision cannot decide what follows.
+    """
+
+    positions: np.ndarray
+    velocities: np.ndarray
+    exists: np.ndarray
+    undecided: np.ndarray
+
+    @classmethod
+    def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: np.ndarray | bool) -> Starts:
+        """Give all arrays one shape."""
+        places, speeds, there = np.broadcast_arrays(np.asarray(positions, complex), velocities, exists)
+        return cls(places, speeds.astype(complex), there, np.zeros(places.shape, bool))
+
+
+def inside(positions: np.ndarray, velocities: np.ndarray) -> Starts:
+    """Starts inside the wall; those outside do not exist."""
+    inside = positions.real**2 + positions.imag**2 <= 1.0
+    return Starts.of(np.where(inside, positions, 0.0), velocities, inside)
+
+
+def complex_of(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:
+    """Complex numbers from their parts.
+
+    Products are taken of real numbers only: the last bit of complex ones depends on their place in the array.
+    """
+    values = np.empty(np.broadcast(real, imaginary).shape, complex)
+    values.real, values.imag = real, imaginary
+    return values

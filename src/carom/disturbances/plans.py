@@ -1,0 +1,110 @@
+"""Which disturbances are tried: grids and seeded samples."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from carom.disturbances.blows import KickPlane
+from carom.disturbances.coordinates import Starts
+from carom.disturbances.model import FASTEST, Disturbance
+from carom.outcome import InputError
+from carom.parameters import Scales
+from carom.rotors import Rotor
+
+__all__ = ["Grid", "Plan", "Sample", "disturbances"]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Every coordinate in equal cells, each represented by its middle.
+
+    Attributes
+    ----------
+    model : Disturbance
+    shape : tuple of int
+        Cells along each coordinate.
+    """
+
+    model: Disturbance
+    shape: tuple[int, ...]
+
+    def __post_init__(self) -> None:
+        names = [coordinate.name for coordinate in self.model.coordinates]
+        if len(self.shape) != len(names) or any(cells < 1 for cells in self.shape):
+            given = "x".join(map(str, self.shape)) or None
+            raise InputError("grid", given, f"numbers of cells, one for each of {', '.join(names)}")
+
+    @property
+    def count(self) -> int:
+        """Number of cells."""
+        return math.prod(self.shape)
+
+    def values(self) -> tuple[np.ndarray, ...]:
+        """Middles of the cells along each coordinate, one-dimensional."""
+        return tuple(
+            coordinate.middles(cells) for coordinate, cells in zip(self.model.coordinates, self.shape, strict=True)
+        )
+
+    def starts(self, rotor: Rotor) -> Starts:
+        """Starts, arrays of the shape of the grid."""
+        return self.model.starts(rotor, *np.meshgrid(*self.values(), indexing="ij"))
+
+    def rescaled(self, before: Scales | None, after: Scales | None) -> Grid:
+        """Return the same grid in SI units for a machine with other scales."""
+        return Grid(self.model.rescaled(before, after), self.shape)
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A seeded sample, even over every coordinate; a longer one of the same seed begins with the shorter.
+
+    Attributes
+    ----------
+    model : Disturbance
+    count : int
+    seed : int
+    """
+
+    model: Disturbance
+    count: int
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if self.count < 1:
+            raise InputError("starts", self.count, "a whole number of at least 1")
+        if self.seed < 0:
+            raise InputError("seed", self.seed, "a whole number of at least 0")
+
+    def values(self) -> tuple[np.ndarray, ...]:
+        """Value of each coordinate at each start, shape (count,)."""
+        axes = self.model.coordinates
+        shares = np.random.default_rng(self.seed).random((self.count, len(axes)))
+        return tuple(coordinate.at(share) for coordinate, share in zip(axes, shares.T, strict=True))
+
+    def starts(self, rotor: Rotor) -> Starts:
+        """Starts, arrays of shape (count,)."""
+        return self.model.starts(rotor, *self.values())
+
+    def rescaled(self, before: Scales | None, after: Scales | None) -> Sample:
+        """Return the same sample in SI units for a machine with other scales."""
+        return Sample(self.model.rescaled(before, after), self.count, self.seed)
+
+
+Plan: TypeAlias = Grid | Sample
+
+
+def disturbances(radial: int = 100, tangential: int = 100, fastest: float = FASTEST) -> Grid:
+    """Grid of velocity kicks out of levitation, by their radial and tangential parts.
+
+    Parameters
+    ----------
+    radial, tangential : int
+        Numbers of cells.
+    fastest : float
+        Largest part, in ``c_r Ω``.
+    """
+    return Grid(KickPlane(fastest), (radial, tangential))

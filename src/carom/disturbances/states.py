@@ -1,0 +1,177 @@
+"""Disturbances that put the rotor into a state: unbalance steps, releases from the wall, slices and all states."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from carom.disturbances.coordinates import (
+    Coordinate,
+    Starts,
+    angle_coordinate,
+    complex_of,
+    inside,
+    length_coordinate,
+    speed_coordinate,
+)
+from carom.disturbances.model import FASTEST, Disturbance
+from carom.outcome import InputError
+from carom.parameters import Scales
+from carom.rotors import Rotor
+
+__all__ = ["AnyState", "ContactRelease", "StateSlice", "UnbalanceStep"]
+
+Release = Literal["fixed", "rotating", "rolling"]
+
+
+@dataclass(frozen=True)
+class UnbalanceStep(Disturbance):
+    """The unbalance jumps to that of the machine: a lost blade, a shifted sleeve.
+
+    The rotor whirled without contact with an eccentricity of another size and phase; its position and velocity are then
+    those of the start in the machine as it is.
+
+    Attributes
+    ----------
+    largest : float
+        Largest eccentricity before, in clearances.  Phases are relative to the unbalance after the step.
+    """
+
+    largest: float
+    kind: ClassVar[str] = "unbalance"
+    measured_in: ClassVar[dict[str, str]] = {"largest": "length"}
+
+    @classmethod
+    def in_si(cls, scales: Scales, metres: float) -> UnbalanceStep:
+        """With the largest eccentricity before in m."""
+        return cls(metres / scales.length)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Eccentricity and phase before the step."""
+        return (
+            length_coordinate("eccentricity_before", "eccentricity before the step", 0.0, self.largest),
+            angle_coordinate("phase_before", "phase of the unbalance before the step, relative to that after it"),
+        )
+
+    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+        """Levitation with the old unbalance."""
+        eccentricity, phase = values
+        numbers = rotor.parameters
+        response = cmath.rect(1.0, numbers.phi) / complex(numbers.omega**2 - 1.0, numbers.gamma)
+        cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
+        positions = complex_of(
+            response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
+        )
+        return inside(positions, np.zeros(positions.shape, complex))
+
+
+@dataclass(frozen=True)
+class ContactRelease(Disturbance):
+    """Levitation is switched on with the rotor on the wall, anywhere round it.
+
+    Attributes
+    ----------
+    motion : {"fixed", "rotating", "rolling"}
+        The rotor centre is at rest, whirls in step with the shaft, or rolls round the bearing without slip.
+    """
+
+    motion: Release = "fixed"
+    kind: ClassVar[str] = "release"
+
+    def __post_init__(self) -> None:
+        if self.motion not in ("fixed", "rotating", "rolling"):
+            raise InputError("motion", self.motion, 'one of "fixed", "rotating", "rolling"')
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Angle of the place on the wall."""
+        return (angle_coordinate("angle", "place on the wall"),)
+
+    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+        """On the wall, moving along it."""
+        (angle,) = values
+        cosine, sine = np.cos(angle), np.sin(angle)
+        whirl = {"fixed": 0.0, "rotating": 1.0, "rolling": -rotor.parameters.radius_ratio}[self.motion]
+        return Starts.of(complex_of(cosine, sine), complex_of(-(whirl - 1.0) * sine, (whirl - 1.0) * cosine), True)
+
+
+@dataclass(frozen=True)
+class StateSlice(Disturbance):
+    """Any position inside the wall, at one velocity in the co-rotating frame.
+
+    Attributes
+    ----------
+    velocity : complex
+        ``U̇`` in ``c_r Ω``.
+    """
+
+    velocity: complex = 0j
+    kind: ClassVar[str] = "slice"
+
+    def __post_init__(self) -> None:
+        if not cmath.isfinite(self.velocity):
+            raise InputError("velocity", self.velocity, "finite numbers")
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Both components of the position."""
+        return length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
+
+    def rescaled(self, before: Scales | None, after: Scales | None) -> StateSlice:
+        """Return the same velocity in SI units for a machine with other scales."""
+        if before is None or after is None:
+            return self
+        return StateSlice(self.velocity * (before.velocity / after.velocity))
+
+    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+        """All positions inside the wall."""
+        x, y = np.broadcast_arrays(*values)
+        positions = complex_of(x, y)
+        return inside(positions, np.full(positions.shape, self.velocity))
+
+    def describe(self) -> dict[str, object]:
+        """Its kind and its numbers."""
+        return {"kind": self.kind, "velocity": [self.velocity.real, self.velocity.imag]}
+
+
+@dataclass(frozen=True)
+class AnyState(Disturbance):
+    """Any position inside the wall and any velocity up to a speed in the co-rotating frame, both even over their discs.
+
+    Attributes
+    ----------
+    fastest : float
+        In ``c_r Ω``.
+    """
+
+    fastest: float = FASTEST
+    kind: ClassVar[str] = "state"
+    measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
+
+    @classmethod
+    def in_si(cls, scales: Scales, metres_per_second: float) -> AnyState:
+        """With the largest speed in m/s."""
+        return cls(metres_per_second / scales.velocity)
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Position and velocity, both by size and angle."""
+        return (
+            length_coordinate("radius", "distance from the centre of the bearing", 0.0, 1.0, over_disc=True),
+            angle_coordinate("angle", "angle of the position"),
+            speed_coordinate("speed", "speed in the co-rotating frame", 0.0, self.fastest, over_disc=True),
+            angle_coordinate("direction", "direction of the velocity"),
+        )
+
+    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+        """All of them."""
+        radius, angle, speed, direction = np.broadcast_arrays(*values)
+        return Starts.of(
+            complex_of(radius * np.cos(angle), radius * np.sin(angle)),
+            complex_of(speed * np.cos(direction), speed * np.sin(direction)),
+            True,
+        )
