@@ -4,8 +4,9 @@ from carom.bifurcations.axes import Axis, Numbers, axis, value_of, vary
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
 from carom.bifurcations.diagrams import Diagram, bifurcation_diagram
+from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.onsets import ONSETS, continue_onset
-from carom.bifurcations.regions import Motions, Region, RegionMap, motions_at, region_map
+from carom.bifurcations.regions import Region, RegionMap, region_map
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch, SpecialValue

@@ -95,23 +95,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
         steps=STEPS,
         scales=np.array([1.0, *sizes]),
     )
-    rows = []
-    for (angle, x), y in zip(beside.unknowns.tolist(), beside.parameters.tolist(), strict=True):
-        here = lift_off(angle, x, y)
-        if here is None:
-            continue
-
-        def follow(angle: float, x: float, y: float, period: float = here.time) -> LiftOff | None:
-            found = lift_off(angle, x, y)
-            alike = found is not None and found.whirl == whirl and abs(found.time - period) < NEARBY * period
-            return found if alike else None
-
-        # At an edge of the plane the end is looked for along the edge.
-        stays = 1 if y in plane.second_range else 0 if _on_edge(x, plane.first_range) else None
-        end_angle, place = _end(follow, angle, np.array([x, y]), sizes, stays)
-        last = follow(end_angle, *place)
-        if last is not None and plane.holds(*place):
-            rows.append((*place, last.time))
+    rows = _ends(beside, lift_off, plane, sizes)
     if not rows:
         raise CaromError(f"the {point.kind} leaves the plane at once")
     points = np.array(rows)
@@ -125,6 +109,31 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
         codimension2=(),
         stops=(_stop(beside, 0), _stop(beside, -1)),
     )
+
+
+def _ends(
+    beside: Branch, lift_off: Callable[[float, float, float], LiftOff | None], plane: Plane, sizes: np.ndarray
+) -> list[tuple[float, float, float]]:
+    """Place and period at the end of the motions, from each point of the curve beside it."""
+    rows = []
+    for (angle, x), y in zip(beside.unknowns.tolist(), beside.parameters.tolist(), strict=True):
+        here = lift_off(angle, x, y)
+        if here is None:
+            continue
+
+        def follow(angle: float, x: float, y: float, here: LiftOff = here) -> LiftOff | None:
+            found = lift_off(angle, x, y)
+            if found is None or found.whirl != here.whirl or abs(found.time - here.time) > NEARBY * here.time:
+                return None
+            return found
+
+        # At an edge of the plane the end is looked for along the edge.
+        stays = 1 if y in plane.second_range else 0 if _on_edge(x, plane.first_range) else None
+        end_angle, place = _end(follow, angle, np.array([x, y]), sizes, stays)
+        last = follow(end_angle, *place)
+        if last is not None and plane.holds(*place):
+            rows.append((*place, last.time))
+    return rows
 
 
 def _beside(branch: RubbingBranch, point: RubbingPoint) -> tuple[float, float, float]:

@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers, value_of, vary
-from carom.bifurcations.conditions import conditions_at, is_admissible, jacobian_at
+from carom.bifurcations.axes import value_of, vary
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
-from carom.bifurcations.diagrams import LONGEST_PERIOD, Diagram, bifurcation_diagram
+from carom.bifurcations.diagrams import Diagram, bifurcation_diagram
+from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.onsets import ONSETS, continue_onset
 from carom.bifurcations.rubbing import RubbingBranch, RubbingPoint
 from carom.bifurcations.steady import SpecialValue
-from carom.equilibria import equilibria
 from carom.outcome import CaromError
 from carom.parameters import Parameters
-from carom.periods import PeriodCondition
-from carom.rotors import jeffcott
-from carom.whirl import rolling
 
-__all__ = ["Motions", "Region", "RegionMap", "motions_at", "region_map"]
+__all__ = ["Region", "RegionMap", "region_map"]
 
 THIN = 0.05
 """Share of the plane below which a region's point is looked for between those of the grid."""
@@ -31,76 +27,6 @@ BETWEEN = 12
 """Points looked at between two groups of grid points with the same motions."""
 SAME_POINT = 1e-6
 """Distance, in widths of the plane, below which codimension-2 points are the same."""
-
-
-@dataclass(frozen=True)
-class Motions:
-    """Which simple motions a machine has; equal if they are the same in number and stability.
-
-    Attributes
-    ----------
-    contact_free : bool
-        Whether contact-free levitation is admissible; it is stable then, as damping is positive.
-    orbits, stable_orbits : int
-        Admissible single-impact orbits, and the stable ones of them.
-    rub : bool
-        Whether a stable synchronous rub (forward whirl) is admissible.
-    rolling : bool
-        Whether a rotor that rolls round the bearing in backward whirl goes on rolling (:mod:`carom.whirl`).
-    stable_names, unstable_names : tuple of str
-        Names of the orbits.
-    """
-
-    contact_free: bool
-    orbits: int
-    stable_orbits: int
-    rub: bool
-    rolling: bool
-    stable_names: tuple[str, ...] = field(default=(), compare=False)
-    unstable_names: tuple[str, ...] = field(default=(), compare=False)
-
-    @property
-    def source_region(self) -> str:
-        """Region of the source paper's figure 6b, which knows no rub: R1 … R4."""
-        if self.contact_free:
-            return "R4" if self.orbits else "R3"
-        return "R1" if self.orbits else "R2"
-
-    @property
-    def region(self) -> str:
-        """The same, refined by what the text leaves out: the stable rub, and whether any orbit is stable."""
-        stable = "" if not self.orbits else " stable orbit" if self.stable_orbits else " unstable orbits"
-        parts = [part for part in (stable.strip(), "rub" if self.rub else "no rub") if part]
-        return f"{self.source_region} ({', '.join(parts)})"
-
-    @property
-    def parts(self) -> tuple[str, ...]:
-        """The motions in words, one entry for each kind."""
-        orbits = [
-            f"{_listed(names)} {words}"
-            for names, words in ((self.stable_names, "stable"), (self.unstable_names, "unstable"))
-            if names
-        ]
-        return (
-            "contact-free levitation" if self.contact_free else "levitation virtual",
-            "stable forward rub" if self.rub else "no stable rub",
-            " and ".join(orbits) if orbits else "no impacting orbit",
-            "backward rolling" if self.rolling else "no lasting rolling",
-        )
-
-    @property
-    def words(self) -> str:
-        """The motions in words."""
-        return ", ".join(self.parts)
-
-
-def _listed(names: tuple[str, ...]) -> str:
-    """``B1,a/b/c, B2,d``: letters of a pair together."""
-    pairs: dict[str, list[str]] = {}
-    for name in names:
-        pair, letter = name.split(",")
-        pairs.setdefault(pair, []).append(letter)
-    return ", ".join(f"{pair},{'/'.join(letters)}" for pair, letters in pairs.items())
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,51 +95,6 @@ class RegionMap:
             ):
                 found.append(point)
         return tuple(found)
-
-
-def motions_at(parameters: Parameters) -> Motions:
-    """Count the simple motions at some parameters.
-
-    Single-impact orbits are those with forward slip; without damping, or with so little that there would be hundreds of
-    pairs, those with periods up to 60/Ω.
-    """
-    rotor = jeffcott(parameters)
-    contact_free, *rubs = equilibria(rotor)
-    numbers = Numbers.of(parameters)
-    orbits = [orbit for orbit in _orbits(parameters) if is_admissible(numbers, *orbit[1:])]
-    radii = [float(np.abs(np.linalg.eigvals(jacobian_at(numbers, *orbit[1:]))).max()) for orbit in orbits]
-    return Motions(
-        contact_free=contact_free.status == "admissible",
-        orbits=len(orbits),
-        stable_orbits=sum(radius < 1.0 for radius in radii),
-        rub=any(rub.stable and rub.status == "admissible" for rub in rubs),
-        rolling=rolling(rotor).holds,
-        stable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius < 1.0)),
-        unstable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius >= 1.0)),
-    )
-
-
-def _orbits(parameters: Parameters) -> list[tuple[str, float, float]]:
-    """Name, period and radial speed of all single-impact orbits with forward slip and a positive radial speed."""
-    numbers, rotor = Numbers.of(parameters), jeffcott(parameters)
-    if rotor.equilibrium == 0.0:
-        return []
-    roots = PeriodCondition(rotor).roots(LONGEST_PERIOD if parameters.gamma < 0.05 else None)
-    gap = 1.0 - abs(rotor.equilibrium) ** 2
-    found = []
-    for place, period in enumerate(roots.periods.tolist(), start=int(roots.starts_below)):
-        lever = conditions_at(numbers, period, 0.0).lever
-        square, half = abs(lever) ** 2, lever.real
-        discriminant = half**2 - square * gap
-        if discriminant >= 0.0:
-            pair, longer = divmod(place, 2)
-            speeds = [(sign * np.sqrt(discriminant) - half) / square for sign in (-1.0, 1.0)]
-            found += [
-                (f"B{pair + 1},{'abcd'[longer + 2 * high]}", period, float(speed))
-                for high, speed in enumerate(speeds)
-                if speed > 0.0
-            ]
-    return found
 
 
 def region_map(
