@@ -129,15 +129,14 @@ def settle_all(
     )
     limits = _Limits(until, settle, patience, max_events)
     threads = threads or available_cores()
-    portion = positions.size // (PORTIONS_PER_THREAD * threads)
-    portion = min(max(portion, SMALLEST_PORTION), LARGEST_PORTION)
-    portions = list(_portions(which.ravel(), len(rotors), portion))
+    size = min(max(positions.size // (PORTIONS_PER_THREAD * threads), SMALLEST_PORTION), LARGEST_PORTION)
+    portions = _portions(which.ravel(), len(rotors), size)
     with ThreadPoolExecutor(threads) as pool:
         work = [pool.submit(_settle_portion, rotors[machine], places, endings, limits) for machine, places in portions]
         done = 0
         try:
-            for portion in as_completed(work):
-                done += portion.result()
+            for finished in as_completed(work):
+                done += finished.result()
                 if progress:
                     progress(done / positions.size)
         except BaseException:
