@@ -1,6 +1,11 @@
 """What all tests share."""
 
 import os
+import signal
+
+# A shell's background jobs ignore interruptions, and so would the processes that are interrupted here.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # The matrices of this package are tiny: the threads of linear algebra only wait for each other, and long on a busy machine.
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):

@@ -89,9 +89,13 @@ def test_reader_that_leaves_early_is_no_error(machine):
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")  # noqa: PTH110
-def test_full_disk_is_one_line():
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_full_disk_is_one_line(unbuffered):
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
     with open("/dev/full", "w") as full:  # noqa: PTH123
-        done = subprocess.run([*CAROM, "--version"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            [*CAROM, "--version"], stdout=full, stderr=subprocess.PIPE, text=True, check=False, env=environment
+        )
 
     assert done.returncode == 1
     assert done.stderr == "carom: cannot read or write: No space left on device\n"

@@ -98,6 +98,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _close_quietly()
         return FAILURE
     except OSError as problem:
+        _let_output_go()
         where = f" ({problem.filename})" if problem.filename else ""
         return _complain(f"cannot read or write{where}: {problem.strerror or problem}", FAILURE)
     except Exception as problem:  # the last resort: no traceback reaches a user
@@ -132,6 +133,14 @@ def _complain(message: str, code: int) -> int:
     """Say on one line what went wrong."""
     print(f"carom: {' '.join(message.split())}", file=sys.stderr)  # noqa: T201
     return code
+
+
+def _let_output_go() -> None:
+    """Drop what the output did not take: the interpreter would try again at its end, and complain in its own words."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        _close_quietly()
 
 
 def _close_quietly() -> None:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.contacts import phase_flags
 from carom.outcome import InputError, Phase
 
 if TYPE_CHECKING:
@@ -91,6 +90,8 @@ def _columns(motion: Trajectory) -> dict[str, tuple[np.ndarray, str]]:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
+    from carom.contacts import phase_flags
+
     scales = motion.rotor.scales
     dataset = motion.contacts.to_dataset(scales)
     unit, scale = ("s", scales.time) if scales else ("1/Omega", 1.0)
