@@ -95,6 +95,14 @@ def assert_returns_by_simulation(orbit: Orbit) -> None:
     assert contacts.slip_before[0] * orbit.slip > 0 or orbit.rotor.parameters.mu == 0.0
 
 
+def test_levitation_exactly_on_the_wall_is_no_orbit():
+    machine = Parameters(gamma=1.0, omega=1.0, rho=1.0, phi=1.0, mu=1.0, d=1.0, radius_ratio=1.0)
+    assert abs(jeffcott(machine).equilibrium) == 1.0
+    orbits = single_impact_orbits(jeffcott(machine))
+    assert len(orbits) > 0
+    assert all(orbit.radial_speed != 0.0 and np.isfinite(orbit.multipliers.values).all() for orbit in orbits)
+
+
 @settings(max_examples=SETS, derandomize=True, database=None)
 @given(parameter_sets())
 def test_orbits_agree_with_matrix_exponential_and_simulation(parameters):

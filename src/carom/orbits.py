@@ -268,6 +268,8 @@ def _orbits_at(rotor: Rotor, condition: PeriodCondition, roots: PeriodRoots, sli
     for place, period, lever, turn in zip(places, roots.periods, levers, turns, strict=True):
         pair, longer = divmod(int(place), 2)
         for high, speed in enumerate(_radial_speeds(rotor, complex(lever))):
+            if speed == 0.0:
+                continue  # the contact-free equilibrium itself, exactly on the wall
             position = rotor.equilibrium / (1.0 + complex(lever) * speed)
             section = Section(cmath.phase(position), speed, -float(turn.imag) * speed)
             jacobian = section_jacobian(slipping, section, float(period))
