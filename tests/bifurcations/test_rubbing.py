@@ -89,6 +89,7 @@ def chatter() -> RubbingBranch:
 
 
 @pytest.mark.jit_only
+@pytest.mark.jit_only
 def test_motion_with_lasting_contact_repeats_in_simulation():
     (orbit,) = rubbing_orbits(CHATTERING)
     motion = orbit.trajectory(1.0 + 1e-9)

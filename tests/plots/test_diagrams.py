@@ -72,6 +72,7 @@ SOFT = PAPER.replace(gamma=0.1, omega=0.34, rho=0.2, mu=0.2, d=0.6)
 
 
 @pytest.mark.jit_only
+@pytest.mark.jit_only
 def test_bars_say_what_exists_where():
     found = bifurcations.bifurcation_diagram(PAPER, "gamma", (0.03, 0.4), attractors=3)
     below = diagrams.bifurcation_diagram(found).axes[2]
