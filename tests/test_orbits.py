@@ -95,12 +95,17 @@ def assert_returns_by_simulation(orbit: Orbit) -> None:
     assert contacts.slip_before[0] * orbit.slip > 0 or orbit.rotor.parameters.mu == 0.0
 
 
-def test_levitation_exactly_on_the_wall_is_no_orbit():
+def test_orbits_that_have_shrunk_to_levitation_on_the_wall_are_limits():
     machine = Parameters(gamma=1.0, omega=1.0, rho=1.0, phi=1.0, mu=1.0, d=1.0, radius_ratio=1.0)
     assert abs(jeffcott(machine).equilibrium) == 1.0
-    orbits = single_impact_orbits(jeffcott(machine))
-    assert len(orbits) > 0
-    assert all(orbit.radial_speed != 0.0 and np.isfinite(orbit.multipliers.values).all() for orbit in orbits)
+    shrunk = [orbit for orbit in single_impact_orbits(jeffcott(machine)) if orbit.radial_speed == 0.0]
+    assert shrunk
+    beside = single_impact_orbits(jeffcott(machine.replace(rho=1.0 - 1e-9)))
+    for orbit in shrunk:
+        assert not orbit.admissible
+        assert orbit.position == pytest.approx(orbit.rotor.equilibrium, abs=1e-12)
+        near = np.sort_complex(beside[orbit.name].multipliers.values)
+        np.testing.assert_allclose(np.sort_complex(orbit.multipliers.values), near, rtol=1e-6, atol=1e-6)
 
 
 @settings(max_examples=SETS, derandomize=True, database=None)

@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.core.events import LEAVING, first_crossing
 from carom.core.layout import workspace
+from carom.core.planar import impact_jacobian
 from carom.maps import Section, section_jacobian
 from carom.outcome import InputError, Outcome
 from carom.periods import PeriodCondition, PeriodRoots
@@ -268,15 +269,24 @@ def _orbits_at(rotor: Rotor, condition: PeriodCondition, roots: PeriodRoots, sli
     for place, period, lever, turn in zip(places, roots.periods, levers, turns, strict=True):
         pair, longer = divmod(int(place), 2)
         for high, speed in enumerate(_radial_speeds(rotor, complex(lever))):
-            if speed == 0.0:
-                continue  # the contact-free equilibrium itself, exactly on the wall
             position = rotor.equilibrium / (1.0 + complex(lever) * speed)
             section = Section(cmath.phase(position), speed, -float(turn.imag) * speed)
-            jacobian = section_jacobian(slipping, section, float(period))
+            jacobian = _jacobian(rotor, slipping, section, float(period), slip)
             letter = "abcd"[longer + 2 * high]
             name = f"{'B' if slip > 0 else 'R'}{pair + 1},{letter}"
             orbits.append((pair, letter, orbit_at(rotor, name, float(period), section, multipliers(jacobian), slip)))
     return [orbit for *_, orbit in sorted(orbits, key=lambda entry: entry[:2])]
+
+
+def _jacobian(rotor: Rotor, slipping: Rotor, section: Section, period: float, slip: int) -> np.ndarray:
+    """Derivative of the impact map; of an orbit that has shrunk to levitation on the wall, its limit."""
+    if section.radial_speed != 0.0:
+        return section_jacobian(slipping, section, period)
+    parameters = rotor.parameters
+    limit: np.ndarray = impact_jacobian(
+        parameters.gamma, parameters.omega, slip * parameters.mu, parameters.d, period, 0.0
+    )
+    return limit
 
 
 def orbit_at(rotor: Rotor, name: str, period: float, section: Section, nontrivial: Multipliers, slip: int = 1) -> Orbit:
