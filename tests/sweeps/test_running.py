@@ -15,7 +15,7 @@ from sweep_tasks import Deadly, Drawn, Failing, basins_plan, plan_of, stored_byt
 
 from carom.outcome import CaromError, InputError
 from carom.sweeps import load_sweep, open_sweep, run_sweep
-from carom.sweeps.local import AHEAD, on_processes, on_threads
+from carom.sweeps.local import AHEAD, _put_off, on_processes, on_threads
 from carom.sweeps.studies import StudyTask
 
 SWEEP = """
@@ -115,6 +115,19 @@ def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
         time.sleep(0.05)
 
     assert len(workers) == 3
+
+
+def test_interrupt_while_workers_start_is_put_off():
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    reached = []
+    try:
+        with pytest.raises(KeyboardInterrupt), _put_off():
+            signal.raise_signal(signal.SIGINT)
+            reached.append("the end")
+        assert reached == ["the end"]
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.parametrize("moment", [0.0, 0.05, 0.3])

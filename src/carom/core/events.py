@@ -166,7 +166,7 @@ def _polish(rotor, table, plane, origin, level, time, curvature, least_square, w
     time = node * table.spacing + _householder_step(value, slope, bend, third)
     for _ in range(8):
         # Off the nodes the series mean nothing.
-        if time < 0.0 or time > table.durations[0]:
+        if not 0.0 <= time <= table.durations[0]:
             return False, time
         value, slope, bend, third = _measure(rotor, table, plane, origin, level, time, work)
         if slope * slope <= least_square or slope <= 0.0:

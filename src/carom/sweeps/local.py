@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from itertools import chain, islice
 from multiprocessing import connection
 from multiprocessing.context import SpawnProcess
+from types import FrameType
 
 from carom.outcome import CaromError
 from carom.sweeps.chunk import Chunk, compute_chunk, failed_chunk
@@ -185,6 +186,22 @@ def _end_with_parent() -> None:
 
 
 @contextmanager
+def _put_off() -> Iterator[None]:
+    """Put off a Ctrl-C that another thread receives, which a mask of this one does not keep from being handled here."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    heard: list[tuple[int, FrameType | None]] = []
+    handler = signal.signal(signal.SIGINT, lambda *what: heard.append(what))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
+    if heard and callable(handler):
+        handler(*heard[0])
+
+
+@contextmanager
 def _inherited() -> Iterator[None]:
     """What processes started here inherit: one thread of linear algebra, and no ear for Ctrl-C, which is ours to treat.
 
@@ -199,7 +216,8 @@ def _inherited() -> Iterator[None]:
         resource_tracker.ensure_running()  # else started with the first process, and unblocks what is blocked here
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if can_block else set()
     try:
-        yield
+        with _put_off():
+            yield
     finally:
         if can_block:
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
