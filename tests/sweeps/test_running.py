@@ -120,10 +120,15 @@ def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
 def test_interrupt_while_workers_start_is_put_off():
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     reached = []
-    try:
-        with pytest.raises(KeyboardInterrupt), _put_off():
+
+    def start_workers():
+        with _put_off():
             signal.raise_signal(signal.SIGINT)
             reached.append("the end")
+
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            start_workers()
         assert reached == ["the end"]
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     finally:
