@@ -11,11 +11,23 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
+import pkgutil  # noqa: E402
+
+from compilation import COMPILED  # noqa: E402
 from hypothesis import settings  # noqa: E402
+
+import carom.core  # noqa: E402
 
 # Kernels compile on their first call, and a busy machine is slow: no test fails for the time it takes.
 settings.register_profile("carom", deadline=None)
 settings.load_profile("carom")
+
+
+def pytest_configure(config):
+    """Let kernels that run uncompiled divide by zero as compiled ones do: to infinity or no number, without a word."""
+    if not COMPILED:
+        for module in pkgutil.iter_modules(carom.core.__path__):
+            config.addinivalue_line("filterwarnings", f"ignore::RuntimeWarning:carom.core.{module.name}")
 
 
 def pytest_terminal_summary(terminalreporter):

@@ -210,7 +210,6 @@ def test_amplitudes_are_left_alone():
     assert np.array_equal(task.amplitudes, before)
 
 
-@pytest.mark.filterwarnings("ignore:invalid value encountered:RuntimeWarning")
 def test_whirl_that_hugs_the_wall():
     """Without damping and unbalance a circular whirl stays 1e-12 inside the wall: clear, and in bounded work."""
     rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))

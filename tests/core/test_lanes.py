@@ -15,9 +15,6 @@ from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LANES, LEVELS
 from carom.outcome import Outcome
 
-pytestmark = pytest.mark.filterwarnings("ignore::RuntimeWarning")
-"""Uncompiled, a lane that has nothing to divide warns."""
-
 HORIZON = 15.0
 STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "verdict")
 
