@@ -217,15 +217,11 @@ def _board(task, lanes, memory, work, lane):
 
 @part
 def _watch(task, lanes, memory, lane):
-    """State whose recurrence a lane has to note, and the number of impacts after which it has to be looked at."""
+    """Number of impacts after which a lane has to be looked at, and whether free flights are to be looked at too."""
     due = task.most_events - lanes.events[lane]
-    reference_lower, reference_upper = complex(NOWHERE, 0.0), complex(NOWHERE, 0.0)
     if memory.patience > 0:
         due = min(due, impacts_until_noted(memory))
-        reference_lower, reference_upper = memory.reference[0], memory.reference[1]
     lanes.due[lane], lanes.watched[lane] = float(due), 1.0 if memory.patience > 0 else 0.0
-    lanes.reference_lower_re[lane], lanes.reference_lower_im[lane] = reference_lower.real, reference_lower.imag
-    lanes.reference_upper_re[lane], lanes.reference_upper_im[lane] = reference_upper.real, reference_upper.imag
 
 
 @part
@@ -245,8 +241,8 @@ def _fetch_memory(lanes, memory, lane):
     memory.events, memory.since, memory.renewal = lanes.seen[lane], lanes.since[lane], lanes.renewal[lane]
     memory.candidate, memory.rubbed, memory.lifting = lanes.candidate[lane], lanes.rubbed[lane], 0
     memory.period = 0
-    memory.reference[0] = complex(lanes.kept_lower_re[lane], lanes.kept_lower_im[lane])
-    memory.reference[1] = complex(lanes.kept_upper_re[lane], lanes.kept_upper_im[lane])
+    memory.reference[0] = complex(lanes.reference_lower_re[lane], lanes.reference_lower_im[lane])
+    memory.reference[1] = complex(lanes.reference_upper_re[lane], lanes.reference_upper_im[lane])
 
 
 @part
@@ -254,9 +250,11 @@ def _put_memory_by(lanes, memory, lane):
     """Keep what a lane's motion remembers."""
     lanes.seen[lane], lanes.since[lane], lanes.renewal[lane] = memory.events, memory.since, memory.renewal
     lanes.candidate[lane], lanes.rubbed[lane] = memory.candidate, memory.rubbed
-    lower, upper = memory.reference[0], memory.reference[1]
-    lanes.kept_lower_re[lane], lanes.kept_lower_im[lane] = lower.real, lower.imag
-    lanes.kept_upper_re[lane], lanes.kept_upper_im[lane] = upper.real, upper.imag
+    lower, upper = complex(NOWHERE, 0.0), complex(NOWHERE, 0.0)
+    if memory.patience > 0:
+        lower, upper = memory.reference[0], memory.reference[1]
+    lanes.reference_lower_re[lane], lanes.reference_lower_im[lane] = lower.real, lower.imag
+    lanes.reference_upper_re[lane], lanes.reference_upper_im[lane] = upper.real, upper.imag
 
 
 @part

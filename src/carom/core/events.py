@@ -32,7 +32,7 @@ from carom.core.flow import copy, displacement, nudge, squared_modulus
 from carom.core.layout import LEVELS, kernel, part, passage
 from carom.outcome import Outcome
 
-__all__ = ["INSIDE", "LEAVING", "first_crossing", "search"]
+__all__ = ["INSIDE", "LEAVING", "first_crossing", "householder_step", "search"]
 
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 
@@ -152,7 +152,7 @@ def _measure(rotor, table, plane, origin, level, time, work):
 
 
 @part
-def _householder_step(value, slope, bend, third):
+def householder_step(value, slope, bend, third):
     """Step towards a root, of fourth order."""
     square, skew = slope * slope, value * bend
     return -value * (square - 0.5 * skew) / (slope * (square - skew) + SIXTH * value * value * third)
@@ -163,7 +163,7 @@ def _polish(rotor, table, plane, origin, level, time, curvature, least_square, w
     """Householder steps to a root, from the node nearest to a time; certified when ``f'²`` exceeds ``least_square``."""
     node = nearest_node(table, time)
     value, slope, bend, third = look_at_node(table, node, origin, level, work)
-    time = node * table.spacing + _householder_step(value, slope, bend, third)
+    time = node * table.spacing + householder_step(value, slope, bend, third)
     for _ in range(8):
         # Off the nodes the series mean nothing.
         if not 0.0 <= time <= table.durations[0]:
@@ -171,7 +171,7 @@ def _polish(rotor, table, plane, origin, level, time, curvature, least_square, w
         value, slope, bend, third = _measure(rotor, table, plane, origin, level, time, work)
         if slope * slope <= least_square or slope <= 0.0:
             return False, time
-        step = _householder_step(value, slope, bend, third)
+        step = householder_step(value, slope, bend, third)
         time += step
         if abs(step) * curvature < POLISHED * slope:
             nudge(rotor, work.arrival, step)

@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import math
 
-from carom.core.events import MARGIN, ROUNDING
+from carom.core.events import MARGIN, ROUNDING, householder_step
 from carom.core.layout import DEGREE, LANES, NODES, part
 
 __all__ = [
     "derivatives",
     "examine",
-    "householder_step",
     "load_products",
     "look_up_nodes",
     "moved",
@@ -23,7 +22,6 @@ __all__ = [
 
 HALLEY_STEPS = 2
 BINOMIALS = tuple(float(math.comb(DEGREE, j)) for j in range(DEGREE + 1))
-SIXTH = 1.0 / 6.0
 
 
 @part
@@ -226,13 +224,6 @@ def derivatives(
     bend = 2.0 * ((end_re * force_re + end_im * force_im) + (speed_re * speed_re + speed_im * speed_im))
     third = 2.0 * ((end_re * jerk_re + end_im * jerk_im) + 3.0 * (speed_re * force_re + speed_im * force_im))
     return value, slope, bend, third
-
-
-@part
-def householder_step(value, slope, bend, third):
-    """Step towards a root, of fourth order."""
-    square, skew = slope * slope, value * bend
-    return -value * (square - 0.5 * skew) / (slope * (square - skew) + SIXTH * value * value * third)
 
 
 @part

@@ -13,13 +13,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.events import POLISHED
+from carom.core.events import POLISHED, householder_step
 from carom.core.fate import NEAR
 from carom.core.flow import acceleration, displacement, velocity
 from carom.core.lane_search import (
     derivatives,
     examine,
-    householder_step,
     load_products,
     look_up_nodes,
     moved,
@@ -51,7 +50,6 @@ _FATE = (
 )  # fmt: skip
 _ARRIVAL = ("arrival_lower_re", "arrival_lower_im", "arrival_upper_re", "arrival_upper_im")
 _BOOKS = ("motion", "plane", "events", "struck", "stalled", "seen", "since", "renewal", "candidate", "rubbed")
-_KEPT = ("kept_lower_re", "kept_lower_im", "kept_upper_re", "kept_upper_im")
 _WORK = (
     "floor", "share", "curvature", "square", "duration", "depth", "open", "free", "guess", "rest", "verdict",
     "decay_re", "decay_im", "growth_re", "growth_im", "response_re", "response_im",
@@ -65,9 +63,9 @@ def lanes_record() -> np.record:
     ``level`` is ``|y|² − 1``, zero on the wall; ``clock`` counts time.  ``depth`` is the first block to try.  A plain
     impact adds to ``quiet``; it is to be NOTED when ``due`` is reached or the state is near the ``reference``.  The whole
     numbers are books of :mod:`carom.core.ensemble`: the motion held, its events, impacts, events without progress, and,
-    with the state ``kept``, what :func:`carom.core.fate.memory` holds of it.
+    with the ``reference``, what :func:`carom.core.fate.memory` holds of it.
     """
-    numbers = {name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_KEPT, *_ARRIVAL, *_WORK)}
+    numbers = {name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ARRIVAL, *_WORK)}
     return record(
         **numbers,
         products=np.zeros((8, LANES)),
