@@ -111,6 +111,7 @@ class StateSlice(Disturbance):
 
     velocity: complex = 0j
     kind: ClassVar[str] = "slice"
+    measured_in: ClassVar[dict[str, str]] = {"velocity": "velocity"}
 
     def __post_init__(self) -> None:
         if not cmath.isfinite(self.velocity):
@@ -120,12 +121,6 @@ class StateSlice(Disturbance):
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Both components of the position."""
         return length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
-
-    def rescaled(self, before: Scales | None, after: Scales | None) -> StateSlice:
-        """Return the same velocity in SI units for a machine with other scales."""
-        if before is None or after is None:
-            return self
-        return StateSlice(self.velocity * (before.velocity / after.velocity))
 
     def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
         """All positions inside the wall."""

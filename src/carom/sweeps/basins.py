@@ -88,7 +88,7 @@ class BasinsTask:
 
     def describe(self) -> dict[str, Any]:
         """What identifies it."""
-        sizes = {name: {"value": value, "si": si} for name, value, si in self.sizes}
+        sizes = {name: {"value": _plain(value), "si": si} for name, value, si in self.sizes}
         return {"kind": self.kind, "starts": self.starts, "disturbance": {"kind": self.disturbance, **sizes}}
 
     def model(self, scales: Scales | None) -> Disturbance:
@@ -157,6 +157,11 @@ def models() -> dict[str, type[Disturbance]]:
 
     known = (VelocityKick, KickPlane, BaseShock, UnbalanceStep, ContactRelease, StateSlice, AnyState)
     return {model.kind: model for model in known}
+
+
+def _plain(value: Any) -> Any:
+    """Size as JSON knows it."""
+    return [value.real, value.imag] if isinstance(value, complex) else value
 
 
 def _follow(rotor: Rotor, starts: Starts) -> tuple[np.ndarray, int]:

@@ -217,7 +217,8 @@ def _disturbance(table: dict[str, Any], scales: Scales | None) -> tuple[str, tup
     for name, field in fields.items():
         if name in table:
             scale = known[kind].measured_in.get(name, "")
-            sizes.append((name, *_size(f"{where}.{name}", table[name], scale, scales)))
+            read = _pair if isinstance(field.default, complex) else _size
+            sizes.append((name, *read(f"{where}.{name}", table[name], scale, scales)))
         elif field.default is dataclasses.MISSING:
             raise InputError(f"{where}.{name}", None, f"missing; a {kind} needs it")
         else:
@@ -249,6 +250,17 @@ def _size(where: str, given: object, scale: str, scales: Scales | None) -> tuple
         return read_quantity(Field(where, "", "", kind, unit, -1e30, 1e30, f"'{example}'"), text), True
     except InputError as problem:
         raise InputError(where, given, problem.allowed) from None
+
+
+def _pair(where: str, given: object, scale: str, scales: Scales | None) -> tuple[complex, bool]:
+    """A complex size: its real and imaginary part, both with a unit or both without."""
+    parts = [_size(where, part, scale, scales) for part in given] if isinstance(given, list) else []
+    if len(parts) != 2 or parts[0][1] != parts[1][1]:
+        example = _SIZES[scale][2]
+        allowed = f'must be two sizes along x and y, both with a unit or none, such as [0.5, 0], or ["{example}", "{example}"]'
+        raise InputError(where, shown(given), allowed)
+    (real, in_si), (imaginary, _) = parts
+    return complex(real, imaginary), in_si
 
 
 def _input_error(problem: pydantic.ValidationError, content: Mapping[str, Any]) -> InputError:
