@@ -1,9 +1,12 @@
-"""What it costs to hand out chunks of about a second, and how well two workers share them."""
+"""What it costs to plan a sweep and to hand out chunks of about a second, and how well two workers share them."""
 
 from __future__ import annotations
 
 import contextlib
+import subprocess
+import sys
 from itertools import count, islice
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,6 +20,38 @@ from carom.sweeps.store import SweepStore
 CHUNKS = 8
 WARM = 4
 """Chunks before the clock starts: by then all workers have loaded what they need."""
+
+PLANNED = """
+machine = '{machine}'
+axes.stiffness = {{from = "5e5 N/m", to = "2e6 N/m", count = 1000}}
+axes.damping = {{from = "500 N s/m", to = "8000 N s/m", count = 1000}}
+basins.starts = 100
+basins.disturbance = {{kind = "shock", peak = "20 g", duration = "11 ms"}}
+"""
+UP_TO_THE_WORKERS = """
+import sys
+import carom.sweeps.local
+from carom.sweeps import load_sweep, run_sweep
+carom.sweeps.local.on_processes = lambda *given: (chunk for chunk in ())
+print(run_sweep(load_sweep(sys.argv[1]), sys.argv[2]).waiting)
+"""
+
+
+def test_plan_of_a_hundred_million_starts(benchmark, tmp_path):
+    """From a fresh process to the first worker, store laid out: nearly all of it is loading."""
+    machine = Path(__file__).parents[1] / "examples" / "keogh-cole.toml"
+    file = tmp_path / "sweep.toml"
+    file.write_text(PLANNED.format(machine=machine), encoding="utf-8")
+    stores = count()
+
+    def plan():
+        command = [sys.executable, "-c", UP_TO_THE_WORKERS, file, tmp_path / f"{next(stores)}.zarr"]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert int(done.stdout) == 10**6
+
+    benchmark.group = "a sweep of 10^8 starts, up to the workers, in a fresh process"
+    benchmark.pedantic(plan, rounds=5)
+    benchmark.extra_info.update(who="plan", unit="plan", units=1)
 
 
 @contextlib.contextmanager

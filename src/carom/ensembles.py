@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from carom.core.ensemble import Motions, Task, Tools, follow_each
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.outcome import InputError, Outcome
+from carom.processors import available_cores
 from carom.rotors import Rotor
 from carom.trajectories import WALL_TOLERANCE, EventLog, fresh_memory
 
@@ -143,11 +143,6 @@ def settle_all(
             pool.shutdown(cancel_futures=True)
             raise
     return Endings(*(values.reshape(shape) for values in vars(endings).values()))
-
-
-def available_cores() -> int:
-    """Cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,8 @@
 """The sweep file: what it may say, and errors that name the entry, the value and what is allowed."""
 
 import json
+import subprocess
+import sys
 import tracemalloc
 from pathlib import Path
 
@@ -11,6 +13,7 @@ import carom
 from carom.outcome import InputError
 from carom.parameters import load_case
 from carom.sweeps import load_sweep
+from carom.sweeps.basins import models
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 GOOD = {
@@ -214,6 +217,34 @@ def test_hundred_million_starts_are_planned_without_a_list_of_them(write):
     assert plan.points * plan.task.starts == 10**8
     assert first
     assert peak < 2**20
+
+
+def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_path):
+    """Up to the workers, who have the kernels to themselves, the compiler would only hold up a sweep of any size."""
+    sizes = {
+        "kick": 'fastest = "0.1 m/s"',
+        "kick-plane": "fastest = 1",
+        "shock": 'peak = "20 g"\nduration = "11 ms"',
+        "unbalance": 'largest = "0.2 mm"',
+        "release": 'motion = "rolling"',
+        "slice": "",
+        "state": "fastest = 1",
+    }
+    assert sizes.keys() == models().keys()
+    tasks = [f'[basins]\nstarts = 10\n[basins.disturbance]\nkind = "{kind}"\n{size}' for kind, size in sizes.items()]
+    files = [write(do=task).rename(tmp_path / f"{number}.toml") for number, task in enumerate(["[study]", *tasks])]
+    code = """if True:
+        import sys
+        import carom.sweeps.local
+        from carom.sweeps import load_sweep, run_sweep
+        carom.sweeps.local.on_processes = lambda *given: (chunk for chunk in ())
+        for file in sys.argv[1:]:
+            print(run_sweep(load_sweep(file), file + ".zarr").waiting)
+        print([name for name in ("matplotlib", "numba", "xarray") if name in sys.modules])
+    """
+    done = subprocess.run([sys.executable, "-c", code, *files], capture_output=True, text=True, check=False)
+
+    assert (done.stdout.splitlines(), done.stderr) == (["8"] * len(files) + ["[]"], "")
 
 
 def test_too_many_chunks_are_refused(write):

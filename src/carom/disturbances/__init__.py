@@ -15,6 +15,7 @@ from which the motion is free.
 :class:`AnyState`        any position and any velocity
 =======================  =====================================================================================
 
+Models and plans load no kernel before a shock is followed: sweeps are planned without them.
 Numbers are dimensionless, as everywhere behind the door: lengths in clearances, times in ``1/Ω``.  The constructors
 ``in_si`` take SI numbers and the scales of a machine.
 """

@@ -5,15 +5,16 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.parameters import Scales
-from carom.rotors import Rotor
-from carom.shocks import states_after_shocks
+
+if TYPE_CHECKING:
+    from carom.rotors import Rotor
 
 __all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
 
@@ -131,6 +132,8 @@ class BaseShock(Disturbance):
 
     def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""
+        from carom.shocks import states_after_shocks
+
         peaks, directions = np.broadcast_arrays(*values)
         if not _levitates(rotor):
             return Starts.of(np.zeros(peaks.shape, complex), 0j, False)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.outcome import InputError
 from carom.parameters import Scales
-from carom.rotors import Rotor
+
+if TYPE_CHECKING:
+    from carom.rotors import Rotor
 
 __all__ = ["FASTEST", "Disturbance"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -13,7 +13,9 @@ from carom.disturbances.coordinates import Starts
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
 from carom.parameters import Scales
-from carom.rotors import Rotor
+
+if TYPE_CHECKING:
+    from carom.rotors import Rotor
 
 __all__ = ["Grid", "Plan", "Sample", "disturbances"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -20,7 +20,9 @@ from carom.disturbances.coordinates import (
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
 from carom.parameters import Scales
-from carom.rotors import Rotor
+
+if TYPE_CHECKING:
+    from carom.rotors import Rotor
 
 __all__ = ["AnyState", "ContactRelease", "StateSlice", "UnbalanceStep"]
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carom.outcome import InputError
+from carom.processors import available_cores
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.store import SweepStore
@@ -137,7 +138,6 @@ def _chunks(
             raise InputError("--threads", "given", "goes without --scheduler, whose workers compute")
         client = stack.enter_context(connect(scheduler, workers)) if isinstance(scheduler, str) else scheduler
         return on_cluster(plan, numbers, client)
-    from carom.ensembles import available_cores
     from carom.sweeps.local import on_processes, on_threads
 
     return (on_threads if threads else on_processes)(plan, numbers, workers or available_cores())
