@@ -89,6 +89,23 @@ def test_arrays_keep_their_shape(machine):
     assert endings.count(Outcome.LEVITATED) == endings.recovered.sum()
 
 
+@pytest.mark.parametrize("shape", [(0,), (0, 3), (3, 0)])
+@pytest.mark.parametrize("threads", [1, 3, None])
+def test_no_start_is_no_ending(machine, shape, threads):
+    none = np.empty(shape)
+    several = [carom.jeffcott(machine), carom.jeffcott(machine.replace(gamma=0.4))]
+    for endings in (
+        settle_all(several[0], none, 0.1j, threads=threads),
+        settle_all(several, none, none, which=none, threads=threads),
+        settle_all(several, none, none, which=np.empty(shape, np.int32), threads=threads),
+        settle_all([], none, none, which=none, threads=threads),
+    ):
+        assert [getattr(endings, name).shape for name in SAME] == [shape] * len(SAME)
+        assert endings.outcomes.dtype == np.int8
+        assert endings.recovered.shape == shape
+        assert endings.count(Outcome.LEVITATED) == 0
+
+
 def test_without_settling_motions_reach_the_time(machine):
     endings = settle_all(carom.jeffcott(machine), *starts(8), until=5.0, settle=False)
     assert (endings.outcomes == Outcome.TIME_REACHED).all()

@@ -161,6 +161,8 @@ def _machines(rotor: Rotor | Sequence[Rotor], which: np.ndarray | None) -> tuple
     if which is None:
         raise InputError("which", which, "the machine of each start, where there are several")
     chosen = np.asarray(which)
+    if not chosen.size:
+        return rotor, chosen.astype(np.int64)
     if not np.issubdtype(chosen.dtype, np.integer) or chosen.min() < 0 or chosen.max() >= len(rotor):
         raise InputError("which", chosen, f"whole numbers from 0 to {len(rotor) - 1}")
     return rotor, chosen
