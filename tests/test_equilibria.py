@@ -210,6 +210,14 @@ def test_a_balanced_rotor_rests_in_the_middle_and_has_no_rub():
 
 
 @pytest.mark.parametrize("omega", [0.76, 1.2])
+@pytest.mark.parametrize("gamma", [0.0, 0.1])
+@pytest.mark.parametrize("phi", [0.0, 0.21, -3.0])
+def test_the_middle_has_no_sign(omega, gamma, phi):
+    position = found(PAPER.replace(rho=0.0, omega=omega, gamma=gamma, phi=phi))[0].position
+    assert [math.copysign(1.0, part) for part in (position.real, position.imag)] == [1.0, 1.0]
+
+
+@pytest.mark.parametrize("omega", [0.76, 1.2])
 @pytest.mark.parametrize(("gamma", "mu"), [(0.0, 0.0), (0.0, 0.15), (0.1, 0.0)])
 def test_a_balanced_rotor_has_no_isolated_rub(omega, gamma, mu):
     """Without any force along the wall it may rest at every angle; no two of these places are its rubs."""

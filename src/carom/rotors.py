@@ -142,7 +142,8 @@ def jeffcott(machine: Parameters | Machine) -> Rotor:
     gamma, omega = parameters.gamma, parameters.omega
     arrays = second_order_record(
         exponents=planar_exponents(gamma, omega),
-        equilibrium=cmath.rect(parameters.rho, parameters.phi) / complex(omega**2 - 1.0, gamma),
+        # The sum makes a negative zero, the quotient of a balanced rotor, plain zero.
+        equilibrium=cmath.rect(parameters.rho, parameters.phi) / complex(omega**2 - 1.0, gamma) + 0j,
         friction=parameters.mu,
         restitution=parameters.d,
         drive=parameters.radius_ratio + 1.0,

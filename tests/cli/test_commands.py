@@ -1,6 +1,7 @@
 """What the commands print."""
 
 import json
+import re
 
 import pytest
 
@@ -48,6 +49,15 @@ def test_orbits_as_json(carom, machine):
     assert [entry["period"] for entry in value["orbits"]] == [orbit.period for orbit in single_impact_orbits(rotor)]
     assert [entry["status"] for entry in value["equilibria"]] == [entry.status for entry in equilibria(rotor)]
     assert value["complete"] is True
+
+
+@pytest.mark.parametrize("command", ["orbits", "study"])
+def test_of_a_balanced_machine_no_negative_zero_is_printed(carom, machine, command):
+    code, out, _ = carom(command, machine, "--set", "eccentricity=0 mm", "--json")
+
+    assert code == 0
+    assert json.loads(out)["equilibria"][0]["U"] == [0.0, 0.0]
+    assert not re.search(r"-0\.0\b", out)
 
 
 def test_settings_change_the_machine(carom, machine):
