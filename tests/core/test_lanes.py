@@ -44,7 +44,7 @@ def by_lane(lane: int, undecided: list[Task]) -> Callable[[Task, float], tuple[i
             verdict = lanes.verdict[lane]
             if verdict == LATE:
                 return Outcome.CLEAR, horizon
-            if verdict == OPEN and (lanes.open[lane] > 0.0 or lanes.depth[lane] == LEVELS):
+            if verdict == OPEN and lanes.depth[lane] >= LEVELS:
                 undecided.append(task)
                 return by_kernel(task, horizon)
             if verdict not in (CLEARED, OPEN):

@@ -11,7 +11,7 @@ from flights import parameters
 from reference import Flight, plane_flight
 
 from carom.core import table as tables
-from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, rotor_record
+from carom.core.layout import CELL_TERMS, CELLS, DEGREE, LEVELS, NODES, TERMS, rotor_record
 from carom.core.table import flight_table
 from carom.rotors import jeffcott
 
@@ -154,10 +154,50 @@ def test_nodes_and_power_series_against_many_digits(arrays):
         assert np.all(table.basis[0, 0] == 0.0)
         with mpmath.workdps(50):
             growth = complex(mpmath.expm1(mpmath.mpc(complex(exponent)) * rest))
-        assert abs(powers @ table.growth_series[:, k] - growth) <= 4 * EPSILON * abs(growth)
+        assert abs(powers @ table.growth_series[:TERMS, k] - growth) <= 4 * EPSILON * abs(growth)
+        exact = derivative_of_basis(arrays, k, 0, rest)
+        assert abs(powers @ table.basis_series[:TERMS, k] - exact) <= 4 * EPSILON * abs(exact)
+    assert np.allclose(table.growth[:, driven], table.basis[:, 0, driven], rtol=0, atol=4 * EPSILON)
+
+
+def test_cells_against_many_digits(arrays):
+    """In the middle of the cells; and the series, three quarters of a cell away, reach rounding."""
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    width = float(table.durations[0]) / CELLS
+    rest = 0.75 * width
+    powers = rest ** np.arange(1, CELL_TERMS + 1)
+    for k, exponent in enumerate(arrays.exponents):
+        for cell in (0, 1, CELLS // 2, CELLS - 1):
+            exact = derivative_of_basis(arrays, k, 0, (cell + 0.5) * width)
+            size = max(abs(exact), min(1.0, abs(exponent) * (cell + 0.5) * width))
+            assert abs(complex(*table.cell_basis[k, :, cell]) - exact) <= 64 * EPSILON * size
+            with mpmath.workdps(50):
+                growth = complex(mpmath.expm1(mpmath.mpc(complex(exponent)) * (cell + 0.5) * width))
+            assert abs(complex(*table.cell_growth[k, :, cell]) - growth) <= 64 * EPSILON * max(abs(growth), size)
         exact = derivative_of_basis(arrays, k, 0, rest)
         assert abs(powers @ table.basis_series[:, k] - exact) <= 4 * EPSILON * abs(exact)
-    assert np.allclose(table.growth[:, driven], table.basis[:, 0, driven], rtol=0, atol=4 * EPSILON)
+
+
+def test_what_lanes_choose_from_is_the_same_table(arrays):
+    """Each block's coefficients; and errors by moduli bound those of any product's real and imaginary part."""
+    table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+    modes = len(arrays.exponents)
+    assert np.array_equal(
+        np.moveaxis(table.lane_coefficients[..., :LEVELS], -1, 0), table.coefficients.transpose(0, 2, 1)
+    )
+    assert np.array_equal(table.lane_durations[:LEVELS], table.durations)
+    rng = np.random.default_rng(7)
+    products = rng.normal(size=modes + modes * (modes + 1) // 2) * np.exp(
+        1j * rng.uniform(0, 7, modes + modes * (modes + 1) // 2)
+    )
+    parts, row = [], 0
+    for j in range(2 * modes):
+        for other in range(j, j + 1 if j < modes else 2 * modes):
+            alone = j >= modes and other == j
+            parts += [abs(products[row])] if alone else [abs(products[row].real), abs(products[row].imag)]
+            row += 1
+    bound = np.abs(products) @ table.lane_errors[:, :LEVELS]
+    assert np.all(table.errors @ parts <= bound * (1 + 4 * EPSILON))
 
 
 def derivative_of_basis(arrays, k: int, order: int, time: float) -> complex:

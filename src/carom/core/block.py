@@ -151,7 +151,7 @@ def move_to(rotor, table, time, work):
 
 @part
 def _power_series(series, column, time):
-    """Sum of a power series without constant term: the odd and the even powers by Horner's scheme, side by side."""
+    """Sum of TERMS terms of a power series without constant: odd and even powers by Horner's scheme, side by side."""
     square = time * time
     odd, even = series[TERMS - 2, column], series[TERMS - 1, column]
     odd_real, odd_imag, even_real, even_imag = odd.real, odd.imag, even.real, even.imag

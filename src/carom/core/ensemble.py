@@ -15,8 +15,8 @@ from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
 from carom.core.fate import forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import set_on_wall
-from carom.core.lanes import CLEARED, LATE, OPEN, STRUCK, TOUCHING, fly_lanes, surely_flies
-from carom.core.layout import LANES, LEVELS, kernel, part, passage
+from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
+from carom.core.layout import LANES, kernel, part, passage
 from carom.outcome import Outcome, Phase
 
 __all__ = ["Motions", "Task", "Tools", "follow_each"]
@@ -28,6 +28,7 @@ GOES_ON, SINGLY, NONE_YET = -1, -2, -3
 """What becomes of a lane's motion that has not ended: it flies on; it is to be followed singly; there is none."""
 VACANT, IDLE = -1.0, -1
 """Verdict on a lane that wants a motion, and the motion of one for which there is none left."""
+EVERY_LANE = (1 << LANES) - 1
 NOWHERE = 1e300
 
 
@@ -86,11 +87,11 @@ def follow_each(task, motions, tools):
     """
     lanes, memory, work = tools.lanes, tools.memory, tools.work
     count = motions.positions.shape[0]
-    taken, busy, looks = 0, LANES, LANES
+    taken, busy, looks = 0, LANES, EVERY_LANE
     lanes.verdict[:], lanes.motion[:] = VACANT, 0
     while busy > 0:
-        for lane in range(LANES if looks > 0 else 0):
-            if lanes.verdict[lane] == STRUCK or lanes.motion[lane] == IDLE:
+        for lane in range(LANES if looks != 0 else 0):
+            if (looks >> lane) & 1 == 0 or lanes.motion[lane] == IDLE:
                 continue
             outcome = _look_at(task, lanes, memory, work, lane)
             while outcome != GOES_ON:
@@ -146,8 +147,6 @@ def _look_at(task, lanes, memory, work, lane):
         lanes.struck[lane] += int(lanes.quiet[lane])
         lanes.clock[lane] = task.until
         return TIME_REACHED
-    if verdict == OPEN and lanes.open[lane] == 0.0 and lanes.depth[lane] < LEVELS:
-        return GOES_ON
     _note_quiet(lanes, lane)
     if verdict == OPEN:
         lanes.plane[lane] = 0 if lanes.level[lane] == 0.0 else INSIDE_ALL
@@ -163,9 +162,6 @@ def _look_at(task, lanes, memory, work, lane):
     _put_memory_by(lanes, memory, lane)
     if lanes.events[lane] >= task.most_events:
         return EVENT_LIMIT
-    if verdict == TOUCHING:
-        lanes.plane[lane] = 0
-        return SINGLY
     _watch(task, lanes, memory, lane)
     return GOES_ON
 

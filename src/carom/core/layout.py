@@ -17,12 +17,15 @@ from numba.core import config
 from platformdirs import user_cache_path
 
 __all__ = [
+    "CELLS",
     "DEGREE",
     "LANES",
     "LEVELS",
     "NODES",
+    "OCTET",
     "ORDER",
     "TERMS",
+    "WIDTH",
     "kernel",
     "part",
     "passage",
@@ -46,8 +49,17 @@ NODES = 64
 TERMS = 8
 """Terms of the Taylor series of the basis functions."""
 CACHE_LINE = 64
-LANES = 16
-"""Motions that are followed side by side: two vectors of eight doubles, which hide each other's waiting."""
+OCTET = 8
+"""Doubles in the widest registers."""
+WIDTH = 3 * OCTET
+"""Motions that one instruction after the other moves: while one register waits, others work."""
+LANES = WIDTH
+"""Motions that are followed side by side."""
+CELLS = 32
+"""Parts of the longest block in whose middle the basis functions are tabulated for lanes: fewer than NODES, so that lanes
+can hold them in registers, hence with a longer series."""
+CELL_TERMS = 10
+"""Terms of the Taylor series of the basis functions from the middle of a cell."""
 
 
 def rotor_record(
@@ -136,10 +148,15 @@ def table_record(
     durations: np.ndarray,
     coefficients: np.ndarray,
     errors: np.ndarray,
+    lane_durations: np.ndarray,
+    lane_coefficients: np.ndarray,
+    lane_errors: np.ndarray,
     basis: np.ndarray,
     growth: np.ndarray,
     basis_series: np.ndarray,
     growth_series: np.ndarray,
+    cell_basis: np.ndarray,
+    cell_growth: np.ndarray,
     bounds: np.ndarray,
 ) -> np.record:
     """Constants of a block of flight that depend on the exponents alone; see :mod:`carom.core.table`.
@@ -154,12 +171,16 @@ def table_record(
         Bernstein coefficients 1 … DEGREE of the products of basis functions.
     errors : ndarray, shape (LEVELS, Q)
         Bound of the approximation error at the end of the block, per row of ``coefficients``.
+    lane_durations, lane_coefficients, lane_errors : ndarray, shapes (OCTET,), (DEGREE, Q, OCTET), (N + N (N + 1)/2, OCTET)
+        The same with the blocks last, for each lane to choose its own; the errors per modulus of a product.
     basis : ndarray of complex, shape (NODES + 1, 4, N)
         Basis functions and their first three derivatives at the nodes.
     growth : ndarray of complex, shape (NODES + 1, N)
         ``e^{λτ} − 1`` at the nodes.
-    basis_series, growth_series : ndarray of complex, shape (TERMS, N)
-        Coefficients 1 … TERMS of the power series of both.
+    basis_series, growth_series : ndarray of complex, shape (CELL_TERMS, N)
+        Coefficients 1 … CELL_TERMS of the power series of both; from a node, TERMS of them do.
+    cell_basis, cell_growth : ndarray, shape (N, 2, CELLS)
+        Real and imaginary parts of basis functions and ``e^{λτ} − 1`` in the middle of each cell.
     bounds : ndarray, shape (3, N)
         Largest modulus on the longest block of the first three derivatives of the basis functions.
     """
@@ -169,10 +190,15 @@ def table_record(
         durations=durations,
         coefficients=coefficients,
         errors=errors,
+        lane_durations=lane_durations,
+        lane_coefficients=lane_coefficients,
+        lane_errors=lane_errors,
         basis=basis,
         growth=growth,
         basis_series=basis_series,
         growth_series=growth_series,
+        cell_basis=cell_basis,
+        cell_growth=cell_growth,
         bounds=bounds,
     )
 
@@ -257,7 +283,7 @@ def _cache_directory() -> Path | None:
     can be guessed: what is there already is taken only if it belongs to this user and nobody else may enter.
     """
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
+    for source in sorted(Path(__file__).parent.rglob("*.py")):
         digest.update(source.read_bytes())
     shared = Path(tempfile.gettempdir()) / f"carom-{_user()}"
     roots = [user_cache_path("carom"), shared]

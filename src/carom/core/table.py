@@ -10,7 +10,8 @@ is linear in ``2N + N²`` real products, and so are its Bernstein coefficients: 
 and for LEVELS − 1 shorter ones, whose polynomials are closer.
 
 The state at a time is found from the nearest of NODES + 1 nodes, where the basis functions are tabulated, and from there
-by power series: half a spacing is so short that TERMS terms reach rounding.
+by power series: half a spacing is so short that TERMS terms reach rounding.  Lanes start from the middle of one of CELLS
+cells, with CELL_TERMS terms.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from functools import cache
 
 import numpy as np
 
-from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, table_record
+from carom.core.layout import CELL_TERMS, CELLS, DEGREE, LEVELS, NODES, OCTET, table_record
 
 __all__ = ["flight_table"]
 
@@ -60,19 +61,31 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
     )
     durations = spacing * NODES / SHORTENING ** np.arange(LEVELS)
     polynomials = [_polynomials(exponents, driven, duration) for duration in durations]
+    coefficients, errors = (np.array(values) for values in zip(*polynomials, strict=True))
     times = spacing * np.arange(NODES + 1)
+    middles = durations[0] * (np.arange(CELLS) + 0.5) / CELLS
     growth_series, basis_series = _power_series(exponents, driven)
     return table_record(
         spacing=spacing,
         durations=durations,
-        coefficients=np.array([coefficients for coefficients, _ in polynomials]),
-        errors=np.array([errors for _, errors in polynomials]),
+        coefficients=coefficients,
+        errors=errors,
+        lane_durations=_blocks_last(durations),
+        lane_coefficients=_blocks_last(coefficients.transpose(0, 2, 1)),
+        lane_errors=_blocks_last(_errors_of_moduli(errors, len(exponents))),
         basis=_derivatives(exponents, driven, times),
         growth=_expm1(np.outer(times, exponents)),
         basis_series=basis_series,
         growth_series=growth_series,
+        cell_basis=_parts(np.array(_basis(exponents, driven, middles))),
+        cell_growth=_parts(_expm1(np.outer(exponents, middles))),
         bounds=_derivative_bounds(exponents, driven, durations[0]),
     )
+
+
+def _parts(values: np.ndarray) -> np.ndarray:
+    """Real and imaginary parts of functions of shape (N, M), shape (N, 2, M)."""
+    return np.stack((values.real, values.imag), axis=1)
 
 
 def _short_number(value: float) -> float:
@@ -92,6 +105,23 @@ def _polynomials(exponents: np.ndarray, driven: np.ndarray, duration: float) -> 
     # the rounding of the coefficients themselves.
     errors = 2.0 * series[:, DEGREE:].sum(axis=1) + 1e-14 * series.sum(axis=1)
     return coefficients, errors
+
+
+def _blocks_last(values: np.ndarray) -> np.ndarray:
+    """Numbers of shape (LEVELS, …) as (…, OCTET), with zeros where there is no block."""
+    room = np.zeros((*values.shape[1:], OCTET))
+    room[..., :LEVELS] = np.moveaxis(values, 0, -1)
+    return room
+
+
+def _errors_of_moduli(errors: np.ndarray, modes: int) -> np.ndarray:
+    """Bounds of ``|Re z| e₁ + |Im z| e₂`` per ``|z|``, for the products ``z`` in the order of ``_rows``."""
+    merged, row = [], 0
+    for mode in range(2 * modes):
+        for alone in [False] if mode < modes else [True] + [False] * (2 * modes - 1 - mode):
+            merged.append(errors[:, row] if alone else np.hypot(errors[:, row], errors[:, row + 1]))
+            row += 1 if alone else 2
+    return np.stack(merged, axis=1)
 
 
 def _rows(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> np.ndarray:
@@ -134,11 +164,11 @@ def _derivatives(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -
 
 
 def _power_series(exponents: np.ndarray, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Power series without constant term of all ``e^{λτ} − 1`` and of all basis functions, each of shape (TERMS, N).
+    """Power series without constant term of all ``e^{λτ} − 1`` and of all basis functions, each of shape (CELL_TERMS, N).
 
     That of ``φ`` has the coefficients ``Σ_i λ₊ⁱ λ₋ⁿ⁻¹⁻ⁱ/n!``.
     """
-    orders = np.arange(1, TERMS + 1)
+    orders = np.arange(1, CELL_TERMS + 1)
     factorials = np.array([float(math.factorial(n)) for n in orders])[:, None]
     growth = exponents ** orders[:, None] / factorials
     basis = growth.copy()

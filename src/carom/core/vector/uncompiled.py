@@ -1,0 +1,65 @@
+"""The functions on lanes, as they work on NumPy arrays; what they are when compiled is registered beside."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.core.layout import WIDTH
+
+__all__ = ["align_stack", "choose", "fma", "join", "lanes_of", "load", "sqrt", "store", "take", "truncate", "where"]
+
+
+def load(array, first):
+    """WIDTH numbers of an array, from an entry on."""
+    return array[first : first + WIDTH].copy()
+
+
+def store(array, first, values):
+    """Write lanes, or one number for all of them, to an array, from an entry on."""
+    array[first : first + WIDTH] = values
+
+
+def join(real, imag):
+    """Complex lanes of these parts."""
+    joined = np.empty(WIDTH, np.complex128)
+    joined.real, joined.imag = real, imag
+    return joined
+
+
+def where(condition, chosen, other):
+    """Take ``chosen`` in the lanes in which the condition holds, and ``other`` elsewhere."""
+    return np.where(condition, chosen, other)
+
+
+def fma(a, b, c):
+    """``a b + c``, with complex lanes among these: in fewer steps than a product and a sum."""
+    return a * b + c
+
+
+def sqrt(values):
+    """Square root."""
+    return np.sqrt(values)
+
+
+def truncate(values):
+    """Round to whole numbers, towards zero."""
+    return np.trunc(values)
+
+
+def take(row, places):
+    """Entries of a row of CELLS numbers, at places that are whole numbers below CELLS."""
+    return row[places.astype(np.int64)]
+
+
+def choose(row, places):
+    """Entries of a row of OCTET numbers, at places that are whole numbers below LEVELS."""
+    return row[places.astype(np.int64)]
+
+
+def lanes_of(condition):
+    """The lanes in which a condition holds, as the bits of a whole number."""
+    return int(sum(1 << lane for lane in np.flatnonzero(condition)))
+
+
+def align_stack():
+    """Keep what the calling kernel puts by on the stack in cache lines of its own, which halves the price."""
