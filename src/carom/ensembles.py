@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
@@ -9,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.core.advance import INSIDE_ALL
-from carom.core.ensemble import Motions, Task, Tools, follow_each
+from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.outcome import InputError, Outcome
@@ -117,23 +118,16 @@ def settle_all(
         np.asarray(positions, complex), np.asarray(velocities, complex), which
     )
     _check(positions, velocities, until, max_events, threads)
-    shape = positions.shape
-    impacts, multiplicities = np.empty((2, positions.size), np.int64)
-    endings = Endings(
-        outcomes=np.empty(positions.size, np.int8),
-        times=np.empty(positions.size),
-        impacts=impacts,
-        multiplicities=multiplicities,
-        positions=positions.ravel().copy(),
-        velocities=velocities.ravel().copy(),
-    )
+    order = slice(None) if len(rotors) == 1 else np.argsort(which, axis=None, kind="stable")
+    motions = _motions(positions.ravel()[order], velocities.ravel()[order])
     limits = _Limits(until, settle, patience, max_events)
     threads = threads or available_cores()
-    size = min(max(positions.size // (PORTIONS_PER_THREAD * threads), SMALLEST_PORTION), LARGEST_PORTION)
-    portions = _portions(which.ravel(), len(rotors), size)
+    done = 0
     with ThreadPoolExecutor(threads) as pool:
-        work = [pool.submit(_settle_portion, rotors[machine], places, endings, limits) for machine, places in portions]
-        done = 0
+        work = [
+            pool.submit(_settle_portion, rotors[machine], motions[portion], limits)
+            for machine, portion in _portions(which.ravel()[order], len(rotors), threads)
+        ]
         try:
             for finished in as_completed(work):
                 done += finished.result()
@@ -142,7 +136,7 @@ def settle_all(
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
-    return Endings(*(values.reshape(shape) for values in vars(endings).values()))
+    return _endings(motions, order, positions.shape)
 
 
 @dataclass(frozen=True)
@@ -184,37 +178,61 @@ def _check(positions: np.ndarray, velocities: np.ndarray, until: float, max_even
         raise InputError("threads", threads, "a whole number of at least 1")
 
 
-def _portions(which: np.ndarray, machines: int, size: int) -> Iterator[tuple[int, np.ndarray]]:
-    """Machine and places of starts that make one piece of work."""
-    order = np.argsort(which, kind="stable")
-    ends = np.searchsorted(which[order], np.arange(machines + 1))
+def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
+    motions = np.recarray(positions.shape, MOTION)
+    motions.position, motions.velocity = positions, velocities
+    motions.plane = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, 0, INSIDE_ALL)
+    return motions
+
+
+def _portions(which: np.ndarray, machines: int, threads: int) -> Iterator[tuple[int, slice]]:
+    """Machine and place of starts, in the order of machines, that make one piece of work."""
+    size = LARGEST_PORTION
+    if threads > 1:
+        size = min(max(which.size // (PORTIONS_PER_THREAD * threads), SMALLEST_PORTION), LARGEST_PORTION)
+    ends = np.searchsorted(which, np.arange(machines + 1))
     for machine in range(machines):
         for first in range(ends[machine], ends[machine + 1], size):
-            yield machine, order[first : min(first + size, ends[machine + 1])]
+            yield machine, slice(first, min(first + size, ends[machine + 1]))
 
 
-def _settle_portion(rotor: Rotor, places: np.ndarray, endings: Endings, limits: _Limits) -> int:
-    """Follow some starts of one machine and note their endings; return their number."""
-    positions = endings.positions[places]
-    motions = Motions(
-        positions=positions,
-        velocities=endings.velocities[places],
-        planes=np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, 0, INSIDE_ALL),
-        outcomes=np.empty(len(places), np.int8),
-        times=np.empty(len(places)),
-        impacts=np.empty(len(places), np.int64),
-        multiplicities=np.empty(len(places), np.int64),
-    )
+def _settle_portion(rotor: Rotor, motions: np.ndarray, limits: _Limits) -> int:
+    """Follow some motions of one machine; return their number."""
     task = Task(rotor.arrays, rotor.table, limits.until, limits.max_events)
+    memory = fresh_memory(rotor, limits.patience if limits.settle else 0)
     # Uncompiled, a lane that has nothing to divide warns.
     with np.errstate(all="ignore"):
-        follow_each(task, motions, _tools(fresh_memory(rotor, limits.patience if limits.settle else 0)))
-    for name, values in motions._asdict().items():
-        if name != "planes":
-            getattr(endings, name)[places] = values
-    return len(places)
+        follow_each(task, motions, _workbench.tools(memory))
+    return len(motions)
 
 
-def _tools(memory: np.record) -> Tools:
-    log = EventLog.empty(1, MODES)
-    return Tools(lanes_record(), memory, *log, workspace(MODES), rub_workspace(MODES), np.empty(MODES, complex))
+class _Workbench(threading.local):
+    """What a thread works with, made once."""
+
+    def __init__(self) -> None:
+        self.lanes, self.work, self.rub = lanes_record(), workspace(MODES), rub_workspace(MODES)
+        self.log, self.amplitudes = EventLog.empty(1, MODES), np.empty(MODES, complex)
+
+    def tools(self, memory: np.record) -> Tools:
+        return Tools(self.lanes, memory, *self.log, self.work, self.rub, self.amplitudes)
+
+
+_workbench = _Workbench()
+
+
+def _endings(motions: np.recarray, order: np.ndarray | slice, shape: tuple[int, ...]) -> Endings:
+    """The endings in the order of the starts."""
+
+    def gather(name: str, kind: type) -> np.ndarray:
+        values: np.ndarray = np.empty(len(motions), kind)
+        values[order] = motions[name]
+        return values.reshape(shape)
+
+    return Endings(
+        outcomes=gather("outcome", np.int8),
+        times=gather("time", float),
+        impacts=gather("impacts", np.int64),
+        multiplicities=gather("multiplicity", np.int64),
+        positions=gather("position", complex),
+        velocities=gather("velocity", complex),
+    )

@@ -12,14 +12,15 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
+from carom.core.block import move_to
 from carom.core.fate import forget, impacts_until_noted, levitates, recurs
-from carom.core.flow import copy, displacement, flight_increments, squared_modulus, velocity
+from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
 from carom.core.layout import LANES, kernel, part, passage
 from carom.outcome import Outcome, Phase
 
-__all__ = ["Motions", "Task", "Tools", "follow_each"]
+__all__ = ["MOTION", "Task", "Tools", "follow_each"]
 
 EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(Outcome.MIXED)
@@ -41,20 +42,19 @@ class Task(NamedTuple):
     most_events: int
 
 
-class Motions(NamedTuple):
-    """Starts, and on return ends, as arrays of shape (M,).
-
-    Position and velocity; plane whose wall the start lies on, or −1; and on return outcome, time, number of impacts and
-    multiplicity as :func:`~carom.core.advance.advance` and its memory state them.
-    """
-
-    positions: np.ndarray
-    velocities: np.ndarray
-    planes: np.ndarray
-    outcomes: np.ndarray
-    times: np.ndarray
-    impacts: np.ndarray
-    multiplicities: np.ndarray
+MOTION = np.dtype(
+    [
+        ("position", np.complex128),
+        ("velocity", np.complex128),
+        ("time", np.float64),
+        ("plane", np.int64),
+        ("outcome", np.int64),
+        ("impacts", np.int64),
+        ("multiplicity", np.int64),
+    ]
+)
+"""A motion: position and velocity of its start, and the plane whose wall that lies on or −1; on return those of its end, and
+outcome, time, number of impacts and multiplicity as :func:`~carom.core.advance.advance` and its memory state them."""
 
 
 class Tools(NamedTuple):
@@ -82,11 +82,11 @@ def follow_each(task, motions, tools):
     Parameters
     ----------
     task : Task
-    motions : Motions
+    motions : recarray of MOTION, shape (M,)
     tools : Tools
     """
     lanes, memory, work = tools.lanes, tools.memory, tools.work
-    count = motions.positions.shape[0]
+    count = motions.shape[0]
     taken, busy, looks = 0, LANES, EVERY_LANE
     lanes.verdict[:], lanes.motion[:] = VACANT, 0
     while busy > 0:
@@ -99,26 +99,27 @@ def follow_each(task, motions, tools):
                     outcome = _follow_singly(task, tools, lane)
                     continue
                 if outcome != NONE_YET:
-                    _note_end(task.rotor, motions, lanes, memory, work, lane, outcome)
+                    _note_end(task.rotor, motions[lanes.motion[lane]], lanes, memory, work, lane, outcome)
                 if taken == count:
                     _empty(lanes, lane)
                     busy -= 1
                     break
-                outcome = _begin(task, motions, lanes, memory, work, lane, taken)
+                lanes.motion[lane] = taken
+                outcome = _begin(task, motions[taken], lanes, memory, work, lane)
                 taken += 1
         looks = fly_lanes(task.rotor, task.table, task.until, lanes)
 
 
 @passage
-def _begin(task, motions, lanes, memory, work, lane, motion):
+def _begin(task, start, lanes, memory, work, lane):
     """Give a lane a motion; how it goes on."""
-    _set_state(task.rotor, motions.positions[motion], motions.velocities[motion], work.current)
-    plane = motions.planes[motion]
+    _set_state(task.rotor, start.position, start.velocity, work.current)
+    plane = start.plane
     if plane >= 0:
         set_on_wall(task.rotor, plane, work.current)
     forget(memory)
     _put_memory_by(lanes, memory, lane)
-    lanes.motion[lane], lanes.plane[lane] = motion, plane
+    lanes.plane[lane] = plane
     lanes.struck[lane], lanes.events[lane], lanes.stalled[lane] = 0, 0, 0
     lanes.clock[lane], lanes.quiet[lane] = 0.0, 0.0
     if plane >= 0 and not surely_flies(task.rotor, work.current):
@@ -140,10 +141,9 @@ def _look_at(task, lanes, memory, work, lane):
     if verdict == CLEARED:
         return LEVITATED if memory.patience > 0 and levitates(task.rotor, work.current, work) else GOES_ON
     if verdict == LATE:
-        # The lane has seen that nothing is met before.
-        flight_increments(task.rotor, work.current, task.until - lanes.clock[lane], work.increments)
-        for k in range(work.current.shape[0]):
-            work.current[k] += work.increments[k]
+        # The lane has seen that nothing is met before, on a block that goes on for longer.
+        move_to(task.rotor, task.table, task.until - lanes.clock[lane], work)
+        copy(work.arrival, work.current)
         lanes.struck[lane] += int(lanes.quiet[lane])
         lanes.clock[lane] = task.until
         return TIME_REACHED
@@ -254,14 +254,11 @@ def _put_memory_by(lanes, memory, lane):
 
 
 @part
-def _note_end(rotor, motions, lanes, memory, work, lane, outcome):
+def _note_end(rotor, motion, lanes, memory, work, lane, outcome):
     """Note where the motion of a lane has ended, in ``work.current``."""
-    motion = lanes.motion[lane]
-    motions.outcomes[motion], motions.times[motion] = outcome, lanes.clock[lane]
-    motions.impacts[motion] = lanes.struck[lane]
-    motions.multiplicities[motion] = memory.period if outcome in (BOUNCING, MIXED) else 0
-    motions.positions[motion] = displacement(rotor, 0, work.current)
-    motions.velocities[motion] = velocity(rotor, 0, work.current)
+    motion.outcome, motion.time, motion.impacts = outcome, lanes.clock[lane], lanes.struck[lane]
+    motion.multiplicity = memory.period if outcome in (BOUNCING, MIXED) else 0
+    motion.position, motion.velocity = displacement(rotor, 0, work.current), velocity(rotor, 0, work.current)
 
 
 @part
