@@ -1,0 +1,104 @@
+"""A processor without wide registers and without fused multiplication and addition finds the same motions."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import jeffcott, settle_all
+from carom.core.layout import CELLS, LEVELS, OCTET, WIDTH
+
+pytestmark = [
+    pytest.mark.jit_only,
+    pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="there is no plainer one of this kind"),
+]
+
+PLAINEST = {"NUMBA_CPU_NAME": "x86-64", "NUMBA_CPU_FEATURES": ""}
+COUNT = 50
+SHORT, STRONGLY_DAMPED = "0.1 20.0", "0.3 200000.0"
+"""Damping and time: a horizon before rounding has grown by much, and motions that end apart from it."""
+SCRIPT = f"""
+import sys
+import numpy as np
+from carom import jeffcott, settle_all
+from carom.core.lanes import fly_lanes
+from lane_programs import program
+from machines import PAPER
+
+given, found = np.load(sys.argv[1]), {{}}
+for case in ({SHORT!r}, {STRONGLY_DAMPED!r}):
+    damping, until = map(float, case.split())
+    rotor = jeffcott(PAPER.replace(gamma=damping))
+    endings = settle_all(rotor, given["positions"], given["velocities"], until=until, threads=1)
+    found |= {{f"{{case}} {{name}}": values for name, values in vars(endings).items()}}
+look_up = program("row, few, places, levels, out", [
+    "store(out[0], 0, take(row, load(places, 0)))", "store(out[1], 0, choose(few, load(levels, 0)))",
+])
+found["looked_up"] = np.empty((len(given["places"]), 2, given["places"].shape[1]))
+for place in range(len(given["places"])):
+    look_up(given["row"], given["few"], given["places"][place], given["levels"][place], found["looked_up"][place])
+np.savez(sys.argv[2], **found)
+(code,) = fly_lanes.inspect_asm().values()
+print(*(word for word in ("xmm", "ymm", "zmm", "vfmadd", "mulpd") if word in code))
+"""
+
+
+@pytest.fixture(scope="module")
+def given():
+    """Starts on the wall and inside, and places to look up."""
+    random = np.random.default_rng(70)
+    positions = np.sqrt(random.random(COUNT)) * np.exp(2j * np.pi * random.random(COUNT))
+    positions[::7] /= np.abs(positions[::7])
+    turns = np.arange(CELLS)[:, np.newaxis]
+    return {
+        "positions": positions,
+        "velocities": random.normal(size=COUNT) + 1j * random.normal(size=COUNT),
+        "row": random.normal(size=CELLS),
+        "few": random.normal(size=OCTET),
+        "places": (turns + 5.0 * np.arange(WIDTH)) % CELLS,
+        "levels": (turns + np.arange(WIDTH) ** 2.0) % LEVELS,
+    }
+
+
+@pytest.fixture(scope="module")
+def found(given, tmp_path_factory):
+    """What a process finds that makes no use of more than every processor of this architecture has."""
+    directory = tmp_path_factory.mktemp("plainest")
+    np.savez(directory / "given.npz", **given)
+    places = {"CAROM_CACHE_DIR": str(directory), "PYTHONPATH": str(Path(__file__).parents[2])}
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, directory / "given.npz", directory / "found.npz"],
+        env={**os.environ, **places, **PLAINEST},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["xmm", "mulpd"]
+    with np.load(directory / "found.npz") as stored:
+        return dict(stored)
+
+
+@pytest.mark.parametrize("case", [SHORT, STRONGLY_DAMPED])
+def test_motions_are_the_same(given, found, case):
+    damping, until = map(float, case.split())
+    here = settle_all(jeffcott(PAPER.replace(gamma=damping)), given["positions"], given["velocities"], until=until)
+    for name in ("outcomes", "impacts", "multiplicities"):
+        np.testing.assert_array_equal(found[f"{case} {name}"], getattr(here, name), err_msg=name)
+    np.testing.assert_allclose(found[f"{case} times"], here.times, rtol=1e-9)
+    for name in ("positions", "velocities"):
+        np.testing.assert_allclose(found[f"{case} {name}"], getattr(here, name), rtol=0.0, atol=1e-8, err_msg=name)
+    assert here.impacts.sum() > 5 * COUNT
+    assert len(np.unique(here.outcomes)) > 1 or case == SHORT
+
+
+def test_rows_are_looked_up(given, found):
+    expected = [given["row"][given["places"].astype(int)], given["few"][given["levels"].astype(int)]]
+    np.testing.assert_array_equal(found["looked_up"], np.stack(expected, axis=1))
