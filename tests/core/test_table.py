@@ -11,6 +11,7 @@ from flights import parameters
 from reference import Flight, plane_flight
 
 from carom.core import table as tables
+from carom.core.lanes import REACH
 from carom.core.layout import CELL_TERMS, CELLS, DEGREE, LEVELS, NODES, TERMS, rotor_record
 from carom.core.table import flight_table
 from carom.rotors import jeffcott
@@ -161,10 +162,10 @@ def test_nodes_and_power_series_against_many_digits(arrays):
 
 
 def test_cells_against_many_digits(arrays):
-    """In the middle of the cells; and the series, three quarters of a cell away, reach rounding."""
+    """In the middle of the cells; and the series, as far away as lanes use them, reach rounding."""
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
     width = float(table.durations[0]) / CELLS
-    rest = 0.75 * width
+    rest = REACH * float(table.durations[0])
     powers = rest ** np.arange(1, CELL_TERMS + 1)
     for k, exponent in enumerate(arrays.exponents):
         for cell in (0, 1, CELLS // 2, CELLS - 1):

@@ -77,7 +77,7 @@ def products_of(start):
 
 
 @part
-def examine(table, depth, start, polynomial):
+def examine(table, depth, start, polynomial, factors):
     """Look for sign changes of ``f``, in each lane on a block of its own; see :func:`carom.core.block.sign_changes`.
 
     The ``depth`` of a lane may be LEVELS: nothing is to be found then.
@@ -110,7 +110,7 @@ def examine(table, depth, start, polynomial):
         first = where(positive, float(j), first)
         after = where(positive, value, after)
     before = where(positive, level, before)
-    place = _root(polynomial, level, first, before, after)
+    place = _root(polynomial, factors, table.degree, level, first, before, after)
     begins_outside = ((level >= lowest) & ~(level == 0.0)) | (positive & (level >= 0.0))
     none = first == float(DEGREE)
     return Search(
@@ -129,7 +129,7 @@ def _remainder(errors, depth, low, high):
 
 
 @part
-def _root(polynomial, level, first, before, after):
+def _root(polynomial, factors, degree, level, first, before, after):
     """Where a Bernstein polynomial on 0 … 1 vanishes, from the coefficients on both sides of its sign change.
 
     With ``u = t/(1 − t)``, or its inverse from the other end, the polynomial is ``Σ C(n, j) b_j u^j`` but for a factor;
@@ -143,9 +143,13 @@ def _root(polynomial, level, first, before, after):
     far = passed > ahead
     u = where(far, ahead, passed) / where(far, passed, ahead)
     last = load(polynomial[DEGREE - 1], 0)
-    leading, constant = where(far, level, last), where(far, last, level)
-    upper, lower = _halley(polynomial, far, leading, constant, u)
-    upper, lower = _halley(polynomial, far, leading, constant, upper / lower)
+    for j in range(1, DEGREE):
+        factor = where(far, load(polynomial[DEGREE - 1 - j], 0), load(polynomial[j - 1], 0))
+        store(factors[j], 0, factor * BINOMIALS[j])
+    store(factors[0], 0, where(far, last, level))
+    store(factors[DEGREE], 0, where(far, level, last))
+    upper, lower = _halley(factors, u, degree)
+    upper, lower = _halley(factors, upper / lower, degree)
     place = where(far, lower, upper) / (upper + lower)
     least, most = (first - 1.0) * (1.0 / DEGREE), (first + 2.0) * (1.0 / DEGREE)
     # In this order what is no number becomes one.
@@ -154,13 +158,12 @@ def _root(polynomial, level, first, before, after):
 
 
 @part
-def _halley(polynomial, far, leading, constant, u):
-    """Halley step: numerator and denominator of the new ``u``."""
-    value, slope, half_bend = leading, leading * 0.0, leading * 0.0
-    for j in range(DEGREE - 1, 0, -1):
-        factor = BINOMIALS[j] * where(far, load(polynomial[DEGREE - 1 - j], 0), load(polynomial[j - 1], 0))
-        half_bend, slope, value = half_bend * u + slope, slope * u + value, value * u + factor
-    half_bend, slope, value = half_bend * u + slope, slope * u + value, value * u + constant
+def _halley(factors, u, degree):
+    """Halley step for the polynomial with these coefficients: numerator and denominator of the new ``u``."""
+    value = load(factors[DEGREE], 0)
+    slope, half_bend = value * 0.0, value * 0.0
+    for j in range(degree - 1, -1, -1):
+        half_bend, slope, value = half_bend * u + slope, slope * u + value, value * u + load(factors[j], 0)
     lower = slope * slope - value * half_bend
     return u * lower - value * slope, lower
 

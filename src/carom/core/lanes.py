@@ -16,7 +16,7 @@ from carom.core.events import POLISHED, householder_step
 from carom.core.fate import NEAR
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
 from carom.core.lane_search import cell_of, departure, examine, travel
-from carom.core.layout import CELL_TERMS, CELLS, DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
+from carom.core.layout import CELLS, DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
 
 __all__ = ["CLEARED", "LATE", "NOTED", "OPEN", "STRUCK", "fly_lanes", "lanes_record", "surely_flies"]
@@ -59,6 +59,7 @@ def lanes_record() -> np.record:
     return record(
         **{name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ANSWER)},
         polynomial=np.zeros((DEGREE, WIDTH)),
+        factors=np.zeros((DEGREE + 1, WIDTH)),
         **{name: np.zeros(LANES, np.int64) for name in _BOOKS},
     )
 
@@ -83,11 +84,11 @@ def _fly(rotor, table, until, first, lanes):
     upper = _load_complex(lanes.upper_re, lanes.upper_im, first)
     start = departure(rotor, table, lower, upper, load(lanes.level, first))
     depth = where(_leaves(rotor, start), load(lanes.depth, first), float(LEVELS))
-    search = examine(table, depth, start, lanes.polynomial)
+    search = examine(table, depth, start, lanes.polynomial, lanes.factors)
     free = search.decides & search.free
     cell = cell_of(table, start, search.guess)
     rest = _first_step(rotor, table, start, search, cell)
-    lower, upper, rates, (value, slope, bend, third) = travel(rotor, table, start, cell, rest, int(CELL_TERMS))
+    lower, upper, rates, (value, slope, bend, third) = travel(rotor, table, start, cell, rest, table.terms)
     step = householder_step(value, slope, bend, third)
     time = cell.middle + rest + step
     certified = (
@@ -118,7 +119,7 @@ def _fly(rotor, table, until, first, lanes):
     )
     store(lanes.quiet, first, where(plain, quiet + 1.0, quiet))
     store(lanes.clock, first, where(moves, end, clock))
-    store(lanes.depth, first, where(decided, 0.0, depth + 1.0))
+    store(lanes.depth, first, where(decided, where(strikes, depth, 0.0), depth + 1.0))
     store(lanes.level, first, where(struck, 0.0, where(moves, beyond, start.level)))
     _store_complex(lanes.arrival_lower_re, lanes.arrival_lower_im, first, lower)
     _store_complex(lanes.arrival_upper_re, lanes.arrival_upper_im, first, upper)
@@ -134,8 +135,14 @@ def _leaves(rotor, start):
     """Whether a start on the wall leaves it for a flight that is not too low for lanes; one inside does not touch it."""
     slow, fast = rotor.exponents[0], rotor.exponents[1]
     speed = fma(start.upper, fast, start.lower)
-    force = fma(speed, fast, start.lower * slow)
-    return (start.level < 0.0) | _flies(start.position, speed, force)
+    departure = -(start.position.conjugate() * speed).real
+    # Half of the bound of f'' bounds how the wall draws near.
+    leaves = (start.level < 0.0) | (
+        (departure > CLEARLY_OFF) & (departure * departure > start.curvature * (0.5 * LOWEST))
+    )
+    if lanes_of(~leaves) != 0:
+        leaves = leaves | _flies(start.position, speed, fma(speed, fast, start.lower * slow))
+    return leaves
 
 
 @part

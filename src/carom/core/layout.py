@@ -183,8 +183,16 @@ def table_record(
         Real and imaginary parts of basis functions and ``e^{λτ} − 1`` in the middle of each cell.
     bounds : ndarray, shape (3, N)
         Largest modulus on the longest block of the first three derivatives of the basis functions.
+
+    Returns
+    -------
+    numpy.record
+        The arguments, and ``pace`` (nodes per time), ``degree`` (DEGREE) and ``terms`` (CELL_TERMS).  Loops in lanes count to
+        these two: a loop whose length the compiler knows it unrolls, and then has more vectors at hand than registers.
     """
     return record(
+        degree=np.asarray(DEGREE, np.int64),
+        terms=np.asarray(CELL_TERMS, np.int64),
         spacing=np.asarray(spacing),
         pace=np.asarray(1.0 / spacing),
         durations=durations,
