@@ -12,7 +12,7 @@ from reference import Flight, plane_flight
 
 from carom.core import table as tables
 from carom.core.lanes import REACH
-from carom.core.layout import CELL_TERMS, CELLS, DEGREE, LEVELS, NODES, TERMS, rotor_record
+from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, TERMS, rotor_record
 from carom.core.table import flight_table
 from carom.rotors import jeffcott
 
@@ -161,20 +161,24 @@ def test_nodes_and_power_series_against_many_digits(arrays):
     assert np.allclose(table.growth[:, driven], table.basis[:, 0, driven], rtol=0, atol=4 * EPSILON)
 
 
-def test_cells_against_many_digits(arrays):
-    """In the middle of the cells; and the series, as far away as lanes use them, reach rounding."""
+def test_nodes_of_lanes_against_many_digits(arrays):
+    """At the nodes, which begin at the start and reach the end; and the series, as far away as lanes use them."""
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
-    width = float(table.durations[0]) / CELLS
-    rest = REACH * float(table.durations[0])
-    powers = rest ** np.arange(1, CELL_TERMS + 1)
+    spacing = float(table.lane_spacing)
+    assert math.frexp(spacing)[0] * 2**24 % 1.0 == 0.0
+    assert 0.0 <= float(table.durations[0]) - (LANE_NODES - 1) * spacing < 0.01 * spacing
+    rest = REACH * spacing
+    powers = rest ** np.arange(1, LANE_TERMS + 1)
     for k, exponent in enumerate(arrays.exponents):
-        for cell in (0, 1, CELLS // 2, CELLS - 1):
-            exact = derivative_of_basis(arrays, k, 0, (cell + 0.5) * width)
-            size = max(abs(exact), min(1.0, abs(exponent) * (cell + 0.5) * width))
-            assert abs(complex(*table.cell_basis[k, :, cell]) - exact) <= 64 * EPSILON * size
+        assert np.all(table.lane_basis[k, :, 0] == 0.0)
+        assert np.all(table.lane_growth[k, :, 0] == 0.0)
+        for node in (1, LANE_NODES // 2, LANE_NODES - 1):
+            exact = derivative_of_basis(arrays, k, 0, node * spacing)
+            size = max(abs(exact), min(1.0, abs(exponent) * node * spacing))
+            assert abs(complex(*table.lane_basis[k, :, node]) - exact) <= 64 * EPSILON * size
             with mpmath.workdps(50):
-                growth = complex(mpmath.expm1(mpmath.mpc(complex(exponent)) * (cell + 0.5) * width))
-            assert abs(complex(*table.cell_growth[k, :, cell]) - growth) <= 64 * EPSILON * max(abs(growth), size)
+                growth = complex(mpmath.expm1(mpmath.mpc(complex(exponent)) * node * spacing))
+            assert abs(complex(*table.lane_growth[k, :, node]) - growth) <= 64 * EPSILON * max(abs(growth), size)
         exact = derivative_of_basis(arrays, k, 0, rest)
         assert abs(powers @ table.basis_series[:, k] - exact) <= 4 * EPSILON * abs(exact)
 

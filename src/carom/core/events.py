@@ -5,7 +5,7 @@ The search moves only over times that are proven free of a crossing.  Two proofs
 1. *Block.*  The Bernstein coefficients of ``f = |y|² − 1`` on a block, plus the bound of their error, are those of a
    polynomial ``q ≥ f``.  All negative: no crossing.  If the positive ones follow one another, ``q`` has at most two roots;
    a root of ``f`` is then polished on the exact flight and accepted when ``f'² > 4 R M₂`` (``R`` error bound of the
-   polynomial, ``M₂ ≥ |f''|``).  That proves it the first one: ``f`` rises all along the last ``w = f'/M₂`` before the root,
+   polynomial up to there, ``M₂ ≥ |f''|``).  That proves it the first one: ``f`` rises all along the last ``w = f'/M₂`` before the root,
    ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a root between; had it been positive before,
    that would make three.  What a block leaves open is looked at again on shorter ones, whose polynomials are closer.
 2. *Steps* for what the shortest block leaves open: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so the first root of the right side
@@ -112,8 +112,8 @@ def _search_block(rotor, table, plane, horizon, start, work):
             return CLEAR, min(duration, horizon)
         if changes == 1:
             guess = rough_root(work.polynomial, level, first) * duration
-            least_square = MARGIN * (floor + remainder) * bounds[0]
-            certified, time = _polish(rotor, table, plane, origin, level, guess, bounds[0], least_square, work)
+            doubt = remainder / duration
+            certified, time = _polish(rotor, table, plane, origin, level, guess, bounds[0], floor, doubt, work)
             # Past the end of the block the polynomial says nothing: a root there does not prove the block free.
             if certified and time <= duration:
                 return (CONTACT, time) if time <= horizon else (CLEAR, horizon)
@@ -159,8 +159,11 @@ def householder_step(value, slope, bend, third):
 
 
 @part
-def _polish(rotor, table, plane, origin, level, time, curvature, least_square, work):
-    """Householder steps to a root, from the node nearest to a time; certified when ``f'²`` exceeds ``least_square``."""
+def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, work):
+    """Householder steps to a root, from the node nearest to a time; certified by ``f'²``.
+
+    The error of the polynomial up to that time is at most ``floor + doubt time``.
+    """
     node = nearest_node(table, time)
     value, slope, bend, third = look_at_node(table, node, origin, level, work)
     time = node * table.spacing + householder_step(value, slope, bend, third)
@@ -169,7 +172,7 @@ def _polish(rotor, table, plane, origin, level, time, curvature, least_square, w
         if not 0.0 <= time <= table.durations[0]:
             return False, time
         value, slope, bend, third = _measure(rotor, table, plane, origin, level, time, work)
-        if slope * slope <= least_square or slope <= 0.0:
+        if slope * slope <= MARGIN * (floor + doubt * time) * curvature or slope <= 0.0:
             return False, time
         step = householder_step(value, slope, bend, third)
         time += step

@@ -6,12 +6,12 @@ import math
 from typing import NamedTuple
 
 from carom.core.block import derivatives
-from carom.core.events import MARGIN, ROUNDING
+from carom.core.events import ROUNDING
 from carom.core.flow import squared_modulus
-from carom.core.layout import CELLS, DEGREE, LEVELS, NODES, part
+from carom.core.layout import DEGREE, LANE_NODES, LEVELS, part
 from carom.core.vector import choose, fma, join, load, sqrt, store, take, truncate, where
 
-__all__ = ["cell_of", "departure", "examine", "travel"]
+__all__ = ["departure", "examine", "look_up", "travel"]
 
 BINOMIALS = tuple(float(math.comb(DEGREE, j)) for j in range(DEGREE + 1))
 DIAGONAL = 1.5
@@ -34,21 +34,20 @@ class Departure(NamedTuple):
 class Search(NamedTuple):
     """What the block of each lane shows: whether it decides, and then, whether it is ``free`` of a crossing.
 
-    ``guess`` is where to look for the root, the end of a free block, and ``square`` the least square of ``f'`` that certifies
-    the root.
+    ``guess`` is where to look for the root, or the end of a free block; ``doubt`` is how fast the bound of the error grows.
     """
 
     decides: object
     free: object
     duration: object
     guess: object
-    square: object
+    doubt: object
 
 
-class Cell(NamedTuple):
-    """The middle of a cell: its time, the amplitudes there and the change of the driven one since the start."""
+class Node(NamedTuple):
+    """A node: its time, the amplitudes there and the change of the driven one since the start."""
 
-    middle: object
+    time: object
     lower: object
     upper: object
     change: object
@@ -114,8 +113,7 @@ def examine(table, depth, start, polynomial, factors):
     begins_outside = ((level >= lowest) & ~(level == 0.0)) | (positive & (level >= 0.0))
     none = first == float(DEGREE)
     return Search(
-        given & ~begins_outside & (runs < 2.0), none, length, where(none, length, place * length),
-        (start.floor + remainder) * start.curvature * MARGIN,
+        given & ~begins_outside & (runs < 2.0), none, length, where(none, length, place * length), remainder / length,
     )  # fmt: skip
 
 
@@ -133,13 +131,16 @@ def _root(polynomial, factors, degree, level, first, before, after):
     """Where a Bernstein polynomial on 0 … 1 vanishes, from the coefficients on both sides of its sign change.
 
     With ``u = t/(1 − t)``, or its inverse from the other end, the polynomial is ``Σ C(n, j) b_j u^j`` but for a factor;
-    two Halley steps, each written as a ratio so that only one division waits for another.
+    two Halley steps, each written as a ratio so that only one division waits for another.  In a flight from the wall the
+    root wanted may be next to that at the start, which is divided out: ``b_j n/j`` are the coefficients of ``f/t``.
     """
+    on_wall = level == 0.0
+    before, after = where(on_wall, before * (first + 1.0), before), where(on_wall, after * first, after)
     rise, depth = after - before, -before
     rising = rise > 0.0
     scale, depth = where(rising, rise, 1.0), where(rising, where(depth < rise, depth, rise), 0.5)
-    passed = first * scale + depth
-    ahead = scale * float(DEGREE) - passed
+    passed = where(on_wall, first - 1.0, first) * scale + depth
+    ahead = where(on_wall, DEGREE - 1.0, float(DEGREE)) * scale - passed
     far = passed > ahead
     u = where(far, ahead, passed) / where(far, passed, ahead)
     last = load(polynomial[DEGREE - 1], 0)
@@ -148,8 +149,9 @@ def _root(polynomial, factors, degree, level, first, before, after):
         store(factors[j], 0, factor * BINOMIALS[j])
     store(factors[0], 0, where(far, last, level))
     store(factors[DEGREE], 0, where(far, level, last))
-    upper, lower = _halley(factors, u, degree)
-    upper, lower = _halley(factors, upper / lower, degree)
+    divided = on_wall & ~far
+    upper, lower = _halley(factors, u, degree, divided)
+    upper, lower = _halley(factors, upper / lower, degree, divided)
     place = where(far, lower, upper) / (upper + lower)
     least, most = (first - 1.0) * (1.0 / DEGREE), (first + 2.0) * (1.0 / DEGREE)
     # In this order what is no number becomes one.
@@ -158,34 +160,38 @@ def _root(polynomial, factors, degree, level, first, before, after):
 
 
 @part
-def _halley(factors, u, degree):
-    """Halley step for the polynomial with these coefficients: numerator and denominator of the new ``u``."""
+def _halley(factors, u, degree, divided):
+    """Halley step for the polynomial of these factors, or ``divided`` by ``u``: numerator and denominator of the new ``u``."""
     value = load(factors[DEGREE], 0)
     slope, half_bend = value * 0.0, value * 0.0
-    for j in range(degree - 1, -1, -1):
+    for j in range(degree - 1, 0, -1):
         half_bend, slope, value = half_bend * u + slope, slope * u + value, value * u + load(factors[j], 0)
+    half_bend, slope, value = (
+        where(divided, half_bend, half_bend * u + slope),
+        where(divided, slope, slope * u + value),
+        where(divided, value, value * u + load(factors[0], 0)),
+    )
     lower = slope * slope - value * half_bend
     return u * lower - value * slope, lower
 
 
 @part
-def cell_of(table, start, guess):
-    """The cell of a time, and the state in its middle."""
-    width, pace = table.durations[0] * (1.0 / CELLS), table.pace * (CELLS / NODES)
-    place = guess * pace
+def look_up(table, start, guess):
+    """The node nearest to a time, and the state there."""
+    place = guess * (1.0 / table.lane_spacing) + 0.5
     # In this order what is no number becomes one.
     place = where(place > 0.0, place, 0.0)
-    cell = truncate(where(place < CELLS - 1.0, place, CELLS - 1.0))
-    decay = join(take(table.cell_growth[0, 0], cell), take(table.cell_growth[0, 1], cell))
-    growth = join(take(table.cell_growth[1, 0], cell), take(table.cell_growth[1, 1], cell))
-    response = join(take(table.cell_basis[0, 0], cell), take(table.cell_basis[0, 1], cell))
+    place = truncate(where(place < LANE_NODES - 1.0, place, LANE_NODES - 1.0))
+    decay = join(take(table.lane_growth[0, 0], place), take(table.lane_growth[0, 1], place))
+    growth = join(take(table.lane_growth[1, 0], place), take(table.lane_growth[1, 1], place))
+    response = join(take(table.lane_basis[0, 0], place), take(table.lane_basis[0, 1], place))
     change = fma(growth, start.upper, response * start.lower)
-    return Cell((cell + 0.5) * width, fma(decay, start.lower, start.lower), start.upper + change, change)
+    return Node(place * table.lane_spacing, fma(decay, start.lower, start.lower), start.upper + change, change)
 
 
 @part
-def travel(rotor, table, start, cell, rest, terms):
-    """State some time after the middle of a cell.
+def travel(rotor, table, start, node, rest, terms):
+    """State some time after a node.
 
     Returns both amplitudes, rates (of the driving one; three of the driven one, and so of ``y``), and ``f`` with its first
     three derivatives.
@@ -193,8 +199,8 @@ def travel(rotor, table, start, cell, rest, terms):
     decay = _power_series(table.growth_series, 0, rest, terms)
     growth = _power_series(table.growth_series, 1, rest, terms)
     response = _power_series(table.basis_series, 0, rest, terms)
-    change = fma(growth, cell.upper, fma(response, cell.lower, cell.change))
-    lower, upper = fma(decay, cell.lower, cell.lower), start.upper + change
+    change = fma(growth, node.upper, fma(response, node.lower, node.change))
+    lower, upper = fma(decay, node.lower, node.lower), start.upper + change
     slow, fast = rotor.exponents[0], rotor.exponents[1]
     rate, speed = lower * slow, fma(upper, fast, lower)
     force = fma(speed, fast, rate)

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.core.events import POLISHED, householder_step
+from carom.core.events import MARGIN, POLISHED, householder_step
 from carom.core.fate import NEAR
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
-from carom.core.lane_search import cell_of, departure, examine, travel
-from carom.core.layout import CELLS, DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
+from carom.core.lane_search import departure, examine, look_up, travel
+from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
 
 __all__ = ["CLEARED", "LATE", "NOTED", "OPEN", "STRUCK", "fly_lanes", "lanes_record", "surely_flies"]
@@ -31,9 +31,8 @@ LOWEST = 4.0 * 1e-13
 """Twice :data:`carom.core.advance.CHATTER_HEIGHT`, with room: lower bounces are for the loop of single motions."""
 NEARBY = 1.5 * NEAR
 """The distance of :func:`carom.core.fate.same_state` in the sum of absolute parts, which is at most √2 as large."""
-REACH = 0.75 / CELLS
-"""Distance from the middle of a cell, in longest blocks, to which the power series serve: what they miss is below
-rounding."""
+REACH = 0.75
+"""Distance from a node, in spacings, to which the power series serve: what they miss is below rounding."""
 ROUGH_TERMS = 4
 """Terms that do for a first step to the root."""
 THIRD = 1.0 / 3.0
@@ -86,13 +85,13 @@ def _fly(rotor, table, until, first, lanes):
     depth = where(_leaves(rotor, start), load(lanes.depth, first), float(LEVELS))
     search = examine(table, depth, start, lanes.polynomial, lanes.factors)
     free = search.decides & search.free
-    cell = cell_of(table, start, search.guess)
-    rest = _first_step(rotor, table, start, search, cell)
-    lower, upper, rates, (value, slope, bend, third) = travel(rotor, table, start, cell, rest, table.terms)
+    node = look_up(table, start, search.guess)
+    rest = _first_step(rotor, table, start, search, node)
+    lower, upper, rates, (value, slope, bend, third) = travel(rotor, table, start, node, rest, table.terms)
     step = householder_step(value, slope, bend, third)
-    time = cell.middle + rest + step
+    time = node.time + (rest + step)
     certified = (
-        (slope > 0.0) & (slope * slope > search.square) & (abs(step) * start.curvature < POLISHED * slope)
+        (slope > 0.0) & (slope * slope > (start.floor + search.doubt * time) * start.curvature * MARGIN) & (abs(step) * start.curvature < POLISHED * slope)
         & (time > 0.0) & (time <= search.duration)
     )  # fmt: skip
     strikes = certified & search.decides & ~free
@@ -146,13 +145,13 @@ def _leaves(rotor, start):
 
 
 @part
-def _first_step(rotor, table, start, search, cell):
-    """Time from the middle of the cell, a step nearer to the root."""
-    rest = search.guess - cell.middle
-    _, _, _, (value, slope, bend, third) = travel(rotor, table, start, cell, rest, ROUGH_TERMS)
+def _first_step(rotor, table, start, search, node):
+    """Time from the node, a step nearer to the root."""
+    rest = search.guess - node.time
+    _, _, _, (value, slope, bend, third) = travel(rotor, table, start, node, rest, ROUGH_TERMS)
     step = householder_step(value, slope, bend, third)
     # No step off the series, nor one that is no number, nor one of a lane that is free.
-    reach = table.durations[0] * REACH
+    reach = table.lane_spacing * REACH
     return rest + where(~search.free & (abs(rest + step) <= reach), step, 0.0)
 
 

@@ -14,17 +14,20 @@ from typing import TypeVar
 import numba
 import numpy as np
 from numba.core import config
+from numba.core.registry import cpu_target
 from platformdirs import user_cache_path
 
 __all__ = [
-    "CELLS",
     "DEGREE",
     "LANES",
+    "LANE_NODES",
+    "LANE_TERMS",
     "LEVELS",
     "NODES",
     "OCTET",
     "ORDER",
     "TERMS",
+    "WIDE",
     "WIDTH",
     "kernel",
     "part",
@@ -51,15 +54,16 @@ TERMS = 8
 CACHE_LINE = 64
 OCTET = 8
 """Doubles in the widest registers."""
-WIDTH = 3 * OCTET
+WIDE = "+avx512f" in cpu_target.target_context.codegen().magic_tuple()[2]
+"""Whether the processor has registers of that width, which also are many."""
+WIDTH = 3 * OCTET if WIDE else OCTET
 """Motions that one instruction after the other moves: while one register waits, others work."""
-LANES = WIDTH
+LANES = 3 * OCTET
 """Motions that are followed side by side."""
-CELLS = 32
-"""Parts of the longest block in whose middle the basis functions are tabulated for lanes: fewer than NODES, so that lanes
-can hold them in registers, hence with a longer series."""
-CELL_TERMS = 10
-"""Terms of the Taylor series of the basis functions from the middle of a cell."""
+LANE_NODES = 32
+"""Nodes of lanes: fewer, so that lanes can hold what is tabulated there in registers, hence with a longer series."""
+LANE_TERMS = 10
+"""Terms of the Taylor series from a node of lanes."""
 
 
 def rotor_record(
@@ -155,8 +159,9 @@ def table_record(
     growth: np.ndarray,
     basis_series: np.ndarray,
     growth_series: np.ndarray,
-    cell_basis: np.ndarray,
-    cell_growth: np.ndarray,
+    lane_spacing: float,
+    lane_basis: np.ndarray,
+    lane_growth: np.ndarray,
     bounds: np.ndarray,
 ) -> np.record:
     """Constants of a block of flight that depend on the exponents alone; see :mod:`carom.core.table`.
@@ -177,22 +182,24 @@ def table_record(
         Basis functions and their first three derivatives at the nodes.
     growth : ndarray of complex, shape (NODES + 1, N)
         ``e^{λτ} − 1`` at the nodes.
-    basis_series, growth_series : ndarray of complex, shape (CELL_TERMS, N)
-        Coefficients 1 … CELL_TERMS of the power series of both; from a node, TERMS of them do.
-    cell_basis, cell_growth : ndarray, shape (N, 2, CELLS)
-        Real and imaginary parts of basis functions and ``e^{λτ} − 1`` in the middle of each cell.
+    basis_series, growth_series : ndarray of complex, shape (LANE_TERMS, N)
+        Coefficients 1 … LANE_TERMS of the power series of both; from a node that is not one of lanes, TERMS of them do.
+    lane_spacing : float
+        Time between nodes of lanes.
+    lane_basis, lane_growth : ndarray, shape (N, 2, LANE_NODES)
+        Real and imaginary parts of basis functions and ``e^{λτ} − 1`` at the nodes of lanes.
     bounds : ndarray, shape (3, N)
         Largest modulus on the longest block of the first three derivatives of the basis functions.
 
     Returns
     -------
     numpy.record
-        The arguments, and ``pace`` (nodes per time), ``degree`` (DEGREE) and ``terms`` (CELL_TERMS).  Loops in lanes count to
+        The arguments, and ``pace`` (nodes per time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops in lanes count to
         these two: a loop whose length the compiler knows it unrolls, and then has more vectors at hand than registers.
     """
     return record(
         degree=np.asarray(DEGREE, np.int64),
-        terms=np.asarray(CELL_TERMS, np.int64),
+        terms=np.asarray(LANE_TERMS, np.int64),
         spacing=np.asarray(spacing),
         pace=np.asarray(1.0 / spacing),
         durations=durations,
@@ -205,8 +212,9 @@ def table_record(
         growth=growth,
         basis_series=basis_series,
         growth_series=growth_series,
-        cell_basis=cell_basis,
-        cell_growth=cell_growth,
+        lane_spacing=np.asarray(lane_spacing),
+        lane_basis=lane_basis,
+        lane_growth=lane_growth,
         bounds=bounds,
     )
 

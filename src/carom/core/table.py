@@ -10,8 +10,8 @@ is linear in ``2N + N²`` real products, and so are its Bernstein coefficients: 
 and for LEVELS − 1 shorter ones, whose polynomials are closer.
 
 The state at a time is found from the nearest of NODES + 1 nodes, where the basis functions are tabulated, and from there
-by power series: half a spacing is so short that TERMS terms reach rounding.  Lanes start from the middle of one of CELLS
-cells, with CELL_TERMS terms.
+by power series: half a spacing is so short that TERMS terms reach rounding.  Lanes have LANE_NODES nodes, and
+LANE_TERMS terms.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from functools import cache
 
 import numpy as np
 
-from carom.core.layout import CELL_TERMS, CELLS, DEGREE, LEVELS, NODES, OCTET, table_record
+from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, OCTET, table_record
 
 __all__ = ["flight_table"]
 
@@ -63,7 +63,8 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
     polynomials = [_polynomials(exponents, driven, duration) for duration in durations]
     coefficients, errors = (np.array(values) for values in zip(*polynomials, strict=True))
     times = spacing * np.arange(NODES + 1)
-    middles = durations[0] * (np.arange(CELLS) + 0.5) / CELLS
+    lane_spacing = _short_number(durations[0] / (LANE_NODES - 1))
+    lane_times = lane_spacing * np.arange(LANE_NODES)
     growth_series, basis_series = _power_series(exponents, driven)
     return table_record(
         spacing=spacing,
@@ -77,8 +78,9 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
         growth=_expm1(np.outer(times, exponents)),
         basis_series=basis_series,
         growth_series=growth_series,
-        cell_basis=_parts(np.array(_basis(exponents, driven, middles))),
-        cell_growth=_parts(_expm1(np.outer(exponents, middles))),
+        lane_spacing=lane_spacing,
+        lane_basis=_parts(np.array(_basis(exponents, driven, lane_times))),
+        lane_growth=_parts(_expm1(np.outer(exponents, lane_times))),
         bounds=_derivative_bounds(exponents, driven, durations[0]),
     )
 
@@ -164,11 +166,11 @@ def _derivatives(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -
 
 
 def _power_series(exponents: np.ndarray, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Power series without constant term of all ``e^{λτ} − 1`` and of all basis functions, each of shape (CELL_TERMS, N).
+    """Power series without constant term of all ``e^{λτ} − 1`` and of all basis functions, each of shape (LANE_TERMS, N).
 
     That of ``φ`` has the coefficients ``Σ_i λ₊ⁱ λ₋ⁿ⁻¹⁻ⁱ/n!``.
     """
-    orders = np.arange(1, CELL_TERMS + 1)
+    orders = np.arange(1, LANE_TERMS + 1)
     factorials = np.array([float(math.factorial(n)) for n in orders])[:, None]
     growth = exponents ** orders[:, None] / factorials
     basis = growth.copy()

@@ -7,7 +7,7 @@ import pytest
 from lane_programs import program
 from numba.core.errors import TypingError
 
-from carom.core.layout import CELLS, WIDTH
+from carom.core.layout import LANE_NODES, WIDTH
 
 pytestmark = pytest.mark.jit_only
 
@@ -41,7 +41,7 @@ REFUSED = {
 def given():
     return (
         np.ones(WIDTH),
-        np.ones(CELLS),
+        np.ones(LANE_NODES),
         np.ones((WIDTH, WIDTH)),
         np.ones(2 * WIDTH)[::2],
         np.ones(WIDTH, np.complex128),

@@ -8,7 +8,7 @@ from compilation import COMPILED
 from lane_programs import program
 
 from carom.core import vector
-from carom.core.layout import CELLS, LEVELS, OCTET, WIDTH
+from carom.core.layout import LANE_NODES, LEVELS, OCTET, WIDTH
 
 MARK = -7.25
 BEYOND = 2 * OCTET
@@ -70,11 +70,11 @@ def test_what_is_loaded_stays_when_the_array_changes():
 def test_rows_are_looked_up_at_every_place(look_up, shift):
     """Wherever the row begins, and whatever else is in it."""
     random = np.random.default_rng(50 + shift)
-    row, few = random.normal(size=CELLS + shift)[shift:], random.normal(size=OCTET + shift)[shift:]
-    row[random.integers(CELLS, size=3)] = [np.inf, -np.inf, np.nan]
+    row, few = random.normal(size=LANE_NODES + shift)[shift:], random.normal(size=OCTET + shift)[shift:]
+    row[random.integers(LANE_NODES, size=3)] = [np.inf, -np.inf, np.nan]
     few[LEVELS:] = np.nan
-    for turn in range(CELLS):
-        places = (turn + 5 * np.arange(WIDTH)) % CELLS
+    for turn in range(LANE_NODES):
+        places = (turn + 5 * np.arange(WIDTH)) % LANE_NODES
         levels = (turn + np.arange(WIDTH) ** 2) % LEVELS
         out = np.empty((2, WIDTH))
         look_up(row, few, places.astype(float), levels.astype(float), out)
@@ -98,7 +98,7 @@ def test_the_stack_is_aligned_where_that_is_asked_for(moves, look_up):
     assert vector.align_stack() is None
     if COMPILED:
         moves(np.zeros(WIDTH), 0, np.zeros((3, WIDTH)), 0)
-        look_up(np.zeros(CELLS), np.zeros(OCTET), np.zeros(WIDTH), np.zeros(WIDTH), np.zeros((2, WIDTH)))
+        look_up(np.zeros(LANE_NODES), np.zeros(OCTET), np.zeros(WIDTH), np.zeros(WIDTH), np.zeros((2, WIDTH)))
         (aligned,), (not_aligned,) = moves.inspect_llvm().values(), look_up.inspect_llvm().values()
         assert "alignstack(64)" in aligned
         assert "alignstack" not in not_aligned

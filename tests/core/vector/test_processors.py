@@ -13,7 +13,7 @@ import pytest
 from machines import PAPER
 
 from carom import jeffcott, settle_all
-from carom.core.layout import CELLS, LEVELS, OCTET, WIDTH
+from carom.core.layout import LANE_NODES, LEVELS, OCTET, WIDTH
 
 pytestmark = [
     pytest.mark.jit_only,
@@ -56,13 +56,13 @@ def given():
     random = np.random.default_rng(70)
     positions = np.sqrt(random.random(COUNT)) * np.exp(2j * np.pi * random.random(COUNT))
     positions[::7] /= np.abs(positions[::7])
-    turns = np.arange(CELLS)[:, np.newaxis]
+    turns = np.arange(LANE_NODES)[:, np.newaxis]
     return {
         "positions": positions,
         "velocities": random.normal(size=COUNT) + 1j * random.normal(size=COUNT),
-        "row": random.normal(size=CELLS),
+        "row": random.normal(size=LANE_NODES),
         "few": random.normal(size=OCTET),
-        "places": (turns + 5.0 * np.arange(WIDTH)) % CELLS,
+        "places": (turns + 5.0 * np.arange(WIDTH)) % LANE_NODES,
         "levels": (turns + np.arange(WIDTH) ** 2.0) % LEVELS,
     }
 

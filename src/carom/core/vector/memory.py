@@ -6,7 +6,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.extending import lower_builtin, type_callable
 
-from carom.core.layout import CACHE_LINE, CELLS, LEVELS, OCTET
+from carom.core.layout import CACHE_LINE, LANE_NODES, LEVELS, OCTET, WIDE
 from carom.core.vector.kinds import COUNT, DOUBLES, REAL, Condition, RealLanes, are_numbers, common
 from carom.core.vector.parts import all_of, each, parts, spread
 from carom.core.vector.uncompiled import align_stack, choose, lanes_of, load, store, take
@@ -60,7 +60,12 @@ def _register_store():
     @type_callable(store)
     def kind_of(context):
         def kind(array, first, values):
-            fits = _holds_numbers(array) and isinstance(first, types.Integer) and are_numbers(REAL, values)
+            fits = (
+                _holds_numbers(array)
+                and array.mutable
+                and isinstance(first, types.Integer)
+                and are_numbers(REAL, values)
+            )
             return types.none if fits and common(values) == REAL else None
 
         return kind
@@ -83,14 +88,14 @@ def _register_look_up(function, by_permutation, otherwise):
     @lower_builtin(function, types.Array, RealLanes)
     def lower(context, build, signature, values):
         row = _address(context, build, signature.args[0], values[0])
-        pick = by_permutation if "+avx512f" in context.codegen().magic_tuple()[2] else otherwise
+        pick = by_permutation if WIDE else otherwise
         return each(build, pick(build, row), values[1])
 
 
 def _take_by_permutation(build, row):
     """Pick from pairs of registers, then from pairs of what was picked, by one more bit of the place."""
     permute = _instruction(build, "llvm.x86.avx512.vpermi2var.pd.512", [DOUBLES, INTEGERS, DOUBLES])
-    held = _registers(build, row, CELLS // OCTET)
+    held = _registers(build, row, LANE_NODES // OCTET)
 
     def pick(places):
         whole = build.fptosi(places, INTEGERS)

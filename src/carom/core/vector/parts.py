@@ -66,7 +66,7 @@ def parts(context, build, kind, value):
         number = context.make_helper(build, kind, value)
         return number.real, number.imag
     if isinstance(kind, types.Complex):
-        number = context.make_helper(build, kind, value)
+        number = context.make_helper(build, types.complex128, context.cast(build, value, kind, types.complex128))
         return spread(build, number.real), spread(build, number.imag)
     return spread(build, context.cast(build, value, kind, types.float64)), None
 

@@ -47,7 +47,7 @@ def truncate(values):
 
 
 def take(row, places):
-    """Entries of a row of CELLS numbers, at places that are whole numbers below CELLS."""
+    """Entries of a row of LANE_NODES numbers, at places that are whole numbers below LANE_NODES."""
     return row[places.astype(np.int64)]
 
 
