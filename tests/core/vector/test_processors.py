@@ -13,7 +13,7 @@ import pytest
 from machines import PAPER
 
 from carom import jeffcott, settle_all
-from carom.core.layout import LANE_NODES, LEVELS, OCTET, WIDTH
+from carom.core.layout import LANE_NODES, LANES, LEVELS, OCTET
 
 pytestmark = [
     pytest.mark.jit_only,
@@ -29,6 +29,7 @@ import sys
 import numpy as np
 from carom import jeffcott, settle_all
 from carom.core.lanes import fly_lanes
+from carom.core.layout import LANES, WIDTH
 from lane_programs import program
 from machines import PAPER
 
@@ -38,12 +39,14 @@ for case in ({SHORT!r}, {STRONGLY_DAMPED!r}):
     rotor = jeffcott(PAPER.replace(gamma=damping))
     endings = settle_all(rotor, given["positions"], given["velocities"], until=until, threads=1)
     found |= {{f"{{case}} {{name}}": values for name, values in vars(endings).items()}}
-look_up = program("row, few, places, levels, out", [
-    "store(out[0], 0, take(row, load(places, 0)))", "store(out[1], 0, choose(few, load(levels, 0)))",
+look_up = program("row, few, places, levels, out, first", [
+    "store(out[0], first, take(row, load(places, first)))", "store(out[1], first, choose(few, load(levels, first)))",
 ])
-found["looked_up"] = np.empty((len(given["places"]), 2, given["places"].shape[1]))
+found["looked_up"] = np.empty((len(given["places"]), 2, LANES))
 for place in range(len(given["places"])):
-    look_up(given["row"], given["few"], given["places"][place], given["levels"][place], found["looked_up"][place])
+    for first in range(0, LANES, WIDTH):
+        arguments = given["places"][place], given["levels"][place], found["looked_up"][place]
+        look_up(given["row"], given["few"], *arguments, first)
 np.savez(sys.argv[2], **found)
 (code,) = fly_lanes.inspect_asm().values()
 print(*(word for word in ("xmm", "ymm", "zmm", "vfmadd", "mulpd") if word in code))
@@ -62,8 +65,8 @@ def given():
         "velocities": random.normal(size=COUNT) + 1j * random.normal(size=COUNT),
         "row": random.normal(size=LANE_NODES),
         "few": random.normal(size=OCTET),
-        "places": (turns + 5.0 * np.arange(WIDTH)) % LANE_NODES,
-        "levels": (turns + np.arange(WIDTH) ** 2.0) % LEVELS,
+        "places": (turns + 5.0 * np.arange(LANES)) % LANE_NODES,
+        "levels": (turns + np.arange(LANES) ** 2.0) % LEVELS,
     }
 
 
