@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from carom import paper as paper
     from carom import plots as plots
+    from carom.absorbing import rub_neighbourhood as rub_neighbourhood
     from carom.attractors import Attractor as Attractor
     from carom.attractors import AttractorSet as AttractorSet
     from carom.attractors import find_attractors as find_attractors
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from carom.basins import harmless_shock as harmless_shock
     from carom.basins import integrity as integrity
     from carom.basins import least_gain_change as least_gain_change
-    from carom.basins import rub_neighbourhood as rub_neighbourhood
     from carom.basins import smallest_unrecovered_kick as smallest_unrecovered_kick
     from carom.bifurcations import Diagram as Diagram
     from carom.bifurcations import OrbitBranch as OrbitBranch
@@ -166,7 +166,7 @@ _HOMES = {
     "region_map": "bifurcations",
     "rolling": "whirl",
     "rub_limit": "whirl",
-    "rub_neighbourhood": "basins",
+    "rub_neighbourhood": "absorbing",
     "run_sweep": "sweeps",
     "runaway_speed": "whirl",
     "settle_all": "ensembles",

@@ -45,7 +45,7 @@ class Endings:
     multiplicities : ndarray of int64
         Impacts in a period of periodic bouncing; zero otherwise (of bouncing: aperiodic).
     positions, velocities : ndarray of complex
-        State at that time, co-rotating frame.
+        State at that time, co-rotating frame; where the end is proven, one on the way there.
     """
 
     outcomes: np.ndarray
@@ -80,6 +80,9 @@ def settle_all(
     progress: Callable[[float], None] | None = None,
 ) -> Endings:
     """Follow many starts, each as :func:`~carom.trajectories.simulate` would, and keep how they end.
+
+    Motions that slide into a neighbourhood of the synchronous rub which is proven to absorb
+    (:func:`~carom.absorbing.rub_neighbourhood`) end there; ``simulate`` goes on until they are at the rub.
 
     The result does not depend on the number of threads, to the last bit: no motion knows of another.
 
@@ -199,7 +202,7 @@ def _portions(which: np.ndarray, machines: int, threads: int) -> Iterator[tuple[
 def _settle_portion(rotor: Rotor, motions: np.ndarray, limits: _Limits) -> int:
     """Follow some motions of one machine; return their number."""
     task = Task(rotor.arrays, rotor.table, limits.until, limits.max_events)
-    memory = fresh_memory(rotor, limits.patience if limits.settle else 0)
+    memory = fresh_memory(rotor, limits.patience if limits.settle else 0, absorb=True)
     # Uncompiled, a lane that has nothing to divide warns.
     with np.errstate(all="ignore"):
         follow_each(task, motions, _workbench.tools(memory))

@@ -8,14 +8,12 @@
 ``kicks``           the smallest kick that does not come back
 ``integrity``       the largest ball of starts that all come back
 ``entropy``         basin entropy and boundary basin entropy
-``absorbing``       a proven neighbourhood of the synchronous rub
 ``gains``           all that against two parameters: gain maps
 ``changes``         the least change of both that brings back a wanted share
 ``document``        results as JSON
 ==================  ==================================================================================
 """
 
-from carom.basins.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.basins.changes import GainChange, least_gain_change
 from carom.basins.classification import Basin, basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
@@ -30,7 +28,6 @@ __all__ = [
     "GainChange",
     "GainMap",
     "Integrity",
-    "RubNeighbourhood",
     "Share",
     "SmallestKick",
     "basin_entropy",
@@ -40,6 +37,5 @@ __all__ = [
     "harmless_shock",
     "integrity",
     "least_gain_change",
-    "rub_neighbourhood",
     "smallest_unrecovered_kick",
 ]

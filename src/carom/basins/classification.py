@@ -44,12 +44,13 @@ NO_START = -1
 """Flag of a grid point that is no start: outside the wall, or where the rotor could not levitate before."""
 CRITERIA = (
     "levitated: the moduli of the modes leave no later flight room to reach the wall (proof). "
-    "forward_rub: slides within 1e-9 of the synchronous rub that attracts sliding. "
+    "forward_rub: slides in a neighbourhood of the synchronous rub where all sliding goes over to that rub (proof), or "
+    "within 1e-9 of the rub, or forward by the next criterion. "
     "backward_whirl, rolling: after a turn along the wall without flight the state has changed by less than 1e-9. "
     "bouncing, mixed: the state at an impact recurs to within 1e-9 twice in a row (multiplicity: impacts a period), or "
     "has not recurred in {patience} impacts (multiplicity 0: irregular). "
     "grazing: double precision cannot decide. time_reached, event_limit: not settled by {until:g}/Omega or {events} "
-    "events. Criteria but the first are evidence, not proof."
+    "events. Criteria not called a proof are evidence."
 )
 _MODELS: dict[str, type[Disturbance]] = {
     model.kind: model

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from carom.absorbing import rub_neighbourhood
 from carom.attractors.groups import Groups
 from carom.ensembles import LONGEST, Endings
 from carom.orbits import Orbit, orbits_within_reach
@@ -65,15 +66,25 @@ def name_motions(rotor: Rotor, outcomes: np.ndarray, endings: Endings) -> tuple[
         if outcome in _NOUNS:
             note(chosen & (endings.multiplicities == 0), f"irregular {_NOUNS[outcome]}")
         elif outcome is Outcome.FORWARD_RUB:
-            still = np.abs(endings.velocities) < AT_REST
-            note(chosen & still, "synchronous rub")
-            note(chosen & ~still, "drifting rub")
+            synchronous = _goes_over_to_rub(rotor, endings)
+            note(chosen & synchronous, "synchronous rub")
+            note(chosen & ~synchronous, "drifting rub")
         else:
             note(chosen, _PLAIN.get(outcome, f"unresolved: {outcome.label}"))
     periodic = np.isin(outcomes, list(_NOUNS)) & (endings.multiplicities > 0)
     for chosen, name in _periodic(rotor, outcomes, endings, np.flatnonzero(periodic)):
         note(chosen, name)
     return named, tuple(names)
+
+
+def _goes_over_to_rub(rotor: Rotor, endings: Endings) -> np.ndarray:
+    """Which motions in forward rub are at the synchronous rub, or where they surely go over to it."""
+    still: np.ndarray = np.abs(endings.velocities) < AT_REST
+    around = rub_neighbourhood(rotor)
+    if around is None:
+        return still
+    along = endings.positions.real * endings.velocities.imag - endings.positions.imag * endings.velocities.real
+    return still | around.contains(np.angle(endings.positions), along)
 
 
 def _periodic(rotor: Rotor, outcomes: np.ndarray, endings: Endings, places: np.ndarray) -> list[tuple[np.ndarray, str]]:

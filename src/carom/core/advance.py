@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from carom.core.events import INSIDE, LEAVING, search
-from carom.core.fate import NEAR, approaches_turn, forget_rub, levitates, near_rub, recurs, same_state
+from carom.core.fate import NEAR, absorbed, approaches_turn, forget_rub, levitates, near_rub, recurs, same_state
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
 from carom.core.layout import kernel, passage
@@ -37,7 +37,7 @@ FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (
     int(Outcome.BACKWARD_WHIRL),
     int(Outcome.ROLLING),
 )
-FLIGHT, ROLLING = int(Phase.FLIGHT), int(Phase.ROLLING)
+FLIGHT, FORWARD_SLIP, ROLLING = int(Phase.FLIGHT), int(Phase.FORWARD_SLIP), int(Phase.ROLLING)
 
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
@@ -235,7 +235,7 @@ def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
     if memory.patience > 0:
         position = unit(rub.position[0])
         speed = (position.conjugate() * rub.speed[0]).imag
-        if near_rub(memory, position, speed):
+        if near_rub(memory, position, speed) or (phase == FORWARD_SLIP and absorbed(memory, position, speed)):
             return FORWARD_RUB, 0.0, phase
         if approaches_turn(memory, position, amplitudes, speed):
             turn = turn_ahead(memory.turn_position, math.copysign(1.0, speed), duration, rub)

@@ -2,7 +2,8 @@
 
 - *Levitated*: the sum of the moduli of the modes at every contact plane, a bound for all later time, is smaller than
   the room between the contact-free equilibrium and the wall.  This is a proof.
-- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding.
+- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding; or, where the memory holds
+  one, it lies in a neighbourhood of that rub which sliding never leaves.  This is a proof too (:mod:`carom.absorbing`).
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a turn without flight the state has changed
   by less than ``NEAR`` and by less than ``NEAR`` per unit time, so slow changes do not pass for none.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
@@ -22,6 +23,7 @@ from carom.core.layout import kernel, record
 
 __all__ = [
     "NEAR",
+    "absorbed",
     "approaches_turn",
     "forget",
     "forget_rub",
@@ -30,6 +32,7 @@ __all__ = [
     "memory",
     "near_rub",
     "recurs",
+    "rub_potentials",
     "same_state",
 ]
 
@@ -40,7 +43,13 @@ NO_TURN, SET_OUT, ROUND = 0, 1, 2
 
 
 def memory(
-    modes: int, rub_position: complex = 0j, patience: int = 0, recheck: float = np.inf, stop_at_landing: bool = False
+    modes: int,
+    rub_position: complex = 0j,
+    patience: int = 0,
+    recheck: float = np.inf,
+    stop_at_landing: bool = False,
+    rub_level: float = 0.0,
+    rub_shape: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> np.record:
     """Memory of a motion, and how far to follow it.
 
@@ -55,10 +64,19 @@ def memory(
         Time of free flight after which to look again whether the rotor levitates.
     stop_at_landing : bool
         End with ``CHATTER`` where bounces go over into lasting contact.
+    rub_level : float
+        Level of the function below which forward slip surely goes over to the rub; zero not to ask.
+    rub_shape : tuple of float
+        The ``μ``, ``p`` and ``y₀`` of that function, see :mod:`carom.absorbing`.
     """
+    friction, strength, phase = rub_shape
     return record(
         reference=np.zeros(modes, np.complex128),
         rub_position=np.asarray(rub_position, np.complex128),
+        rub_level=np.asarray(rub_level, float),
+        rub_friction=np.asarray(friction, float),
+        rub_strength=np.asarray(strength, float),
+        rub_phase=np.asarray(phase, float),
         patience=np.asarray(patience, np.int64),
         recheck=np.asarray(recheck),
         stop_at_landing=np.asarray(stop_at_landing, np.int64),
@@ -160,6 +178,40 @@ def near_rub(memory, position, speed):
     if memory.rub_position == 0.0:
         return False
     return math.sqrt(squared_modulus(position - memory.rub_position)) + abs(speed) < NEAR
+
+
+@kernel
+def absorbed(memory, position, speed):
+    """Whether a state that slides forward lies where it surely goes over to the synchronous rub (:mod:`carom.absorbing`)."""
+    if memory.rub_level <= 0.0:
+        return False
+    friction, phase = memory.rub_friction, memory.rub_phase
+    apart = memory.rub_position.conjugate() * position
+    ahead = math.atan2(apart.imag, apart.real)
+    if ahead < -math.pi - 2.0 * phase:
+        ahead += 2.0 * math.pi
+    elif ahead >= math.pi - 2.0 * phase:
+        ahead -= 2.0 * math.pi
+    value = 0.5 * speed * speed * math.exp(2.0 * friction * ahead)
+    return value + _rub_potential(ahead, friction, memory.rub_strength, phase) < memory.rub_level
+
+
+@kernel
+def rub_potentials(ahead, friction, strength, phase):
+    """``p ∫₀ˢ (sin(y₀ + σ) − sin y₀) e^{2μσ} dσ`` at angles ``s`` ahead of the rub, shape (M,)."""
+    potentials = np.empty_like(ahead)
+    for i in range(ahead.shape[0]):
+        potentials[i] = _rub_potential(ahead[i], friction, strength, phase)
+    return potentials
+
+
+@kernel
+def _rub_potential(ahead, friction, strength, phase):
+    rate = 2.0 * friction
+    swing = math.exp(rate * ahead) * (rate * math.sin(phase + ahead) - math.cos(phase + ahead))
+    start = rate * math.sin(phase) - math.cos(phase)
+    steady = math.expm1(rate * ahead) / rate if rate > 0.0 else ahead
+    return strength * ((swing - start) / (1.0 + rate * rate) - math.sin(phase) * steady)
 
 
 @kernel
