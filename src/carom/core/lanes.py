@@ -78,52 +78,53 @@ def fly_lanes(rotor, table, until, lanes):
 
 @part
 def _fly(rotor, table, until, first, lanes):
-    """Find the first crossing of each lane, certify it and apply the impact; the lanes that need a look, as bits."""
+    """Find the first crossing of some lanes, certify it and move on; the lanes that need a look, as bits."""
     lower = _load_complex(lanes.lower_re, lanes.lower_im, first)
     upper = _load_complex(lanes.upper_re, lanes.upper_im, first)
     start = departure(rotor, table, lower, upper, load(lanes.level, first))
     depth = where(_leaves(rotor, start), load(lanes.depth, first), float(LEVELS))
     search = examine(table, depth, start, lanes.polynomial, lanes.factors)
-    free = search.decides & search.free
     node = look_up(table, start, search.guess)
     rest = _first_step(rotor, table, start, search, node)
     lower, upper, rates, (value, slope, bend, third) = travel(rotor, table, start, node, rest, table.terms)
     step = householder_step(value, slope, bend, third)
     time = node.time + (rest + step)
+    doubt = start.floor + search.doubt * time
     certified = (
-        (slope > 0.0) & (slope * slope > (start.floor + search.doubt * time) * start.curvature * MARGIN) & (abs(step) * start.curvature < POLISHED * slope)
-        & (time > 0.0) & (time <= search.duration)
+        (slope > 0.0) & (slope * slope > doubt * start.curvature * MARGIN)
+        & (abs(step) * start.curvature < POLISHED * slope) & (time > 0.0) & (time <= search.duration)
     )  # fmt: skip
-    strikes = certified & search.decides & ~free
-    decided = strikes | free
-    clock = load(lanes.clock, first)
-    end = clock + where(strikes, time, search.duration)
+    free, strikes = search.decides & search.free, search.decides & ~search.free & certified
+    lower, upper = _nudged(where(strikes, step, 0.0), lower, upper, rates, rotor.exponents[0])
+    end = load(lanes.clock, first) + where(strikes, time, search.duration)
+    return _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower, upper)
+
+
+@part
+def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower, upper):
+    """Note the end of a free block or the state after an impact; the lanes that need a look, as bits."""
+    decided = free | strikes
     late = end > until
     moves, struck = decided & ~late, strikes & ~late
-    lower, upper = _nudged(where(strikes, step, 0.0), lower, upper, rates, rotor.exponents[0])
     position = upper + rotor.offsets[0]
     beyond = squared_modulus(position) - 1.0
-    change = _rebound(
-        position, fma(upper, rotor.exponents[1], lower), rotor.friction[0], rotor.restitution[0], rotor.drive[0]
-    )
+    speed = fma(upper, rotor.exponents[1], lower)
     # The displacement goes on to the wall, the velocity stays.
     upper = upper - position * where(strikes, 0.5 * beyond, 0.0)
+    after = lower + _rebound(position, speed, rotor.friction[0], rotor.restitution[0], rotor.drive[0])
     quiet = load(lanes.quiet, first)
     noted = struck & (_near_reference(lower, upper, first, lanes) | (quiet + 1.0 >= load(lanes.due, first)))
     plain = struck & ~noted
-    store(
-        lanes.verdict,
-        first,
-        where(moves, where(free, CLEARED, where(noted, NOTED, STRUCK)), where(decided, LATE, OPEN)),
-    )
+    stays = where(decided, LATE, OPEN)
+    store(lanes.verdict, first, where(moves, where(free, CLEARED, where(noted, NOTED, STRUCK)), stays))
     store(lanes.quiet, first, where(plain, quiet + 1.0, quiet))
-    store(lanes.clock, first, where(moves, end, clock))
+    store(lanes.clock, first, where(moves, end, load(lanes.clock, first)))
+    # Low bounces follow one another: the block that served for the last one is tried first.
     store(lanes.depth, first, where(decided, where(strikes, depth, 0.0), depth + 1.0))
     store(lanes.level, first, where(struck, 0.0, where(moves, beyond, start.level)))
     _store_complex(lanes.arrival_lower_re, lanes.arrival_lower_im, first, lower)
     _store_complex(lanes.arrival_upper_re, lanes.arrival_upper_im, first, upper)
-    lower = lower + where(struck, change, 0.0)
-    _store_complex(lanes.lower_re, lanes.lower_im, first, where(moves, lower, start.lower))
+    _store_complex(lanes.lower_re, lanes.lower_im, first, where(struck, after, where(moves, lower, start.lower)))
     _store_complex(lanes.upper_re, lanes.upper_im, first, where(moves, upper, start.upper))
     watched = load(lanes.watched, first) > 0.0
     return lanes_of(~(plain | (free & moves & ~watched) | (~decided & (depth < LEVELS - 1.0))))
