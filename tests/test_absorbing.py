@@ -1,4 +1,4 @@
-"""The proven neighbourhood of the synchronous rub."""
+"""The proven neighbourhood of the synchronous rub, and what ends motions by proof."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from carom.core.fate import absorbed
 from carom.ensembles import settle_all
 from carom.outcome import Outcome, Phase
 from carom.trajectories import State, fresh_memory, simulate
+from carom.whirl import rolling, runaway_speed
 
 pytestmark = pytest.mark.jit_only
 
@@ -195,7 +196,10 @@ def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch)
     rubs = proven.outcomes == Outcome.FORWARD_RUB
     assert rubs.sum() > 300
     assert (proven.times[rubs] < followed.times[rubs]).all()
-    np.testing.assert_array_equal(proven.times[~rubs], followed.times[~rubs])
+    rolls = proven.outcomes == Outcome.ROLLING
+    assert (proven.times[rolls] < followed.times[rolls]).all()
+    others = ~(rubs | rolls)
+    np.testing.assert_array_equal(proven.times[others], followed.times[others])
     names = [name_motions(rotor, endings.outcomes, endings) for endings in (proven, followed)]
     np.testing.assert_array_equal(names[0][0], names[1][0])
     assert names[0][1] == names[1][1]
@@ -210,3 +214,34 @@ def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
     endings.velocities[0] = 0.9j * endings.positions[0]
     named, names = name_motions(rotor, endings.outcomes, endings)
     assert [names[index] for index in named[:3]] == ["drifting rub", "synchronous rub", "synchronous rub"]
+
+
+@pytest.mark.parametrize("gamma", [0.05, 0.1])
+def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkeypatch):
+    rotor, rng, count = carom.jeffcott(PAPER.replace(gamma=gamma)), np.random.default_rng(12), 600
+    turns = np.exp(2j * np.pi * rng.uniform(0.0, 1.0, (2, count)))
+    starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
+    proven = settle_all(rotor, *starts)
+    monkeypatch.setattr("carom.ensembles.fresh_memory", lambda rotor, patience, absorb: fresh_memory(rotor, patience))
+    followed = settle_all(rotor, *starts)
+    for name in ("outcomes", "impacts", "multiplicities"):
+        np.testing.assert_array_equal(getattr(proven, name), getattr(followed, name), err_msg=name)
+    rolls = np.flatnonzero(proven.outcomes == Outcome.ROLLING)
+    assert len(rolls) > 0.05 * count
+    assert (proven.times[rolls] < followed.times[rolls]).all()
+    whirl = -1.0 - (proven.positions.conjugate() * proven.velocities)[rolls].imag
+    assert (whirl > runaway_speed(rotor).certain).all()
+    for place in rolls[:10]:
+        state = State(proven.positions[place], proven.velocities[place])
+        onward = simulate(rotor, state, 1e4, settle=True)
+        assert onward.outcome is Outcome.ROLLING
+        assert not len(onward.contacts)
+
+
+def test_no_runaway_where_rolling_does_not_hold():
+    machine = PAPER.replace(gamma=1.05 * rolling(carom.jeffcott(PAPER)).largest_damping)
+    assert fresh_memory(carom.jeffcott(machine), 1, absorb=True).runaway == math.inf
+    assert fresh_memory(carom.jeffcott(PAPER), 1).runaway == math.inf
+    assert fresh_memory(carom.jeffcott(PAPER), 1, absorb=True).runaway == pytest.approx(
+        runaway_speed(carom.jeffcott(PAPER)).certain, rel=1e-8
+    )

@@ -29,12 +29,12 @@ from carom.core.fate import rub_potentials
 from carom.equilibria import Equilibrium, equilibria
 from carom.rotors import Rotor
 
-__all__ = ["RubNeighbourhood", "neighbourhood_of", "rub_neighbourhood"]
+__all__ = ["GIVEN_UP", "RubNeighbourhood", "neighbourhood_of", "rub_neighbourhood"]
 
 INTERVALS = 4000
 """Ten times as many raise the level by two or three thousandths, and cost nearly ten times as much."""
 GIVEN_UP = 1e-9
-"""Share of the level that is given up for rounding."""
+"""Share of a threshold that is given up for rounding."""
 ROUNDING = 64 * np.finfo(float).eps
 """Rounding error of ``V`` next to the rub, relative to ``p``: there its terms cancel."""
 

@@ -82,7 +82,8 @@ def settle_all(
     """Follow many starts, each as :func:`~carom.trajectories.simulate` would, and keep how they end.
 
     Motions that slide into a neighbourhood of the synchronous rub which is proven to absorb
-    (:func:`~carom.absorbing.rub_neighbourhood`) end there; ``simulate`` goes on until they are at the rub.
+    (:func:`~carom.absorbing.rub_neighbourhood`), or whirl backward so fast that they are proven to go over to rolling
+    (:func:`~carom.whirl.runaway_speed`), end there; ``simulate`` goes on until they are at the rub or roll.
 
     The result does not depend on the number of threads, to the last bit: no motion knows of another.
 

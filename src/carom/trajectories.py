@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.absorbing import RubNeighbourhood, neighbourhood_of
+from carom.absorbing import GIVEN_UP, RubNeighbourhood, neighbourhood_of
 from carom.contacts import ContactHistory, ContactLog, LastingContact
 from carom.core.advance import INSIDE_ALL, advance
 from carom.core.fate import memory
@@ -21,6 +21,7 @@ from carom.core.rub import fly_or_rub_all
 from carom.equilibria import Equilibrium, equilibria
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
+from carom.whirl import rolling, runaway_speed
 
 __all__ = ["WALL_TOLERANCE", "EventLog", "Kick", "State", "Trajectory", "follow", "fresh_memory", "kick", "simulate"]
 
@@ -340,7 +341,7 @@ def follow(
 def fresh_memory(rotor: Rotor, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False) -> np.record:
     """Memory of a motion that is to begin, for :func:`follow`; with a ``patience`` of zero it settles to nothing.
 
-    With ``absorb`` it ends where it is proven to go over to the synchronous rub, not only when it is there.
+    With ``absorb`` it ends where it is proven to go over to the synchronous rub or to rolling, not only when it is there.
     """
     rub = _attracting_rub(rotor) if patience > 0 else None
     around = _rub_neighbourhood(rotor) if rub and absorb else None
@@ -353,6 +354,7 @@ def fresh_memory(rotor: Rotor, patience: int, stop_at_chatter: bool = False, *, 
         # Lower by the rounding error once more: whoever computes V of the end another way finds it inside too.
         rub_level=around.level - around.rounding if around else 0.0,
         rub_shape=(around.friction, around.strength, around.phase) if around else (0.0, 0.0, 0.0),
+        runaway=_certain_runaway(rotor) if patience > 0 and absorb else np.inf,
     )
 
 
@@ -366,6 +368,12 @@ def _attracting_rub(rotor: Rotor) -> Equilibrium | None:
 def _rub_neighbourhood(rotor: Rotor) -> RubNeighbourhood | None:
     rub = _attracting_rub(rotor)
     return neighbourhood_of(rotor, rub) if rub else None
+
+
+def _certain_runaway(rotor: Rotor) -> float:
+    """Speed of backward whirl from which on sliding goes over to rolling that holds; infinite if there is none."""
+    runaway = runaway_speed(rotor)
+    return runaway.certain * (1.0 + GIVEN_UP) if runaway.reaches_rolling and rolling(rotor).holds else np.inf
 
 
 def _recheck_time(rotor: Rotor) -> float:

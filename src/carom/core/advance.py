@@ -237,6 +237,8 @@ def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
         speed = (position.conjugate() * rub.speed[0]).imag
         if near_rub(memory, position, speed) or (phase == FORWARD_SLIP and absorbed(memory, position, speed)):
             return FORWARD_RUB, 0.0, phase
+        if phase == FORWARD_SLIP and -(1.0 + speed) > memory.runaway:
+            return ROLLS_ON, 0.0, phase
         if approaches_turn(memory, position, amplitudes, speed):
             turn = turn_ahead(memory.turn_position, math.copysign(1.0, speed), duration, rub)
             if turn < duration:

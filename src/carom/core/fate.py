@@ -4,6 +4,8 @@
   the room between the contact-free equilibrium and the wall.  This is a proof.
 - *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding; or, where the memory holds
   one, it lies in a neighbourhood of that rub which sliding never leaves.  This is a proof too (:mod:`carom.absorbing`).
+- *Rolling*: where the memory holds the speed of a certain runaway, backward whirl slides faster.  A proof
+  (:mod:`carom.whirl`).
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a turn without flight the state has changed
   by less than ``NEAR`` and by less than ``NEAR`` per unit time, so slow changes do not pass for none.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
@@ -50,6 +52,7 @@ def memory(
     stop_at_landing: bool = False,
     rub_level: float = 0.0,
     rub_shape: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    runaway: float = np.inf,
 ) -> np.record:
     """Memory of a motion, and how far to follow it.
 
@@ -68,6 +71,8 @@ def memory(
         Level of the function below which forward slip surely goes over to the rub; zero not to ask.
     rub_shape : tuple of float
         The ``μ``, ``p`` and ``y₀`` of that function, see :mod:`carom.absorbing`.
+    runaway : float
+        Speed of backward whirl from which on sliding surely goes over to rolling for good; infinite not to ask.
     """
     friction, strength, phase = rub_shape
     return record(
@@ -77,6 +82,7 @@ def memory(
         rub_friction=np.asarray(friction, float),
         rub_strength=np.asarray(strength, float),
         rub_phase=np.asarray(phase, float),
+        runaway=np.asarray(runaway, float),
         patience=np.asarray(patience, np.int64),
         recheck=np.asarray(recheck),
         stop_at_landing=np.asarray(stop_at_landing, np.int64),
