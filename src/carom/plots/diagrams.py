@@ -12,9 +12,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import Normal, Stroke
 
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
+from carom.plots.numerals import number_regions
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
@@ -78,6 +78,10 @@ BOUNDARIES = MappingProxyType(
 )
 """Markers of boundary equilibria of which it is known what becomes of levitation (read-only)."""
 
+_FAINT = 0.3
+"""Opacity of curves that only virtual orbits have."""
+_SHOWN = 0.004
+"""Share of the plane above which a region is numbered."""
 _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
 
 
@@ -314,7 +318,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        180 mm wide; curves of virtual orbits are faint.
+        180 mm wide; curves of virtual orbits are faint.  A region too thin for its numeral has it beside, with a leader.
     """
     figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS), layout="constrained")
     drawn = figure.subplots()
@@ -326,11 +330,6 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
         x, y = np.array(point.value) / units
         face = "#1a1a1a" if point.admissible else "none"
         drawn.plot([x], [y], ls="none", marker="o", ms=4.5, mfc=face, mec="#1a1a1a", zorder=6)
-    for number, region in enumerate(found.regions, start=1):
-        if region.share > 0.004:
-            x, y = _clear_place(found, region) / units
-            text = drawn.annotate(str(number), (x, y), ha="center", va="center", fontsize=8, color="#3d4f66", zorder=7)
-            text.set_path_effects([Stroke(linewidth=2.5, foreground="#ffffff"), Normal()])
     drawn.set_xlabel(parameter_label(axes[0]))
     drawn.set_ylabel(parameter_label(axes[1]))
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
@@ -343,34 +342,19 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     ]
     if found.codimension2:
         lines.append(Line2D([], [], ls="none", marker="o", ms=4.5, color="#1a1a1a", label="two at once"))
-    numbered = [
+    if not all(np.all(curve.admissible) for curve in found.curves):
+        lines.append(Line2D([], [], color="#1a1a1a", lw=1.1, alpha=_FAINT, label="faint: virtual orbits only"))
+    numbered = [entry for entry in enumerate(found.regions, start=1) if entry[1].share > _SHOWN]
+    listed = [
         Line2D([], [], ls="none", label=f"{number}: {region.motions.source_region}: {_words(found, region)}")
-        for number, region in enumerate(found.regions, start=1)
-        if region.share > 0.004
+        for number, region in numbered
     ]
     if found.everywhere:
-        numbered.append(Line2D([], [], ls="none", label=f"everywhere: {', '.join(found.everywhere)}"))
+        listed.append(Line2D([], [], ls="none", label=f"everywhere: {', '.join(found.everywhere)}"))
     figure.legend(handles=lines, loc="outside upper center", ncols=3)
-    figure.legend(handles=numbered, loc="outside lower center", ncols=2, handlelength=0.0, fontsize=6.5)
+    figure.legend(handles=listed, loc="outside lower center", ncols=2, handlelength=0.0, fontsize=6.5)
+    number_regions(drawn, found, units, numbered)
     return figure
-
-
-def _clear_place(found: RegionMap, region: Region) -> np.ndarray:
-    """The point of a region, or that of its grid points farthest from all curves and from the edges if it is farther."""
-    low, high = np.transpose([found.plane.first_range, found.plane.second_range])
-    shares = np.linspace(0.0, 1.0, 8)[:, None, None]
-    lines = [np.zeros((0, 2))]
-    for curve in found.curves:
-        places = (curve.points - low) / (high - low)
-        lines.append((places[:-1] + shares * np.diff(places, axis=0)).reshape(-1, 2))
-    drawn = np.concatenate(lines)
-    candidates = np.vstack([region.point, region.places])
-    inside = (candidates - low) / (high - low)
-    room = np.minimum(inside, 1.0 - inside).min(axis=1)
-    if len(drawn):
-        room = np.minimum(room, np.linalg.norm(inside[:, None] - drawn, axis=2).min(axis=1))
-    best = int(np.argmax(room))
-    return np.asarray(candidates[best if room[best] > 1.2 * room[0] else 0])
 
 
 def _words(found: RegionMap, region: Region) -> str:
@@ -383,5 +367,5 @@ def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:
     look = CURVES[curve.kind]
     x, y = (curve.points / units).T
     for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):
-        alpha = 1.0 if real == "real" else 0.3
+        alpha = 1.0 if real == "real" else _FAINT
         axes.plot(x[first : last + 1], y[first : last + 1], color=look.colour, ls=look.line, lw=look.width, alpha=alpha)

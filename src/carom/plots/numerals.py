@@ -1,0 +1,147 @@
+"""Numerals of the regions of a plane: where no curve crosses them, or beside the region with a leader into it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patheffects import Normal, Stroke
+
+from carom.plots.plane import Floats
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from carom.bifurcations import Region, RegionMap
+
+__all__ = ["number_regions"]
+
+_SIZE = 8.0
+"""Height of a numeral [pt]."""
+_HALF_DIGIT, _HALF_HEIGHT = 2.0, 2.8
+"""Half of the width of a digit and of its height [pt]."""
+_MARGIN = 2.0
+"""Between a numeral and a line [pt]."""
+_COLOUR = "#3d4f66"
+_BETTER = 1.2
+"""How much more room than a region's own point another one must have."""
+_RINGS, _DIRECTIONS = np.arange(3.0, 60.0, 3.0), np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+"""Distances [pt] and directions in which a place for the numeral of a sliver is looked for."""
+_LEADER, _APART = 12.0, 2.0
+"""Length of a leader at least; how far from a curve one is that does not cross it [pt]."""
+
+
+def number_regions(axes: Axes, found: RegionMap, units: Floats, numbered: Sequence[tuple[int, Region]]) -> None:
+    """Write the numerals of regions into axes that already hold all else, with their limits.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    found : carom.bifurcations.RegionMap
+        Its curves and codimension-2 points are what numerals keep clear of.
+    units : numpy.ndarray, shape (2,)
+        What the two parameters are divided by.
+    numbered : sequence of tuple of int and carom.bifurcations.Region
+    """
+    figure = axes.get_figure(root=True)
+    if figure is None:
+        return
+    figure.draw_without_rendering()
+    point = figure.dpi / 72.0
+    taken = _drawn(axes, found, units) / point
+    frame = np.reshape(axes.bbox.extents, (2, 2)) / point
+    curves = taken
+    slivers = []
+    for number, region in numbered:
+        candidates = np.vstack([region.point, region.places]) / units
+        places = axes.transData.transform(candidates) / point
+        room = _room(places, taken, frame, _half(number))
+        best = int(np.argmax(room))
+        chosen = best if room[best] > _BETTER * room[0] else 0
+        if room[best] < 1.0:
+            slivers.append((number, candidates[best], places[best]))
+            continue
+        _write(axes, number, candidates[chosen])
+        taken = np.vstack([taken, _outline(number, places[chosen])])
+    for number, foot, place in slivers:
+        aside, within = _aside(place, curves, taken, frame, _half(number))
+        there = axes.transData.inverted().transform(aside * point)
+        _write(axes, number, *((there,) if within else (foot, there)))
+        taken = np.vstack([taken, _outline(number, aside)])
+
+
+def _drawn(axes: Axes, found: RegionMap, units: Floats) -> Floats:
+    """Points of all curves, one a pixel, and the points where they meet [pixels]."""
+    lines = [np.zeros((0, 2))]
+    for curve in found.curves:
+        places = axes.transData.transform(curve.points / units)
+        along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1)))
+        steps = np.linspace(0.0, along[-1], int(along[-1]) + 2)
+        lines.append(np.transpose([np.interp(steps, along, part) for part in places.T]))
+    lines += [axes.transData.transform([np.array(point.value) / units]) for point in found.codimension2]
+    return np.concatenate(lines)
+
+
+def _half(number: int) -> Floats:
+    """Half of the width and height of a numeral with its margin [pt]."""
+    return np.array([_HALF_DIGIT * len(str(number)), _HALF_HEIGHT]) + _MARGIN
+
+
+def _room(places: Floats, taken: Floats, frame: Floats, half: Floats) -> Floats:
+    """By how much a numeral at each place could grow until it met a line or the frame; it has no room below 1."""
+    room: Floats = (np.minimum(places - frame[0], frame[1] - places) / half).min(axis=1)
+    if len(taken):
+        room = np.minimum(room, (np.abs(places[:, None] - taken) / half).max(axis=2).min(axis=1))
+    return room
+
+
+def _aside(place: Floats, curves: Floats, taken: Floats, frame: Floats, half: Floats) -> tuple[Floats, bool]:
+    """Nearest place around another one that has room for a numeral, and whether no curve lies between the two.
+
+    One without a curve between is preferred; if none has room, the roomiest that was looked at.
+    """
+    ways = np.transpose([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)])
+    around = place + _RINGS[:, None, None] * ways
+    room = np.array([_room(ring, taken, frame, half) for ring in around])
+    for chosen in np.argwhere(room >= 1.0):
+        if _apart(place, around[tuple(chosen)], curves):
+            return around[tuple(chosen)], True
+    room[_RINGS < _LEADER] = -np.inf
+    fit = np.flatnonzero(room.max(axis=1) >= 1.0)
+    ring = fit[0] if len(fit) else int(np.argmax(room.max(axis=1)))
+    return around[ring, int(np.argmax(room[ring]))], False
+
+
+def _apart(first: Floats, second: Floats, curves: Floats) -> bool:
+    """Whether the straight line between two places keeps clear of all curves."""
+    path = first + np.linspace(0.0, 1.0, 40)[:, None] * (second - first)
+    return bool((np.abs(path[:, None] - curves).max(axis=2) > _APART).all()) if len(curves) else True
+
+
+def _outline(number: int, place: Floats) -> Floats:
+    """Middle, corners and middles of the edges of a written numeral: others keep clear of them."""
+    steps = np.array([[x, y] for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)])
+    return np.asarray(place + steps * (_half(number) - _MARGIN))
+
+
+def _write(axes: Axes, number: int, foot: Floats, aside: Floats | None = None) -> None:
+    """A numeral at a point, or aside of it with a thin line to a dot at the point."""
+    leader = None
+    if aside is not None:
+        axes.plot(*foot, ls="none", marker=".", ms=3.0, mew=0.0, color=_COLOUR, zorder=7, gid="foot")
+        leader = {"arrowstyle": "-", "lw": 0.5, "color": _COLOUR, "shrinkA": 0.0, "shrinkB": 0.0}
+    text = axes.annotate(
+        str(number),
+        (float(foot[0]), float(foot[1])),
+        None if aside is None else (float(aside[0]), float(aside[1])),
+        textcoords="data",
+        ha="center",
+        va="center",
+        fontsize=_SIZE,
+        color=_COLOUR,
+        zorder=7,
+        arrowprops=leader,
+        gid="numeral",
+    )
+    text.set_path_effects([Stroke(linewidth=2.5, foreground="#ffffff"), Normal()])
