@@ -32,7 +32,7 @@ def test_table_and_files(capsys, tmp_path):
     words = ["bifurcations", MACHINE, "--along", "speed", "--from", "1000 rpm", "--to", "3000 rpm"]
     assert main([*words, "--out", str(tmp_path / "out")]) == 0
     shown = capsys.readouterr().out
-    assert "non-smooth-hopf" in shown
+    assert "non-smooth Hopf" in shown
     assert "rpm" in shown
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert names == {f"bifurcations-speed.{ending}" for ending in ("svg", "png", "json")}

@@ -42,6 +42,8 @@ Sampled = Annotated[
 Seed = Annotated[int, typer.Option(metavar="N", min=0, help="Seed of these disturbances.")]
 NEAR = (0.25, 2.5)
 """Default range of a parameter, in its present value."""
+_NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacker"}
+"""Bifurcations whose names keep hyphens or capitals."""
 
 
 def bifurcations(
@@ -197,27 +199,35 @@ def _shown(varied: Axis, value: float) -> str:
     return f"{text} ({value * 30.0 / math.pi:.6g} rpm)" if varied.name == "speed" else text
 
 
+def _named(kind: str) -> str:
+    """Kind of a bifurcation in words."""
+    return _NAMED.get(kind, kind.replace("-", " "))
+
+
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from rich import box
     from rich.table import Table
 
+    from carom.cli.fitting import fitted
+
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
-    screen.print(f"Bifurcations for {diagram.axis.field.words} {diagram.parameter} = {ends}; now {present:.6g}")
+    now = _shown(diagram.axis, present)
+    screen.print(f"Bifurcations for {diagram.axis.field.words} {diagram.parameter} = {ends}; now {now}")
     table = Table(box=box.SIMPLE_HEAD)
     for heading in (diagram.parameter, "what happens", "to", "period (1/Ω)", "radial speed (c_r Ω)", ""):
         table.add_column(heading)
     for point in diagram.points:
         table.add_row(
             _shown(diagram.axis, point.value),
-            f"{point.kind} ({point.detail})" if point.detail else point.kind,
+            f"{_named(point.kind)} ({point.detail})" if point.detail else _named(point.kind),
             point.branch,
             "" if point.period is None else f"{point.period:.8g}",
             "" if point.radial_speed is None else f"{round(point.radial_speed, 6) + 0.0:.6f}",
             "" if point.admissible else "virtual",
             style="" if point.admissible else "dim",
         )
-    screen.print(table if diagram.points else "No bifurcation on this range.")
+    screen.print(fitted(screen, table) if diagram.points else "No bifurcation on this range.")
     for branch in diagram.orbits:
         screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
     for number, motion in enumerate(diagram.rubbing, start=1):
@@ -234,6 +244,8 @@ def _print_attractors(diagram: Diagram) -> None:
     from rich import box
     from rich.table import Table
 
+    from carom.cli.fitting import fitted
+
     table = Table(box=box.SIMPLE_HEAD, title="Where disturbances settled", title_justify="left")
     for heading in ("motion", "met from", "to", "largest share of disturbances"):
         table.add_column(heading)
@@ -241,12 +253,15 @@ def _print_attractors(diagram: Diagram) -> None:
         alike = [sample for sample in diagram.attractors if sample.name == name]
         ends = (_shown(diagram.axis, sample.value) for sample in (alike[0], alike[-1]))
         table.add_row(name, *ends, f"{100 * max(sample.share for sample in alike):.0f} %")
-    console().print(table)
+    screen = console()
+    screen.print(fitted(screen, table))
 
 
 def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
     from rich import box
     from rich.table import Table
+
+    from carom.cli.fitting import fitted
 
     screen = console()
     curves = Table(box=box.SIMPLE_HEAD, title="Curves", title_justify="left")
@@ -254,25 +269,27 @@ def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
         curves.add_column(heading)
     for curve in found.curves:
         first, last = (", ".join(f"{value:.6g}" for value in curve.points[end]) for end in (0, -1))
-        curves.add_row(curve.kind, str(len(curve.points)), first, last, ", ".join(curve.stops))
+        curves.add_row(_named(curve.kind), str(len(curve.points)), first, last, ", ".join(curve.stops))
     screen.print(f"Plane of {axes[0].field.words} ({axes[0].name}) and {axes[1].field.words} ({axes[1].name})")
-    screen.print(curves)
+    screen.print(fitted(screen, curves))
     if found.codimension2:
         meetings = Table(box=box.SIMPLE_HEAD, title="Where two happen at once", title_justify="left")
         for heading in ("kinds", axes[0].name, axes[1].name, ""):
             meetings.add_column(heading)
         for point in found.codimension2:
             at = (f"{value:.8g}" for value in point.value)
-            meetings.add_row(point.kind, *at, "" if point.admissible else "virtual")
-        screen.print(meetings)
+            meetings.add_row(
+                " + ".join(_named(kind) for kind in point.kind.split(" + ")), *at, "" if point.admissible else "virtual"
+            )
+        screen.print(fitted(screen, meetings))
     listed = Table(box=box.SIMPLE_HEAD, title="Regions", title_justify="left")
     for heading in ("share", "for example at", "region", "motions"):
-        listed.add_column(heading)
+        listed.add_column(heading, no_wrap=heading == "share")
     for region in found.regions:
         place = ", ".join(f"{value:.6g}" for value in region.point)
         words = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
         listed.add_row(f"{100 * region.share:.1f} %", place, region.motions.region, words)
-    screen.print(listed)
+    screen.print(fitted(screen, listed))
     if found.everywhere:
         screen.print(f"In every region: {', '.join(found.everywhere)}")
     for words in found.lost:

@@ -14,6 +14,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from carom.cli.fitting import fitted
 from carom.study import Study, Wording
 from carom.study.summaries import (
     MotionRow,
@@ -65,14 +66,14 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
         console.print(Text(finding.topic, style="bold"))
         console.print(Padding(Text(finding.text), (0, 0, 0, 2), expand=False), width=min(console.width, TEXT_WIDTH))
     console.print()
-    console.print(_motions(motion_rows(study), "Motions", console.width))
+    console.print(fitted(console, _motions(motion_rows(study), "Motions", console.width)))
     _print_left_out(console, study.orbits)
     console.print()
-    console.print(_thresholds(study))
+    console.print(fitted(console, _thresholds(study)))
     kicks = kick_rows(study)
     if kicks:
         console.print()
-        console.print(_kicks(kicks))
+        console.print(fitted(console, _kicks(kicks)))
     console.print()
     if report is None:
         console.print("Figures, study.json and report.html: add --out DIR")
@@ -86,12 +87,13 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
     console.print(Text(f"{case.name}: {values}"))
     console.print()
     rows = simple_motion_rows(equilibria, orbits, Wording(case.parameters.scales), most_virtual=40)
-    console.print(_motions(rows, "Equilibria and orbits with one impact a period", console.width))
+    motions = _motions(rows, "Equilibria and orbits with one impact a period", console.width)
+    console.print(fitted(console, motions))
     _print_left_out(console, orbits, most_virtual=40)
     shown = [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS]
     for table in (_orbit_numbers(shown), _multipliers(shown)) if shown else ():
         console.print()
-        console.print(table)
+        console.print(fitted(console, table))
     console.print()
     console.print(orbits.argument)
 
@@ -110,7 +112,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         console.print(f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}.")
     if len(log) or contacts:
         console.print()
-        console.print(_events(say, motion))
+        console.print(fitted(console, _events(say, motion)))
     final = motion.final
     console.print()
     console.print(
@@ -139,7 +141,7 @@ def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
     }
     used = [entry.name for entry in fields(MotionRow) if any(getattr(row, entry.name) for row in rows)]
     for name in used:
-        table.add_column(headings[name], no_wrap=name in ("state", "period", "impulse"))
+        table.add_column(headings[name], no_wrap=name in ("state", "period", "impulse", "trials"))
     for row in rows:
         table.add_row(*(Text(getattr(row, name)) for name in used), style=_STYLES[row.state])
     return table
@@ -178,7 +180,8 @@ def _thresholds(study: Study) -> Table:
     si = study.wording.scales is not None
     for heading in ("motion", "exists", "quantity", "value", "dimensionless", "where"):
         if si or heading != "value":
-            table.add_column(heading, justify="right" if heading == "value" else "left")
+            value = heading == "value"
+            table.add_column(heading, justify="right" if value else "left", no_wrap=value or heading == "dimensionless")
     for row in threshold_rows(study):
         cells = [row.motion, row.exists, row.quantity, row.value, row.dimensionless, row.what]
         table.add_row(*(cell for place, cell in enumerate(cells) if si or place != 3))
@@ -188,7 +191,7 @@ def _thresholds(study: Study) -> Table:
 def _kicks(rows: list[tuple[str, str, str]]) -> Table:
     table = _table("Kicks out of levitation")
     for heading in ("speed", "came back", "the others ended"):
-        table.add_column(heading, justify="right" if heading == "speed" else "left")
+        table.add_column(heading, justify="right" if heading == "speed" else "left", no_wrap=heading == "speed")
     for row in rows:
         table.add_row(*row)
     return table
@@ -207,7 +210,8 @@ def _events(say: Wording, motion: Trajectory) -> Table:
         "friction impulse",
         "slip",
     ):
-        table.add_column(heading, justify="left" if heading in ("contact", "whirl", "slip") else "right")
+        left = heading in ("contact", "whirl", "slip")
+        table.add_column(heading, justify="left" if left else "right", no_wrap=heading != "contact")
     rows = _event_rows(say, motion)
     hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
     if hidden > 1:

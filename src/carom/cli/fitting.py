@@ -1,0 +1,79 @@
+"""Tables on narrow terminals: no word and no number is cut; text columns wrap, and gaps shrink first."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import TYPE_CHECKING
+
+from rich.cells import cell_len
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Column, Table
+
+__all__ = ["fitted"]
+
+_PADDINGS = ((0, 1, 0, 0), (0, 0))
+"""Between columns, from the wider to the narrower; the box adds one to each."""
+
+
+def fitted(screen: Console, table: Table) -> Table:
+    """Give columns widths at which words stay whole, if the table is wider than the screen; otherwise leave it.
+
+    Parameters
+    ----------
+    screen : rich.console.Console
+    table : rich.table.Table
+        Of plain text, with all its rows.  Columns that do not wrap keep their cells in one line; their headings wrap.
+
+    Returns
+    -------
+    rich.table.Table
+        The same table.
+    """
+    if screen.measure(table, options=screen.options.update(width=10_000)).maximum <= screen.width:
+        return table
+    texts = [_texts(column) for column in table.columns]
+    most = [max(_widest(text.splitlines()) for text in column) for column in texts]
+    least = [
+        max(
+            _widest(text.splitlines() if place and whole.no_wrap else text.split()) for place, text in enumerate(column)
+        )
+        for column, whole in zip(texts, table.columns, strict=True)
+    ]
+    gaps = 2 + len(least) - 1
+    table.pad_edge = False
+    for padding in _PADDINGS:
+        table.padding = padding
+        room = screen.width - gaps - sum(padding[1::2]) * (len(least) - 1)
+        if sum(least) <= room:
+            break
+    else:
+        # Not even the words fit: the longest ones are broken, and still nothing is lost.
+        while sum(least) > max(room, len(least)):
+            least[least.index(max(least))] -= 1
+    widths = _widened(least, most, room)
+    for column, width in zip(table.columns, widths, strict=True):
+        column.width, column.overflow, column.no_wrap = width, "fold", False
+        column.header = textwrap.fill(str(column.header), width)
+    return table
+
+
+def _texts(column: Column) -> list[str]:
+    """Heading and cells of a column."""
+    return [str(column.header), *(str(cell) for cell in column.cells)]
+
+
+def _widest(parts: list[str]) -> int:
+    return max(map(cell_len, parts), default=0)
+
+
+def _widened(least: list[int], most: list[int], room: int) -> list[int]:
+    """Widths that use the room: each step goes to the column that would have the most lines."""
+    widths = list(least)
+    for _ in range(room - sum(widths)):
+        crowded = [high / width if width < high else 0.0 for width, high in zip(widths, most, strict=True)]
+        if not any(crowded):
+            break
+        widths[crowded.index(max(crowded))] += 1
+    return widths
