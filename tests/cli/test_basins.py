@@ -61,9 +61,11 @@ def test_table_and_files(carom, machine, tmp_path):
         "Back to levitation",
         "Smallest kick",
         "provably",
-        "Present machine",
+        "Present machine: stiffness of the levitation 980,000 N/m",
+        "of 64 cells of a grid, each represented by its middle: no sampling error).",
     ):
         assert text in shown
+    assert "forward-rub" not in shown
     files = sorted(path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file())
     figures = [f"figures/{stem}.{ending}" for stem in ("basins", "gain-map") for ending in ("png", "svg")]
     assert files == ["basins.json", "basins.nc", *figures, "gains.nc"]

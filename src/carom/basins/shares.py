@@ -44,10 +44,10 @@ class Share:
     @property
     def words(self) -> str:
         """In words, with what the number rests on."""
-        text = f"{100.0 * self.fraction:.3g} % ({self.count} of {self.total})"
+        share, count = f"{100.0 * self.fraction:.3g} %", f"{self.count} of {self.total}"
         if self.drawn:
-            return f"{text}, {100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"
-        return f"{text} cells of a grid, each represented by its middle: no sampling error"
+            return f"{share} ({count}), {100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"
+        return f"{share} ({count} cells of a grid, each represented by its middle: no sampling error)"
 
 
 def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> tuple[float, float]:

@@ -110,7 +110,7 @@ def _kicks(basin: Basin, smallest: SmallestKick | None, harmless: float) -> list
     heavy = math.degrees(math.remainder(smallest.angle - basin.parameters.phi, 2.0 * math.pi))
     found = (
         f"Smallest kick found that does not come back: {_speed(smallest.speed, scales)} in direction "
-        f"{smallest.angle:.4f} rad ({heavy:+.0f} deg from the heavy side); it ends in {smallest.outcome.label} "
+        f"{smallest.angle:.4f} rad ({heavy:+.0f} deg from the heavy side); it ends in {smallest.outcome.label.replace('-', ' ')} "
         f"(bracketed to {100 * smallest.tolerance:g} %, {smallest.tried} kicks tried)."
     )
     return [found, proven]
@@ -170,4 +170,6 @@ def _time(value: float, scales: Scales | None) -> str:
 
 
 def _value(words: str, value: float, unit: str) -> str:
-    return f"{words} {value:.5g}{' ' + unit if unit else ''}"
+    from carom.study.wording import number
+
+    return f"{words} {number(value, 5)}{' ' + unit if unit else ''}"
