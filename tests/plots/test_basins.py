@@ -76,6 +76,7 @@ def test_kicks_by_size_and_direction(rotor):
     assert mark.get_ydata()[0] == pytest.approx(1e3 * smallest.speed * SCALES.velocity)
     assert mark.get_xdata()[0] == pytest.approx(smallest.angle)
     assert "(mm/s)" in round_.get_xlabel()
+    assert max(round_.get_yticks()) < 0.99 * round_.get_ylim()[1]
     assert beside.get_xlabel() == "size of the kick (mm/s)"
     assert any(text.startswith("levitates without contact, ") for text in words(figure))
     assert "smallest kick that is lost" in words(figure)
@@ -141,6 +142,8 @@ def test_gain_map(rotor):
     assert axes.get_xlabel() == "P gain: stiffness of the levitation $k$ (N/m)"
     assert axes.get_ylabel() == "D gain: damping of the levitation $c$ (N s/m)"
     assert "comes back" in bar.get_ylabel()
+    figure.draw_without_rendering()
+    assert bar.get_yticklabels()[-1].get_text() == "100 %"
     (star,) = [line for line in axes.get_lines() if line.get_gid() == "present"]
     assert (star.get_xdata()[0], star.get_ydata()[0]) == pytest.approx(found.present)
     said = words(figure)

@@ -56,6 +56,16 @@ def test_shades_are_the_stored_numbers_in_their_places(failing):
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["no value"]
 
 
+def test_logarithmic_axes_have_plain_numbers(failing):
+    axes = plots.sweep_map(failing, "value").axes[0]
+    axes.get_figure().draw_without_rendering()
+    low, high = axes.get_ylim()
+    shown = [text.get_text() for text in axes.get_yticklabels() if low <= text.get_position()[1] <= high]
+    assert shown
+    assert all(float(text) for text in shown)
+    assert not any(text.get_text() for text in axes.get_yticklabels(minor=True))
+
+
 def test_flags_have_colours_with_words(failing, studies):
     figure = plots.sweep_map(failing, "status")
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["waiting", "done", "failed"]

@@ -189,7 +189,8 @@ def _rule(axes: Axes, high: float) -> None:
     axes.tick_params(axis="x", pad=1)
     if isinstance(axes, PolarAxes):
         axes.set_rlabel_position(22.5)
-    axes.yaxis.set_major_locator(MaxNLocator(4, prune="lower"))
+    # A label on the outermost ring would cover the frame.
+    axes.yaxis.set_major_locator(MaxNLocator(4, prune="both"))
     for tick in axes.yaxis.get_ticklabels():
         tick.set_bbox({"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8})
 

@@ -116,7 +116,7 @@ def _shades(
         shading="nearest",
         rasterized=True,
     )
-    bar = figure.colorbar(mesh, ax=axes, format=PercentFormatter(1.0) if share else None, pad=0.02)
+    bar = figure.colorbar(mesh, ax=axes, format=PercentFormatter(1.0, symbol=" %") if share else None, pad=0.02)
     bar.set_label(words)
     bar.outline.set_linewidth(0.5)
 

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis as AnyAxis
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
@@ -26,6 +28,8 @@ __all__ = ["sweep_map"]
 _GROUND = "#e6e6e6"
 """Where there is no number: not computed, failed, or none exists."""
 _SHADES = "cividis"
+_PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
+"""Numbers on a logarithmic axis that are written plainly, and the largest ratio of its ends with such ticks."""
 _FLAGS = ("#dbe4f0", "#56739f", "#e8c26a", "#7a4f1d")
 """Colours of the values of a flag: told apart by all eyes, and in grey."""
 
@@ -71,6 +75,8 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
         if spacings[dimension] == "log":
             set_up[f"{direction}scale"] = "log"
         drawn.set(**set_up)
+        if spacings[dimension] == "log":
+            _plain_ticks(drawn.xaxis if direction == "x" else drawn.yaxis, places[-1])
     if len(dimensions) == 1:
         drawn.plot(places[0], values.values, marker=".")
         drawn.set_ylabel(_label(values))
@@ -80,6 +86,15 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     if title:
         drawn.set_title(title)
     return figure
+
+
+def _plain_ticks(axis: AnyAxis, values: np.ndarray) -> None:
+    """Ticks at 1, 2, 5, 10, ..., written as plain numbers; a range of many decades keeps its powers of ten."""
+    low, high = float(values.min()), float(values.max())
+    if _PLAIN[0] <= low and high <= min(_PLAIN[1], _PLAIN_RATIO * low):
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(lambda value, _: f"{value:g}")
+        axis.set_minor_formatter(NullFormatter())
 
 
 def _shades(figure: Figure, axes: Axes, places: list[np.ndarray], values: xarray.DataArray) -> None:
