@@ -68,8 +68,10 @@ def test_kicks_by_size_and_direction(rotor):
     smallest = smallest_unrecovered_kick(rotor, 1.0)
     figure = plots.basin(basin, smallest)
     green = np.array(to_rgb(plots.OUTCOMES["levitated"].colour))
-    shown = np.isclose(painted(figure), green).all(axis=1).sum()
-    assert shown == basin.recovered.sum()
+    shown = np.isclose(painted(figure), green).all(axis=1)
+    parts = len(shown) // basin.starts
+    assert 16 * parts >= 120
+    assert shown.sum() == parts * basin.recovered.sum()
     round_, beside = figure.axes
     assert round_.name == "polar"
     (mark,) = [line for line in round_.get_lines() if line.get_gid() == "smallest"]

@@ -30,6 +30,8 @@ __all__ = ["basin"]
 
 _PALER = (0.0, 0.4, 0.65, 0.8)
 """How much white the further motions of one outcome are mixed with."""
+_CHORDS = 120
+"""Straight edges at least in a ring of cells."""
 _RING = (0.82, 0.98)
 """Inner and outer radius of the ring that shows releases from the wall."""
 _BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
@@ -168,7 +170,9 @@ def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestKick | None, t
     figure = Figure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS))
     grid = figure.add_gridspec(1, 2, width_ratios=(1.25, 1.0))
     round_, beside = figure.add_subplot(grid[0], projection="polar"), figure.add_subplot(grid[1])
-    _paint(round_, direction.edges(cells[1]), factor * size.edges(cells[0]), dataset["motion"].values.T, motions)
+    parts = -(-_CHORDS // cells[1])  # cells are drawn with straight edges: wide ones in parts, so that rings look round
+    index = np.repeat(dataset["motion"].values.T, parts, axis=0)
+    _paint(round_, direction.edges(parts * cells[1]), factor * size.edges(cells[0]), index, motions)
     round_.set_title("(a)", loc="left", y=1.0)
     _rule(round_, factor * size.high)
     round_.set_xlabel(f"radius: {label}\nangle: {direction.words}, co-rotating frame")
