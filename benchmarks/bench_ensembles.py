@@ -13,7 +13,8 @@ import pytest
 from against_peers.bouncing import HeyokaFlights, ScipyFlights, bounces
 from workload import MOST_IMPACTS, UNTIL, source_paper_machine
 
-from carom.ensembles import available_cores, settle_all
+from carom.ensembles import settle_all
+from carom.processors import available_cores
 
 GAMMAS = (0.1, 0.15)
 PROGRAMS = {"simd": "C++, AVX-512, by its own clock", "scalar": "C++, scalar, by its own clock"}

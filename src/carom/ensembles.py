@@ -16,7 +16,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.outcome import InputError, Outcome
 from carom.processors import available_cores
 from carom.rotors import Rotor
-from carom.trajectories import WALL_TOLERANCE, EventLog, fresh_memory
+from carom.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog, fresh_memory
 
 __all__ = ["Endings", "settle_all"]
 
@@ -171,6 +171,9 @@ def _check(positions: np.ndarray, velocities: np.ndarray, until: float, max_even
         wrong = ~np.isfinite(values)
         if wrong.any():
             raise InputError(f"start {name}", values[wrong].flat[0], "finite numbers")
+    fast = np.abs(velocities) > LARGEST_SPEED
+    if fast.any():
+        raise InputError("start velocity", velocities[fast].flat[0], f"a speed up to {LARGEST_SPEED:g}")
     outside = np.abs(positions) > 1.0 + WALL_TOLERANCE
     if outside.any():
         raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")

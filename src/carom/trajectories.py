@@ -23,8 +23,21 @@ from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
 from carom.whirl import rolling, runaway_speed
 
-__all__ = ["WALL_TOLERANCE", "EventLog", "Kick", "State", "Trajectory", "follow", "fresh_memory", "kick", "simulate"]
+__all__ = [
+    "LARGEST_SPEED",
+    "WALL_TOLERANCE",
+    "EventLog",
+    "Kick",
+    "State",
+    "Trajectory",
+    "follow",
+    "fresh_memory",
+    "kick",
+    "simulate",
+]
 
+LARGEST_SPEED = 1e100
+"""Largest speed of a start: far beyond, the bounds that prove a flight free overflow."""
 WALL_TOLERANCE = 1e-12
 """A start this near to ``|U| = 1`` lies on the wall."""
 CHUNK = 4096
@@ -386,6 +399,8 @@ def _checked_start(rotor: Rotor, state: State) -> tuple[np.ndarray, int]:
     for name in ("position", "velocity"):
         if not cmath.isfinite(getattr(state, name)):
             raise InputError(f"start {name}", getattr(state, name), "finite numbers")
+    if abs(state.velocity) > LARGEST_SPEED:
+        raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
     radius = abs(state.position)
     if radius > 1.0 + WALL_TOLERANCE:
         raise InputError("start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g})")

@@ -27,8 +27,8 @@ BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(
 FLIGHT = int(Phase.FLIGHT)
 GOES_ON, SINGLY, NONE_YET = -1, -2, -3
 """What becomes of a lane's motion that has not ended: it flies on; it is to be followed singly; there is none."""
-VACANT, IDLE = -1.0, -1
-"""Verdict on a lane that wants a motion, and the motion of one for which there is none left."""
+VACANT = -1.0
+"""Verdict on a lane that wants a motion."""
 EVERY_LANE = (1 << LANES) - 1
 NOWHERE = 1e300
 
@@ -87,11 +87,11 @@ def follow_each(task, motions, tools):
     """
     lanes, memory, work = tools.lanes, tools.memory, tools.work
     count = motions.shape[0]
-    taken, busy, looks = 0, LANES, EVERY_LANE
+    taken, idle, looks = 0, 0, EVERY_LANE
     lanes.verdict[:], lanes.motion[:] = VACANT, 0
-    while busy > 0:
+    while idle != EVERY_LANE:
         for lane in range(LANES if looks != 0 else 0):
-            if (looks >> lane) & 1 == 0 or lanes.motion[lane] == IDLE:
+            if (looks >> lane) & 1 == 0:
                 continue
             outcome = _look_at(task, lanes, memory, work, lane)
             while outcome != GOES_ON:
@@ -102,12 +102,12 @@ def follow_each(task, motions, tools):
                     _note_end(task.rotor, motions[lanes.motion[lane]], lanes, memory, work, lane, outcome)
                 if taken == count:
                     _empty(lanes, lane)
-                    busy -= 1
+                    idle |= 1 << lane
                     break
                 lanes.motion[lane] = taken
                 outcome = _begin(task, motions[taken], lanes, memory, work, lane)
                 taken += 1
-        looks = fly_lanes(task.rotor, task.table, task.until, lanes)
+        looks = fly_lanes(task.rotor, task.table, task.until, lanes) & ~idle
 
 
 @passage
@@ -141,10 +141,11 @@ def _look_at(task, lanes, memory, work, lane):
     if verdict == CLEARED:
         return LEVITATED if memory.patience > 0 and levitates(task.rotor, work.current, work) else GOES_ON
     if verdict == LATE:
+        if memory.patience > 0 and levitates(task.rotor, work.current, work):
+            return LEVITATED
         # The lane has seen that nothing is met before, on a block that goes on for longer.
         move_to(task.rotor, task.table, task.until - lanes.clock[lane], work)
         copy(work.arrival, work.current)
-        lanes.struck[lane] += int(lanes.quiet[lane])
         lanes.clock[lane] = task.until
         return TIME_REACHED
     _note_quiet(lanes, lane)
@@ -153,6 +154,7 @@ def _look_at(task, lanes, memory, work, lane):
         return SINGLY
     lanes.events[lane] += 1
     lanes.struck[lane] += 1
+    lanes.stalled[lane] = 0
     _copy_arrival(lanes, lane, work.arrival)
     _fetch_memory(lanes, memory, lane)
     if memory.patience > 0 and recurs(memory, work.arrival):
@@ -225,6 +227,7 @@ def _note_quiet(lanes, lane):
     """Enter in the books the plain impacts of a lane since it was last looked at."""
     quiet = int(lanes.quiet[lane])
     lanes.quiet[lane] = 0.0
+    lanes.stalled[lane] = 0 if quiet > 0 else lanes.stalled[lane]
     lanes.events[lane] += quiet
     lanes.struck[lane] += quiet
     lanes.seen[lane] += quiet
@@ -256,17 +259,18 @@ def _put_memory_by(lanes, memory, lane):
 @part
 def _note_end(rotor, motion, lanes, memory, work, lane, outcome):
     """Note where the motion of a lane has ended, in ``work.current``."""
-    motion.outcome, motion.time, motion.impacts = outcome, lanes.clock[lane], lanes.struck[lane]
+    motion.outcome, motion.time = outcome, lanes.clock[lane]
+    motion.impacts = lanes.struck[lane] + int(lanes.quiet[lane])
     motion.multiplicity = memory.period if outcome in (BOUNCING, MIXED) else 0
     motion.position, motion.velocity = displacement(rotor, 0, work.current), velocity(rotor, 0, work.current)
 
 
 @part
 def _empty(lanes, lane):
-    """Give a lane an idle motion, which never meets the wall."""
+    """Leave a lane with a motion that nobody looks at: at rest where there is no contact."""
     lanes.lower_re[lane], lanes.lower_im[lane], lanes.upper_re[lane], lanes.upper_im[lane] = 0.0, 0.0, 0.0, 0.0
     lanes.level[lane], lanes.clock[lane], lanes.depth[lane] = -0.5, -NOWHERE, 0.0
-    lanes.motion[lane], lanes.watched[lane] = IDLE, 0.0
+    lanes.watched[lane] = 0.0
 
 
 @part

@@ -19,7 +19,10 @@ DIAGONAL = 1.5
 
 
 class Departure(NamedTuple):
-    """Start of a flight: amplitudes, displacement ``y``, ``level`` = ``|y|² − 1``, and what bounds follow from."""
+    """Start of a flight: amplitudes, displacement ``y``, ``level`` = ``|y|² − 1``, and what follows.
+
+    ``low`` and ``high`` are the moduli of the amplitudes, ``curvature`` bounds ``f''``, ``floor`` is the rounding of ``f``.
+    """
 
     lower: object
     upper: object
@@ -83,19 +86,9 @@ def examine(table, depth, start, polynomial, factors):
     """
     given = depth < float(LEVELS)
     number, level = where(given, depth, 0.0), start.level
-    a, b, c, d, e, f, g, h = products_of(start)
-    for j in range(DEGREE):
-        row = table.lane_coefficients[j]
-        store(
-            polynomial[j], 0,
-            level + a * choose(row[0], number) + b * choose(row[1], number) + c * choose(row[2], number)
-            + d * choose(row[3], number) + e * choose(row[4], number) + f * choose(row[5], number)
-            + g * choose(row[6], number) + h * choose(row[7], number),
-        )  # fmt: skip
-    remainder, length = (
-        _remainder(table.lane_errors, number, start.low, start.high),
-        choose(table.lane_durations, number),
-    )
+    _load_polynomial(table.lane_coefficients, number, start, polynomial)
+    remainder = _remainder(table.lane_errors, number, start.low, start.high)
+    length = choose(table.lane_durations, number)
     lowest, share = -start.floor, remainder * (-1.0 / DEGREE)
     last = load(polynomial[DEGREE - 1], 0)
     positive = last >= lowest - remainder
@@ -118,6 +111,20 @@ def examine(table, depth, start, polynomial, factors):
 
 
 @part
+def _load_polynomial(coefficients, depth, start, polynomial):
+    """Write the Bernstein coefficients of ``f`` on the block of each lane."""
+    a, b, c, d, e, f, g, h = products_of(start)
+    for j in range(DEGREE):
+        row = coefficients[j]
+        store(
+            polynomial[j], 0,
+            start.level + a * choose(row[0], depth) + b * choose(row[1], depth) + c * choose(row[2], depth)
+            + d * choose(row[3], depth) + e * choose(row[4], depth) + f * choose(row[5], depth)
+            + g * choose(row[6], depth) + h * choose(row[7], depth),
+        )  # fmt: skip
+
+
+@part
 def _remainder(errors, depth, low, high):
     """Bound of the error of a block's polynomial, as in :mod:`carom.core.events` but by moduli; ``|y| ≤ 1`` at the start."""
     of_lower, of_upper = choose(errors[0], depth), choose(errors[1], depth)
@@ -136,10 +143,10 @@ def _root(polynomial, factors, degree, level, first, before, after):
     """
     on_wall = level == 0.0
     before, after = where(on_wall, before * (first + 1.0), before), where(on_wall, after * first, after)
-    rise, depth = after - before, -before
+    rise, fall = after - before, -before
     rising = rise > 0.0
-    scale, depth = where(rising, rise, 1.0), where(rising, where(depth < rise, depth, rise), 0.5)
-    passed = where(on_wall, first - 1.0, first) * scale + depth
+    scale, fall = where(rising, rise, 1.0), where(rising, where(fall < rise, fall, rise), 0.5)
+    passed = where(on_wall, first - 1.0, first) * scale + fall
     ahead = where(on_wall, DEGREE - 1.0, float(DEGREE)) * scale - passed
     far = passed > ahead
     u = where(far, ahead, passed) / where(far, passed, ahead)
@@ -150,9 +157,9 @@ def _root(polynomial, factors, degree, level, first, before, after):
     store(factors[0], 0, where(far, last, level))
     store(factors[DEGREE], 0, where(far, level, last))
     divided = on_wall & ~far
-    upper, lower = _halley(factors, u, degree, divided)
-    upper, lower = _halley(factors, upper / lower, degree, divided)
-    place = where(far, lower, upper) / (upper + lower)
+    above, below = _halley(factors, u, degree, divided)
+    above, below = _halley(factors, above / below, degree, divided)
+    place = where(far, below, above) / (above + below)
     least, most = (first - 1.0) * (1.0 / DEGREE), (first + 2.0) * (1.0 / DEGREE)
     # In this order what is no number becomes one.
     place = where(place > least, place, least)
@@ -171,8 +178,8 @@ def _halley(factors, u, degree, divided):
         where(divided, slope, slope * u + value),
         where(divided, value, value * u + load(factors[0], 0)),
     )
-    lower = slope * slope - value * half_bend
-    return u * lower - value * slope, lower
+    below = slope * slope - value * half_bend
+    return u * below - value * slope, below
 
 
 @part

@@ -4,14 +4,15 @@ Each lane holds a motion in free flight.  :func:`fly_lanes` takes every lane one
 :mod:`carom.core.events`, or up to and through its next impact.  What cannot be proven here, and everything but a plain
 flight and a plain impact, is left as it was and marked, for :mod:`carom.core.ensemble` to look at singly.
 
-A lane never sees another: all of them go through the same instructions (:mod:`carom.core.vector`), so a motion is the same
-to the last bit whatever its company.
+A lane never sees another: all of them go through the same instructions (:mod:`carom.core.vector`), but for one branch that
+saves work and changes no bit, so a motion is the same to the last bit whatever its company.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from carom.core.advance import CHATTER_HEIGHT
 from carom.core.events import MARGIN, POLISHED, householder_step
 from carom.core.fate import NEAR
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
@@ -27,10 +28,10 @@ because time would run out; none, because nothing could be proven."""
 
 CLEARLY_OFF = 1e-9
 """Speed off the wall that is no rest, whatever the rounding of a state of moderate size."""
-LOWEST = 4.0 * 1e-13
-"""Twice :data:`carom.core.advance.CHATTER_HEIGHT`, with room: lower bounces are for the loop of single motions."""
+LOWEST = 4.0 * CHATTER_HEIGHT
+"""Twice the height of the lowest bounces, with room: these are for the loop of single motions."""
 NEARBY = 1.5 * NEAR
-"""The distance of :func:`carom.core.fate.same_state` in the sum of absolute parts, which is at most √2 as large."""
+"""The distance of :func:`carom.core.fate.same_state`, with room."""
 REACH = 0.75
 """Distance from a node, in spacings, to which the power series serve: what they miss is below rounding."""
 ROUGH_TERMS = 4
@@ -47,7 +48,7 @@ _BOOKS = ("motion", "plane", "events", "struck", "stalled", "seen", "since", "re
 
 
 def lanes_record() -> np.record:
-    """Lanes; every field has one number per lane.
+    """Lanes; every field but the last two, which are scratch, has one number per lane.
 
     ``lower`` and ``upper`` are the amplitudes of the driving and the driven mode, with the exponents ``λ₋`` and ``λ₊``;
     ``level`` is ``|y|² − 1``, zero on the wall; ``clock`` counts time.  ``depth`` is the first block to try: LEVELS or more where
@@ -57,9 +58,9 @@ def lanes_record() -> np.record:
     """
     return record(
         **{name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ANSWER)},
+        **{name: np.zeros(LANES, np.int64) for name in _BOOKS},
         polynomial=np.zeros((DEGREE, WIDTH)),
         factors=np.zeros((DEGREE + 1, WIDTH)),
-        **{name: np.zeros(LANES, np.int64) for name in _BOOKS},
     )
 
 
@@ -85,13 +86,14 @@ def _fly(rotor, table, until, first, lanes):
     depth = where(_leaves(rotor, start), load(lanes.depth, first), float(LEVELS))
     search = examine(table, depth, start, lanes.polynomial, lanes.factors)
     node = look_up(table, start, search.guess)
-    rest = _first_step(rotor, table, start, search, node)
+    reach = table.lane_spacing * REACH
+    rest = _first_step(rotor, table, start, search, node, reach)
     lower, upper, rates, (value, slope, bend, third) = travel(rotor, table, start, node, rest, table.terms)
     step = householder_step(value, slope, bend, third)
     time = node.time + (rest + step)
-    doubt = start.floor + search.doubt * time
+    error = start.floor + search.doubt * time
     certified = (
-        (slope > 0.0) & (slope * slope > doubt * start.curvature * MARGIN)
+        (slope > 0.0) & (slope * slope > error * start.curvature * MARGIN) & (abs(rest) <= reach)
         & (abs(step) * start.curvature < POLISHED * slope) & (time > 0.0) & (time <= search.duration)
     )  # fmt: skip
     free, strikes = search.decides & search.free, search.decides & ~search.free & certified
@@ -135,24 +137,21 @@ def _leaves(rotor, start):
     """Whether a start on the wall leaves it for a flight that is not too low for lanes; one inside does not touch it."""
     slow, fast = rotor.exponents[0], rotor.exponents[1]
     speed = fma(start.upper, fast, start.lower)
-    departure = -(start.position.conjugate() * speed).real
+    inward = -(start.position.conjugate() * speed).real
     # Half of the bound of f'' bounds how the wall draws near.
-    leaves = (start.level < 0.0) | (
-        (departure > CLEARLY_OFF) & (departure * departure > start.curvature * (0.5 * LOWEST))
-    )
+    leaves = (start.level < 0.0) | ((inward > CLEARLY_OFF) & (inward * inward > start.curvature * (0.5 * LOWEST)))
     if lanes_of(~leaves) != 0:
         leaves = leaves | _flies(start.position, speed, fma(speed, fast, start.lower * slow))
     return leaves
 
 
 @part
-def _first_step(rotor, table, start, search, node):
+def _first_step(rotor, table, start, search, node, reach):
     """Time from the node, a step nearer to the root."""
     rest = search.guess - node.time
     _, _, _, (value, slope, bend, third) = travel(rotor, table, start, node, rest, ROUGH_TERMS)
     step = householder_step(value, slope, bend, third)
     # No step off the series, nor one that is no number, nor one of a lane that is free.
-    reach = table.lane_spacing * REACH
     return rest + where(~search.free & (abs(rest + step) <= reach), step, 0.0)
 
 
@@ -201,9 +200,9 @@ def _near_reference(lower, upper, first, lanes):
 
 @part
 def _flies(position, velocity, force):
-    departure, turning = (position.conjugate() * velocity).real, (position.conjugate() * velocity).imag
+    outward, turning = (position.conjugate() * velocity).real, (position.conjugate() * velocity).imag
     push = (position.conjugate() * force).real + turning * turning
-    return (departure < -CLEARLY_OFF) & ((push <= 0.0) | (departure * departure > push * LOWEST))
+    return (outward < -CLEARLY_OFF) & ((push <= 0.0) | (outward * outward > push * LOWEST))
 
 
 @part

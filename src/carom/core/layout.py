@@ -61,7 +61,8 @@ WIDTH = 3 * OCTET if WIDE else OCTET
 LANES = 3 * OCTET
 """Motions that are followed side by side."""
 LANE_NODES = 32
-"""Nodes of lanes: fewer, so that lanes can hold what is tabulated there in registers, hence with a longer series."""
+"""Nodes of lanes, both ends of the longest block among them: few enough for lanes to hold what is tabulated there in
+registers, hence with a longer series."""
 LANE_TERMS = 10
 """Terms of the Taylor series from a node of lanes."""
 
