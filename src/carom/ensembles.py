@@ -16,7 +16,8 @@ from carom.core.layout import rub_workspace, workspace
 from carom.outcome import InputError, Outcome
 from carom.processors import available_cores
 from carom.rotors import Rotor
-from carom.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog, fresh_memory
+from carom.settling import fresh_memory
+from carom.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
 
 __all__ = ["Endings", "settle_all"]
 

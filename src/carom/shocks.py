@@ -26,7 +26,8 @@ from carom.core.fate import forget
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
-from carom.trajectories import EventLog, fresh_memory
+from carom.settling import fresh_memory
+from carom.trajectories import EventLog
 
 __all__ = ["shaken", "states_after_shocks"]
 
