@@ -92,13 +92,13 @@ def sign_changes(polynomial, level, floor, remainder):
 def rough_root(polynomial, level, after):
     """Where the polynomial may vanish, in 0 … 1, from the coefficients on both sides of its sign change.
 
-    In a flight from the wall the root may be next to that at the start, which is divided out: ``b_j n/j`` are the
-    coefficients of ``f/t``.
+    In a flight from the wall a root in the first half may be next to that at the start, which is divided out:
+    ``b_j n/j`` are the coefficients of ``f/t``.
     """
     before, there, degree, first = level, polynomial[after], DEGREE, after
     if after > 0:
         before = polynomial[after - 1]
-        if level == 0.0:
+        if level == 0.0 and after <= DEGREE // 2:
             before, there, degree, first = before * (after + 1.0), there * after, DEGREE - 1, after - 1
     rise = there - before
     return (first + min(1.0, -before / rise)) / degree if rise > 0.0 else (first + 0.5) / degree
