@@ -8,11 +8,9 @@ import sys
 from itertools import count, islice
 from pathlib import Path
 
-import numpy as np
 import pytest
 from sweep_tasks import Drawn, basins_plan, plan_of
 
-import carom
 from carom.sweeps.chunk import compute_chunk
 from carom.sweeps.local import on_processes, on_threads
 from carom.sweeps.store import SweepStore
@@ -100,16 +98,7 @@ def test_chunks_that_sleep_a_second(benchmark, who, tmp_path):
     ("who", "number"), [("loop", 1), ("threads", 2), ("processes", 1), ("processes", 2), ("dask", 1), ("dask", 2)]
 )
 def test_chunks_that_compute_a_second(benchmark, who, number, tmp_path):
-    """The same chunk over and over, so that all take the same time."""
-    benchmark.group = "a chunk of a million motions, stored"
-    time_chunks(benchmark, who, basins_plan(starts=1_000_000, chunk=1, shape=(2, 2)), number, tmp_path / "s.zarr")
-
-
-@pytest.mark.parametrize("threads", [1, 2])
-def test_ensemble_on_threads(benchmark, threads, starts):
-    """Parallel efficiency of an ensemble: time of one thread over twice that of two."""
-    rotor = carom.jeffcott(basins_plan().case.parameters.replace(gamma=0.4))
-    carom.settle_all(rotor, starts[:100, 0], starts[:100, 1])
-    benchmark.group = "an ensemble followed to its end"
-    benchmark.pedantic(carom.settle_all, (rotor, *np.asarray(starts).T), {"threads": threads}, rounds=5)
-    benchmark.extra_info.update(who=f"threads, {threads}", unit="start", units=len(starts))
+    """Motions that bounce; the same chunks over and over."""
+    benchmark.group = "a chunk of 60,000 bouncing motions, stored"
+    plan = basins_plan(starts=60_000, chunk=1, shape=(2, 2), damping=(0.1, 0.1001))
+    time_chunks(benchmark, who, plan, number, tmp_path / "s.zarr")

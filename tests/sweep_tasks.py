@@ -72,9 +72,9 @@ def plan_of(task, count=10, chunk=2, seed=5):
     return SweepPlan(case, axes, task, cut((count,), task, chunk), seed)
 
 
-def basins_plan(starts=12, chunk=2, shape=(4, 5)):
+def basins_plan(starts=12, chunk=2, shape=(4, 5), damping=(0.5, 0.9)):
     """Basins over damping and friction, quick ones; the last chunk of each row is half full."""
-    axes = (GridAxis("gamma", "linear", (0.5, 0.9), shape[0]), GridAxis("mu", "log", (0.05, 0.2), shape[1]))
+    axes = (GridAxis("gamma", "linear", damping, shape[0]), GridAxis("mu", "log", (0.05, 0.2), shape[1]))
     task = BasinsTask(starts, "kick", (("fastest", 2.0, False),), has_scales=False)
     return SweepPlan(Case("paper", DAMPED, None, Zones()), axes, task, cut(shape, task, chunk), 7)
 
