@@ -77,9 +77,9 @@ def test_an_ensemble_ends_a_motion_inside_at_once_and_outside_later(rotor):
             np.testing.assert_allclose(endings.velocities, starts[1], atol=1e-15)
 
 
-def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch):
-    rng = np.random.default_rng(11)
-    count = 400
+def settled_both_ways(rotor, count, seed, monkeypatch):
+    """Endings with proofs and without: they differ in nothing but when and where they were known."""
+    rng = np.random.default_rng(seed)
     turns = np.exp(2j * np.pi * rng.uniform(0.0, 1.0, (2, count)))
     starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
     proven = settle_all(rotor, *starts)
@@ -87,6 +87,11 @@ def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch)
     followed = settle_all(rotor, *starts)
     for name in ("outcomes", "impacts", "multiplicities"):
         np.testing.assert_array_equal(getattr(proven, name), getattr(followed, name), err_msg=name)
+    return proven, followed
+
+
+def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch):
+    proven, followed = settled_both_ways(rotor, 400, 11, monkeypatch)
     rubs = proven.outcomes == Outcome.FORWARD_RUB
     assert rubs.sum() > 300
     assert (proven.times[rubs] < followed.times[rubs]).all()
@@ -112,14 +117,8 @@ def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
 
 @pytest.mark.parametrize("gamma", [0.05, 0.1])
 def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkeypatch):
-    rotor, rng, count = carom.jeffcott(PAPER.replace(gamma=gamma)), np.random.default_rng(12), 600
-    turns = np.exp(2j * np.pi * rng.uniform(0.0, 1.0, (2, count)))
-    starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
-    proven = settle_all(rotor, *starts)
-    monkeypatch.setattr("carom.ensembles.fresh_memory", lambda rotor, patience, absorb: fresh_memory(rotor, patience))
-    followed = settle_all(rotor, *starts)
-    for name in ("outcomes", "impacts", "multiplicities"):
-        np.testing.assert_array_equal(getattr(proven, name), getattr(followed, name), err_msg=name)
+    rotor, count = carom.jeffcott(PAPER.replace(gamma=gamma)), 600
+    proven, followed = settled_both_ways(rotor, count, 12, monkeypatch)
     rolls = np.flatnonzero(proven.outcomes == Outcome.ROLLING)
     assert len(rolls) > 0.05 * count
     assert (proven.times[rolls] < followed.times[rolls]).all()

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import carom
+from carom.disturbances import MODELS
 from carom.outcome import InputError
 from carom.parameters import load_case
 from carom.sweeps import load_sweep
-from carom.sweeps.basins import models
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 GOOD = {
@@ -230,7 +230,7 @@ def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_pa
         "slice": "",
         "state": "fastest = 1",
     }
-    assert sizes.keys() == models().keys()
+    assert sizes.keys() == MODELS.keys()
     tasks = [f'[basins]\nstarts = 10\n[basins.disturbance]\nkind = "{kind}"\n{size}' for kind, size in sizes.items()]
     files = [write(do=task).rename(tmp_path / f"{number}.toml") for number, task in enumerate(["[study]", *tasks])]
     code = """if True:

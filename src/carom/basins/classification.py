@@ -14,19 +14,13 @@ import numpy as np
 from carom.basins.motions import name_motions
 from carom.basins.shares import Share
 from carom.disturbances import (
-    AnyState,
-    BaseShock,
-    ContactRelease,
+    MODELS,
     Coordinate,
-    Disturbance,
     Grid,
-    KickPlane,
     Plan,
     Sample,
     Starts,
     StateSlice,
-    UnbalanceStep,
-    VelocityKick,
 )
 from carom.ensembles import LONGEST, MOST_EVENTS, PATIENCE, Endings, settle_all
 from carom.outcome import InputError, Outcome
@@ -53,10 +47,6 @@ CRITERIA = (
     "grazing: double precision cannot decide. time_reached, event_limit: not settled by {until:g}/Omega or {events} "
     "events. Criteria not called a proof are evidence."
 )
-_MODELS: dict[str, type[Disturbance]] = {
-    model.kind: model
-    for model in (VelocityKick, KickPlane, BaseShock, UnbalanceStep, ContactRelease, StateSlice, AnyState)
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -283,11 +273,11 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
     """
     numbers = dict(document["model"])
     kind = numbers.pop("kind")
-    if kind not in _MODELS:
-        raise InputError("disturbance", kind, f"one of: {', '.join(_MODELS)}")
+    if kind not in MODELS:
+        raise InputError("disturbance", kind, f"one of: {', '.join(MODELS)}")
     if kind == StateSlice.kind:
         numbers["velocity"] = complex(*numbers["velocity"])
-    model = _MODELS[kind](**numbers)
+    model = MODELS[kind](**numbers)
     if "cells" in document:
         return Grid(model, tuple(document["cells"]))
     return Sample(model, document["starts"], document["seed"])

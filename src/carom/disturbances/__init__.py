@@ -22,6 +22,7 @@ Numbers are dimensionless, as everywhere behind the door: lengths in clearances,
 
 from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick, outward_from
 from carom.disturbances.coordinates import Coordinate, Starts
+from carom.disturbances.kinds import MODELS
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample, disturbances
 from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
@@ -29,6 +30,7 @@ from carom.disturbances.states import AnyState, ContactRelease, StateSlice, Unba
 __all__ = [
     "FASTEST",
     "GRAVITY",
+    "MODELS",
     "AnyState",
     "BaseShock",
     "ContactRelease",

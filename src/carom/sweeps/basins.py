@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from carom.disturbances import MODELS
 from carom.outcome import Outcome
 from carom.sweeps.variables import Dimension, Variable, with_si
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from carom.parameters import Case, Scales
     from carom.rotors import Rotor
 
-__all__ = ["BasinsTask", "models"]
+__all__ = ["BasinsTask"]
 
 ENDINGS = (
     Outcome.LEVITATED,
@@ -93,7 +94,7 @@ class BasinsTask:
 
     def model(self, scales: Scales | None) -> Disturbance:
         """Return the model of the disturbances for a machine with these scales."""
-        chosen = models()[self.disturbance]
+        chosen = MODELS[self.disturbance]
         sizes = {}
         for name, value, si in self.sizes:
             sizes[name] = value / getattr(scales, chosen.measured_in[name]) if si else value
@@ -141,22 +142,6 @@ class BasinsTask:
             own = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, batch))
             number = int(own.generate_state(1, np.uint64)[0])
             yield Sample(model, min(BATCH, self.starts - first), number).starts(rotor)
-
-
-def models() -> dict[str, type[Disturbance]]:
-    """Models of disturbances by their kind."""
-    from carom.disturbances import (
-        AnyState,
-        BaseShock,
-        ContactRelease,
-        KickPlane,
-        StateSlice,
-        UnbalanceStep,
-        VelocityKick,
-    )
-
-    known = (VelocityKick, KickPlane, BaseShock, UnbalanceStep, ContactRelease, StateSlice, AnyState)
-    return {model.kind: model for model in known}
 
 
 def _plain(value: Any) -> Any:

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import pydantic
 
+from carom.disturbances import MODELS
 from carom.outcome import InputError
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
@@ -24,7 +25,7 @@ from carom.parameters import (
 from carom.parameters.fields import shown
 from carom.parameters.machine import check_names
 from carom.parameters.toml_reader import read_toml
-from carom.sweeps.basins import BasinsTask, models
+from carom.sweeps.basins import BasinsTask
 from carom.sweeps.plan import GridAxis, SweepPlan, Task, cut
 from carom.sweeps.studies import StudyTask
 
@@ -204,19 +205,18 @@ def _task(case: Case, given: _SweepFile) -> Task:
 
 def _disturbance(table: dict[str, Any], scales: Scales | None) -> tuple[str, tuple[tuple[str, Any, bool], ...]]:
     """Kind and sizes of a disturbance."""
-    known = models()
     where = "basins.disturbance"
     kind = table.get("kind")
-    if not isinstance(kind, str) or kind not in known:
-        raise _unknown(f"{where}.kind", kind, known)
-    fields = {field.name: field for field in dataclasses.fields(known[kind])}
+    if not isinstance(kind, str) or kind not in MODELS:
+        raise _unknown(f"{where}.kind", kind, MODELS)
+    fields = {field.name: field for field in dataclasses.fields(MODELS[kind])}
     for name, value in table.items():
         if name != "kind" and name not in fields:
             raise unknown_name(name, value, {"kind": None, **fields}, f"[{where}] of a {kind}")
     sizes = []
     for name, field in fields.items():
         if name in table:
-            scale = known[kind].measured_in.get(name, "")
+            scale = MODELS[kind].measured_in.get(name, "")
             read = _pair if isinstance(field.default, complex) else _size
             sizes.append((name, *read(f"{where}.{name}", table[name], scale, scales)))
         elif field.default is dataclasses.MISSING:
