@@ -127,20 +127,15 @@ def settle_all(
     motions = _motions(positions.ravel()[order], velocities.ravel()[order])
     limits = _Limits(until, settle, patience, max_events)
     threads = threads or available_cores()
+    portions = [
+        (rotors[machine], motions[portion], limits)
+        for machine, portion in _portions(which.ravel()[order], len(rotors), threads)
+    ]
     done = 0
-    with ThreadPoolExecutor(threads) as pool:
-        work = [
-            pool.submit(_settle_portion, rotors[machine], motions[portion], limits)
-            for machine, portion in _portions(which.ravel()[order], len(rotors), threads)
-        ]
-        try:
-            for finished in as_completed(work):
-                done += finished.result()
-                if progress:
-                    progress(done / positions.size)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+    for finished in _settle_portions(portions, threads):
+        done += finished
+        if progress:
+            progress(done / positions.size)
     return _endings(motions, order, positions.shape)
 
 
@@ -202,6 +197,20 @@ def _portions(which: np.ndarray, machines: int, threads: int) -> Iterator[tuple[
     for machine in range(machines):
         for first in range(ends[machine], ends[machine + 1], size):
             yield machine, slice(first, min(first + size, ends[machine + 1]))
+
+
+def _settle_portions(portions: list[tuple[Rotor, np.ndarray, _Limits]], threads: int) -> Iterator[int]:
+    """Follow portions of motions, on this thread if no other is wanted; the number of motions of each one done."""
+    if threads == 1:
+        yield from (_settle_portion(*portion) for portion in portions)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for finished in as_completed([pool.submit(_settle_portion, *portion) for portion in portions]):
+                yield finished.result()
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
 
 
 def _settle_portion(rotor: Rotor, motions: np.ndarray, limits: _Limits) -> int:
