@@ -126,12 +126,19 @@ def look_at_node(table, node, origin, level, work):
 @part
 def derivatives(origin, level, change, speed, force, jerk):
     """``f`` and its first three derivatives, from the change of ``y`` since the origin and the derivatives of ``y``."""
+    value, slope, bend = two_derivatives(origin, level, change, speed, force)
+    third = ((origin + change).conjugate() * jerk).real + 3.0 * (speed.conjugate() * force).real
+    return value, slope, bend, 2.0 * third
+
+
+@part
+def two_derivatives(origin, level, change, speed, force):
+    """``f`` and its first two derivatives, as :func:`derivatives`."""
     position = origin + change
     value = level + (2.0 * (origin.conjugate() * change).real + squared_modulus(change))
     slope = (position.conjugate() * speed).real
     bend = (position.conjugate() * force).real + squared_modulus(speed)
-    third = (position.conjugate() * jerk).real + 3.0 * (speed.conjugate() * force).real
-    return value, 2.0 * slope, 2.0 * bend, 2.0 * third
+    return value, 2.0 * slope, 2.0 * bend
 
 
 @part

@@ -13,7 +13,7 @@ import numpy as np
 
 from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
 from carom.core.block import move_to
-from carom.core.fate import forget, impacts_until_noted, levitates, recurs
+from carom.core.fate import NEAR, forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
@@ -30,7 +30,9 @@ GOES_ON, SINGLY, NONE_YET = -1, -2, -3
 VACANT = -1.0
 """Verdict on a lane that wants a motion."""
 EVERY_LANE = (1 << LANES) - 1
-NOWHERE = 1e300
+LONG_AGO = -1e300
+NEARBY = 1.5 * NEAR
+"""The distance of :func:`carom.core.fate.same_state`, with room."""
 
 
 class Task(NamedTuple):
@@ -249,11 +251,13 @@ def _put_memory_by(lanes, memory, lane):
     """Keep what a lane's motion remembers."""
     lanes.seen[lane], lanes.since[lane], lanes.renewal[lane] = memory.events, memory.since, memory.renewal
     lanes.candidate[lane], lanes.rubbed[lane] = memory.candidate, memory.rubbed
-    lower, upper = complex(NOWHERE, 0.0), complex(NOWHERE, 0.0)
+    lower, upper, reach = 0j, 0j, -1.0
     if memory.patience > 0:
         lower, upper = memory.reference[0], memory.reference[1]
+        reach = NEARBY * (1.0 + abs(lower) + abs(upper))
     lanes.reference_lower_re[lane], lanes.reference_lower_im[lane] = lower.real, lower.imag
     lanes.reference_upper_re[lane], lanes.reference_upper_im[lane] = upper.real, upper.imag
+    lanes.reach[lane] = reach
 
 
 @part
@@ -269,7 +273,7 @@ def _note_end(rotor, motion, lanes, memory, work, lane, outcome):
 def _empty(lanes, lane):
     """Leave a lane with a motion that nobody looks at: at rest where there is no contact."""
     lanes.lower_re[lane], lanes.lower_im[lane], lanes.upper_re[lane], lanes.upper_im[lane] = 0.0, 0.0, 0.0, 0.0
-    lanes.level[lane], lanes.clock[lane], lanes.depth[lane] = -0.5, -NOWHERE, 0.0
+    lanes.level[lane], lanes.clock[lane], lanes.depth[lane] = -0.5, LONG_AGO, 0.0
     lanes.watched[lane] = 0.0
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from carom.core.block import derivatives
+from carom.core.block import two_derivatives
 from carom.core.events import ROUNDING
 from carom.core.flow import squared_modulus
 from carom.core.layout import DEGREE, LANE_NODES, LEVELS, part
-from carom.core.vector import choose, fma, join, load, sqrt, store, take, truncate, where
+from carom.core.vector import choose, fma, join, lanes_of, load, sqrt, store, take, truncate, where
 
-__all__ = ["departure", "examine", "look_up", "travel"]
+__all__ = ["departure", "examine", "halley_ratio", "look_up", "travel"]
 
 BINOMIALS = tuple(float(math.comb(DEGREE, j)) for j in range(DEGREE + 1))
 DIAGONAL = 1.5
@@ -21,7 +21,8 @@ DIAGONAL = 1.5
 class Departure(NamedTuple):
     """Start of a flight: amplitudes, displacement ``y``, ``level`` = ``|y|² − 1``, and what follows.
 
-    ``low`` and ``high`` are the moduli of the amplitudes, ``curvature`` bounds ``f''``, ``floor`` is the rounding of ``f``.
+    ``low`` and ``high`` are the moduli of the amplitudes, here with their squares, ``curvature`` bounds ``f''``, ``floor`` is
+    the rounding of ``f``.
     """
 
     lower: object
@@ -30,6 +31,8 @@ class Departure(NamedTuple):
     level: object
     low: object
     high: object
+    low_square: object
+    high_square: object
     curvature: object
     floor: object
 
@@ -60,11 +63,12 @@ class Node(NamedTuple):
 def departure(rotor, table, lower, upper, level):
     """A flight's start, with the moduli of its amplitudes and the bounds of :func:`carom.core.events.search`."""
     offset, first, second = rotor.offsets[0], table.bounds[0], table.bounds[1]
-    low, high = sqrt(squared_modulus(lower)), sqrt(squared_modulus(upper))
+    low_square, high_square = squared_modulus(lower), squared_modulus(upper)
+    low, high = sqrt(low_square), sqrt(high_square)
     speed = low * first[0] + high * first[1]
     curvature = 2.0 * (speed * speed + (low * second[0] + high * second[1]))
     floor = (high * DIAGONAL + (abs(offset.real) + abs(offset.imag))) * ROUNDING
-    return Departure(lower, upper, upper + offset, level, low, high, curvature, floor)
+    return Departure(lower, upper, upper + offset, level, low, high, low_square, high_square, curvature, floor)
 
 
 @part
@@ -74,7 +78,7 @@ def products_of(start):
     first, second, pair = position * start.lower, position * start.upper, start.lower * start.upper.conjugate()
     return (
         first.real, first.imag, second.real, second.imag,
-        start.low * start.low, pair.real, pair.imag, start.high * start.high,
+        start.low_square, pair.real, pair.imag, start.high_square,
     )  # fmt: skip
 
 
@@ -87,8 +91,8 @@ def examine(table, depth, start, polynomial, factors):
     given = depth < float(LEVELS)
     number, level = where(given, depth, 0.0), start.level
     _load_polynomial(table.lane_coefficients, number, start, polynomial)
-    remainder = _remainder(table.lane_errors, number, start.low, start.high)
-    length = choose(table.lane_durations, number)
+    doubt, length = _doubt(table.lane_errors, number, start.low, start.high), choose(table.lane_durations, number)
+    remainder = doubt * length
     lowest, share = -start.floor, remainder * (-1.0 / DEGREE)
     last = load(polynomial[DEGREE - 1], 0)
     positive = last >= lowest - remainder
@@ -106,27 +110,33 @@ def examine(table, depth, start, polynomial, factors):
     begins_outside = ((level >= lowest) & ~(level == 0.0)) | (positive & (level >= 0.0))
     none = first == float(DEGREE)
     return Search(
-        given & ~begins_outside & (runs < 2.0), none, length, where(none, length, place * length), remainder / length,
+        given & ~begins_outside & (runs < 2.0), none, length, where(none, length, place * length), doubt,
     )  # fmt: skip
 
 
 @part
 def _load_polynomial(coefficients, depth, start, polynomial):
-    """Write the Bernstein coefficients of ``f`` on the block of each lane."""
+    """Write the Bernstein coefficients of ``f`` on the block of each lane; most often that is the longest one of all."""
     a, b, c, d, e, f, g, h = products_of(start)
-    for j in range(DEGREE):
-        row = coefficients[j]
-        store(
-            polynomial[j], 0,
-            start.level + a * choose(row[0], depth) + b * choose(row[1], depth) + c * choose(row[2], depth)
-            + d * choose(row[3], depth) + e * choose(row[4], depth) + f * choose(row[5], depth)
-            + g * choose(row[6], depth) + h * choose(row[7], depth),
-        )  # fmt: skip
+    if lanes_of(depth > 0.0) == 0:
+        for j in range(DEGREE):
+            row = coefficients[j]
+            value = start.level + a * row[0, 0] + b * row[1, 0] + c * row[2, 0] + d * row[3, 0]
+            store(polynomial[j], 0, value + e * row[4, 0] + f * row[5, 0] + g * row[6, 0] + h * row[7, 0])
+    else:
+        for j in range(DEGREE):
+            row = coefficients[j]
+            store(
+                polynomial[j], 0,
+                start.level + a * choose(row[0], depth) + b * choose(row[1], depth) + c * choose(row[2], depth)
+                + d * choose(row[3], depth) + e * choose(row[4], depth) + f * choose(row[5], depth)
+                + g * choose(row[6], depth) + h * choose(row[7], depth),
+            )  # fmt: skip
 
 
 @part
-def _remainder(errors, depth, low, high):
-    """Bound of the error of a block's polynomial, as in :mod:`carom.core.events` but by moduli; ``|y| ≤ 1`` at the start."""
+def _doubt(errors, depth, low, high):
+    """Bound of the error of a block's polynomial, by moduli and per time; ``|y| ≤ 1`` at the start."""
     of_lower, of_upper = choose(errors[0], depth), choose(errors[1], depth)
     return low * (of_lower + (low * choose(errors[2], depth) + high * choose(errors[3], depth))) + high * (
         of_upper + high * choose(errors[4], depth)
@@ -178,21 +188,27 @@ def _halley(factors, u, degree, divided):
         where(divided, slope, slope * u + value),
         where(divided, value, value * u + load(factors[0], 0)),
     )
-    below = slope * slope - value * half_bend
-    return u * below - value * slope, below
+    above, below = halley_ratio(value, slope, half_bend)
+    return u * below - above, below
 
 
 @part
-def look_up(table, start, guess):
-    """The node nearest to a time, and the state there."""
+def halley_ratio(value, slope, half_bend):
+    """How far back a step of third order takes to a root: numerator and denominator."""
+    return value * slope, slope * slope - value * half_bend
+
+
+@part
+def look_up(rotor, table, start, guess):
+    """The node nearest to a time, and the state there; with ``e^{λ₋τ} = e^{λ₊τ} − (λ₊ − λ₋) φ(τ)``."""
     place = guess * (1.0 / table.lane_spacing) + 0.5
     # In this order what is no number becomes one.
     place = where(place > 0.0, place, 0.0)
     place = truncate(where(place < LANE_NODES - 1.0, place, LANE_NODES - 1.0))
-    decay = join(take(table.lane_growth[0, 0], place), take(table.lane_growth[0, 1], place))
-    growth = join(take(table.lane_growth[1, 0], place), take(table.lane_growth[1, 1], place))
+    growth = join(take(table.lane_basis[1, 0], place), take(table.lane_basis[1, 1], place))
     response = join(take(table.lane_basis[0, 0], place), take(table.lane_basis[0, 1], place))
     change = fma(growth, start.upper, response * start.lower)
+    decay = fma(response, -rotor.gaps[1], growth)
     return Node(place * table.lane_spacing, fma(decay, start.lower, start.lower), start.upper + change, change)
 
 
@@ -200,24 +216,18 @@ def look_up(table, start, guess):
 def travel(rotor, table, start, node, rest, terms):
     """State some time after a node.
 
-    Returns both amplitudes, rates (of the driving one; three of the driven one, and so of ``y``), and ``f`` with its first
-    three derivatives.
+    Returns both amplitudes, rates (of the driving one; two of the driven one, and so of ``y``), and ``f`` with its first
+    two derivatives.
     """
-    decay = _power_series(table.growth_series, 0, rest, terms)
-    growth = _power_series(table.growth_series, 1, rest, terms)
+    growth = _power_series(table.basis_series, 1, rest, terms)
     response = _power_series(table.basis_series, 0, rest, terms)
     change = fma(growth, node.upper, fma(response, node.lower, node.change))
+    decay = fma(response, -rotor.gaps[1], growth)
     lower, upper = fma(decay, node.lower, node.lower), start.upper + change
     slow, fast = rotor.exponents[0], rotor.exponents[1]
     rate, speed = lower * slow, fma(upper, fast, lower)
     force = fma(speed, fast, rate)
-    jerk = fma(force, fast, rate * slow)
-    return (
-        lower,
-        upper,
-        (rate, speed, force, jerk),
-        derivatives(start.position, start.level, change, speed, force, jerk),
-    )
+    return lower, upper, (rate, speed, force), two_derivatives(start.position, start.level, change, speed, force)
 
 
 @part

@@ -4,8 +4,8 @@ Each lane holds a motion in free flight.  :func:`fly_lanes` takes every lane one
 :mod:`carom.core.events`, or up to and through its next impact.  What cannot be proven here, and everything but a plain
 flight and a plain impact, is left as it was and marked, for :mod:`carom.core.ensemble` to look at singly.
 
-A lane never sees another: all of them go through the same instructions (:mod:`carom.core.vector`), but for one branch that
-saves work and changes no bit, so a motion is the same to the last bit whatever its company.
+A lane never sees another: all of them go through the same instructions (:mod:`carom.core.vector`), but for two branches that
+save work and change no bit, so a motion is the same to the last bit whatever its company.
 """
 
 from __future__ import annotations
@@ -13,10 +13,9 @@ from __future__ import annotations
 import numpy as np
 
 from carom.core.advance import CHATTER_HEIGHT
-from carom.core.events import MARGIN, POLISHED, householder_step
-from carom.core.fate import NEAR
+from carom.core.events import MARGIN
 from carom.core.flow import acceleration, displacement, squared_modulus, velocity
-from carom.core.lane_search import departure, examine, look_up, travel
+from carom.core.lane_search import departure, examine, halley_ratio, look_up, travel
 from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
 
@@ -30,18 +29,18 @@ CLEARLY_OFF = 1e-9
 """Speed off the wall that is no rest, whatever the rounding of a state of moderate size."""
 LOWEST = 4.0 * CHATTER_HEIGHT
 """Twice the height of the lowest bounces, with room: these are for the loop of single motions."""
-NEARBY = 1.5 * NEAR
-"""The distance of :func:`carom.core.fate.same_state`, with room."""
 REACH = 0.75
 """Distance from a node, in spacings, to which the power series serve: what they miss is below rounding."""
-ROUGH_TERMS = 4
+ROUGH_TERMS = 6
 """Terms that do for a first step to the root."""
-THIRD = 1.0 / 3.0
+STEADY = 2e-6
+"""Correction, in units of ``f'/M₂``, below which a Halley step and the quadratic nudge are exact to rounding: what they miss
+is of its third power."""
 
 _STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "depth")
 _FATE = (
     "quiet", "due", "watched",
-    "reference_lower_re", "reference_lower_im", "reference_upper_re", "reference_upper_im",
+    "reference_lower_re", "reference_lower_im", "reference_upper_re", "reference_upper_im", "reach",
 )  # fmt: skip
 _ANSWER = ("verdict", "arrival_lower_re", "arrival_lower_im", "arrival_upper_re", "arrival_upper_im")
 _BOOKS = ("motion", "plane", "events", "struck", "stalled", "seen", "since", "renewal", "candidate", "rubbed")
@@ -52,8 +51,8 @@ def lanes_record() -> np.record:
 
     ``lower`` and ``upper`` are the amplitudes of the driving and the driven mode, with the exponents ``λ₋`` and ``λ₊``;
     ``level`` is ``|y|² − 1``, zero on the wall; ``clock`` counts time.  ``depth`` is the first block to try: LEVELS or more where
-    none is left.  A plain impact adds to ``quiet``; it is to be NOTED when ``due`` is reached or the state is near the
-    ``reference``.  The whole numbers are books of :mod:`carom.core.ensemble`: the motion held, its events, impacts, events
+    none is left.  A plain impact adds to ``quiet``; it is to be NOTED when ``due`` is reached or the state is within
+    ``reach`` of the ``reference``.  The whole numbers are books of :mod:`carom.core.ensemble`: the motion held, its events, impacts, events
     without progress, and, with the ``reference``, what :func:`carom.core.fate.memory` holds of it.
     """
     return record(
@@ -85,16 +84,16 @@ def _fly(rotor, table, until, first, lanes):
     start = departure(rotor, table, lower, upper, load(lanes.level, first))
     depth = where(_leaves(rotor, start), load(lanes.depth, first), float(LEVELS))
     search = examine(table, depth, start, lanes.polynomial, lanes.factors)
-    node = look_up(table, start, search.guess)
+    node = look_up(rotor, table, start, search.guess)
     reach = table.lane_spacing * REACH
     rest = _first_step(rotor, table, start, search, node, reach)
-    lower, upper, rates, (value, slope, bend, third) = travel(rotor, table, start, node, rest, table.terms)
-    step = householder_step(value, slope, bend, third)
+    lower, upper, rates, (value, slope, bend) = travel(rotor, table, start, node, rest, table.terms)
+    step = _halley_step(value, slope, bend)
     time = node.time + (rest + step)
     error = start.floor + search.doubt * time
     certified = (
         (slope > 0.0) & (slope * slope > error * start.curvature * MARGIN) & (abs(rest) <= reach)
-        & (abs(step) * start.curvature < POLISHED * slope) & (time > 0.0) & (time <= search.duration)
+        & (abs(step) * start.curvature < STEADY * slope) & (time > 0.0) & (time <= search.duration)
     )  # fmt: skip
     free, strikes = search.decides & search.free, search.decides & ~search.free & certified
     lower, upper = _nudged(where(strikes, step, 0.0), lower, upper, rates, rotor.exponents[0])
@@ -149,10 +148,16 @@ def _leaves(rotor, start):
 def _first_step(rotor, table, start, search, node, reach):
     """Time from the node, a step nearer to the root."""
     rest = search.guess - node.time
-    _, _, _, (value, slope, bend, third) = travel(rotor, table, start, node, rest, ROUGH_TERMS)
-    step = householder_step(value, slope, bend, third)
+    _, _, _, (value, slope, bend) = travel(rotor, table, start, node, rest, ROUGH_TERMS)
+    step = _halley_step(value, slope, bend)
     # No step off the series, nor one that is no number, nor one of a lane that is free.
     return rest + where(~search.free & (abs(rest + step) <= reach), step, 0.0)
+
+
+@part
+def _halley_step(value, slope, bend):
+    above, below = halley_ratio(value, slope, 0.5 * bend)
+    return -above / below
 
 
 @part
@@ -168,14 +173,10 @@ def _store_complex(real, imag, first, values):
 
 @part
 def _nudged(time, lower, upper, rates, exponent):
-    """Amplitudes a short time later; see :func:`carom.core.flow.nudge`."""
-    rate, speed, force, jerk = rates
-    half, third = 0.5 * time, THIRD * time
-    bend = rate * exponent
-    return (
-        lower + (rate + (bend + bend * exponent * third) * half) * time,
-        upper + (speed + (force + jerk * third) * half) * time,
-    )
+    """Amplitudes a very short time later."""
+    rate, speed, force = rates
+    half = 0.5 * time
+    return lower + (rate + rate * exponent * half) * time, upper + (speed + force * half) * time
 
 
 @part
@@ -194,8 +195,7 @@ def _near_reference(lower, upper, first, lanes):
     away = abs(lower.real - load(lanes.reference_lower_re, first)) + abs(
         upper.real - load(lanes.reference_upper_re, first)
     )
-    size = ((abs(lower.real) + abs(lower.imag)) + (abs(upper.real) + abs(upper.imag))) + 1.0
-    return away <= size * NEARBY
+    return away <= load(lanes.reach, first)
 
 
 @part

@@ -162,7 +162,6 @@ def table_record(
     growth_series: np.ndarray,
     lane_spacing: float,
     lane_basis: np.ndarray,
-    lane_growth: np.ndarray,
     bounds: np.ndarray,
 ) -> np.record:
     """Constants of a block of flight that depend on the exponents alone; see :mod:`carom.core.table`.
@@ -178,7 +177,7 @@ def table_record(
     errors : ndarray, shape (LEVELS, Q)
         Bound of the approximation error at the end of the block, per row of ``coefficients``.
     lane_durations, lane_coefficients, lane_errors : ndarray, shapes (OCTET,), (DEGREE, Q, OCTET), (N + N (N + 1)/2, OCTET)
-        The same with the blocks last, for each lane to choose its own; the errors per modulus of a product.
+        The same with the blocks last, for each lane to choose its own; the errors per modulus of a product and per time.
     basis : ndarray of complex, shape (NODES + 1, 4, N)
         Basis functions and their first three derivatives at the nodes.
     growth : ndarray of complex, shape (NODES + 1, N)
@@ -187,8 +186,8 @@ def table_record(
         Coefficients 1 … LANE_TERMS of the power series of both; from a node that is not one of lanes, TERMS of them do.
     lane_spacing : float
         Time between nodes of lanes.
-    lane_basis, lane_growth : ndarray, shape (N, 2, LANE_NODES)
-        Real and imaginary parts of basis functions and ``e^{λτ} − 1`` at the nodes of lanes.
+    lane_basis : ndarray, shape (N, 2, LANE_NODES)
+        Real and imaginary parts of basis functions at the nodes of lanes.
     bounds : ndarray, shape (3, N)
         Largest modulus on the longest block of the first three derivatives of the basis functions.
 
@@ -215,7 +214,6 @@ def table_record(
         growth_series=growth_series,
         lane_spacing=np.asarray(lane_spacing),
         lane_basis=lane_basis,
-        lane_growth=lane_growth,
         bounds=bounds,
     )
 

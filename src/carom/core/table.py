@@ -76,14 +76,13 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
         errors=errors,
         lane_durations=_blocks_last(durations),
         lane_coefficients=_blocks_last(coefficients.transpose(0, 2, 1)),
-        lane_errors=_blocks_last(_errors_of_moduli(errors, len(exponents))),
+        lane_errors=_blocks_last(_errors_of_moduli(errors / durations[:, None], len(exponents))),
         basis=_derivatives(exponents, driven, times),
         growth=_expm1(np.outer(times, exponents)),
         basis_series=basis_series,
         growth_series=growth_series,
         lane_spacing=lane_spacing,
         lane_basis=_parts(np.array(_basis(exponents, driven, lane_times))),
-        lane_growth=_parts(_expm1(np.outer(exponents, lane_times))),
         bounds=_derivative_bounds(exponents, driven, durations[0]),
     )
 
