@@ -89,6 +89,6 @@ def test_cores(benchmark, starts, threads):
     """Starts per second with one core and with all."""
     rotor = source_paper_machine(0.1)
     benchmark.group = "ensemble with every contact, on several cores, gamma = 0.1"
-    benchmark(follow, rotor, starts.repeat(4, axis=0), threads=threads)
+    benchmark(follow, rotor, starts.repeat(16, axis=0), threads=threads)
     who = "carom" if threads == 1 else f"carom, {threads} cores"
-    benchmark.extra_info.update(who=who, unit="start", units=4 * len(starts))
+    benchmark.extra_info.update(who=who, unit="start", units=16 * len(starts))

@@ -6,10 +6,12 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from carom.core.advance import INSIDE_ALL
+from carom.core.counter import fresh_counter
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
@@ -25,9 +27,10 @@ LONGEST = 2e5
 """Time after which a motion that has not settled is given up, in ``1/Ω``."""
 PATIENCE = 20_000
 MOST_EVENTS = 1_000_000
-LARGEST_PORTION, SMALLEST_PORTION = 8192, 256
-"""Starts of one machine that a thread takes at a time: some milliseconds to a second of work, and many for each lane."""
-PORTIONS_PER_THREAD = 4
+PORTION = 16_384
+"""Starts of one machine that threads share at a time: some milliseconds to a second of work."""
+FEW = 256
+"""Starts that are not worth a second thread: some for each lane."""
 MODES = 2
 
 
@@ -127,12 +130,12 @@ def settle_all(
     motions = _motions(positions.ravel()[order], velocities.ravel()[order])
     limits = _Limits(until, settle, patience, max_events)
     threads = threads or available_cores()
-    portions = [
-        (rotors[machine], motions[portion], limits)
-        for machine, portion in _portions(which.ravel()[order], len(rotors), threads)
-    ]
+    shares = []
+    for machine, portion in _portions(which.ravel()[order], len(rotors)):
+        share = _Share(rotors[machine], motions[portion], fresh_counter())
+        shares += [share] * min(threads, 1 + len(share.motions) // FEW)
     done = 0
-    for finished in _settle_portions(portions, threads):
+    for finished in _settle_shares(shares, limits, threads):
         done += finished
         if progress:
             progress(done / positions.size)
@@ -188,39 +191,42 @@ def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
     return motions
 
 
-def _portions(which: np.ndarray, machines: int, threads: int) -> Iterator[tuple[int, slice]]:
+def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
     """Machine and place of starts, in the order of machines, that make one piece of work."""
-    size = LARGEST_PORTION
-    if threads > 1:
-        size = min(max(which.size // (PORTIONS_PER_THREAD * threads), SMALLEST_PORTION), LARGEST_PORTION)
     ends = np.searchsorted(which, np.arange(machines + 1))
     for machine in range(machines):
-        for first in range(ends[machine], ends[machine + 1], size):
-            yield machine, slice(first, min(first + size, ends[machine + 1]))
+        for first in range(ends[machine], ends[machine + 1], PORTION):
+            yield machine, slice(first, min(first + PORTION, ends[machine + 1]))
 
 
-def _settle_portions(portions: list[tuple[Rotor, np.ndarray, _Limits]], threads: int) -> Iterator[int]:
-    """Follow portions of motions, on this thread if no other is wanted; the number of motions of each one done."""
+class _Share(NamedTuple):
+    """A part in the work on some motions of one machine: the counter deals them out to all who have one."""
+
+    rotor: Rotor
+    motions: np.ndarray
+    counter: np.record
+
+
+def _settle_shares(shares: list[_Share], limits: _Limits, threads: int) -> Iterator[int]:
+    """Do shares of the work, on this thread if no other is wanted; the number of motions followed in each one done."""
     if threads == 1:
-        yield from (_settle_portion(*portion) for portion in portions)
+        yield from (_settle_share(share, limits) for share in shares)
         return
     with ThreadPoolExecutor(threads) as pool:
         try:
-            for finished in as_completed([pool.submit(_settle_portion, *portion) for portion in portions]):
+            for finished in as_completed([pool.submit(_settle_share, share, limits) for share in shares]):
                 yield finished.result()
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
 
 
-def _settle_portion(rotor: Rotor, motions: np.ndarray, limits: _Limits) -> int:
-    """Follow some motions of one machine; return their number."""
-    task = Task(rotor.arrays, rotor.table, limits.until, limits.max_events)
-    memory = fresh_memory(rotor, limits.patience if limits.settle else 0, absorb=True)
+def _settle_share(share: _Share, limits: _Limits) -> int:
+    task = Task(share.rotor.arrays, share.rotor.table, limits.until, limits.max_events)
+    memory = fresh_memory(share.rotor, limits.patience if limits.settle else 0, absorb=True)
     # Uncompiled, a lane that has nothing to divide warns.
     with np.errstate(all="ignore"):
-        follow_each(task, motions, _workbench.tools(memory))
-    return len(motions)
+        return int(follow_each(task, share.motions, share.counter, _workbench.tools(memory)))
 
 
 class _Workbench(threading.local):

@@ -13,6 +13,7 @@ import numpy as np
 
 from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
 from carom.core.block import move_to
+from carom.core.counter import next_number
 from carom.core.fate import NEAR, forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
@@ -31,6 +32,8 @@ VACANT = -1.0
 """Verdict on a lane that wants a motion."""
 EVERY_LANE = (1 << LANES) - 1
 LONG_AGO = -1e300
+RUN = 64
+"""Motions dealt out at a time: neighbours lie in the same cache lines."""
 NEARBY = 1.5 * NEAR
 """The distance of :func:`carom.core.fate.same_state`, with room."""
 
@@ -78,18 +81,25 @@ class Tools(NamedTuple):
 
 
 @kernel
-def follow_each(task, motions, tools):
-    """Follow motions; none depends on another.
+def follow_each(task, motions, counter, tools):
+    """Follow motions, as many as the counter deals out to this call; none depends on another.
 
     Parameters
     ----------
     task : Task
     motions : recarray of MOTION, shape (M,)
+    counter : record of :func:`~carom.core.counter.fresh_counter`
+        Shared by the threads that follow these motions.
     tools : Tools
+
+    Returns
+    -------
+    int
+        How many motions this call has followed.
     """
     lanes, memory, work = tools.lanes, tools.memory, tools.work
-    count = motions.shape[0]
-    taken, idle, looks = 0, 0, EVERY_LANE
+    count, number, stop, taken = motions.shape[0], 0, 0, 0
+    idle, looks = 0, EVERY_LANE
     lanes.verdict[:], lanes.motion[:] = VACANT, 0
     while idle != EVERY_LANE:
         for lane in range(LANES if looks != 0 else 0):
@@ -102,14 +112,19 @@ def follow_each(task, motions, tools):
                     continue
                 if outcome != NONE_YET:
                     _note_end(task.rotor, motions[lanes.motion[lane]], lanes, memory, work, lane, outcome)
-                if taken == count:
+                if number == stop:
+                    number = min(next_number(counter.numbers) * RUN, count)
+                    stop = min(number + RUN, count)
+                    taken += stop - number
+                if number == count:
                     _empty(lanes, lane)
                     idle |= 1 << lane
                     break
-                lanes.motion[lane] = taken
-                outcome = _begin(task, motions[taken], lanes, memory, work, lane)
-                taken += 1
+                lanes.motion[lane] = number
+                outcome = _begin(task, motions[number], lanes, memory, work, lane)
+                number += 1
         looks = fly_lanes(task.rotor, task.table, task.until, lanes) & ~idle
+    return taken
 
 
 @passage
