@@ -5,8 +5,12 @@ from __future__ import annotations
 import contextlib
 import subprocess
 import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
 from itertools import count, islice
+from multiprocessing import get_context
 from pathlib import Path
+from statistics import median
 
 import pytest
 from sweep_tasks import Drawn, basins_plan, plan_of
@@ -53,19 +57,26 @@ def test_plan_of_a_hundred_million_starts(benchmark, tmp_path):
 
 
 @contextlib.contextmanager
+def dask_workers(number):
+    """A client of that many workers."""
+    from distributed import Client, LocalCluster
+
+    options = {"n_workers": number, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 60}
+    with LocalCluster(**options) as cluster, Client(cluster, set_as_default=False) as client:
+        client.wait_for_workers(number)
+        yield client
+
+
+@contextlib.contextmanager
 def workers(who, plan, number):
     """Chunks without end, from workers that are at work."""
     numbers = (place % plan.chunks for place in count())
     with contextlib.ExitStack() as stack:
         if who == "dask":
-            distributed = pytest.importorskip("distributed")
+            pytest.importorskip("distributed")
             from carom.sweeps.cluster import on_cluster
 
-            options = {"n_workers": number, "threads_per_worker": 1, "dashboard_address": ":0", "silence_logs": 60}
-            cluster = stack.enter_context(distributed.LocalCluster(**options))
-            client = stack.enter_context(distributed.Client(cluster, set_as_default=False))
-            client.wait_for_workers(number)
-            chunks = on_cluster(plan, numbers, client)
+            chunks = on_cluster(plan, numbers, stack.enter_context(dask_workers(number)))
         elif who == "loop":
             chunks = (compute_chunk(plan, place) for place in numbers)
         else:
@@ -94,11 +105,34 @@ def test_chunks_that_sleep_a_second(benchmark, who, tmp_path):
     time_chunks(benchmark, who, plan_of(Drawn(seconds_taken=1.0), count=12, chunk=1), 2, tmp_path / "s.zarr")
 
 
-@pytest.mark.parametrize(
-    ("who", "number"), [("loop", 1), ("threads", 2), ("processes", 1), ("processes", 2), ("dask", 1), ("dask", 2)]
-)
+@pytest.mark.parametrize(("who", "number"), [("loop", 1), ("threads", 2), ("processes", 2), ("dask", 2)])
 def test_chunks_that_compute_a_second(benchmark, who, number, tmp_path):
     """Motions that bounce; the same chunks over and over."""
     benchmark.group = "a chunk of 60,000 bouncing motions, stored"
-    plan = basins_plan(starts=60_000, chunk=1, shape=(2, 2), damping=(0.1, 0.1001))
-    time_chunks(benchmark, who, plan, number, tmp_path / "s.zarr")
+    time_chunks(benchmark, who, bouncing_plan(), number, tmp_path / "s.zarr")
+
+
+def test_what_dask_adds_to_a_chunk_that_computes(benchmark):
+    """One worker of Dask's, in turns with a process of one's own."""
+    pytest.importorskip("distributed")
+    plan, seconds = bouncing_plan(), []
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool, dask_workers(1) as client:
+
+        def on_dask():
+            client.submit(compute_chunk, plan, 0, pure=False).result()
+
+        def on_a_process():
+            began = time.perf_counter()
+            pool.submit(compute_chunk, plan, 0).result()
+            seconds.append(time.perf_counter() - began)
+
+        on_a_process()
+        on_dask()
+        seconds.clear()
+        benchmark.group = "a chunk of 60,000 bouncing motions, one worker"
+        benchmark.pedantic(on_dask, setup=on_a_process, rounds=21)
+    benchmark.extra_info.update(who="dask", unit="chunk", units=1, beside={"a process": median(seconds)})
+
+
+def bouncing_plan():
+    return basins_plan(starts=60_000, chunk=1, shape=(2, 2), damping=(0.1, 0.1001))
