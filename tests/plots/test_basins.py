@@ -164,6 +164,31 @@ def test_gain_map(rotor):
         plots.gain_map(found, measure="beauty")
 
 
+def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
+    plan = Grid(VelocityKick.in_si(SCALES, 0.08), (5, 5))
+    found = gain_map(MACHINE, plan, shape=(3, 3))
+    x, y = (found.dataset[axis.name].values for axis in found.axes)
+    node = abs(x - found.present[0]).argmin(), abs(y - found.present[1]).argmin()
+
+    # A machine that levitates beside the edge of levitation: the middle of its cell may be beyond.
+    for measure in ("recovered", "levitates"):
+        found.dataset[measure].values[node] = 0.0
+    assert found.present_share.count
+    assert "no levitation without contact (in the middle of the cell)" in words(plots.gain_map(found))
+
+    found.dataset["levitates"].values[:] = 1.0
+    found.dataset["basin_entropy"].values[:] = 0.5
+    found.dataset["boundary_basin_entropy"].values[:] = np.eye(3)
+    found.dataset["boundary_basin_entropy"].values[0, 1] = np.nan
+    said = words(plots.gain_map(found, measure="boundary_basin_entropy"))
+    assert "one outcome only: no boundary" in said
+    assert not any(text.startswith("no levitation") for text in said)
+
+    drawn = gain_map(MACHINE, Sample(VelocityKick.in_si(SCALES, 0.08), 20), shape=(2, 2))
+    with pytest.raises(InputError, match="one that this map has: recovered"):
+        plots.gain_map(drawn, measure="integrity")
+
+
 def test_gain_map_of_dimensionless_parameters():
     plan = Grid(VelocityKick(0.3), (5, 5))
     found = gain_map(MACHINE.replace(scales=None), plan, ("omega", "gamma"), shape=(3, 3))

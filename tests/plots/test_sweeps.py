@@ -5,11 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 from matplotlib.collections import QuadMesh
+from matplotlib.path import Path
 from sweep_tasks import Failing, basins_plan
 
 from carom import plots
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Zones
+from carom.plots.sweeps import cell_edges
 from carom.sweeps import GridAxis, open_sweep, run_sweep
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.studies import StudyTask
@@ -43,6 +45,24 @@ def shades(figure):
     return mesh.get_array()
 
 
+def words(figure):
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def cells(figure, key):
+    """Middles of the cells that are drawn as having no value for one reason."""
+    (patch,) = [entry for entry in figure.axes[0].patches if entry.get_gid() == key]
+    (mesh,) = [entry for entry in figure.axes[0].collections if isinstance(entry, QuadMesh)]
+    corners = mesh.get_coordinates()
+    middles = 0.25 * (corners[1:, 1:] + corners[1:, :-1] + corners[:-1, 1:] + corners[:-1, :-1])
+    # A compound path is inside where one of its rectangles is.
+    inside = [
+        Path(polygon).contains_points(middles.reshape(-1, 2))
+        for polygon in patch.get_path().to_polygons(closed_only=True)
+    ]
+    return np.any(inside, axis=0).reshape(middles.shape[:2]).T
+
+
 def test_shades_are_the_stored_numbers_in_their_places(failing):
     figure = plots.sweep_map(failing, "value", "a title")
     axes = figure.axes[0]
@@ -53,7 +73,7 @@ def test_shades_are_the_stored_numbers_in_their_places(failing):
     assert axes.get_xlabel() == r"scaled damping $\gamma$"
     assert axes.get_title() == "a title"
     assert figure.axes[1].get_ylabel() == "what varies"
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["no value"]
+    assert words(figure) == ["failed"]
 
 
 def test_logarithmic_axes_have_plain_numbers(failing):
@@ -73,6 +93,50 @@ def test_flags_have_colours_with_words(failing, studies):
     assert [text.get_text() for text in figure.legends[0].get_texts()][:2] == ["no", "yes"]
     assert figure.legends[0].get_title().get_text() == studies.levitates.attrs["long_name"]
     assert len(figure.axes) == 1
+
+
+def test_cells_without_a_value_say_why(failing, studies):
+    """The reasons look different, lie where they hold, and are told in words."""
+    known = failing.assign(value=failing.value.where(failing.status == 1).where(failing.mu > 0.06))
+    known["status"] = known.status.where(known.gamma > 0.6, 0).where(known.mu < 0.15, 2).astype("int8")
+    known["value"] = known.value.where(known.status == 1)
+    known["possible"] = known.status * 0 + (known.gamma < 0.7)
+    figure = plots.sweep_map(known, "value")
+    blank = known.value.isnull()
+
+    assert words(figure) == ["no levitation without contact", "no such value", "not computed yet", "failed"]
+    np.testing.assert_array_equal(cells(figure, "waiting"), (blank & (known.status == 0)).values)
+    np.testing.assert_array_equal(cells(figure, "failed"), (blank & (known.status == 2)).values)
+    computed = blank & (known.status == 1)
+    np.testing.assert_array_equal(cells(figure, "no-levitation"), (computed & (known.possible == 0)).values)
+    np.testing.assert_array_equal(cells(figure, "none"), (computed & (known.possible > 0)).values)
+    looks = {(entry.get_facecolor(), entry.get_hatch()) for entry in figure.axes[0].patches}
+    assert len(looks) == 4
+
+
+def test_a_number_that_no_machine_has_needs_no_bar(studies):
+    studies = studies.assign(rub_force=studies.rub_force * np.nan)
+    figure = plots.sweep_map(studies, "rub_force")
+
+    assert len(figure.axes) == 1
+    assert words(figure) == ["no stable rub"]
+    assert figure.legends[0].get_title().get_text() == "normal force of the stable synchronous rub"
+    assert "no levitation without contact" in words(plots.sweep_map(studies, "zone"))
+
+
+def test_shares_are_in_percent_and_counts_whole(failing, studies):
+    share = failing.value.assign_attrs(units="1", long_name="share")
+    bar = plots.sweep_map(failing.assign(recovered=share), "recovered").axes[1]
+    assert bar.get_ylim() == (0.0, 1.0)
+    assert [text.get_text() for text in bar.get_yticklabels()][-1] == "100 %"
+    ticks = plots.sweep_map(studies, "stable_orbits").axes[1].get_yticks()
+    assert (ticks == ticks.round()).all()
+
+
+def test_cells_of_a_geometric_axis_stay_on_it():
+    edges = cell_edges(np.array([1.0, 10.0, 100.0]), logarithmic=True)
+    np.testing.assert_allclose(edges, 10.0 ** np.array([-0.5, 0.5, 1.5, 2.5]), rtol=1e-14)
+    np.testing.assert_allclose(cell_edges(np.array([1.0, 2.0, 4.0])), [0.5, 1.5, 3.0, 5.0])
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,9 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
 from carom.outcome import InputError
-from carom.plots.plane import one_axes
+from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
+from carom.plots.sweeps import blank_cells, cell_edges, colour_bar, shaded_cells
 from carom.plots.words import number, parameter_label, parameter_unit
 
 if TYPE_CHECKING:
@@ -34,10 +35,8 @@ _MEASURES = {
 }
 """What shades can tell, and whether it is a share."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
-_GROUND = "#e6e6e6"
-"""Ground of machines that cannot levitate."""
-_SHADES = "cividis"
-"""Told apart by all eyes and in grey (Nuñez, Anderton, Renslow 2018)."""
+_ALIKE = MappingProxyType({"none": "one outcome only: no boundary"})
+"""Why a machine that levitates has no boundary basin entropy."""
 
 
 @styled
@@ -70,24 +69,29 @@ def gain_map(
     Raises
     ------
     InputError
-        No such measure.
+        No such measure, or the disturbances of the map do not have it.
     """
-    if measure not in _MEASURES:
-        raise InputError("measure", measure, f"one of: {', '.join(_MEASURES)}")
+    known = _known(found)
+    if measure not in known:
+        raise InputError("measure", measure, f"one that this map has: {', '.join(known)}")
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     units = [parameter_unit(axis) for axis in found.axes]
     x, y = (found.dataset[axis.name].values / unit for axis, unit in zip(found.axes, units, strict=True))
+    values = np.ma.masked_invalid(found.dataset[measure].values)
     grounded = found.dataset["levitates"].values == 0.0
-    _shades(figure, drawn, (x, y), np.ma.masked_where(grounded, found.dataset[measure].values), measure)
-    handles: list[Line2D | Patch] = []
-    if grounded.any():
-        drawn.set_facecolor(_GROUND)
-        handles.append(Patch(facecolor=_GROUND, edgecolor="#a6a6a6", lw=0.4, label="no levitation without contact"))
-    handles += _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
+    edges = cell_edges(x), cell_edges(y)
+    _shades(figure, drawn, edges, np.ma.masked_where(grounded, values), measure)
     here = found.present[0] / units[0], found.present[1] / units[1]
+    blank = {"no-levitation": grounded, "none": np.ma.getmaskarray(values) & ~grounded}
+    words = dict(_ALIKE)
+    if found.present_share.count and _within(edges, here, grounded):
+        # The cell of a machine that levitates, where a part comes back, would contradict the star on it.
+        words["no-levitation"] = "no levitation without contact (in the middle of the cell)"
+    handles: list[Line2D | Patch] = [*blank_cells(drawn, edges, blank, words)]
+    handles += _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
     drawn.plot(*here, marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", gid="present", clip_on=False)
-    words = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
-    handles.append(Line2D([], [], marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", label=words))
+    said = f"present machine: {number(100.0 * found.present_share.fraction, 3)} % come back"
+    handles.append(Line2D([], [], marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", label=said))
     if change is not None and change.size > 0.0:
         there = change.values[0] / units[0], change.values[1] / units[1]
         handles.append(_arrow(drawn, here, there, found, change))
@@ -101,24 +105,27 @@ def gain_map(
     return figure
 
 
-def _shades(
-    figure: Figure, axes: Axes, places: tuple[np.ndarray, np.ndarray], values: np.ma.MaskedArray, measure: str
-) -> None:
+def _known(found: GainMap) -> list[str]:
+    """Measures that the disturbances of a map have: some only on a grid of them."""
+    levitates = found.dataset["levitates"].values > 0.0
+    # Without a boundary between outcomes there is no entropy of it, which is a finding.
+    told_by = {"boundary_basin_entropy": "basin_entropy"}
+    return [name for name in _MEASURES if np.isfinite(found.dataset[told_by.get(name, name)].values[levitates]).all()]
+
+
+def _shades(figure: Figure, axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, measure: str) -> None:
     """Shades of a measure and their bar."""
     words, share = _MEASURES[measure]
-    highest = 1.0 if share else max(float(np.nan_to_num(values.filled(0.0)).max()), 1e-3)
-    mesh = axes.pcolormesh(
-        *places,
-        np.ma.masked_invalid(values).T,
-        cmap=_SHADES,
-        vmin=0.0,
-        vmax=highest,
-        shading="nearest",
-        rasterized=True,
-    )
-    bar = figure.colorbar(mesh, ax=axes, format=PercentFormatter(1.0, symbol=" %") if share else None, pad=0.02)
-    bar.set_label(words)
-    bar.outline.set_linewidth(0.5)
+    highest = 1.0 if share else max(float(values.filled(0.0).max()), 1e-3)
+    bar = colour_bar(figure, axes, shaded_cells(axes, edges, values, vmin=0.0, vmax=highest), words)
+    if share:
+        bar.ax.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
+
+
+def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.ndarray) -> bool:
+    """Whether a place lies in one of these cells."""
+    row, column = (int(np.searchsorted(along, value)) - 1 for along, value in zip(edges, place, strict=True))
+    return 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1] and bool(cells[row, column])
 
 
 def _arrow(

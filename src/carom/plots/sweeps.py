@@ -3,31 +3,65 @@
 from __future__ import annotations
 
 import json
-from types import SimpleNamespace
+from collections.abc import Mapping
+from types import MappingProxyType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis as AnyAxis
+from matplotlib.collections import QuadMesh
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
+from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
-from carom.plots.plane import one_axes
-from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, styled
+from carom.plots.plane import Floats, one_axes
+from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["sweep_map"]
+__all__ = ["BLANKS", "blank_cells", "cell_edges", "colour_bar", "shaded_cells", "sweep_map"]
 
-_GROUND = "#e6e6e6"
-"""Where there is no number: not computed, failed, or none exists."""
+BLANKS = MappingProxyType(
+    {
+        "no-levitation": Look("#e6e6e6", "no levitation without contact"),
+        "none": Look("#ffffff", "no such value", hatch="////"),
+        "waiting": Look("#ffffff", "not computed yet", hatch="...."),
+        "failed": Look("#ffffff", "failed", hatch="xxxx"),
+    }
+)
+"""Why a cell has no value: told apart by hatching, so by all eyes, and from shades by having none of their colours."""
+_NONE = MappingProxyType(
+    {
+        "smallest_unrecovered_kick": "every kick tried came back",
+        "rub_force": "no stable rub",
+        "orbit_impulse": "no stable orbit with one impact",
+        "least_damping": "contact survives all damping tried",
+        "least_damping_rolling": "contact survives all damping tried",
+    }
+)
+"""What it means that a number does not exist, or is infinite, in a machine that was computed."""
+_LEVITATING = ("zone", "smallest_unrecovered_kick")
+"""What a study stores of machines that levitate only."""
+_SHARES = MappingProxyType(
+    {
+        "recovered": "",
+        "recovered_low": "share that came back to levitation, lower end of 95 % confidence",
+        "recovered_high": "share that came back to levitation, upper end of 95 % confidence",
+    }
+)
+"""Numbers shown in percent, and their words where the stored ones need those of another variable."""
 _SHADES = "cividis"
+"""Told apart by all eyes and in grey (Nuñez, Anderton, Renslow 2018)."""
+_INK = "#8c8c8c"
+"""Hatching and edges of cells without a value."""
 _PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
 """Numbers on a logarithmic axis that are written plainly, and the largest ratio of its ends with such ticks."""
 _FLAGS = ("#dbe4f0", "#56739f", "#e8c26a", "#7a4f1d")
@@ -80,9 +114,12 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     if len(dimensions) == 1:
         drawn.plot(places[0], values.values, marker=".")
         drawn.set_ylabel(_label(values))
+        _ticks(drawn.yaxis, values)
     else:
-        drawn.set_facecolor(_GROUND)
-        _shades(figure, drawn, places, values)
+        edges = [
+            cell_edges(along, spacings[dimension] == "log") for along, dimension in zip(places, dimensions, strict=True)
+        ]
+        _shades(figure, drawn, (edges[0], edges[1]), values, _reasons(data, values))
     if title:
         drawn.set_title(title)
     return figure
@@ -97,31 +134,145 @@ def _plain_ticks(axis: AnyAxis, values: np.ndarray) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
-def _shades(figure: Figure, axes: Axes, places: list[np.ndarray], values: xarray.DataArray) -> None:
-    """Shades of a number with their bar, or colours of a flag with their legend; the ground where there is neither."""
-    shown = np.ma.masked_invalid(np.asarray(values.values, float)).T
-    look: dict[str, Any] = {"cmap": _SHADES}
+def _ticks(axis: AnyAxis, values: xarray.DataArray) -> None:
+    """Ticks of a share in percent, and those of a count at whole numbers."""
+    if values.name in _SHARES:
+        axis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
+    elif _counts(values):
+        axis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10], integer=True))
+
+
+def _counts(values: xarray.DataArray) -> bool:
+    """Whether a number counts something."""
+    known = values.values[np.isfinite(values.values)]
+    return values.attrs.get("units") == "1" and bool((known == np.round(known)).all())
+
+
+def _reasons(data: xarray.Dataset, values: xarray.DataArray) -> dict[str, np.ndarray]:
+    """Where there is no value, by the key of :data:`BLANKS` that says why."""
+    blank, status = ~np.isfinite(np.asarray(values.values, float)), data["status"].transpose(*values.dims).values
+    reasons = {"waiting": blank & (status == 0), "failed": blank & (status == 2)}
+    rest = blank & (status == 1)
+    grounded = np.zeros(rest.shape, bool)
+    if "possible" in data:  # Kicks and the like start out of levitation: none is possible where there is none.
+        grounded = rest & (data["possible"].values == 0)
+    elif _plain_name(values) in _LEVITATING:
+        grounded = rest & (data["levitates"].values == 0)
+    return {"no-levitation": grounded, "none": rest & ~grounded, **reasons}
+
+
+def cell_edges(values: Floats, logarithmic: bool = False) -> Floats:
+    """Edges of the cells around values: halfway between them on their axis."""
+    along = np.log(values) if logarithmic else np.asarray(values, float)
+    steps = np.diff(along) if len(along) > 1 else np.ones(1)
+    edges = np.concatenate(
+        [[along[0] - 0.5 * steps[0]], along[:-1] + 0.5 * np.diff(along), [along[-1] + 0.5 * steps[-1]]]
+    )
+    return np.exp(edges) if logarithmic else edges
+
+
+def _shades(
+    figure: Figure,
+    axes: Axes,
+    edges: tuple[Floats, Floats],
+    values: xarray.DataArray,
+    reasons: Mapping[str, np.ndarray],
+) -> None:
+    """Shades of a number with their bar, or colours of a flag; a legend of the flag and of cells without a value."""
+    shown = np.ma.masked_invalid(np.asarray(values.values, float))
+    look: dict[str, Any] = {}
     meanings = str(values.attrs.get("flag_meanings", "")).split()
     if meanings:
         look = {"cmap": ListedColormap(_FLAGS[: len(meanings)]), "vmin": -0.5, "vmax": len(meanings) - 0.5}
-    mesh = axes.pcolormesh(*places, shown, shading="nearest", rasterized=True, **look)
+    elif values.name in _SHARES:
+        look = {"vmin": 0.0, "vmax": 1.0}
+    elif _counts(values):
+        look = {"vmin": 0.0, "vmax": max(float(shown.filled(0.0).max()), 1.0)}
+    mesh = shaded_cells(axes, edges, shown, **look)
     handles = [
-        Patch(color=colour, label=word.replace("_", " ")) for colour, word in zip(_FLAGS, meanings, strict=False)
+        Patch(facecolor=colour, edgecolor=_INK, lw=0.4, label=word.replace("_", " "))
+        for colour, word in zip(_FLAGS, meanings, strict=False)
     ]
-    if not meanings:
-        bar = figure.colorbar(mesh, ax=axes, pad=0.02)
-        bar.set_label(_label(values))
-        bar.outline.set_linewidth(0.5)
-    if shown.mask.any():
-        handles.append(Patch(facecolor=_GROUND, edgecolor="#a6a6a6", lw=0.4, label="no value"))
+    if not meanings and shown.count():
+        _ticks(colour_bar(figure, axes, mesh, _label(values)).ax.yaxis, values)
+    words = {"none": _NONE.get(_plain_name(values), BLANKS["none"].words)}
+    handles += blank_cells(axes, edges, reasons, words)
     if handles:
-        title = values.attrs["long_name"] if meanings else None
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)
+        title = values.attrs["long_name"] if meanings or not shown.count() else None
+        figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 4), title=title)
+
+
+def shaded_cells(axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, **look: Any) -> QuadMesh:
+    """Cells in shades of their values, given by their edges; masked ones are left out.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    edges : tuple of numpy.ndarray, shapes (n + 1,) and (m + 1,)
+    values : numpy.ma.MaskedArray, shape (n, m)
+    **look
+        Colour map and its ends, as for ``pcolormesh``.
+    """
+    return axes.pcolormesh(*edges, values.T, rasterized=True, gid="cells", **{"cmap": _SHADES, **look})
+
+
+def colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, words: str) -> Colorbar:
+    """Bar of the shades of cells."""
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02)
+    bar.set_label(words)
+    bar.outline.set_linewidth(0.5)
+    return bar
+
+
+def blank_cells(
+    axes: Axes, edges: tuple[Floats, Floats], reasons: Mapping[str, np.ndarray], words: Mapping[str, str]
+) -> list[Patch]:
+    """Draw cells without a value so that they tell why.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    edges : tuple of numpy.ndarray, shapes (n + 1,) and (m + 1,)
+    reasons : mapping of str to numpy.ndarray of bool, shape (n, m)
+        Cells by the key of :data:`BLANKS`.
+    words : mapping of str to str
+        What the legend says instead of the words of that look.
+
+    Returns
+    -------
+    list of matplotlib.patches.Patch
+        Legend entries of those that occur.
+    """
+    handles = []
+    for key, cells in reasons.items():
+        if not cells.any():
+            continue
+        look = BLANKS[key]
+        drawn: dict[str, Any] = {"facecolor": look.colour, "hatch": look.hatch, "edgecolor": _INK}
+        axes.add_patch(PathPatch(_outline(edges, cells), lw=0.0, zorder=0.5, gid=key, **drawn))
+        handles.append(Patch(lw=0.4, label=words.get(key, look.words), **drawn))
+    return handles
+
+
+def _outline(edges: tuple[Floats, Floats], cells: np.ndarray) -> Path:
+    """Cells as one path, so that hatching runs on from one to the next: a rectangle for each run along a row."""
+    rectangles = []
+    for row, inside in enumerate(cells.T):
+        turns = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
+        low, high = edges[1][row : row + 2]
+        for left, right in edges[0][turns.reshape(-1, 2)]:
+            rectangles.append(Path([(left, low), (right, low), (right, high), (left, high), (left, low)], closed=True))
+    return Path.make_compound_path(*rectangles)
+
+
+def _plain_name(values: xarray.DataArray) -> str:
+    """Name of a variable, whatever its unit."""
+    return str(values.name).removesuffix("_si")
 
 
 def _label(values: xarray.DataArray) -> str:
     """Words and unit of a variable."""
-    words, unit = values.attrs["long_name"], values.attrs.get("units", "1")
+    words, unit = _SHARES.get(str(values.name)) or values.attrs["long_name"], values.attrs.get("units", "1")
     own = {"c_r": r"$c_\mathrm{r}$", "Omega^2": r"$\Omega^2$", "Omega": r"$\Omega$", "m": "$m$"}
     if unit == "1":
         return str(words)
