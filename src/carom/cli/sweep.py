@@ -54,7 +54,7 @@ def sweep(
 
         def told(tally: Tally) -> None:
             last[:] = [tally]
-            tell((tally.done + tally.failed) / tally.points, _words(tally, plan))
+            tell((tally.done + tally.failed) / tally.points, _words(tally))
 
         try:
             tally = run_sweep(
@@ -78,9 +78,9 @@ def sweep(
         _print(plan, tally, failures)
 
 
-def _words(tally: Tally, plan: SweepPlan) -> str:
-    """Progress for people: how far, how fast, how long."""
-    parts = [f"{tally.done + tally.failed:,} of {tally.points:,} points", _rate(tally, plan)]
+def _words(tally: Tally) -> str:
+    """Progress for people, short enough for 80 columns: how far, how fast, how long."""
+    parts = [f"{tally.done + tally.failed:,} of {tally.points:,} points", _rate(tally.rate, "points")]
     if tally.left is not None:
         parts.append(f"{_duration(tally.left)} left")
     if tally.failed:
@@ -88,9 +88,10 @@ def _words(tally: Tally, plan: SweepPlan) -> str:
     return ", ".join(parts)
 
 
-def _rate(tally: Tally, plan: SweepPlan) -> str:
-    points = f"{tally.rate:.3g} points/s"
-    return f"{points} ({tally.rate * plan.task.starts:,.3g} starts/s)" if plan.task.starts else points
+def _rate(rate: float, noun: str) -> str:
+    from carom.study.wording import number
+
+    return f"{number(rate, 3)} {noun}/s"
 
 
 def _duration(seconds: float) -> str:
@@ -146,7 +147,10 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     screen.print(f"Sweep of {plan.case.name} ({plan.task.kind}): {grid}", soft_wrap=True)
     screen.print(table)
     if tally.computed:
-        screen.print(f"This run: {tally.computed:,} points in {_duration(tally.seconds)}, {_rate(tally, plan)}")
+        rate = _rate(tally.rate, "points")
+        if plan.task.starts:
+            rate += f" ({_rate(tally.rate * plan.task.starts, 'starts')})"
+        screen.print(f"This run: {tally.computed:,} points in {_duration(tally.seconds)}, {rate}")
     else:
         screen.print("Nothing was left to compute.")
     for failure in failures[:_SHOWN]:

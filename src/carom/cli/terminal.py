@@ -12,6 +12,7 @@ import typer
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.progress import Progress
 
 __all__ = ["AsJson", "MachineFile", "Settings", "console", "print_document", "progress"]
 
@@ -30,6 +31,7 @@ PIPE_WIDTH = 140
 """Columns of tables where the output is no terminal."""
 PATIENCE = 0.7
 """Seconds without a progress bar."""
+_CLOCK = len("0:00:00")
 
 
 def console(errors: bool = False) -> Console:
@@ -65,10 +67,7 @@ def progress(words: str) -> Iterator[Callable[[float, str], None]]:
     if not sys.stderr.isatty():
         yield lambda share, words: None
         return
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}", markup=False))
-    bar = Progress(*columns, console=console(errors=True), transient=True)
+    bar = _bar()
     task = bar.add_task(words, total=1.0)
     timer = threading.Timer(PATIENCE, bar.start)
     timer.daemon = True
@@ -79,3 +78,13 @@ def progress(words: str) -> Iterator[Callable[[float, str], None]]:
         timer.cancel()
         timer.join()
         bar.stop()
+
+
+def _bar() -> Progress:
+    """Bar, clock and words; where a terminal is narrow the bar gives way, then the end of the words, never the clock."""
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.table import Column
+
+    clock = TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=_CLOCK))
+    columns = (BarColumn(bar_width=30), clock, TextColumn("{task.description}", markup=False))
+    return Progress(*columns, console=console(errors=True), transient=True)
