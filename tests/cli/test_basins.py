@@ -61,6 +61,7 @@ def test_table_and_files(carom, machine, tmp_path):
         "Back to levitation",
         "Smallest kick",
         "provably",
+        " % of the largest radius tried",
         "Present machine: stiffness of the levitation 980,000 N/m",
         "of 64 cells of a grid, each represented by its middle: no sampling error).",
     ):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import to_rgb
+from matplotlib.contour import QuadContourSet
 
 import carom
 from carom import plots
@@ -122,6 +123,18 @@ def test_cells_are_where_their_start_is(rotor):
     np.testing.assert_array_equal(
         np.isclose(np.asarray(mesh.get_array()), 0.0), basin.recovered.T
     )  # the first in the order of outcomes is levitation
+
+
+@pytest.mark.parametrize("plan", [Grid(VelocityKick(1.0), (6, 8)), Grid(ContactRelease("rotating"), (20,))])
+def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
+    found = basins(rotor, plan)
+    axes = plots.basin(found).axes[0]
+    hatched = [entry for entry in axes.collections if isinstance(entry, QuadContourSet)]
+    looks = {plots.OUTCOMES[Outcome(code).label].hatch for code in np.unique(found.outcomes)} - {""}
+    assert {hatch for entry in hatched for hatch in entry.hatches} == looks
+    (mesh,) = [entry for entry in axes.collections if isinstance(entry, QuadMesh)]
+    corners = np.vstack([path.vertices for entry in hatched for path in entry.get_paths()])
+    np.testing.assert_allclose(corners[:, 1].max(), mesh.get_coordinates()[..., 1].max(), rtol=1e-3)
 
 
 def test_without_scales_units_are_those_of_the_equations():

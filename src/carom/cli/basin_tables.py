@@ -138,8 +138,8 @@ def _measures(basin: Basin) -> list[str]:
         pass
     else:
         reach = _size(basin.coordinates[0], found.local * found.whole, basin.scales)
-        text = f"Integrity: disturbances up to {reach} all come back, {found.local:.4g} of the largest radius tried"
-        more = f"; the largest ball anywhere {found.largest:.4g}" if math.isfinite(found.largest) else ""
+        text = f"Integrity: disturbances up to {reach} all come back, {100 * found.local:.4g} % of the largest radius tried"
+        more = f"; the largest ball anywhere {100 * found.largest:.4g} %" if math.isfinite(found.largest) else ""
         lines.append(f"{text}{more}.")
     try:
         entropy = basin_entropy(basin)

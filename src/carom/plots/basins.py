@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from carom.parameters import Scales
 
 __all__ = ["basin"]
+
+Bend = Callable[[Floats, Floats], tuple[Floats, Floats]]
+"""From coordinates of cells to those of the axes."""
 
 _PALER = (0.0, 0.4, 0.65, 0.8)
 """How much white the further motions of one outcome are mixed with."""
@@ -132,8 +135,13 @@ def _ink(colour: str) -> str:
     return "#ffffff" if dark else to_hex((0.72 * red, 0.72 * green, 0.72 * blue))
 
 
-def _paint(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown]) -> None:
-    """Paint cells, given by their edges, in the colours of the motions."""
+def _flat(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Coordinates of cells that are those of the axes."""
+    return x, y
+
+
+def _paint(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown], bend: Bend = _flat) -> None:
+    """Paint cells, given by their edges, in the colours of the motions; `bend` takes their corners into the axes."""
     order = {entry.index: place for place, entry in enumerate(motions)}
     places = np.full(index.shape, np.nan)
     for entry in motions:
@@ -141,22 +149,30 @@ def _paint(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequenc
     colours = ListedColormap([entry.colour for entry in motions])
     levels = BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions))
     mesh = axes.pcolormesh(
-        x, y, np.ma.masked_invalid(places).T, cmap=colours, norm=levels, shading="flat", rasterized=True, gid="cells"
+        *bend(*np.meshgrid(x, y)),
+        np.ma.masked_invalid(places).T,
+        cmap=colours,
+        norm=levels,
+        shading="flat",
+        rasterized=True,
+        gid="cells",
     )
     mesh.set_edgecolor("face")
     mesh.set_linewidth(0.1)
-    if min(index.shape) > 1:
-        _hatch(axes, 0.5 * (x[1:] + x[:-1]), 0.5 * (y[1:] + y[:-1]), index, motions)
+    _hatch(axes, bend(*np.meshgrid(_nodes(x), _nodes(y))), np.pad(index, 1, mode="edge"), motions)
 
 
-def _hatch(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown]) -> None:
+def _nodes(edges: Floats) -> Floats:
+    """Middles of cells, and the outermost edges."""
+    return np.concatenate([edges[:1], 0.5 * (edges[1:] + edges[:-1]), edges[-1:]])
+
+
+def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions: Sequence[_Shown]) -> None:
     """Hatch the areas of motions, so that they are told apart in grey too."""
-    if axes.name == "polar":  # close the gap between the last direction and the first
-        x, index = np.append(x, x[0] + 2.0 * np.pi), np.append(index, index[:1], axis=0)
     for entry in motions:
         inside = (index == entry.index).astype(float)
         if entry.hatch and inside.any():
-            area = axes.contourf(x, y, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.hatch])
+            area = axes.contourf(*nodes, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.hatch])
             area.set_edgecolor(_ink(entry.colour))
             area.set_linewidth(0.0)
             area.set_rasterized(True)
@@ -304,23 +320,14 @@ def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
     """Places on the wall, coloured by what a release there leads to."""
     figure = Figure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
     axes = figure.subplots()
-    index = basin.dataset["motion"].values
-    edges = basin.coordinates[0].edges(len(index))
-    radii = np.array(_RING)
-    places = np.full(index.shape, 0)
-    for place, entry in enumerate(motions):
-        places[index == entry.index] = place
-    colours = ListedColormap([entry.colour for entry in motions])
-    axes.pcolormesh(
-        radii[:, None] * np.cos(edges),
-        radii[:, None] * np.sin(edges),
-        places[None, :],
-        cmap=colours,
-        norm=BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions)),
-        shading="flat",
-        rasterized=True,
-        gid="cells",
-    )
+    cells = basin.dataset["motion"].values
+    parts = -(-_CHORDS // len(cells))
+    edges = basin.coordinates[0].edges(parts * len(cells))
+
+    def bend(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
+        return radius * np.cos(angle), radius * np.sin(angle)
+
+    _paint(axes, edges, np.array(_RING), np.repeat(cells, parts)[:, None], motions, bend)
     clearance_circle(axes, reach=1.05)
     label_frame(axes, "rotating", basin.scales)
     point(axes, basin.rotor.equilibrium, "contact-free", label="")
