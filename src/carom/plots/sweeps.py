@@ -31,13 +31,13 @@ __all__ = ["BLANKS", "blank_cells", "cell_edges", "colour_bar", "shaded_cells", 
 
 BLANKS = MappingProxyType(
     {
-        "no-levitation": Look("#e6e6e6", "no levitation without contact"),
+        "no-levitation": Look("#e6e6e6", "no levitation without contact", hatch=r"\\"),
         "none": Look("#ffffff", "no such value", hatch="////"),
         "waiting": Look("#ffffff", "not computed yet", hatch="...."),
         "failed": Look("#ffffff", "failed", hatch="xxxx"),
     }
 )
-"""Why a cell has no value: told apart by hatching, so by all eyes, and from shades by having none of their colours."""
+"""Why a cell has no value: told apart, and from shades and flags too, by hatching, so by all eyes and in grey."""
 _NONE = MappingProxyType(
     {
         "smallest_unrecovered_kick": "every kick tried came back",
@@ -199,7 +199,8 @@ def _shades(
     handles += blank_cells(axes, edges, reasons, words)
     if handles:
         title = values.attrs["long_name"] if meanings or not shown.count() else None
-        figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 4), title=title)
+        columns = min(len(handles), 5 if meanings else 4)  # Names of flags are short.
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns, title=title)
 
 
 def shaded_cells(axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, **look: Any) -> QuadMesh:
