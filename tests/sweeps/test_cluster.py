@@ -175,7 +175,7 @@ def test_scheduler_that_cannot_be_reached_is_named(address, tmp_path, monkeypatc
 
 
 def test_worker_of_another_version_is_refused(cluster, tmp_path, monkeypatch):
-    monkeypatch.setattr("carom.sweeps.cluster.version", lambda name: "9.9")
+    monkeypatch.setattr("carom.sweeps.versions.version", lambda name: "9.9")
 
     with pytest.raises(CaromError, match=r"worker on .* has carom .*, this is 9\.9; install"):
         run_sweep(plan_of(Drawn()), tmp_path / "s.zarr", scheduler=str(cluster.file))

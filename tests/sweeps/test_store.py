@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import subprocess
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -94,11 +95,12 @@ def test_store_of_another_plan_is_refused(tmp_path, other, words):
     assert stored_bytes(tmp_path / "s.zarr") == before
 
 
-def test_store_of_another_version_is_refused(tmp_path, monkeypatch):
+@pytest.mark.parametrize("changed", ["carom", "numpy", "numba"])
+def test_store_of_another_version_is_refused(changed, tmp_path, monkeypatch):
     fill(tmp_path / "s.zarr", [0])
-    monkeypatch.setattr("carom.sweeps.layout.version", lambda name: "9.9")
+    monkeypatch.setattr("carom.sweeps.versions.version", lambda name: "9.9" if name == changed else version(name))
 
-    with pytest.raises(InputError, match=r"was begun by carom .*, this is carom 9\.9"):
+    with pytest.raises(InputError, match=rf"was begun with {changed} .*, this is 9\.9"):
         SweepStore(tmp_path / "s.zarr", PLAN)
 
 

@@ -79,7 +79,11 @@ class BasinsTask:
             Variable("mean_impacts", "impacts until it was known where the motion ends, mean"),
         )
         if self.disturbance in _KICKS:
-            found += (Variable("smallest_unrecovered_kick", "smallest kick that did not come back", scale="velocity"),)
+            found += (
+                Variable(
+                    "smallest_unrecovered_kick", "smallest kick of the sample that does not come back", scale="velocity"
+                ),
+            )
         return with_si(found, self.has_scales)
 
     @property

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
-from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
 from queue import Empty, SimpleQueue
@@ -16,6 +15,7 @@ from carom.outcome import CaromError, InputError
 from carom.sweeps.chunk import Chunk, compute_chunk, failed_chunk
 from carom.sweeps.local import AHEAD
 from carom.sweeps.plan import SweepPlan
+from carom.sweeps.versions import other_version, versions
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -49,7 +49,7 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
     """
     from distributed import CancelledError, KilledWorker
 
-    here = version("carom")
+    here = versions()
     pending: dict[Future[Chunk], int] = {}
     ready: SimpleQueue[Future[Chunk]] = SimpleQueue()
 
@@ -76,7 +76,7 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
                 chunk = failed_chunk(plan, number, "too many workers were lost while they computed it")
             except (ImportError, AttributeError, RuntimeError) as problem:  # chunks themselves raise nothing
                 reason = " ".join(str(problem.__cause__ or problem).split())
-                raise CaromError(f"a worker cannot load carom ({reason}); install {here} there") from None
+                raise CaromError(f"a worker cannot load carom ({reason}); install {here['carom']} there") from None
             submit()
             yield chunk
     except (CancelledError, OSError) as problem:
@@ -123,11 +123,15 @@ def _connected(kind: type[Client], scheduler: str, workers: int | None) -> Itera
             yield client
         return
     place = {"scheduler_file": scheduler} if Path(scheduler).is_file() else {"address": scheduler}
+    allowed = (
+        f"must be the address of a Dask scheduler that can be reached, such as tcp://host:8786, or its file, or {SLURM}"
+    )
+    if "address" in place and ":" not in scheduler:
+        raise InputError(OPTION, scheduler, f"{allowed} (there is no such file)")
     try:
         client = kind(**place, timeout=_PATIENCE, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as problem:
-        allowed = "must be the address of a Dask scheduler that can be reached, such as tcp://host:8786, or its file"
-        raise InputError(OPTION, scheduler, f"{allowed}, or {SLURM} ({type(problem).__name__})") from None
+        raise InputError(OPTION, scheduler, f"{allowed} ({type(problem).__name__})") from None
     with client:
         yield client
 
@@ -164,9 +168,9 @@ def _slurm_jobs(workers: int | None) -> Iterator[object]:
         yield cluster
 
 
-def _compute(plan: SweepPlan, number: int, wanted: str) -> Chunk:
-    """Compute a chunk on a worker, if it is the same carom."""
-    there = version("carom")
-    if there != wanted:
-        raise CaromError(f"the worker on {gethostname()} has carom {there}, this is {wanted}; install the same on both")
+def _compute(plan: SweepPlan, number: int, wanted: dict[str, str]) -> Chunk:
+    """Compute a chunk on a worker, if it has the same carom and what that stands on."""
+    if other := other_version(versions(), wanted):
+        name, there, here = other
+        raise CaromError(f"the worker on {gethostname()} has {name} {there}, this is {here}; install the same on both")
     return compute_chunk(plan, number)

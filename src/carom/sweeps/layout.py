@@ -9,7 +9,6 @@ import shutil
 import warnings
 from collections.abc import Sequence
 from datetime import UTC, datetime
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +18,7 @@ from carom.outcome import InputError
 from carom.sweeps.files import sync_directory
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status, flag_attributes
+from carom.sweeps.versions import other_version, versions
 
 __all__ = ["FAILURES", "OPTION", "PARTS", "attributes_of", "check_same", "create", "is_new"]
 
@@ -54,13 +54,14 @@ def attributes_of(path: Path) -> dict[str, Any] | None:
 def check_same(path: Path, plan: SweepPlan) -> None:
     """Refuse a store that belongs to another plan, or was begun by another version."""
     attributes = attributes_of(path) or {}
-    there, source = json.loads(attributes["plan"]), attributes.get("source")
+    there, began = json.loads(attributes["plan"]), attributes.get("versions", {})
     wanted = json.loads(json.dumps(plan.describe()))
     if there != wanted:
         where = _difference(there, wanted)
         raise InputError(OPTION, path, f"belongs to another plan (its {where}); give another directory")
-    if source != _source():
-        raise InputError(OPTION, path, f"was begun by {source}, this is {_source()}; go on with that, or begin anew")
+    if other := other_version(began, versions()):
+        name, then, now = other
+        raise InputError(OPTION, path, f"was begun with {name} {then}, this is {now}; go on with that, or begin anew")
 
 
 def _difference(there: Any, wanted: Any, where: str = "") -> str:
@@ -75,10 +76,6 @@ def _difference(there: Any, wanted: Any, where: str = "") -> str:
                 name = first.get("name", "") if isinstance(first, dict) else ""
                 return _difference(first, second, f"{where} {name}".strip())
     return f"{where} is {there}, not {wanted}"
-
-
-def _source() -> str:
-    return f"carom {version('carom')}"
 
 
 def create(path: Path, plan: SweepPlan) -> None:
@@ -101,10 +98,9 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
     attributes = {
         "Conventions": "CF-1.11",
         "title": f"Sweep of {plan.case.name}: {plan.task.kind}",
-        "source": _source(),
+        "source": f"carom {versions()['carom']}",
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} begun",
-        "versions": {name: version(name) for name in ("carom", "numpy", "numba")}
-        | {"python": platform.python_version()},
+        "versions": versions() | {"python": platform.python_version()},
         "processor": platform.machine(),
         "seed": plan.seed,
         "plan": json.dumps(plan.describe()),
