@@ -149,6 +149,7 @@ def test_the_plane_of_kicks_by_its_short_name():
         (lambda: VelocityKick(-1.0), "fastest"),
         (lambda: VelocityKick(math.nan), "fastest"),
         (lambda: BaseShock(1.0, 0.0), "duration"),
+        (lambda: BaseShock(1.0, 1.1e4), "duration"),
         (lambda: BaseShock(math.inf, 1.0), "peak"),
         (lambda: ContactRelease("sideways"), "motion"),
         (lambda: StateSlice(complex(math.inf, 0.0)), "velocity"),

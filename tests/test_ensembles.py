@@ -158,6 +158,8 @@ def test_progress_ends_at_one(machine):
         ({"velocities": [np.inf, 0.0]}, "start velocity = .*finite"),
         ({"until": -1.0}, "until = -1.0"),
         ({"max_events": 0}, "max_events = 0"),
+        ({"max_events": 2.5}, "max_events = 2.5"),
+        ({"patience": 0}, "patience = 0"),
         ({"threads": 0}, "threads = 0"),
         ({"which": [0, 0]}, "which = "),
     ],

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from numbers import Integral
 from typing import NamedTuple
 
 import numpy as np
@@ -119,23 +120,28 @@ def settle_all(
     Raises
     ------
     InputError
-        A start lies outside the wall or is not finite, or ``which`` names no machine.
+        A start lies outside the wall, is too fast or not finite, ``which`` names no machine, or a limit is no number above 0.
     """
     rotors, which = _machines(rotor, which)
     positions, velocities, which = np.broadcast_arrays(
         np.asarray(positions, complex), np.asarray(velocities, complex), which
     )
-    _check(positions, velocities, until, max_events, threads)
+    _check_starts(positions, velocities)
+    if not (np.isfinite(until) and until > 0):
+        raise InputError("until", until, "a finite time above 0, in 1/Omega")
+    for name, number in (("patience", patience), ("max_events", max_events), ("threads", threads)):
+        if number is not None and not (isinstance(number, Integral) and number >= 1):
+            raise InputError(name, number, "a whole number of at least 1")
     order = slice(None) if len(rotors) == 1 else np.argsort(which, axis=None, kind="stable")
     motions = _motions(positions.ravel()[order], velocities.ravel()[order])
     limits = _Limits(until, settle, patience, max_events)
     threads = threads or available_cores()
-    shares = []
+    parts = []
     for machine, portion in _portions(which.ravel()[order], len(rotors)):
-        share = _Share(rotors[machine], motions[portion], fresh_counter())
-        shares += [share] * min(threads, 1 + len(share.motions) // FEW)
+        part = _Part(rotors[machine], motions[portion], fresh_counter())
+        parts += [part] * min(threads, 1 + len(part.motions) // FEW)
     done = 0
-    for finished in _settle_shares(shares, limits, threads):
+    for finished in _settle_parts(parts, limits, threads):
         done += finished
         if progress:
             progress(done / positions.size)
@@ -165,7 +171,7 @@ def _machines(rotor: Rotor | Sequence[Rotor], which: np.ndarray | None) -> tuple
     return rotor, chosen
 
 
-def _check(positions: np.ndarray, velocities: np.ndarray, until: float, max_events: int, threads: int | None) -> None:
+def _check_starts(positions: np.ndarray, velocities: np.ndarray) -> None:
     for name, values in (("position", positions), ("velocity", velocities)):
         wrong = ~np.isfinite(values)
         if wrong.any():
@@ -176,12 +182,6 @@ def _check(positions: np.ndarray, velocities: np.ndarray, until: float, max_even
     outside = np.abs(positions) > 1.0 + WALL_TOLERANCE
     if outside.any():
         raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")
-    if not (np.isfinite(until) and until > 0):
-        raise InputError("until", until, "a finite time above 0, in 1/Omega")
-    if max_events < 1:
-        raise InputError("max_events", max_events, "a whole number of at least 1")
-    if threads is not None and threads < 1:
-        raise InputError("threads", threads, "a whole number of at least 1")
 
 
 def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
@@ -199,7 +199,7 @@ def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
             yield machine, slice(first, min(first + PORTION, ends[machine + 1]))
 
 
-class _Share(NamedTuple):
+class _Part(NamedTuple):
     """A part in the work on some motions of one machine: the counter deals them out to all who have one."""
 
     rotor: Rotor
@@ -207,26 +207,26 @@ class _Share(NamedTuple):
     counter: np.record
 
 
-def _settle_shares(shares: list[_Share], limits: _Limits, threads: int) -> Iterator[int]:
-    """Do shares of the work, on this thread if no other is wanted; the number of motions followed in each one done."""
-    if threads == 1:
-        yield from (_settle_share(share, limits) for share in shares)
+def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator[int]:
+    """Do parts of the work, on this thread if no other is wanted; the number of motions followed in each one done."""
+    if min(threads, len(parts)) == 1:
+        yield from (_settle_part(part, limits) for part in parts)
         return
     with ThreadPoolExecutor(threads) as pool:
         try:
-            for finished in as_completed([pool.submit(_settle_share, share, limits) for share in shares]):
+            for finished in as_completed([pool.submit(_settle_part, part, limits) for part in parts]):
                 yield finished.result()
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
 
 
-def _settle_share(share: _Share, limits: _Limits) -> int:
-    task = Task(share.rotor.arrays, share.rotor.table, limits.until, limits.max_events)
-    memory = fresh_memory(share.rotor, limits.patience if limits.settle else 0, absorb=True)
+def _settle_part(part: _Part, limits: _Limits) -> int:
+    task = Task(part.rotor.arrays, part.rotor.table, limits.until, limits.max_events)
+    memory = fresh_memory(part.rotor, limits.patience if limits.settle else 0, absorb=True)
     # Uncompiled, a lane that has nothing to divide warns.
     with np.errstate(all="ignore"):
-        return int(follow_each(task, share.motions, share.counter, _workbench.tools(memory)))
+        return int(follow_each(task, part.motions, part.counter, _workbench.tools(memory)))
 
 
 class _Workbench(threading.local):

@@ -102,6 +102,7 @@ def test_threads_change_nothing(rotor, kicks):
     "plan",
     [
         Grid(VelocityKick(1.0), (4, 5)),
+        Grid(VelocityKick(0.01), (4, 5)),
         Grid(BaseShock(1.0, 0.7), (4, 5)),
         Grid(UnbalanceStep(0.5), (4, 5)),
         Grid(ContactRelease("rotating"), (7,)),

@@ -94,7 +94,8 @@ def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
 
 def test_samples_and_dimensionless_axes_and_files(tmp_path):
     plan = Sample(VelocityKick(0.2), 60, seed=5)
-    found = gain_map(PAPER.replace(gamma=0.15), plan, ("omega", "gamma"), shape=(3, 4))
+    limits = {"patience": 9_000, "max_events": 90_000}
+    found = gain_map(PAPER.replace(gamma=0.15), plan, ("omega", "gamma"), shape=(3, 4), **limits)
     low, middle, high = (found.dataset[name].values for name in ("recovered_low", "recovered", "recovered_high"))
     able = found.dataset["levitates"].values > 0.0
     assert (low <= middle).all()
@@ -106,6 +107,7 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
     assert read.dataset.identical(found.dataset)
     assert (read.plan, read.present, read.present_share) == (found.plan, found.present, found.present_share)
     assert [axis.name for axis in read.axes] == ["omega", "gamma"]
+    assert read.limits == limits
 
 
 @pytest.mark.parametrize(

@@ -241,7 +241,7 @@ def basins(
 
 
 def follow(rotor: Rotor, starts: Starts, **limits: Any) -> Endings:
-    """Where all starts end; those that do not exist rest in the middle of the clearance.
+    """Where all starts end; those that do not exist, or are undecided, are not followed and have zeros everywhere.
 
     Raises
     ------

@@ -81,6 +81,11 @@ class GainMap:
         return Share.of(count, total, drawn=isinstance(self.plan, Sample))
 
     @property
+    def limits(self) -> dict[str, int]:
+        """``patience`` and ``max_events`` of :func:`~carom.basins.basins` with which it was measured."""
+        return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
+
+    @property
     def safe_sizes(self) -> np.ndarray:
         """Size up to which no kick or shock is lost at each node, in units of the present machine; see ``integrity``."""
         largest = self.plan.model.coordinates[0].high
@@ -159,11 +164,13 @@ def gain_map(
     values = [
         _values(parameters, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)
     ]
-    limits = {"patience": patience, "max_events": max_events, "threads": threads}
+    limits = {"patience": patience, "max_events": max_events}
     nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
     present = tuple(varied.get(Numbers.of(parameters)) for varied in axes)
     measures = []
-    for done, found in enumerate(measured(parameters, disturbances, axes, [*nodes, present], limits), start=1):
+    for done, found in enumerate(
+        measured(parameters, disturbances, axes, [*nodes, present], {**limits, "threads": threads}), start=1
+    ):
         measures.append(found)
         if progress:
             progress(done / (len(nodes) + 1))
@@ -173,6 +180,7 @@ def gain_map(
         **(source or {}),
         **provenance(jeffcott(parameters), disturbances),
         "title": "Share of disturbances that come back to levitation, against two parameters",
+        **limits,
         "present_recovered": now["count"],
         "present_starts": now["total"],
     }

@@ -8,6 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
@@ -60,6 +62,9 @@ def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as opened:
             dataset = opened.load()
+        for variable in dataset.variables.values():
+            if "flag_values" in variable.attrs:  # a single one comes back as a number
+                variable.attrs["flag_values"] = np.atleast_1d(variable.attrs["flag_values"])
     except (OSError, ValueError) as problem:
         reason = os.strerror(problem.errno) if isinstance(problem, OSError) and problem.errno else "not netCDF"
         raise InputError("file", str(path), f"cannot be read ({reason})") from None

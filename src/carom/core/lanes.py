@@ -23,7 +23,7 @@ __all__ = ["CLEARED", "LATE", "NOTED", "OPEN", "STRUCK", "fly_lanes", "lanes_rec
 
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
 """What happened to a lane: a free block of flight; an impact; an impact whose recurrence is to be looked at; none,
-because time would run out; none, because nothing could be proven."""
+because time would run out; none, because the block proved nothing (a shorter one is tried unless it was the shortest)."""
 
 CLEARLY_OFF = 1e-9
 """Speed off the wall that is no rest, whatever the rounding of a state of moderate size."""
@@ -52,8 +52,10 @@ def lanes_record() -> np.record:
     ``lower`` and ``upper`` are the amplitudes of the driving and the driven mode, with the exponents ``λ₋`` and ``λ₊``;
     ``level`` is ``|y|² − 1``, zero on the wall; ``clock`` counts time.  ``depth`` is the first block to try: LEVELS or more where
     none is left.  A plain impact adds to ``quiet``; it is to be NOTED when ``due`` is reached or the state is within
-    ``reach`` of the ``reference``.  The whole numbers are books of :mod:`carom.core.ensemble`: the motion held, its events, impacts, events
-    without progress, and, with the ``reference``, what :func:`carom.core.fate.memory` holds of it.
+    ``reach`` of the ``reference``.  The end of a free block is to be looked at in a lane that is ``watched``.  ``verdict`` says
+    what has happened last, ``arrival`` is the state before an impact.  The whole numbers are books of
+    :mod:`carom.core.ensemble`: the motion held, its events, impacts, events without progress, and, with the ``reference``,
+    what :func:`carom.core.fate.memory` holds of it.
     """
     return record(
         **{name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ANSWER)},

@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
+from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
@@ -20,6 +21,8 @@ __all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
+LONGEST_SHOCK = 1e4
+"""Longest duration, in ``1/Ω``: every pulse is followed to its end, over some 1600 turns of the shaft at most."""
 
 
 @dataclass(frozen=True)
@@ -113,6 +116,11 @@ class BaseShock(Disturbance):
     duration: float
     kind: ClassVar[str] = "shock"
     measured_in: ClassVar[dict[str, str]] = {"peak": "acceleration", "duration": "time"}
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.duration > LONGEST_SHOCK:
+            raise InputError("duration", self.duration, f"at most {LONGEST_SHOCK:g}, in 1/Omega: a shock, no vibration")
 
     @classmethod
     def in_si(cls, scales: Scales, g: float, milliseconds: float) -> BaseShock:
