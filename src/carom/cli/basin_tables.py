@@ -71,7 +71,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     if not all(found.present):
         return
     if change is None:
-        screen.print(f"No machine of the map brings back {100 * wanted:g} %.")
+        screen.print(f"No machine of the map brings back {100 * wanted:g} %{_for_sure(found, enough)}.")
     elif change.size == 0.0:
         screen.print("No change is needed.")
     else:
@@ -82,6 +82,13 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
         screen.print(
             f"Least change found for {100 * wanted:g} %: {parts}; {100 * change.share.fraction:.4g} % come back."
         )
+
+
+def _for_sure(found: GainMap, enough: float) -> str:
+    """What is asked of a sample, where some machines bring back enough of theirs."""
+    if enough == 0.0 or not found.present_share.drawn:
+        return ""
+    return f" with 95 % confidence, as is asked of a sample: {found.present_share.total} starts may be too few"
 
 
 def _tried(basin: Basin) -> str:
@@ -138,7 +145,7 @@ def _measures(basin: Basin) -> list[str]:
         pass
     else:
         reach = _size(basin.coordinates[0], found.local * found.whole, basin.scales)
-        text = f"Integrity: disturbances up to {reach} all come back, {100 * found.local:.4g} % of the largest radius tried"
+        text = f"Integrity: all disturbances tried up to {reach} come back, {100 * found.local:.4g} % of the largest radius tried"
         more = f"; the largest ball anywhere {100 * found.largest:.4g} %" if math.isfinite(found.largest) else ""
         lines.append(f"{text}{more}.")
     try:
@@ -147,7 +154,7 @@ def _measures(basin: Basin) -> list[str]:
         return lines
     if entropy.boxes:
         boundary = f"{entropy.boundary:.4g} at boundaries" if entropy.mixed else "no boundary"
-        kind = "; above ln 2: a fractal boundary" if entropy.fractal else ""
+        kind = "; above ln 2, which suggests a fractal boundary" if entropy.fractal else ""
         lines.append(f"Basin entropy: {entropy.whole:.4g}, {boundary} (boxes of {entropy.side} starts a side{kind}).")
     return lines
 
