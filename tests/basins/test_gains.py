@@ -13,7 +13,7 @@ import carom
 from carom.basins import GainMap, basin_entropy, basins, gain_map, integrity, least_gain_change
 from carom.bifurcations import vary
 from carom.disturbances import Grid, Sample, VelocityKick
-from carom.outcome import InputError
+from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 
@@ -44,6 +44,17 @@ def test_each_node_is_the_basin_of_its_machine(found):
             basin = basins(rotor, KICKS)
             assert node["recovered"] == basin.share_recovered.fraction
             assert node["integrity"] == pytest.approx(integrity(basin).local)
+            speeds, angles = (
+                axis.ravel() for axis in np.meshgrid(*(basin.dataset[k] for k in ("speed", "direction")), indexing="ij")
+            )
+            gone = ~np.isin(basin.outcomes.ravel(), (Outcome.LEVITATED, Outcome.GRAZING))
+            if gone.any():
+                assert node["smallest_unrecovered_kick"] == pytest.approx(speeds[gone].min())
+                apart = angles[gone & (speeds == speeds[gone].min())] - float(node["smallest_unrecovered_kick_angle"])
+                assert np.abs(np.exp(1j * apart) - 1.0).min() < 1e-9
+            else:
+                assert np.isnan(node["smallest_unrecovered_kick"])
+                assert np.isnan(node["smallest_unrecovered_kick_angle"])
             if len(set(basin.motions)) == len(set(basin.outcomes.flat)):
                 assert node["basin_entropy"] == pytest.approx(basin_entropy(basin).whole)
 

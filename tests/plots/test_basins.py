@@ -197,6 +197,12 @@ def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
     assert "one outcome only: no boundary" in said
     assert not any(text.startswith("no levitation") for text in said)
 
+    found.dataset["smallest_unrecovered_kick"].values[:] = 0.25
+    found.dataset["smallest_unrecovered_kick"].values[0, 1] = np.nan
+    figure = plots.gain_map(found, measure="smallest_unrecovered_kick")
+    assert "every kick tried comes back" in words(figure)
+    assert "smallest kick tried that does not come back (m/s)" in [axes.get_ylabel() for axes in figure.axes]
+
     drawn = gain_map(MACHINE, Sample(VelocityKick.in_si(SCALES, 0.08), 20), shape=(2, 2))
     with pytest.raises(InputError, match="one that this map has: recovered"):
         plots.gain_map(drawn, measure="integrity")

@@ -114,6 +114,21 @@ def test_basins_count_every_possible_start():
 
 
 @pytest.mark.jit_only
+def test_the_smallest_kick_that_is_lost_and_its_direction():
+    from carom import Outcome, settle_all
+
+    plan = basins_plan(starts=40, damping=(0.1, 0.2))
+    (starts,) = plan.task._batches(_rotor(plan), plan.seed_of((0, 0)))
+    outcomes = settle_all(_rotor(plan), starts.positions, starts.velocities).outcomes
+    gone = starts.velocities[~np.isin(outcomes, (Outcome.LEVITATED, Outcome.GRAZING))]
+    smallest = gone[np.abs(gone).argmin()]
+    found = plan.task.evaluate(plan.case_at((0, 0)), plan.seed_of((0, 0)))
+    assert found["smallest_unrecovered_kick"] == abs(smallest)
+    assert found["smallest_unrecovered_kick_angle"] == np.angle(smallest)
+    assert "smallest_unrecovered_kick_si" not in found
+
+
+@pytest.mark.jit_only
 def test_batches_bound_memory_and_change_nothing_else(monkeypatch):
     import carom.sweeps.basins
 

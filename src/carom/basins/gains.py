@@ -14,9 +14,10 @@ import numpy as np
 from carom.basins.classification import NO_START, plan_of, provenance
 from carom.basins.entropy import entropies
 from carom.basins.integrity import safe_size
+from carom.basins.kicks import smallest_lost
 from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
-from carom.disturbances import BaseShock, Grid, Plan, Sample, Starts, VelocityKick
+from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.ensembles import MOST_EVENTS, PATIENCE, settle_all
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
@@ -45,7 +46,9 @@ class GainMap:
         Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back) with ``recovered_low`` and
         ``recovered_high`` (95 % confidence of a sample), ``unresolved``, ``levitates`` (whether there is levitation to
         come back to), ``integrity`` (of kicks and shocks on a grid: largest size up to which none is lost, as a fraction of
-        the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of outcomes, on a grid).
+        the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of outcomes, on a grid); of kicks also
+        ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
+        ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back.
     """
 
     dataset: xarray.Dataset
@@ -231,8 +234,9 @@ def measured(
                 codes = np.where(starts.exists, np.int8(Outcome.GRAZING), np.int8(NO_START))
                 codes[which] = ends[machines == machine]
                 outcomes[place] = codes
-        for place in range(len(chunk)):
-            yield _measures(plan, outcomes.get(place))
+        for place, (rotor, starts) in enumerate(chunk):
+            found = outcomes.get(place)
+            yield _measures(plan, found) | _smallest(parameters, plan, rotor, starts, found)
 
 
 def _machine(
@@ -277,6 +281,21 @@ def _measures(plan: Plan, outcomes: np.ndarray | None) -> dict[str, Any]:
     return measures
 
 
+def _smallest(
+    parameters: Parameters, plan: Plan, rotor: Rotor, starts: Starts | None, outcomes: np.ndarray | None
+) -> dict[str, float]:
+    """The smallest kick tried that one machine does not come back from, in the present machine's units of velocity."""
+    if not isinstance(plan.model, VelocityKick | KickPlane):
+        return {}
+    found = None
+    if starts is not None and outcomes is not None:
+        found = smallest_lost(starts.velocities[starts.exists], outcomes[starts.exists])
+    speed, direction = found or (math.nan, math.nan)
+    if rotor.scales is not None and parameters.scales is not None:
+        speed *= rotor.scales.velocity / parameters.scales.velocity
+    return {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}
+
+
 _WORDS = {
     "recovered": "share of the disturbances that comes back to levitation",
     "recovered_low": "lower end of its 95 % confidence interval (of a grid: the share)",
@@ -286,6 +305,10 @@ _WORDS = {
     "integrity": "size up to which no disturbance is lost, as a fraction of the largest one",
     "basin_entropy": "basin entropy of the outcomes",
     "boundary_basin_entropy": "boundary basin entropy of the outcomes",
+}
+_KICK_WORDS = {
+    "smallest_unrecovered_kick": "smallest kick tried that does not come back, in c_r Omega of the present machine",
+    "smallest_unrecovered_kick_angle": "its direction, from the real axis of the co-rotating frame",
 }
 
 
@@ -298,9 +321,10 @@ def _dataset(axes: tuple[Axis, Axis], values: list[np.ndarray], measures: list[d
         name: (
             dimensions,
             np.array([entry[name] for entry in measures], float).reshape(shape),
-            {"units": "1", "long_name": words},
+            {"units": "rad" if name.endswith("angle") else "1", "long_name": words},
         )
-        for name, words in _WORDS.items()
+        for name, words in (_WORDS | _KICK_WORDS).items()
+        if name in measures[0]
     }
     coordinates = {
         varied.name: (varied.name, along, {"units": varied.field.unit or "1", "long_name": varied.field.words})

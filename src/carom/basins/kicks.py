@@ -12,7 +12,7 @@ from carom.ensembles import settle_all
 from carom.outcome import InputError, Outcome
 from carom.rotors import Rotor
 
-__all__ = ["SmallestKick", "harmless_kick", "harmless_shock", "smallest_unrecovered_kick"]
+__all__ = ["SmallestKick", "harmless_kick", "harmless_shock", "smallest_lost", "smallest_unrecovered_kick"]
 
 DIRECTIONS, SPEEDS = 96, 96
 TOLERANCE = 1e-3
@@ -182,17 +182,17 @@ class _Search:
     def look(self, angles: np.ndarray, levels: np.ndarray) -> None:
         """Scan directions at growing speeds, of which the first is known to come back; bisect the first that is lost."""
         outcomes = self._outcomes(levels[None, 1:], angles[:, None])
-        lost = _lost(outcomes)
-        hit = np.flatnonzero(lost.any(axis=1))
+        gone = lost(outcomes)
+        hit = np.flatnonzero(gone.any(axis=1))
         if not len(hit):
             return
-        first = lost[hit].argmax(axis=1)
+        first = gone[hit].argmax(axis=1)
         low, high = levels[first], levels[first + 1]
         ends, angles = outcomes[hit, first], angles[hit]
         while ((high - low) > self.tolerance * high).any():
             middle = 0.5 * (low + high)
             found = self._outcomes(middle, angles)
-            gone = _lost(found)
+            gone = lost(found)
             low, high = np.where(gone, low, middle), np.where(gone, middle, high)
             ends = np.where(gone, found, ends)
         place = int(high.argmin())
@@ -206,6 +206,15 @@ class _Search:
         return settle_all(self.rotor, starts.positions, starts.velocities, threads=self.threads).outcomes
 
 
-def _lost(outcomes: np.ndarray) -> np.ndarray:
+def lost(outcomes: np.ndarray) -> np.ndarray:
     """Not back in levitation; what double precision cannot decide is not held against the rotor."""
     return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
+
+
+def smallest_lost(velocities: np.ndarray, outcomes: np.ndarray) -> tuple[float, float] | None:
+    """Speed and direction of the smallest kick that is lost, if any, of kicks to these velocities."""
+    gone = velocities[lost(outcomes)]
+    if not gone.size:
+        return None
+    smallest = gone[np.abs(gone).argmin()]
+    return float(abs(smallest)), float(np.angle(smallest))

@@ -32,11 +32,19 @@ _MEASURES = {
     "integrity": ("largest size of which none is lost, of the largest tried", True),
     "basin_entropy": ("basin entropy of the outcomes", False),
     "boundary_basin_entropy": ("boundary basin entropy of the outcomes", False),
+    "smallest_unrecovered_kick": ("smallest kick tried that does not come back", False),
 }
 """What shades can tell, and whether it is a share."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
-_ALIKE = MappingProxyType({"none": "one outcome only: no boundary"})
-"""Why a machine that levitates has no boundary basin entropy."""
+_TOLD_BY = MappingProxyType({"boundary_basin_entropy": "basin_entropy", "smallest_unrecovered_kick": "recovered"})
+"""Measures that some machines do not have, which is a finding, and one that all have then."""
+_NONE = MappingProxyType(
+    {
+        "boundary_basin_entropy": "one outcome only: no boundary",
+        "smallest_unrecovered_kick": "every kick tried comes back",
+    }
+)
+"""Why a machine that levitates does not have it."""
 
 
 @styled
@@ -56,7 +64,7 @@ def gain_map(
     change : carom.basins.GainChange, optional
         Least change that reaches a wanted share, to be drawn as an arrow.
     title : str, optional
-    measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy"}
+    measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy", "smallest_unrecovered_kick"}
         What the shades tell; the contours are those of the share that comes back.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 126 mm wide.
@@ -78,12 +86,18 @@ def gain_map(
     units = [parameter_unit(axis) for axis in found.axes]
     x, y = (found.dataset[axis.name].values / unit for axis, unit in zip(found.axes, units, strict=True))
     values = np.ma.masked_invalid(found.dataset[measure].values)
+    bar = _MEASURES[measure][0]
+    if measure == "smallest_unrecovered_kick":
+        scales = found.parameters.scales
+        values, bar = (
+            (values, rf"{bar} ($c_r \Omega$)") if scales is None else (values * scales.velocity, f"{bar} (m/s)")
+        )
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)
-    _shades(figure, drawn, edges, np.ma.masked_where(grounded, values), measure)
+    _shades(figure, drawn, edges, np.ma.masked_where(grounded, values), bar, _MEASURES[measure][1])
     here = found.present[0] / units[0], found.present[1] / units[1]
     blank = {"no-levitation": grounded, "none": np.ma.getmaskarray(values) & ~grounded}
-    words = dict(_ALIKE)
+    words = {"none": _NONE.get(measure, "")}
     if found.present_share.count and _within(edges, here, grounded):
         # The cell of a machine that levitates, where a part comes back, would contradict the star on it.
         words["no-levitation"] = "no levitation without contact (in the middle of the cell)"
@@ -108,14 +122,17 @@ def gain_map(
 def _known(found: GainMap) -> list[str]:
     """Measures that the disturbances of a map have: some only on a grid of them."""
     levitates = found.dataset["levitates"].values > 0.0
-    # Without a boundary between outcomes there is no entropy of it, which is a finding.
-    told_by = {"boundary_basin_entropy": "basin_entropy"}
-    return [name for name in _MEASURES if np.isfinite(found.dataset[told_by.get(name, name)].values[levitates]).all()]
+    return [
+        name
+        for name in _MEASURES
+        if name in found.dataset and np.isfinite(found.dataset[_TOLD_BY.get(name, name)].values[levitates]).all()
+    ]
 
 
-def _shades(figure: Figure, axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, measure: str) -> None:
-    """Shades of a measure and their bar."""
-    words, share = _MEASURES[measure]
+def _shades(
+    figure: Figure, axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, words: str, share: bool
+) -> None:
+    """Shades of a measure, perhaps a share, and their bar."""
     highest = 1.0 if share else max(float(values.filled(0.0).max()), 1e-3)
     bar = colour_bar(figure, axes, shaded_cells(axes, edges, values, vmin=0.0, vmax=highest), words)
     if share:

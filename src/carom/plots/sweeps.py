@@ -41,6 +41,7 @@ BLANKS = MappingProxyType(
 _NONE = MappingProxyType(
     {
         "smallest_unrecovered_kick": "every kick tried came back",
+        "smallest_unrecovered_kick_angle": "every kick tried came back",
         "rub_force": "no stable rub",
         "orbit_impulse": "no stable orbit with one impact",
         "least_damping": "contact survives all damping tried",
@@ -48,7 +49,7 @@ _NONE = MappingProxyType(
     }
 )
 """What it means that a number does not exist, or is infinite, in a machine that was computed."""
-_LEVITATING = ("zone", "smallest_unrecovered_kick")
+_LEVITATING = ("zone", "smallest_unrecovered_kick", "smallest_unrecovered_kick_angle")
 """What a study stores of machines that levitate only."""
 _SHARES = MappingProxyType(
     {

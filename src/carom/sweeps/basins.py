@@ -83,6 +83,11 @@ class BasinsTask:
                 Variable(
                     "smallest_unrecovered_kick", "smallest kick of the sample that does not come back", scale="velocity"
                 ),
+                Variable(
+                    "smallest_unrecovered_kick_angle",
+                    "its direction, from the real axis of the co-rotating frame",
+                    unit="rad",
+                ),
             )
         return with_si(found, self.has_scales)
 
@@ -114,26 +119,28 @@ class BasinsTask:
         seed : SeedSequence
             Of this point.
         """
+        from carom.basins.kicks import smallest_lost
         from carom.basins.shares import Share
         from carom.rotors import jeffcott
 
         rotor = jeffcott(case.parameters)
         counts = np.zeros(len(ENDINGS), np.int64)
-        impacts, smallest = 0, np.inf
+        impacts, kicks = 0, []
         for starts in self._batches(rotor, seed):
             outcomes, struck = _follow(rotor, starts)
             counts += np.array([np.count_nonzero(outcomes == ending) for ending in ENDINGS])
             impacts += struck
-            lost = np.abs(starts.velocities[starts.exists][outcomes != Outcome.LEVITATED])
-            smallest = min(smallest, lost.min(initial=np.inf))
+            if self.disturbance in _KICKS and (kick := smallest_lost(starts.velocities[starts.exists], outcomes)):
+                kicks.append(kick)
         possible = int(counts.sum())
         found: dict[str, Any] = {"possible": possible, "counts": counts}
         if possible:
             share = Share.of(int(counts[0]), possible, drawn=True)
             found |= {"recovered": share.fraction, "recovered_low": share.low, "recovered_high": share.high}
             found["mean_impacts"] = impacts / possible
-        if self.disturbance in _KICKS and np.isfinite(smallest):
-            found["smallest_unrecovered_kick"] = smallest
+        if kicks:
+            smallest, direction = min(kicks)
+            found |= {"smallest_unrecovered_kick": smallest, "smallest_unrecovered_kick_angle": direction}
             if rotor.scales is not None:
                 found["smallest_unrecovered_kick_si"] = smallest * rotor.scales.velocity
         return found
