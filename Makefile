@@ -13,10 +13,10 @@ PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test check lint types layers format coverage bench docs lock clean distclean
+.PHONY: help demo test test-deep check lint types layers format coverage bench docs lock clean distclean
 
 help: ## list the targets
-	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/\1	\2/p' Makefile | awk -F '\t' '{ printf "make %-10s %s\n", $$1, $$2 }'
+	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1	\2/p' Makefile | awk -F '\t' '{ printf "make %-10s %s\n", $$1, $$2 }'
 
 demo: $(RUN) ## study the machine of examples/keogh-cole.toml
 	$(BIN)/carom study examples/keogh-cole.toml --out demo-output
@@ -24,6 +24,9 @@ demo: $(RUN) ## study the machine of examples/keogh-cole.toml
 
 test: $(TEST) ## run the tests
 	$(PYTEST) $(ARGS)
+
+test-deep: $(TEST) ## run the tests with many more cases, and those marked deep
+	CAROM_DEEP=1 $(PYTEST) $(ARGS)
 
 check: lint types layers ## check style, types and layers
 

@@ -1,16 +1,24 @@
-"""Whether the kernels are compiled.
+"""How much to try: whether the kernels are compiled, and whether this is a deep run.
 
 Without the compiler (``make coverage``) a kernel takes some hundred times as long: tests that try many cases try fewer
 then, enough to go through every line.  Tests that make no sense with few are marked ``jit_only``.
+
+The daily run (``make test``) is one that people wait for.  ``make test-deep`` tries many more cases, and runs the tests
+marked ``deep`` too.
 """
 
 from __future__ import annotations
 
+import os
+
 from numba.core import config
 
 COMPILED = not config.DISABLE_JIT
+DEEP = COMPILED and os.environ.get("CAROM_DEEP", "") not in ("", "0")
 
 
-def sized(compiled: int, interpreted: int) -> int:
-    """How many cases to try: with the compiler, and without it."""
-    return compiled if COMPILED else interpreted
+def sized(compiled: int, interpreted: int, deep: int | None = None) -> int:
+    """How many cases to try: with the compiler, without it, and in a deep run."""
+    if not COMPILED:
+        return interpreted
+    return deep if DEEP and deep is not None else compiled

@@ -13,7 +13,7 @@ for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import pkgutil  # noqa: E402
 
-from compilation import COMPILED  # noqa: E402
+from compilation import COMPILED, DEEP  # noqa: E402
 from hypothesis import settings  # noqa: E402
 
 import carom.core  # noqa: E402
@@ -28,6 +28,14 @@ def pytest_configure(config):
     if not COMPILED:
         for module in pkgutil.iter_modules(carom.core.__path__):
             config.addinivalue_line("filterwarnings", f"ignore::RuntimeWarning:carom.core.{module.name}")
+
+
+def pytest_collection_modifyitems(config, items):
+    """Leave out the deep tests unless they are asked for."""
+    if not DEEP:
+        left_out = [item for item in items if item.get_closest_marker("deep")]
+        config.hook.pytest_deselected(items=left_out)
+        items[:] = [item for item in items if item not in left_out]
 
 
 def pytest_terminal_summary(terminalreporter):
