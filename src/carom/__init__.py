@@ -67,6 +67,7 @@ if TYPE_CHECKING:
     from carom.orbits import period_condition as period_condition
     from carom.orbits import single_impact_orbits as single_impact_orbits
     from carom.outcome import CaromError as CaromError
+    from carom.outcome import CaromWarning as CaromWarning
     from carom.outcome import InputError as InputError
     from carom.outcome import Outcome as Outcome
     from carom.outcome import Phase as Phase
@@ -106,6 +107,7 @@ _HOMES = {
     "Basin": "basins",
     "BoundaryEquilibrium": "boundary",
     "CaromError": "outcome",
+    "CaromWarning": "outcome",
     "Case": "parameters",
     "ContactRelease": "disturbances",
     "Diagram": "bifurcations",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-__all__ = ["CaromError", "InputError", "Outcome", "Phase"]
+__all__ = ["CaromError", "CaromWarning", "InputError", "Outcome", "Phase"]
 
 
 class Outcome(IntEnum):
@@ -82,6 +82,10 @@ _MEANINGS = {
 
 class CaromError(Exception):
     """Base class of all errors that carom raises on purpose."""
+
+
+class CaromWarning(UserWarning):
+    """What a user should know, while the results are right."""
 
 
 class InputError(CaromError, ValueError):

@@ -6,10 +6,11 @@ import _thread
 import os
 import sys
 import threading
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -20,7 +21,7 @@ from carom.cli.paper import paper
 from carom.cli.simulate import simulate
 from carom.cli.study import study
 from carom.cli.sweep import sweep
-from carom.outcome import CaromError
+from carom.outcome import CaromError, CaromWarning
 
 __all__ = ["app", "main"]
 
@@ -84,7 +85,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
-        with _interruptions_heeded():
+        with _interruptions_heeded(), _warnings_on_one_line():
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
     except CaromError as problem:
@@ -92,7 +93,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UsageError as problem:
         message = getattr(problem, "format_message", problem.__str__)()
         return _complain(f"{message} (carom --help tells what is allowed)", BAD_INPUT)
-    except (KeyboardInterrupt, typer.Abort):
+    except (KeyboardInterrupt, typer.Abort) as problem:
+        if isinstance(problem.__cause__, EOFError):  # which the library of commands takes for Ctrl-D
+            return _unexpected(problem.__cause__)
         return _complain("interrupted", INTERRUPTED)
     except BrokenPipeError:
         _close_quietly()
@@ -101,11 +104,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _let_output_go()
         where = f" ({problem.filename})" if problem.filename else ""
         return _complain(f"cannot read or write{where}: {problem.strerror or problem}", FAILURE)
-    except Exception as problem:  # the last resort: no traceback reaches a user
-        if os.environ.get("CAROM_DEBUG") == "1":
-            raise
-        name = type(problem).__name__
-        return _complain(f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {problem}", FAILURE)
+    except Exception as problem:  # noqa: BLE001  (the last resort: no traceback reaches a user)
+        return _unexpected(problem)
     return code if isinstance(code, int) else 0
 
 
@@ -127,6 +127,32 @@ def _interruptions_heeded() -> Iterator[None]:
         yield
     finally:
         sys.unraisablehook = usual
+
+
+@contextmanager
+def _warnings_on_one_line() -> Iterator[None]:
+    """Show a user what carom itself warns of as one line, without the place in the code."""
+    usual = warnings.showwarning
+
+    def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, CaromWarning):
+            _complain(str(message), 0)
+        else:
+            usual(message, category, *place, **more)
+
+    warnings.showwarning = shown
+    try:
+        yield
+    finally:
+        warnings.showwarning = usual
+
+
+def _unexpected(problem: BaseException) -> int:
+    """Say that something went wrong that nobody thought of; whoever looks for it gets the traceback."""
+    if os.environ.get("CAROM_DEBUG") == "1":
+        raise problem
+    name = type(problem).__name__
+    return _complain(f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {problem}", FAILURE)
 
 
 def _complain(message: str, code: int) -> int:

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
-import os
-import stat
-import tempfile
 from collections.abc import Callable
-from functools import cache
-from pathlib import Path
 from typing import TypeVar
 
 import numba
 import numpy as np
-from numba.core import config
 from numba.core.registry import cpu_target
-from platformdirs import user_cache_path
+
+from carom.core.cache import keep
 
 __all__ = [
     "DEGREE",
@@ -257,10 +251,7 @@ def record(**fields: np.ndarray) -> np.record:
 def kernel(function: Kernel) -> Kernel:
     """Compile a kernel: no Python objects, IEEE arithmetic but for the sign of zero, kept in a disk cache.
 
-    It runs without Python's lock, so threads run side by side.
-
-    Numba's own cache does not notice an edit in a callee of another file, so the cache directory is keyed by a hash of
-    all of ``core/``.  Where no cache directory can be written the kernel is compiled anew in each process.
+    It runs without Python's lock, so threads run side by side.  What is kept, and where: :mod:`carom.core.cache`.
 
     A literal number handed to a kernel makes a version of its own: hand on a variable, or ``int(LITERAL)``.
     """
@@ -279,47 +270,7 @@ def passage(function: Kernel) -> Kernel:
 
 def _compile(function: Kernel, **more: bool | str) -> Kernel:
     options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
-    directory = _cache_directory()
-    if directory is None:
-        return numba.jit(**options)(function)
-    configured = config.CACHE_DIR
-    config.CACHE_DIR = str(directory)
-    try:
-        return numba.jit(cache=True, **options)(function)
-    finally:
-        config.CACHE_DIR = configured
-
-
-@cache
-def _cache_directory() -> Path | None:
-    """Directory of compiled kernels: the one chosen, the user's, or one in the directory of temporary files.
-
-    Whoever can write there can have their own code run.  The directory of temporary files is shared, and the name in it
-    can be guessed: what is there already is taken only if it belongs to this user and nobody else may enter.
-    """
-    digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.rglob("*.py")):
-        digest.update(source.read_bytes())
-    shared = Path(tempfile.gettempdir()) / f"carom-{_user()}"
-    roots = [user_cache_path("carom"), shared]
-    if chosen := os.environ.get("CAROM_CACHE_DIR") or config.CACHE_DIR:
-        roots.insert(0, Path(chosen))
-    for root in roots:
-        directory = root / "kernels" / digest.hexdigest()[:16]
-        try:
-            if root == shared:
-                root.mkdir(exist_ok=True, mode=0o700)
-                place = root.lstat()  # not of what a link leads to
-                foreign = os.name == "posix" and (place.st_uid != os.getuid() or place.st_mode & 0o077)
-                if foreign or not stat.S_ISDIR(place.st_mode):
-                    continue
-            directory.mkdir(parents=True, exist_ok=True, mode=0o700)
-            with tempfile.TemporaryFile(dir=directory):
-                return directory
-        except OSError:
-            continue
-    return None
-
-
-def _user() -> str:
-    return str(os.getuid()) if hasattr(os, "getuid") else os.environ.get("USERNAME", "user")
+    compiled = numba.jit(**options)(function)
+    if compiled is not function:  # as it is where the compiler is off
+        keep(compiled)
+    return compiled

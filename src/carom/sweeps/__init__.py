@@ -9,7 +9,6 @@
 ``chunk``           from the number of a chunk to its arrays
 ``layout``          a store before its first chunk
 ``store``           the Zarr store, :func:`open_sweep`
-``files``           files that are there whole or not at all
 ``local``           processes and threads
 ``cluster``         Dask workers
 ``running``         :func:`run_sweep`

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from carom.files import sync_directory
 from carom.outcome import InputError
-from carom.sweeps.files import sync_directory
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status, flag_attributes
 from carom.sweeps.versions import other_version, versions

@@ -19,9 +19,9 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from carom.files import lock, sync_directory, write_whole
 from carom.outcome import InputError
 from carom.sweeps.chunk import Chunk
-from carom.sweeps.files import lock, sync_directory, write_whole
 from carom.sweeps.layout import FAILURES, OPTION, PARTS, attributes_of, check_same, create, is_new
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status

@@ -1,0 +1,212 @@
+"""Compiled kernels on the disk: damage heals, what cannot be kept is done without, and never a wrong machine code runs."""
+
+from __future__ import annotations
+
+import os
+import random
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import numba
+import pytest
+from compilation import COMPILED, sized
+from numba.core import types
+from numba.core.registry import cpu_target
+
+from carom.core import cache_directory
+from carom.core.cache import CHECKSUM, KernelCache
+from carom.outcome import CaromWarning
+
+pytestmark = pytest.mark.skipif(not COMPILED, reason="the compiler is off")
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "source-paper.toml"
+ONE_NUMBER = (types.float64,)
+
+
+def cubed(x):
+    return x * x * x
+
+
+def fresh(directory, function=cubed):
+    """The kernel as another process would have it."""
+    kernel = numba.jit(nopython=True)(function)
+    kernel._cache = KernelCache(function, directory)
+    return kernel
+
+
+def hits(kernel):
+    return sum(kernel.stats.cache_hits.values())
+
+
+@pytest.fixture
+def kept(tmp_path):
+    """File of the compiled kernel."""
+    assert fresh(tmp_path)(3.0) == 27.0
+    (file,) = tmp_path.iterdir()
+    return file
+
+
+def damaged(data, chance):
+    """The content of a file, spoilt in one of the ways that disks and interrupted programs have."""
+    kind = chance.choice(["empty", "cut", "flip", "bit", "zeros", "longer", "checksum", "other"])
+    place = chance.randrange(len(data))
+    if kind == "empty":
+        return b""
+    if kind == "cut":
+        return data[:place]
+    if kind == "flip":
+        return data[:place] + bytes([data[place] ^ chance.randrange(1, 256)]) + data[place + 1 :]
+    if kind == "bit":
+        return data[:place] + bytes([data[place] ^ 1 << chance.randrange(8)]) + data[place + 1 :]
+    if kind == "zeros":
+        return data[:place] + bytes(len(data) - place)  # as a crash leaves a file whose end was not written
+    if kind == "longer":
+        return data + chance.randbytes(chance.randrange(1, 100))
+    if kind == "checksum":
+        return chance.randbytes(CHECKSUM) + data[CHECKSUM:]
+    return chance.randbytes(len(data))
+
+
+def test_kernels_are_compiled_once(kept):
+    again = fresh(kept.parent)
+    assert again(3.0) == 27.0
+    assert hits(again) == 1
+    assert again.stats.cache_path == str(kept.parent)
+
+
+def test_each_signature_has_a_file_of_its_own(kept):
+    assert fresh(kept.parent)(3 + 0j) == 27.0
+    assert len(list(kept.parent.iterdir())) == 2
+    again = fresh(kept.parent)
+    assert (again(3.0), again(3 + 0j), hits(again)) == (27.0, 27.0, 2)
+
+
+def test_kernels_that_close_over_other_values_are_told_apart(tmp_path):
+    def times(factor):
+        def product(x):
+            return factor * x
+
+        return product
+
+    assert [fresh(tmp_path, times(factor))(3.0) for factor in (2.0, 5.0, 2.0)] == [6.0, 15.0, 6.0]
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_damaged_file_is_never_loaded(kept):
+    whole, chance = kept.read_bytes(), random.Random(9)
+    cache = KernelCache(cubed, kept.parent)
+    assert cache.load_overload(ONE_NUMBER, cpu_target.target_context) is not None
+    for _ in range(sized(500, 0, 5000)):
+        spoilt = damaged(whole, chance)
+        kept.write_bytes(spoilt)
+        found = cache.load_overload(ONE_NUMBER, cpu_target.target_context)
+        assert (found is None) == (spoilt != whole)
+        assert kept.exists() == (spoilt == whole)
+
+
+@pytest.mark.parametrize("spoil", [lambda data: b"", lambda data: data[:5000], lambda data: data[:-1] + b"x"])
+def test_a_damaged_file_heals(kept, spoil):
+    whole = kept.read_bytes()
+    kept.write_bytes(spoil(whole))
+    again = fresh(kept.parent)
+    assert (again(3.0), hits(again)) == (27.0, 0)
+    healed = fresh(kept.parent)
+    assert (healed(3.0), hits(healed)) == (27.0, 1)
+
+
+def test_a_file_under_the_name_of_another_is_not_taken(kept):
+    fresh(kept.parent)(3 + 0j)
+    other = next(file for file in kept.parent.iterdir() if file != kept)
+    kept.write_bytes(other.read_bytes())  # whole, but not what its name says
+    again = fresh(kept.parent)
+    assert (again(2.0), hits(again)) == (8.0, 0)
+
+
+def test_what_stands_in_the_place_of_a_file_does_no_harm(kept, monkeypatch):
+    monkeypatch.setattr("carom.core.cache.tell_once", cache_directory.tell_once.__wrapped__)
+    kept.unlink()
+    kept.mkdir()
+    with pytest.warns(CaromWarning, match="cannot be kept"):
+        assert fresh(kept.parent)(3.0) == 27.0
+
+
+def test_a_disk_that_refuses_is_told_of_and_done_without(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("carom.core.cache.write_whole", full)
+    monkeypatch.setattr("carom.core.cache.tell_once", cache_directory.tell_once.__wrapped__)
+    with pytest.warns(CaromWarning, match=r"make room, or set CAROM_CACHE_DIR to a directory that can be written$"):
+        assert fresh(tmp_path)(3.0) == 27.0
+    assert not list(tmp_path.iterdir())
+    with pytest.warns(CaromWarning, match="cannot be kept"):
+        assert fresh(None)(3.0) == 27.0
+
+
+def test_it_is_told_of_once(tmp_path):
+    cache_directory.tell_once.cache_clear()
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        assert fresh(None)(3.0) == 27.0
+        assert fresh(None)(3 + 0j) == 27.0
+    assert len(told) == 1
+
+
+def test_flush_forgets_this_kernel_alone(kept):
+    stray = kept.with_name("other.kernel.0123")
+    stray.touch()
+    KernelCache(cubed, kept.parent).flush()
+    assert list(kept.parent.iterdir()) == [stray]
+    KernelCache(cubed, None).flush()
+
+
+def test_a_disabled_cache_is_not_used(kept):
+    kernel = fresh(kept.parent)
+    kernel._cache.disable()
+    assert (kernel(3.0), hits(kernel)) == (27.0, 0)
+    kernel._cache.enable()
+    assert (kernel(3 + 0j), len(list(kept.parent.iterdir()))) == (27.0, 2)
+
+
+# ------------------------------------------------------------------------------------------------------- as a program
+
+
+def orbits(cache, **more):
+    """Run a small command: exit code, standard output, error output."""
+    done = subprocess.run(
+        [sys.executable, "-m", "carom", "orbits", str(EXAMPLE)],
+        env={**os.environ, "CAROM_CACHE_DIR": str(cache), **more},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.deep
+def test_commands_heal_a_damaged_cache_without_a_word(tmp_path):
+    code, right, err = orbits(tmp_path)
+    assert (code, err) == (0, "")
+    files = [file for file in tmp_path.rglob("*") if file.is_file()]
+    chance = random.Random(11)
+    for _ in range(100):
+        spoilt = chance.sample(files, chance.choice([1, 1, 1, 2, 5]))
+        before = {file: file.read_bytes() for file in spoilt}
+        for file, data in before.items():
+            file.write_bytes(damaged(data, chance))
+        assert orbits(tmp_path) == (0, right, "")
+        for file, data in before.items():
+            file.write_bytes(data)
+
+
+@pytest.mark.deep
+@pytest.mark.skipif(os.name != "posix", reason="makes a directory unwritable")
+def test_commands_say_once_that_nothing_can_be_kept(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.touch()
+    nowhere = {"HOME": str(blocked), "XDG_CACHE_HOME": str(blocked), "TMPDIR": str(blocked)}
+    code, out, err = orbits(blocked, **nowhere)
+    assert (code, "B1,d" in out, err.count("\n")) == (0, True, 1)
+    assert err.startswith("carom: compiled kernels cannot be kept on the disk")
