@@ -41,6 +41,13 @@ mu = 0.15
 d = 0.95
 radius_ratio = 57.1
 """
+
+
+def _environment():
+    """Environment of processes that find what this one finds, and the modules of the tests."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(Path(__file__).parents[1]), *sys.path])}
+
+
 posix = pytest.mark.skipif(os.name != "posix", reason="sends signals")
 
 
@@ -102,10 +109,9 @@ def test_killed_sweep_goes_on_to_the_same_bytes(tmp_path):
 def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
     code = "import sweep_tasks as s; from carom.sweeps import run_sweep; plan = s.plan_of(s.Drawn(600.0), 2, 1);"
     code += f"run_sweep(plan, {str(tmp_path / 's.zarr')!r}, workers=2)"
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
-    process = subprocess.Popen([sys.executable, "-c", code], env=environment)
+    process = subprocess.Popen([sys.executable, "-c", code], env=_environment())
     workers = []
-    while process.poll() is None and len(workers) < 3:  # the third is the tracker of resources
+    while process.poll() is None and len(workers) < 4:  # two are trackers of resources
         time.sleep(0.05)
         workers = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
     time.sleep(1.0)
@@ -114,7 +120,7 @@ def test_workers_of_a_killed_sweep_end_in_the_middle_of_a_chunk(tmp_path):
     while any(Path(f"/proc/{worker}").exists() for worker in workers):
         time.sleep(0.05)
 
-    assert len(workers) == 3
+    assert len(workers) == 4
 
 
 def test_interrupt_while_workers_start_is_put_off():
@@ -159,6 +165,30 @@ def test_interrupt_says_how_to_go_on(tmp_path, moment):
 
     assert (process.returncode, output) == (130, "")
     assert errors == f"carom: interrupted; the same command goes on with {store}\n"
+
+
+def test_plain_script_needs_no_main_guard(tmp_path):
+    """Nor a module for the task that it defines itself."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        """
+print("started")
+import sweep_tasks
+from carom.sweeps import open_sweep, run_sweep
+
+class Own(sweep_tasks.Drawn):
+    def evaluate(self, case, seed):
+        return {"value": 2 * case.parameters.gamma, "draw": 3}
+
+tally = run_sweep(sweep_tasks.plan_of(Own(), 4, 1), "s.zarr", workers=2)
+print(tally.done, tally.failed, open_sweep("s.zarr").value.values.round(3).tolist())
+"""
+    )
+    done = subprocess.run(
+        [sys.executable, script], cwd=tmp_path, env=_environment(), capture_output=True, text=True, check=False
+    )
+
+    assert (done.stdout, done.stderr) == ("started\n4 0 [0.2, 0.8, 1.4, 2.0]\n", "")
 
 
 @posix
@@ -260,7 +290,7 @@ def test_workers_that_start_at_once_share_an_empty_cache_of_kernels(tmp_path):
     """Two processes that compile the same kernels into one directory at the same time."""
     code = "import carom, sweep_tasks; rotor = carom.jeffcott(sweep_tasks.DAMPED);"
     code += "print(rotor.fly(rotor.amplitudes(0.1j, 0.2), [1.0, 2.0]).tolist())"
-    environment = {**os.environ, "CAROM_CACHE_DIR": str(tmp_path), "PYTHONPATH": str(Path(__file__).parents[1])}
+    environment = {**_environment(), "CAROM_CACHE_DIR": str(tmp_path)}
     started = [
         subprocess.Popen([sys.executable, "-c", code], env=environment, stdout=subprocess.PIPE, text=True)
         for _ in range(2)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
+import queue
 import signal
 import threading
 from collections import Counter, deque
@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import chain, islice
 from multiprocessing import connection
-from multiprocessing.context import SpawnProcess
+from multiprocessing.process import BaseProcess
 from types import FrameType
 
 from carom.outcome import CaromError
@@ -27,7 +27,8 @@ AHEAD = 2
 TRIES = 2
 """Processes that a chunk may end before it counts as failed; any of them may have been stopped from outside."""
 _FALSE_STARTS = 3
-_SINGLE = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+_ENVIRONMENT = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+"""Of a worker: one thread of linear algebra."""
 
 
 def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generator[Chunk, None, None]:
@@ -58,7 +59,8 @@ def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generat
 def on_processes(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generator[Chunk, None, None]:
     """Compute chunks in processes of their own, in the order in which they become ready.
 
-    A process that ends on its own - killed, out of memory - is replaced, and its chunk is tried once more.
+    A process that ends on its own - killed, out of memory - is replaced, and its chunk is tried once more.  The processes are
+    started by loky, which does not run the script that started them again: it needs no ``if __name__ == "__main__"``.
 
     Parameters
     ----------
@@ -81,7 +83,7 @@ def on_processes(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Gener
 
 @dataclass(eq=False)
 class _Worker:
-    process: SpawnProcess
+    process: BaseProcess
     pipe: connection.Connection
     ready: bool = False
     given: deque[int] = field(default_factory=deque)
@@ -127,10 +129,14 @@ class _Crew:
             worker.pipe.close()
 
     def _hire(self) -> None:
-        context = multiprocessing.get_context("spawn")
+        from loky.backend import get_context
+
+        context = get_context("loky")
         ours, theirs = context.Pipe()
-        process = context.Process(target=_serve, args=(self.plan, theirs), daemon=True, name="carom-sweep")
-        with _inherited():
+        process = context.Process(
+            target=_serve, args=(self.plan, theirs), daemon=True, name="carom-sweep", env=_ENVIRONMENT
+        )
+        with _interruptions_kept():
             process.start()
         theirs.close()
         self.workers.append(_Worker(process, ours))
@@ -161,27 +167,29 @@ class _Crew:
         self._hire()
 
 
-def _ending(process: SpawnProcess) -> str:
+def _ending(process: BaseProcess) -> str:
     code = process.exitcode or 0
     return f"signal {-code}" if code < 0 else f"exit code {code}"
 
 
 def _serve(plan: SweepPlan, pipe: connection.Connection) -> None:
     """Compute what comes through the pipe until its other end is closed."""
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    numbers: queue.SimpleQueue[int] = queue.SimpleQueue()
+    threading.Thread(target=_receive, args=(pipe, numbers), daemon=True).start()
     try:
         pipe.send("ready")
         while True:
-            pipe.send(compute_chunk(plan, pipe.recv()))
-    except (EOFError, OSError):
+            pipe.send(compute_chunk(plan, numbers.get()))
+    except OSError:
         return
 
 
-def _end_with_parent() -> None:
-    """End at once, in the middle of a chunk, when the process that would have stored it is gone."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        connection.wait([parent.sentinel])
+def _receive(pipe: connection.Connection, numbers: queue.SimpleQueue[int]) -> None:
+    """Take numbers; end at once, in the middle of a chunk, when the process that would have stored it is gone."""
+    try:
+        while True:
+            numbers.put(pipe.recv())
+    except (EOFError, OSError):
         os._exit(1)
 
 
@@ -202,27 +210,21 @@ def _put_off() -> Iterator[None]:
 
 
 @contextmanager
-def _inherited() -> Iterator[None]:
-    """What processes started here inherit: one thread of linear algebra, and no ear for Ctrl-C, which is ours to treat.
+def _interruptions_kept() -> Iterator[None]:
+    """Processes started here have no ear for Ctrl-C, which is ours to treat; one in the meantime is heard afterwards."""
+    if not hasattr(signal, "pthread_sigmask"):
+        with _put_off():
+            yield
+        return
+    from multiprocessing import resource_tracker
 
-    A Ctrl-C in the meantime is not lost: it is heard when they have started.
-    """
-    before: dict[str, str | None] = {name: os.environ.get(name) for name in _SINGLE}
-    os.environ.update(dict.fromkeys(_SINGLE, "1"))
-    can_block = hasattr(signal, "pthread_sigmask")
-    if can_block:
-        from multiprocessing import resource_tracker
+    from loky.backend import resource_tracker as loky_tracker
 
-        resource_tracker.ensure_running()  # else started with the first process, and unblocks what is blocked here
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if can_block else set()
+    for tracker in (resource_tracker, loky_tracker):
+        tracker.ensure_running()  # else started with the first process, and unblocks what is blocked here
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         with _put_off():
             yield
     finally:
-        if can_block:
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
