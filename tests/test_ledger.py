@@ -53,6 +53,13 @@ def test_a_missing_account_would_show():
     assert without_drive > 1e-2 * np.abs(ledger.drive).max()
 
 
+def test_a_rotor_at_rest_has_nothing_to_account_for():
+    centred = carom.Parameters(gamma=0.1, omega=0.76, rho=0.0, phi=0.0, mu=0.15, d=0.95, radius_ratio=57.0)
+    ledger = energy_ledger(carom.simulate(carom.jeffcott(centred), carom.State(0j, 0j), until=10.0))
+    assert not ledger.energy.any()
+    assert ledger.imbalance == 0.0
+
+
 def test_energies_in_joules():
     scales = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))

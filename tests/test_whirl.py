@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from carom.ensembles import settle_all
 from carom.equilibria import equilibria
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters, Scales
@@ -240,3 +241,48 @@ def test_rub_limit_of_the_source_machine():
 
     assert limit == pytest.approx(0.3700060, abs=5e-8)
     assert limit * SCALES.damping == pytest.approx(3408.0, abs=0.5)
+
+
+@pytest.mark.jit_only
+def test_no_backward_whirl_repeats_beyond_the_bound_of_damping():
+    """Random rotors, small ones that could lose contact while they roll among them, from all speeds of backward whirl."""
+    random = np.random.default_rng(11)
+    kept = 0
+    for case in range(40):
+        speed, omega, mu = random.uniform(0.3, 6.0), random.uniform(0.1, 1.2), random.uniform(0.05, 0.8)
+        machine = SOURCE.replace(
+            omega=omega, mu=mu, rho=random.uniform(0.0, 2.0), d=random.uniform(0.0, 0.9), radius_ratio=speed
+        )
+        bound = rolling(jeffcott(machine)).damping_bound
+        places = np.exp(1j * random.uniform(0.0, 2.0 * math.pi, 50))
+        whirl = -random.uniform(0.0, 2.0 * speed, 50)
+        for factor in (0.3, 1.001):
+            rotor = jeffcott(machine.replace(gamma=max(factor * bound, 0.02)))
+            outcomes = settle_all(rotor, places, 1j * (whirl - 1.0) * places, until=2e3).outcomes
+            held = np.isin(outcomes, (Outcome.ROLLING, Outcome.BACKWARD_WHIRL)).sum()
+            kept += held if factor < 1.0 else 0
+            assert factor < 1.0 or held == 0, (case, machine)
+    assert kept > 100
+
+
+@pytest.mark.jit_only
+def test_sliding_forward_goes_over_to_the_rub_or_leaves_the_wall():
+    """Whatever repeats while it slides forward is the synchronous rub (``docs/theory/lasting-contact.md``)."""
+    random = np.random.default_rng(12)
+    slid = 0
+    for _ in range(150):
+        machine = SOURCE.replace(
+            gamma=random.uniform(0.01, 1.0),
+            omega=random.uniform(0.0, 0.9),
+            rho=random.uniform(0.2, 1.5),
+            mu=random.uniform(0.0, 0.8),
+        )
+        rotor = jeffcott(machine)
+        motion = simulate(rotor, on_wall(random.uniform(-3.0, 3.0), random.uniform(0.0, 3.0)), 3e3)
+        last = motion.lasting_contacts[-1] if motion.lasting_contacts else None
+        if last is None or last.phase is not Phase.FORWARD_SLIP or last.start > 500.0 or last.end < motion.time:
+            continue
+        slid += 1
+        assert abs(motion.final.velocity) < 1e-6
+        assert min(abs(motion.final.position - entry.position) for entry in equilibria(rotor)) < 1e-6
+    assert slid > 40

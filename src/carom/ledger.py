@@ -72,10 +72,11 @@ class EnergyLedger(Table):
 
     @property
     def imbalance(self) -> float:
-        """Largest energy that is not accounted for, relative to the largest energy or work that passed."""
+        """Largest energy that is not accounted for, relative to the largest energy or work that passed; 0 at rest."""
         missing = np.abs(self.energy - self.energy[0] - self.supplied).max()
         works = (self.unbalance, self.damping, self.impacts, self.friction, self.drive)
-        return float(missing / max(self.energy.max(), *(np.abs(work).max() for work in works)))
+        passed = max(self.energy.max(), *(np.abs(work).max() for work in works))
+        return float(missing / passed) if passed > 0.0 else 0.0
 
 
 def energy_ledger(trajectory: Trajectory) -> EnergyLedger:

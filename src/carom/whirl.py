@@ -21,13 +21,24 @@ unbalance drops out, and the threshold is the larger root for ``ρ = 0``.
 
 *Sliding faster than rolling* (``w > s``) friction slows the whirl: ``w' ≤ −γw − μ(w² − ω²) + p``.
 
-*What can repeat.*  With the friction force ``G``, ``|G| ≤ μN``, the equation ``W' = −γW − ρ sin x + G`` times ``θ̇``,
-summed over a turn of a motion that repeats, gives ``∮(γW − G) dθ = 0``.  So there is no steady sliding forward whirl but
-the synchronous rub: ``W > 0`` and ``G = −μN`` would make the integrand positive.  In backward whirl ``−G ≤ μN``, so the
-mean of ``μ(w² − ω²) − γw`` over the angle is not negative.  For ``γ > μ(s² − ω²)/s`` it is negative at all speeds up to
-rolling, and faster slip (``G = μN``) does not help: no backward whirl in lasting contact sustains itself.  A sliding one
-near ``μ(w² − ω²) = γw`` does repeat where damping is lower, but it repels: it is the threshold between runaway and
-decay.
+*What can repeat*, for ``γ, μ ≥ 0`` and not both zero (``docs/theory/lasting-contact.md`` has the steps, and checks them).
+With the friction force ``G`` and ``E = ½θ̇² − ρ cos x`` the equation ``W' = −γW − ρ sin x + G`` gives ``E' = −(γW − G)θ̇``.
+
+- A motion that slides with forward slip (``G = −μN``) has ``L' = −(γ + 2μ)θ̇²e^{2μx} ≤ 0`` for
+  ``L = ½θ̇²e^{2μx} + ∫(γ + ρ sin x + μ(ρ cos x + 1 − ω²))e^{2μx} dx``.  So one that repeats without a turn in the co-rotating frame is
+  a synchronous rub.
+- One that repeats after a turn keeps the sign of ``θ̇``, as paths in the plane of ``x`` and ``θ̇`` do not cross.  Over the turn
+  ``∮(γW + μN) dθ = 0``, so the mean of ``γW`` over the angle is that of ``−μN``, below zero.  So there is no steady sliding
+  whirl that is forward all the time, or in the mean over the angle, but the synchronous rub.
+- Backward whirl (``W < 0`` all round).  ``γw + G`` has the mean zero over the angle, ``w = −W``.  Let ``A = s² − ω²`` and
+  ``γs > μA``.  Where slip is forward or none, ``γw + G ≥ h − μρ cos x`` with ``h = γw − μ(w² − ω²) > 0`` on ``0 ≤ w ≤ s``; where it is
+  backward, ``γw + G = γw + μN``, which exceeds ``−μρ cos x`` by ``γw + μN + μρ cos x > γs − μρ``.  For ``A ≥ ρ`` that is positive, and the mean is too.
+  For ``A < ρ`` contact at ``x = π`` takes ``w > s``, so slip is backward there and ``E ≥ ½(1 + √(ω² + ρ))² + ρ``, more than
+  ``½(1 + s)² + ρ``, the most that ``E`` can be where slip turns backward; and ``E`` falls while it is.  So no backward whirl in
+  lasting contact sustains itself for ``γ > μ(s² − ω²)/s``.
+
+A sliding one near ``μ(w² − ω²) = γw`` does repeat where damping is lower, but it repels: it is the threshold between
+runaway and decay.
 """
 
 from __future__ import annotations

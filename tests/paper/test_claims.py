@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
+import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import equilibria, jeffcott
+from carom import equilibria, jeffcott, single_impact_orbits
 
 
 def test_which_hold(found):
@@ -18,9 +21,22 @@ def test_which_hold(found):
         ("section 4a", True),
         ("section 4b, region R3", False),
     ]
-    assert "0 of 56 are admissible" in found.claims[4].found
+    assert "admissible: none" in found.claims[4].found
     assert found.claims[5].found.endswith("B1,d")
     assert found.claims[6].found.endswith("R3.1")
+
+
+def test_longer_pairs_are_looked_at_along_the_damping(found):
+    """Up to a fold beyond which only the first pair is left, and with a distance from the wall that no step jumps over."""
+    text = found.claims[4].found
+    last = float(re.search(r"γ = (0\.\d+)", text)[1])
+    periods = [len(single_impact_orbits(jeffcott(PAPER.replace(gamma=last + step))).periods) for step in (-1e-8, 1e-8)]
+    assert periods == [4, 2]
+    assert float(re.search(r"at least (0\.\d+) clearances", text)[1]) > 0.02
+    # Dampings between those of the claim.
+    for gamma in np.random.default_rng(3).uniform(0.008, last, 8):
+        orbits = single_impact_orbits(jeffcott(PAPER.replace(gamma=float(gamma))))
+        assert not any(orbit.admissible for orbit in orbits if not orbit.name.startswith("B1,"))
 
 
 @pytest.mark.parametrize(("gamma", "rubs"), [(0.27, True), (0.395, False)])

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-from carom.orbits import single_impact_orbits
+import numpy as np
+
+from carom.orbits import Orbit, single_impact_orbits
 from carom.paper.branches import FirstPair, first_pair
 from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.paper.source import machine_at
@@ -15,8 +18,12 @@ __all__ = ["Claim", "claims"]
 
 SAME_FOLD = 1e-9
 """Distance in damping below which two folds are simultaneous; rounding leaves about 1e-13."""
-WEAKEST = 0.01
-"""Damping at which the longer pairs are looked at: 15 pairs."""
+WEAKEST = 0.005
+"""Smallest damping at which the longer pairs are looked at: there are 30 of them."""
+DAMPINGS = 24
+"""Dampings, in equal ratios, from there to the fold at which the last longer pair vanishes."""
+PLACES = 2000
+"""On each orbit between its impacts."""
 
 
 @dataclass(frozen=True)
@@ -90,16 +97,35 @@ def _propositions(branches: FirstPair) -> tuple[Claim, ...]:
 
 
 def _longer_pairs() -> Claim:
-    longer = [
-        orbit for orbit in single_impact_orbits(jeffcott(machine_at(WEAKEST))) if not orbit.name.startswith("B1,")
-    ]
-    possible = sum(orbit.admissible for orbit in longer)
+    """Look at the pairs n > 1 along the damping, up to the fold of the last of them."""
+    last = WEAKEST
+    while _longer(beyond := last * (1.0 + SAME_FOLD)):
+        last = simultaneous_folds(machine_at(beyond), pair=2).lower.value
+    counts, possible, nearest = [], 0, math.inf
+    for gamma in np.geomspace(WEAKEST, last * (1.0 - SAME_FOLD), DAMPINGS):
+        longer = _longer(float(gamma))
+        counts.append(len(longer))
+        possible += sum(orbit.admissible for orbit in longer)
+        nearest = min(nearest, *(_beyond_wall(orbit) for orbit in longer if orbit.radial_speed > 0.0))
     return Claim(
         "section 4, below Proposition 4.3",
         "fixed points of the pairs n > 1 are virtual",
         possible == 0,
-        f"at γ = {WEAKEST:g}, {possible} of {len(longer)} are admissible",
+        f"at {DAMPINGS} dampings from {WEAKEST:g} to the fold of the last such pair, γ = {last:.10f}, where there are {counts[0]} to "
+        f"{counts[-1]} of them, admissible: {possible or 'none'}; those that meet the wall from inside pass it in between by at "
+        f"least {nearest:.3f} clearances",
     )
+
+
+def _longer(gamma: float) -> list[Orbit]:
+    """Orbits of the pairs n > 1."""
+    found = single_impact_orbits(jeffcott(machine_at(gamma)))
+    return [orbit for orbit in found if not orbit.name.startswith("B1,")]
+
+
+def _beyond_wall(orbit: Orbit) -> float:
+    """How far an orbit passes the wall between its impacts; at least, as places in between are not looked at."""
+    return float(np.abs(orbit.path(np.linspace(0.0, orbit.period, PLACES)[1:-1])).max()) - 1.0
 
 
 def _stability(branches: FirstPair) -> Claim:
