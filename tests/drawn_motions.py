@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from carom.parameters import Parameters
 from carom.trajectories import State
 
-MANY = settings(max_examples=sized(150, 15))
+MANY = settings(max_examples=sized(50, 15, 150))
 """How many motions to draw; fewer without the compiler."""
 EVENTS = sized(500, 50)
 """Events to follow each through."""

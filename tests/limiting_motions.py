@@ -15,7 +15,7 @@ from carom.parameters import Parameters
 from carom.trajectories import State, Trajectory
 
 EPSILON = 2.0**-52
-LONG = sized(10_000, 60)
+LONG = sized(2_000, 60, 10_000)
 """Thousands of impacts, if the compiler is on."""
 MANY = sized(40, 3)
 EVENTS = sized(20_000, 20)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
+from compilation import sized
 from flint import acb, arb, ctx
 from machines import PAPER, exact_return, flight_matrix, random_parameters
 from scipy.linalg import expm
@@ -142,7 +143,7 @@ def test_curvature_never_exceeds_its_bound():
 
 def test_nothing_lies_beyond_the_longest_period():
     random = np.random.default_rng(4)
-    for _ in range(150):
+    for _ in range(sized(50, 50, 150)):
         parameters = random_parameters(random)
         condition = condition_of(parameters)
         longest = condition.longest_period()
@@ -190,7 +191,8 @@ CORNERS = [
 
 def test_number_of_roots_agrees_with_a_fine_scan():
     random = np.random.default_rng(5)
-    machines = CORNERS + [random_parameters(random) for _ in range(200)]
+    count = sized(60, 60, 200)
+    machines = CORNERS + [random_parameters(random) for _ in range(count)]
     with_roots = 0
     for parameters in machines:
         roots = condition_of(parameters).roots()
@@ -199,12 +201,12 @@ def test_number_of_roots_agrees_with_a_fine_scan():
         assert (np.diff(roots.periods) > 0).all()
         with_roots += len(roots.periods) > 0
     # The comparison is not about nothing.
-    assert with_roots > 60
+    assert with_roots > 0.3 * count
 
 
 def test_roots_are_roots():
     random = np.random.default_rng(6)
-    for parameters in CORNERS + [random_parameters(random) for _ in range(60)]:
+    for parameters in CORNERS + [random_parameters(random) for _ in range(sized(20, 20, 60))]:
         condition = condition_of(parameters)
         for period in condition.roots().periods[:6]:
             back, rate = exact_return(parameters, period)

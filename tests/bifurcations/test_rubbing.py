@@ -56,7 +56,6 @@ def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
 
 
 @pytest.mark.jit_only
-@pytest.mark.jit_only
 def test_without_rebound_the_motions_with_lasting_contact_end_at_the_same_value(onset):
     """A second route: not one formula of the orbits, but a simulated map from lift-off to lift-off."""
     ends = []
@@ -88,7 +87,6 @@ def chatter() -> RubbingBranch:
     return continue_rubbing(orbit, "gamma", (0.02, 0.4))
 
 
-@pytest.mark.jit_only
 @pytest.mark.jit_only
 def test_motion_with_lasting_contact_repeats_in_simulation():
     (orbit,) = rubbing_orbits(CHATTERING)

@@ -1,5 +1,6 @@
 """Running commands in this process."""
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,15 @@ def machine():
 @pytest.fixture
 def dimensionless():
     return str(EXAMPLES / "source-paper.toml")
+
+
+@pytest.fixture(autouse=True)
+def studies_are_made_once(monkeypatch):
+    """Let commands that study the same machine share the study."""
+    from studies import study_once
+
+    # As an attribute of the package the name is the function, not the module.
+    monkeypatch.setattr(sys.modules["carom.study"], "study", lambda subject, *, progress: study_once(subject))
 
 
 @pytest.fixture

@@ -42,7 +42,6 @@ def test_table_and_files(capsys, tmp_path):
 
 
 @pytest.mark.jit_only
-@pytest.mark.jit_only
 def test_run_up_with_all_motions(capsys):
     """Along the speed gamma and omega move together while rho stays; simulated attractors lie on the known motions."""
     words = ["bifurcations", MACHINE, "--along", "speed", "--from", "1000 rpm", "--to", "3000 rpm"]
@@ -71,7 +70,6 @@ def test_run_up_with_all_motions(capsys):
             assert min(abs(speed - sample["radial_speeds"][0]) for speed in known) < 0.05
 
 
-@pytest.mark.jit_only
 @pytest.mark.jit_only
 def test_simulated_attractors_are_the_same_for_the_same_seed(capsys):
     words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.05", "--to", "0.2", "--attractors", "2", "--json"]

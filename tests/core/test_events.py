@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from compilation import COMPILED
+from compilation import sized
 from flights import (
     Tally,
     Task,
@@ -28,13 +28,11 @@ from carom.outcome import Outcome
 from carom.rotors import jeffcott
 
 HORIZON = 15.0
-SHARE = 1.0 if COMPILED else 0.05
-"""Without the compiler a sample is enough to go through every line."""
 
 
 def count(flights: int) -> int:
-    """How many flights to try."""
-    return math.ceil(flights * SHARE)
+    """How many flights to try: all in a deep run, every tenth by day, without the compiler every line at least."""
+    return sized(math.ceil(0.1 * flights), math.ceil(0.03 * flights), flights)
 
 
 @pytest.mark.parametrize("batch", range(4))

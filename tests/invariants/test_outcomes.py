@@ -14,7 +14,7 @@ from carom.parameters import Parameters
 from carom.rotors import jeffcott
 from carom.trajectories import State, simulate
 
-MACHINES = sized(150, 2)
+MACHINES = sized(40, 2, 150)
 STOPPED = {Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING}
 
 

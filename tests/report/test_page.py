@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 
 import pytest
+from studies import study_once
 
 from carom.parameters import Case, Parameters, Zones, load_case
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
-from carom.study import study
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -57,7 +57,7 @@ class Page(html.parser.HTMLParser):
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     example = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
-    result = study(load_case(example))
+    result = study_once(load_case(example))
     told = []
     path = write_report(result, str(tmp_path_factory.mktemp("report")), lambda share, words: told.append(share))
     assert told == sorted(told)
@@ -102,7 +102,7 @@ def test_figures_are_files_too(written):
 
 
 def test_same_study_gives_the_same_bytes(tmp_path):
-    result = study(SOURCE.replace(gamma=0.4))
+    result = study_once(SOURCE.replace(gamma=0.4))
     paths = [write_report(result, str(tmp_path / name)).parent for name in ("once", "again")]
 
     once, again = ({file.name: file.read_bytes() for file in path.rglob("*") if file.is_file()} for path in paths)
@@ -110,7 +110,7 @@ def test_same_study_gives_the_same_bytes(tmp_path):
 
 
 def test_names_are_escaped():
-    result = study(Case("<b>&", SOURCE, None, Zones()))
+    result = study_once(Case("<b>&", SOURCE, None, Zones()))
 
     text = report_page(result, [])
     assert "<b>&" not in text
@@ -126,7 +126,7 @@ def test_names_are_escaped():
     ],
 )
 def test_any_machine_has_a_report(parameters, tmp_path):
-    text = write_report(study(parameters), str(tmp_path / "out")).read_text(encoding="utf-8")
+    text = write_report(study_once(parameters), str(tmp_path / "out")).read_text(encoding="utf-8")
 
     page = Page(text)
     assert page.open == []

@@ -5,6 +5,7 @@ import json
 import math
 
 import pytest
+from studies import study_once
 
 from carom.outcome import InputError, Outcome
 from carom.parameters import Case, Machine, Parameters, Scales, Zones
@@ -30,13 +31,13 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.fixture(scope="module")
 def real():
-    return study(Case("real", REAL.parameters, REAL, Zones()))
+    return study_once(Case("real", REAL.parameters, REAL, Zones()))
 
 
 @pytest.fixture(scope="module")
 def quiet():
     # Stiff and damped enough that no rub and no bounce is left, with too little friction to roll.
-    return study(SOURCE.replace(gamma=0.5, mu=0.0))
+    return study_once(SOURCE.replace(gamma=0.5, mu=0.0))
 
 
 def finding(result, topic):
@@ -117,20 +118,20 @@ def test_verdict_of_the_real_machine_in_units(real):
     [
         SOURCE,
         SOURCE.replace(gamma=0.05),
-        SOURCE.replace(gamma=0.25),
         SOURCE.replace(gamma=0.4),
         SOURCE.replace(gamma=0.0),
-        SOURCE.replace(gamma=-0.1),
-        SOURCE.replace(d=1.0),
         SOURCE.replace(d=0.0),
-        SOURCE.replace(mu=0.0),
         SOURCE.replace(rho=0.0),
-        SOURCE.replace(gamma=0.3, omega=1.3),
-        SOURCE.replace(gamma=5.0, omega=0.3),
+        pytest.param(SOURCE.replace(gamma=0.25), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=-0.1), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(d=1.0), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(mu=0.0), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=0.3, omega=1.3), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=5.0, omega=0.3), marks=pytest.mark.deep),
     ],
 )
 def test_words_never_promise_recovery(parameters):
-    result = study(parameters)
+    result = study_once(parameters)
     verdict, tried = result.verdict, result.attractors.disturbances
     something_holds = (
         any(rub.status == "admissible" for rub in result.rubs)
@@ -156,7 +157,7 @@ def test_best_verdict_is_still_no_guarantee(quiet):
 
 
 def test_machine_that_cannot_levitate():
-    result = study(SOURCE.replace(gamma=0.05))
+    result = study_once(SOURCE.replace(gamma=0.05))
 
     assert result.verdict.level == "no-contact-free-motion"
     assert result.zone is None
@@ -164,7 +165,7 @@ def test_machine_that_cannot_levitate():
 
 
 def test_machine_on_the_boundary():
-    result = study(SOURCE.replace(gamma=math.sqrt((3 / 7) ** 2 - (1 - 0.76**2) ** 2)))
+    result = study_once(SOURCE.replace(gamma=math.sqrt((3 / 7) ** 2 - (1 - 0.76**2) ** 2)))
 
     assert result.equilibria[0].status == "boundary"
     assert result.verdict.level == "no-contact-free-motion"
@@ -172,7 +173,7 @@ def test_machine_on_the_boundary():
 
 
 def test_undamped_machine_says_what_was_not_searched():
-    result = study(SOURCE.replace(gamma=0.0, rho=0.1))
+    result = study_once(SOURCE.replace(gamma=0.0, rho=0.1))
 
     assert not result.orbits.complete
     assert "may be more" in finding(result, "Bouncing")
@@ -219,7 +220,7 @@ def test_kicks_by_size(real):
 
 
 def test_dimensionless_case_has_no_machine_table():
-    result = study(SOURCE)
+    result = study_once(SOURCE)
 
     assert machine_rows(result.case) == []
     assert "Gamma (this machine: 0.1)" in finding(result, "What would change it")
@@ -295,7 +296,7 @@ def test_json_has_nothing_that_is_not_finite(real):
 
 
 def test_json_without_scales_has_no_si_values():
-    document = study(SOURCE).to_dict()
+    document = study_once(SOURCE).to_dict()
 
     def keys(value):
         if isinstance(value, dict):
@@ -312,7 +313,7 @@ def test_json_without_scales_has_no_si_values():
 
 
 def test_scales_alone_give_si_units_too():
-    result = study(dataclasses.replace(SOURCE, scales=Scales(50.0, 0.7e-3, 184.2)))
+    result = study_once(dataclasses.replace(SOURCE, scales=Scales(50.0, 0.7e-3, 184.2)))
 
     assert "N s/m" in result.verdict.text
     assert result.to_dict()["scales_si"]["force"] == pytest.approx(1187.5, rel=1e-3)
@@ -321,7 +322,7 @@ def test_scales_alone_give_si_units_too():
 @pytest.mark.parametrize("changes", [{"gamma": 1e3}, {"omega": 1e3}, {"gamma": 1e3, "omega": 1e3}, {"mu": 10.0}])
 def test_machine_at_the_end_of_the_allowed_range_has_a_study(changes):
     # The damping searched must not leave the range that parameters may have.
-    result = study(SOURCE.replace(**changes))
+    result = study_once(SOURCE.replace(**changes))
 
     assert result.safe_damping.highest <= 1e3
     assert result.levitates

@@ -1,0 +1,16 @@
+"""Studies of machines that several tests look at: each is made once in a process, for it takes seconds."""
+
+from __future__ import annotations
+
+from carom.parameters import Case, Machine, Parameters
+from carom.study import Study, study
+
+_MADE: dict[str, Study] = {}
+
+
+def study_once(subject: Case | Machine | Parameters) -> Study:
+    """Study of a machine, which nothing of this process has studied before, or that study."""
+    key = repr(subject)
+    if key not in _MADE:
+        _MADE[key] = study(subject)
+    return _MADE[key]
