@@ -19,7 +19,7 @@ from carom.parameters import Parameters
 from carom.rotors import Rotor, jeffcott
 from carom.trajectories import State, simulate
 
-MANY = sized(300, 20)
+MANY = sized(100, 20, 300)
 
 
 # ------------------------------------------------------------------------------------------------ levitation
