@@ -9,7 +9,8 @@ DOCS := .venv/docs.stamp
 # More arguments for pytest, as in: make test ARGS="-k grazing"
 ARGS :=
 
-PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8
+# All tests of a file run in one worker, which computes what they share once.
+PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8 --dist loadfile
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
@@ -44,10 +45,10 @@ format: $(TEST) ## format the code and mend what can be mended
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
 
-# What is compiled is not seen, so kernels are measured by the tests that can do without the compiler.
-coverage: $(TEST) ## report what the tests cover: the kernels with the compiler off, the rest also with it
-	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not jit_only" --cov --cov-report= --cov-fail-under=0 $(ARGS)
-	$(PYTEST) -m jit_only --cov --cov-append --cov-report=term-missing:skip-covered $(ARGS)
+# What is compiled is not seen: for the lines of the kernels their own tests run without the compiler, before all do with it.
+coverage: $(TEST) ## run the tests and report what they cover
+	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not jit_only" --cov --cov-report= --cov-fail-under=0 tests/core
+	@$(MAKE) --no-print-directory test ARGS="--cov --cov-append --cov-report=term-missing:skip-covered $(ARGS)"
 
 bench: $(TEST) ## time carom beside its peers
 	$(BIN)/pytest -p benchmark --benchmark-only -o pythonpath=benchmarks benchmarks $(ARGS)

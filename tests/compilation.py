@@ -10,11 +10,43 @@ marked ``deep`` too.
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 
 from numba.core import config
 
+from carom.core.cache_directory import cache_directory
+
 COMPILED = not config.DISABLE_JIT
 DEEP = COMPILED and os.environ.get("CAROM_DEEP", "") not in ("", "0")
+
+
+_FLIGHT = """
+import numpy as np
+import carom
+rotor = carom.jeffcott(carom.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
+carom.simulate(rotor, carom.kick(0.3), 20.0, settle=True)
+carom.settle_all(rotor, np.array([0.1 + 0j]), np.array([0.5 + 0j]))
+"""
+_SHOCK = """
+import carom
+from carom.basins import basins
+from carom.disturbances import BaseShock, Grid
+rotor = carom.jeffcott(carom.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
+basins(rotor, Grid(BaseShock(1.0, 0.7), (2, 2)))
+"""
+
+
+def compile_kernels() -> None:
+    """Compile what most tests call, unless there are kernels already: half of it each in two processes.
+
+    The kernels of a rotor and those of one that is shaken have nothing in common.
+    """
+    directory = cache_directory()
+    if COMPILED and directory is not None and not any(directory.rglob("*.nbi")):
+        started = [subprocess.Popen([sys.executable, "-c", program]) for program in (_FLIGHT, _SHOCK)]
+        for process in started:
+            process.wait()
 
 
 def sized(compiled: int, interpreted: int, deep: int | None = None) -> int:

@@ -13,7 +13,8 @@ for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import pkgutil  # noqa: E402
 
-from compilation import COMPILED, DEEP  # noqa: E402
+import pytest  # noqa: E402
+from compilation import COMPILED, DEEP, compile_kernels  # noqa: E402
 from hypothesis import settings  # noqa: E402
 
 import carom.core  # noqa: E402
@@ -28,6 +29,13 @@ def pytest_configure(config):
     if not COMPILED:
         for module in pkgutil.iter_modules(carom.core.__path__):
             config.addinivalue_line("filterwarnings", f"ignore::RuntimeWarning:carom.core.{module.name}")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_sessionstart(session):
+    """Compile kernels before the workers of a parallel run start: else each of them would compile the same."""
+    if session.config.getoption("numprocesses", None) and not hasattr(session.config, "workerinput"):
+        compile_kernels()
 
 
 def pytest_collection_modifyitems(config, items):
