@@ -102,11 +102,11 @@ def test_threads_change_nothing(rotor, kicks):
     "plan",
     [
         Grid(VelocityKick(1.0), (4, 5)),
-        Grid(VelocityKick(0.01), (4, 5)),
-        Grid(BaseShock(1.0, 0.7), (4, 5)),
+        pytest.param(Grid(VelocityKick(0.01), (4, 5)), marks=pytest.mark.deep),
+        pytest.param(Grid(BaseShock(1.0, 0.7), (4, 5)), marks=pytest.mark.deep),
         Grid(UnbalanceStep(0.5), (4, 5)),
         Grid(ContactRelease("rotating"), (7,)),
-        Grid(StateSlice(0.1 + 0.2j), (4, 5)),
+        pytest.param(Grid(StateSlice(0.1 + 0.2j), (4, 5)), marks=pytest.mark.deep),
         Sample(AnyState(1.0), 20, seed=3),
     ],
 )

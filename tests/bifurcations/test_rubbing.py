@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from compilation import sized
 from machines import PAPER
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
@@ -189,7 +190,7 @@ def test_inputs_that_cannot_be_used():
         continue_rubbing(orbit, "gamma", (0.3, 0.4))
 
 
-@pytest.mark.parametrize("names", [("gamma", "mu"), ("d", "gamma")])
+@pytest.mark.parametrize("names", [("gamma", "mu"), pytest.param(("d", "gamma"), marks=pytest.mark.deep)])
 @pytest.mark.jit_only
 def test_curves_of_both_onsets(chatter, names):
     ranges = {"gamma": (0.02, 0.4), "mu": (0.25, 0.32), "d": (0.4, 0.6)}
@@ -198,7 +199,7 @@ def test_curves_of_both_onsets(chatter, names):
         curve = continue_onset(chatter, point, CHATTERING, plane)
         assert curve.kind == point.kind
         assert set(curve.stops) == {"edge of the plane"}
-        for x, y in curve.points[1:-1:7]:
+        for x, y in curve.points[1 : -1 : sized(21, 21, 7)]:
             at = CHATTERING.replace(**{names[0]: x, names[1]: y})
             if point.kind == "permanent-contact":
                 assert abs(least_force_of_steady_whirl(at.gamma, at.mu)) < 1e-7

@@ -86,11 +86,11 @@ def test_table_and_files(carom, machine, tmp_path):
     [
         ("kick-plane", "--grid", "6x6", "--fastest", "30 mm/s"),
         ("shock", "--grid", "5x6", "--peak", "6 g", "--duration", "5 ms"),
-        ("shock", "--starts", "20", "--peak", "60 m/s^2", "--duration", "1"),
+        pytest.param(("shock", "--starts", "20", "--peak", "60 m/s^2", "--duration", "1"), marks=pytest.mark.deep),
         ("unbalance", "--grid", "5x6", "--before", "0.1 mm"),
-        ("unbalance", "--grid", "5x6"),
+        pytest.param(("unbalance", "--grid", "5x6"), marks=pytest.mark.deep),
         ("release", "--grid", "9", "--release", "rotating"),
-        ("slice", "--grid", "8x8"),
+        pytest.param(("slice", "--grid", "8x8"), marks=pytest.mark.deep),
         ("state", "--starts", "30", "--fastest", "0.5"),
     ],
 )

@@ -22,7 +22,7 @@ from carom.rotors import Rotor
 from carom.trajectories import State, Trajectory, simulate
 
 MACHINES = 50
-STARTS = sized(300, 1, 2000)
+STARTS = sized(60, 1, 2000)
 PATIENCE = sized(1000, 30)
 MOST_EVENTS = 200_000
 UNTIL = 1e6
