@@ -19,14 +19,13 @@ from carom.core.layout import rub_workspace, workspace
 from carom.outcome import InputError, Outcome
 from carom.processors import available_cores
 from carom.rotors import Rotor
-from carom.settling import fresh_memory
+from carom.settling import PATIENCE, fresh_memory
 from carom.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
 
 __all__ = ["Endings", "settle_all"]
 
 LONGEST = 2e5
 """Time after which a motion that has not settled is given up, in ``1/Ω``."""
-PATIENCE = 20_000
 MOST_EVENTS = 1_000_000
 PORTION = 16_384
 """Starts of one machine that threads share at a time: some milliseconds to a second of work."""

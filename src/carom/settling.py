@@ -12,8 +12,11 @@ from carom.equilibria import Equilibrium, equilibria
 from carom.rotors import Rotor
 from carom.whirl import rolling, runaway_speed
 
-__all__ = ["fresh_memory"]
+__all__ = ["PATIENCE", "fresh_memory"]
 
+PATIENCE = 20_000
+"""Impacts without recurrence after which bouncing counts as irregular wherever nothing else is said; irregular transients of
+thousands are common."""
 ROTORS = 64
 """Rotors whose rub is kept: motions are many, rotors few."""
 

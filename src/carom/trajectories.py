@@ -18,7 +18,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
-from carom.settling import fresh_memory
+from carom.settling import PATIENCE, fresh_memory
 
 __all__ = [
     "LARGEST_SPEED",
@@ -254,7 +254,7 @@ def simulate(
     *,
     settle: bool = False,
     stop_at_chatter: bool = False,
-    patience: int = 20_000,
+    patience: int = PATIENCE,
     max_events: int = 1_000_000,
     progress: Callable[[float], None] | None = None,
 ) -> Trajectory:

@@ -210,7 +210,8 @@ def test_progress_grows_to_one():
 
 @pytest.mark.jit_only
 def test_argument_says_what_it_rests_on(found):
-    assert "200 disturbances of up to 2 c_r Omega (seed 0)" in found.argument
+    assert "200 disturbances (seed 0): 120 velocity kicks of the levitating rotor" in found.argument
+    assert "80 starts spread over the clearance at up to 2 c_r Omega, and" in found.argument
     assert "evidence, not proof" in found.argument
 
 

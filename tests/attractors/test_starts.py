@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from carom.attractors import disturbances, known_starts
+from carom.attractors import DisturbanceSet, disturbances, known_starts
 from carom.orbits import single_impact_orbits
-from carom.parameters import Parameters
+from carom.outcome import InputError
+from carom.parameters import Parameters, Scales
 from carom.rotors import jeffcott
 from carom.whirl import runaway_speed
 
@@ -63,6 +64,29 @@ def test_rotor_that_cannot_levitate_is_not_kicked_out_of_levitation():
 
     assert abs(rotor.equilibrium) > 1.0
     assert {start.kind for start in disturbances(rotor, 40)} == {"start"}
+
+
+def test_set_is_the_sample_and_says_what_it_holds():
+    rotor, chosen = jeffcott(SOURCE), DisturbanceSet(50, seed=3, fastest=1.5)
+    positions, velocities = chosen.states(rotor)
+
+    assert [(s.state.position, s.state.velocity) for s in disturbances(rotor, 50, 3, 1.5)] == [
+        *zip(positions.tolist(), velocities.tolist(), strict=True)
+    ]
+    assert chosen.words(rotor) == (
+        "50 disturbances (seed 3): 24 velocity kicks of the levitating rotor, 0.01 c_r Omega to 1.5 c_r Omega, and 26 starts "
+        "spread over the clearance at up to 1.5 c_r Omega"
+    )
+    scaled = jeffcott(SOURCE.replace(gamma=0.05, scales=Scales(mass=50.0, clearance=0.7e-3, speed=184.2)))
+    assert chosen.words(scaled) == (
+        "50 disturbances (seed 3): 50 starts spread over the clearance at up to 1.5 c_r Omega (0.193 m/s)"
+    )
+
+
+@pytest.mark.parametrize("wrong", [{"count": -1}, {"fastest": 0.0}, {"fastest": float("inf")}])
+def test_useless_set_is_an_error(wrong):
+    with pytest.raises(InputError, match=next(iter(wrong))):
+        DisturbanceSet(**wrong)
 
 
 def test_known_motions_are_approached_from_both_sides():

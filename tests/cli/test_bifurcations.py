@@ -55,8 +55,11 @@ def test_run_up_with_all_motions(capsys):
     assert len({sample["value"] for sample in samples}) == 31
     (levitation,) = [branch for branch in document["equilibria"] if branch["kind"] == "contact-free"]
     there = dict(zip(levitation["values"], levitation["admissible"], strict=True))
+    assert (document["disturbances"]["count"], document["disturbances"]["seed"]) == (4, 3)
+    assert "up to 2 c_r Omega" in document["disturbances"]["words"]
     for sample in samples:
-        assert 0.0 <= sample["share"] <= 1.0
+        assert sample["share"] == sample["count"] / 4
+        assert sample["count"] + sample["known_starts"] > 0
         if sample["name"] == "levitation":
             nearest = min(there, key=lambda value: abs(value - sample["value"]))
             assert there[nearest]
@@ -68,6 +71,20 @@ def test_run_up_with_all_motions(capsys):
                 if abs(value - sample["value"]) < 5.0
             ]
             assert min(abs(speed - sample["radial_speeds"][0]) for speed in known) < 0.05
+
+
+@pytest.mark.jit_only
+def test_starts_next_to_a_motion_are_no_disturbances(capsys):
+    """Rolling holds up to a hundred times this damping, but no disturbance of 0.258 m/s gets there."""
+    words = ["bifurcations", MACHINE, "--along", "damping", "--from", "3450 N s/m", "--to", "4000 N s/m"]
+    assert main([*words, "--attractors", "12"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    (rolling,) = [line for line in lines if line.strip().startswith("rolling")]
+    (levitation,) = [line for line in lines if line.strip().startswith("levitation")]
+    assert "31 of 31" in rolling
+    assert "a start next to it, no disturbance" in rolling
+    assert "up to 12 of 12 disturbances" in levitation
+    assert any("At each of 31 values 12 disturbances (seed 0)" in line for line in lines)
 
 
 @pytest.mark.jit_only

@@ -1,7 +1,7 @@
 """Where disturbances end: every attractor that a sample of starts and the known motions lead to.
 
 ==============  ==============================================================================================
-``starts``      the sample: seeded disturbances, and starts next to every motion known in closed form
+``starts``      the standard set of disturbances, and starts next to every motion known in closed form
 ``cycles``      what a settled motion repeats, and when two motions repeat the same
 ``following``   each start followed to where it settles
 ``groups``      :class:`Attractor`: motions that have settled to the same
@@ -12,6 +12,15 @@
 from carom.attractors.following import Ending
 from carom.attractors.groups import Attractor
 from carom.attractors.search import AttractorSet, find_attractors
-from carom.attractors.starts import Start, disturbances, known_starts
+from carom.attractors.starts import DisturbanceSet, Start, disturbances, known_starts
 
-__all__ = ["Attractor", "AttractorSet", "Ending", "Start", "disturbances", "find_attractors", "known_starts"]
+__all__ = [
+    "Attractor",
+    "AttractorSet",
+    "DisturbanceSet",
+    "Ending",
+    "Start",
+    "disturbances",
+    "find_attractors",
+    "known_starts",
+]

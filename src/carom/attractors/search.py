@@ -7,16 +7,15 @@ from dataclasses import dataclass
 
 from carom.attractors.following import Ending, endings_of
 from carom.attractors.groups import Attractor, Groups
-from carom.attractors.starts import DISTURBANCES, FASTEST, Start, disturbances, known_starts
+from carom.attractors.starts import DISTURBANCES, DisturbanceSet, Start, disturbances, known_starts
+from carom.disturbances import FASTEST
 from carom.orbits import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.rotors import Rotor
+from carom.settling import PATIENCE
 from carom.trajectories import Kick, State
 
-__all__ = ["PATIENCE", "AttractorSet", "find_attractors"]
-
-PATIENCE = 20_000
-"""Impacts without recurrence after which bouncing counts as irregular; irregular transients of thousands are common."""
+__all__ = ["AttractorSet", "find_attractors"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,9 +29,8 @@ class AttractorSet:
         That with the most disturbances first; motions given up last.
     endings : tuple of Ending
         Every start, the disturbances first.
-    seed : int
-    fastest : float
-        Largest kick and start speed of the disturbances, in ``c_r Ω``.
+    sample : DisturbanceSet or None
+        The disturbances; ``None`` if they were given one by one.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
     """
@@ -40,8 +38,7 @@ class AttractorSet:
     rotor: Rotor
     members: tuple[Attractor, ...]
     endings: tuple[Ending, ...]
-    seed: int
-    fastest: float
+    sample: DisturbanceSet | None
     patience: int
 
     def __len__(self) -> int:
@@ -86,13 +83,25 @@ class AttractorSet:
         return min(speeds, default=None)
 
     @property
+    def fastest(self) -> float:
+        """Largest speed of the disturbances (of kicks: size), in ``c_r Ω``."""
+        return (
+            self.sample.fastest if self.sample else max((entry.start.speed for entry in self.disturbances), default=0.0)
+        )
+
+    def words(self, speed: Callable[[float], str] | None = None) -> str:
+        """Say which disturbances were tried; ``speed`` writes one given in ``c_r Ω``."""
+        if self.sample is None:
+            return f"{len(self.disturbances)} given disturbances"
+        return self.sample.words(self.rotor, speed)
+
+    @property
     def argument(self) -> str:
         """What the list rests on, in a sentence or two."""
-        tried, known = len(self.disturbances), len(self.endings) - len(self.disturbances)
+        known = len(self.endings) - len(self.disturbances)
         return (
-            f"{tried} disturbances of up to {self.fastest:g} c_r Omega (seed {self.seed}) and {known} starts next to motions "
-            "known in closed form were simulated to where they settle. This is evidence, not proof: an attractor that "
-            "none of them reaches is not listed."
+            f"{self.words()}, and {known} starts next to motions known in closed form, which count for no share, were "
+            "simulated to where they settle. This is evidence, not proof: an attractor that none of them reaches is not listed."
         )
 
 
@@ -109,13 +118,16 @@ def find_attractors(
 ) -> AttractorSet:
     """Follow disturbances, and starts next to every known motion, to the attractors where they settle.
 
+    Shares are of the disturbances alone: a start next to a known motion shows that the motion attracts, not that anything
+    leads to it.
+
     Parameters
     ----------
     rotor : Rotor
     starts : sequence of State or Kick, optional
         Disturbances to follow instead of the seeded sample.
     seed, count, fastest : int, int, float
-        Of the seeded sample; see :func:`~carom.attractors.disturbances`.
+        Of the standard set; see :class:`~carom.attractors.DisturbanceSet`.
     known : bool
         Whether to add starts next to the motions known in closed form; see :func:`~carom.attractors.known_starts`.
     patience : int
@@ -135,11 +147,11 @@ def find_attractors(
     InputError
         A start lies outside the wall, or there is nothing to follow.
     """
+    chosen = DisturbanceSet(count, seed, fastest) if starts is None else None
     if starts is None:
         sample = disturbances(rotor, count, seed, fastest)
     else:
         sample = tuple(_given(rotor, start) for start in starts)
-        fastest = max((start.speed for start in sample), default=0.0)
     orbits = tuple(orbits_within_reach(rotor))
     sample += known_starts(rotor, orbits) if known else ()
     if not sample:
@@ -149,7 +161,7 @@ def find_attractors(
     endings = tuple(sorted(found, key=lambda ending: not ending.start.disturbance))
     members = tuple(groups.attractor(name, endings) for name in groups.names)
     ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
-    return AttractorSet(rotor, tuple(ordered), endings, seed, fastest, patience)
+    return AttractorSet(rotor, tuple(ordered), endings, chosen, patience)
 
 
 def _given(rotor: Rotor, start: State | Kick) -> Start:

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from carom.disturbances import FASTEST
 from carom.equilibria import equilibria
 from carom.orbits import Orbit
+from carom.outcome import InputError
 from carom.rotors import Rotor
-from carom.trajectories import State, kick
+from carom.trajectories import State
 from carom.whirl import runaway_speed
 
-__all__ = ["DISTURBANCES", "FASTEST", "Kind", "Start", "disturbances", "known_starts"]
+__all__ = ["DISTURBANCES", "DisturbanceSet", "Kind", "Start", "disturbances", "known_starts"]
 
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]
 
 DISTURBANCES = 200
-FASTEST = 2.0
-"""Largest kick and largest start speed in ``c_r Ω``, twice the speed of a whirl that fills the clearance."""
 SLOWEST = 0.01
 DIRECTIONS = 12
 KICKS_SHARE = 0.6
@@ -68,38 +68,105 @@ class Start:
         return cmath.phase(self.state.velocity)
 
 
+@dataclass(frozen=True)
+class DisturbanceSet:
+    """The standard set of disturbances: what "disturbances tried" means wherever nothing else is said.
+
+    Three in five are velocity kicks of the levitating rotor, in 12 directions each of sizes in geometric progression from
+    0.01 ``c_r Ω`` to ``fastest``; the rest start within the clearance, positions even over its disc and velocities over a
+    disc.  Where the rotor cannot levitate all of them do.
+
+    Attributes
+    ----------
+    count : int
+    seed : int
+        The same seed gives the same set.
+    fastest : float
+        Largest kick and largest speed of the starts in the co-rotating frame, in ``c_r Ω``.
+    """
+
+    count: int = DISTURBANCES
+    seed: int = 0
+    fastest: float = FASTEST
+
+    def __post_init__(self) -> None:
+        if self.count < 0:
+            raise InputError("count", self.count, "a whole number of at least 0")
+        if not (math.isfinite(self.fastest) and self.fastest > 0.0):
+            raise InputError("fastest", self.fastest, "a finite speed above 0, in c_r Omega")
+
+    def kicks(self, rotor: Rotor) -> int:
+        """How many of them are kicks; they come first."""
+        return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if abs(rotor.equilibrium) < 1.0 else 0
+
+    def states(self, rotor: Rotor) -> tuple[np.ndarray, np.ndarray]:
+        """Return positions and velocities in the co-rotating frame, complex arrays of shape (count,)."""
+        random, kicks = np.random.default_rng(self.seed), self.kicks(rotor)
+        sizes = np.geomspace(min(SLOWEST, self.fastest), self.fastest, kicks // DIRECTIONS)
+        angles = 2.0 * math.pi * (np.arange(DIRECTIONS) + random.random((len(sizes), 1))) / DIRECTIONS
+        blows = [cmath.rect(size, angle) for size, row in zip(sizes, angles, strict=True) for angle in row]
+        radii = np.sqrt(random.random((self.count - kicks, 2)))
+        points = radii * np.exp(2j * math.pi * random.random(radii.shape))
+        return (
+            np.concatenate([np.full(kicks, rotor.equilibrium), points[:, 0]]),
+            np.concatenate([np.array(blows, complex), self.fastest * points[:, 1]]),
+        )
+
+    def words(self, rotor: Rotor, speed: Callable[[float], str] | None = None) -> str:
+        """Say which disturbances of a rotor these are.
+
+        Parameters
+        ----------
+        rotor : Rotor
+        speed : callable, optional
+            Writes a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in m/s.
+        """
+        write, kicks = speed or _speed_of(rotor), self.kicks(rotor)
+        parts = []
+        if kicks:
+            smallest = write(min(SLOWEST, self.fastest))
+            parts.append(f"{kicks} velocity kicks of the levitating rotor, {smallest} to {write(self.fastest)},")
+        if self.count > kicks:
+            parts.append(f"{self.count - kicks} starts spread over the clearance at up to {write(self.fastest)}")
+        return f"{self.count} disturbances (seed {self.seed}): {' and '.join(parts).rstrip(',')}"
+
+    @property
+    def general_words(self) -> str:
+        """The same for rotors in general, which can levitate or not."""
+        return (
+            f"{self.count} disturbances (seed {self.seed}): velocity kicks of the levitating rotor and starts spread over the "
+            f"clearance, at up to {self.fastest:.3g} c_r Omega"
+        )
+
+
+def _speed_of(rotor: Rotor) -> Callable[[float], str]:
+    scales = rotor.scales
+
+    def write(speed: float) -> str:
+        return f"{speed:.3g} c_r Omega" + (f" ({speed * scales.velocity:.3g} m/s)" if scales else "")
+
+    return write
+
+
 def disturbances(rotor: Rotor, count: int = DISTURBANCES, seed: int = 0, fastest: float = FASTEST) -> tuple[Start, ...]:
-    """Seeded sample of disturbances: the same for the same arguments.
+    """Seeded sample of disturbances, one by one: those of :class:`DisturbanceSet`.
 
     Parameters
     ----------
     rotor : Rotor
-    count : int
-        Three in five are velocity kicks of the levitating rotor, in 12 directions each of growing sizes; the rest start
-        within the clearance, positions even over its disc and velocities over a disc.  Where the rotor cannot levitate
-        all of them do.
-    seed : int
-    fastest : float
-        Largest kick and largest speed of the starts, in ``c_r Ω``.
+    count, seed, fastest : int, int, float
+        See :class:`DisturbanceSet`.
 
     Returns
     -------
     tuple of Start
+        The same for the same arguments; kicks first, in growing sizes.
     """
-    random = np.random.default_rng(seed)
-    sizes = int(KICKS_SHARE * count) // DIRECTIONS if abs(rotor.equilibrium) < 1.0 else 0
-    starts = []
-    for size in np.geomspace(min(SLOWEST, fastest), fastest, sizes):
-        turn = random.random()
-        for direction in range(DIRECTIONS):
-            blow = kick(float(size), 2.0 * math.pi * (direction + turn) / DIRECTIONS)
-            starts.append(Start("kick", blow.state(rotor), f"a kick of {size:.3g} c_r Omega"))
-    radii = np.sqrt(random.random((count - len(starts), 2)))
-    points = radii * np.exp(2j * math.pi * random.random(radii.shape))
-    starts += [
-        Start("start", State(complex(place), fastest * complex(velocity)), "a start within the clearance")
-        for place, velocity in points
-    ]
+    chosen = DisturbanceSet(count, seed, fastest)
+    kicks, starts = chosen.kicks(rotor), []
+    for place, (position, velocity) in enumerate(zip(*(part.tolist() for part in chosen.states(rotor)), strict=True)):
+        words = f"a kick of {abs(velocity):.3g} c_r Omega" if place < kicks else "a start within the clearance"
+        starts.append(Start("kick" if place < kicks else "start", State(position, velocity), words))
     return tuple(starts)
 
 

@@ -22,10 +22,11 @@ from carom.disturbances import (
     Starts,
     StateSlice,
 )
-from carom.ensembles import LONGEST, MOST_EVENTS, PATIENCE, Endings, settle_all
+from carom.ensembles import LONGEST, MOST_EVENTS, Endings, settle_all
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
 from carom.rotors import Rotor, jeffcott
+from carom.settling import PATIENCE
 
 if TYPE_CHECKING:
     import os

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.attractors import DisturbanceSet
 from carom.bifurcations.axes import Axis, Numbers, axis, vary
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import conditions_at
@@ -56,7 +57,9 @@ class Diagram:
     points : tuple of SpecialValue
         In growing order of the parameter.
     attractors : tuple of AttractorSample
-        What simulated disturbances settled to; empty unless they were asked for.
+        What simulated disturbances, and starts next to known motions, settled to; empty unless they were asked for.
+    disturbances : DisturbanceSet or None
+        Those followed at each of the values of ``attractors``.
     """
 
     axis: Axis
@@ -67,6 +70,7 @@ class Diagram:
     rubbing: tuple[RubbingBranch, ...]
     points: tuple[SpecialValue, ...]
     attractors: tuple[AttractorSample, ...] = ()
+    disturbances: DisturbanceSet | None = None
 
     @property
     def parameter(self) -> str:
@@ -102,8 +106,8 @@ def bifurcation_diagram(
     lasting : bool
         Follow periodic motions with a stretch of lasting contact as well, to where lasting contact begins.
     attractors : int
-        Disturbances to simulate at each of 31 values, to show where they settle: irregular bouncing, orbits with
-        several impacts, rolling and so on.  None by default.
+        Disturbances (:class:`~carom.attractors.DisturbanceSet`) to simulate at each of 31 values, to show where they
+        settle: irregular bouncing, orbits with several impacts, rolling and so on.  None by default.
     seed : int
         Of these disturbances.
     progress : callable, optional
@@ -135,6 +139,7 @@ def bifurcation_diagram(
             if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
                 rubbing.append(continue_rubbing(motion, parameter, interval))
         tell(followed * (done + 1) / SAMPLES)
+    disturbances = DisturbanceSet(attractors, seed) if attractors else None
     points = [*steady_points(parameters, along, interval), *_orbit_points(branches), *_rubbing_points(rubbing)]
     return Diagram(
         axis=along,
@@ -148,12 +153,12 @@ def bifurcation_diagram(
             parameters,
             parameter,
             interval,
-            attractors,
-            seed=seed,
+            disturbances,
             progress=lambda share: tell(followed + (1.0 - followed) * share),
         )
-        if attractors
+        if disturbances
         else (),
+        disturbances=disturbances,
     )
 
 

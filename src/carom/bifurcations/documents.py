@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from carom.attractors import DisturbanceSet
 from carom.bifurcations.axes import Axis
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
@@ -12,6 +13,7 @@ from carom.bifurcations.rubbing import RubbingBranch
 from carom.bifurcations.samples import AttractorSample
 from carom.bifurcations.steady import EquilibriumBranch
 from carom.parameters import Parameters
+from carom.settling import PATIENCE
 
 __all__ = ["diagram_document", "regions_document"]
 
@@ -48,6 +50,7 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
         },
         "rubbing": [_rubbing_branch(branch) for branch in diagram.rubbing],
         "attractors": [_attractor(sample) for sample in diagram.attractors],
+        "disturbances": _disturbances(diagram.disturbances) if diagram.disturbances else None,
     }
 
 
@@ -146,12 +149,24 @@ def _rubbing_branch(branch: RubbingBranch) -> dict[str, Any]:
     }
 
 
+def _disturbances(tried: DisturbanceSet) -> dict[str, Any]:
+    return {
+        "count": tried.count,
+        "seed": tried.seed,
+        "fastest": tried.fastest,
+        "patience": PATIENCE,
+        "words": tried.general_words,
+    }
+
+
 def _attractor(sample: AttractorSample) -> dict[str, Any]:
     return {
         "value": sample.value,
         "name": sample.name,
         "outcome": sample.outcome,
         "whirl": sample.whirl,
+        "count": sample.count,
         "share": sample.share,
+        "known_starts": sample.known,
         "radial_speeds": sample.radial_speeds.tolist(),
     }

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.attractors import Attractor, find_attractors
+from carom.attractors import Attractor, DisturbanceSet, find_attractors
 from carom.bifurcations.axes import vary
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -18,8 +18,6 @@ __all__ = ["VALUES", "AttractorSample", "sample_attractors"]
 
 VALUES = 31
 """Values of the parameter at which disturbances are followed."""
-PATIENCE = 4000
-"""Impacts without recurrence after which bouncing counts as irregular."""
 SHOWN_IMPACTS = 60
 LONGEST = 400.0
 BOUNCES = (Outcome.BOUNCING, Outcome.MIXED)
@@ -39,8 +37,12 @@ class AttractorSample:
         Label of its :class:`~carom.outcome.Outcome`.
     whirl : str
         ``"forward"``, ``"backward"`` or ``"none"`` in the fixed frame.
+    count : int
+        Disturbances that end on it.
     share : float
-        Part of the disturbances that end on it.
+        The same as a share of all disturbances followed at this value.
+    known : int
+        Starts next to a motion known in closed form that end on it; they are no disturbances.
     radial_speeds : ndarray
         Of its impacts (at most 60), in ``c_r Ω``; empty without impacts.
     """
@@ -49,17 +51,23 @@ class AttractorSample:
     name: str
     outcome: str
     whirl: str
+    count: int
     share: float
+    known: int
     radial_speeds: np.ndarray
+
+    @property
+    def met(self) -> bool:
+        """Whether a disturbance ends on it, not only a start next to it."""
+        return self.count > 0
 
 
 def sample_attractors(
     parameters: Parameters,
     parameter: str,
     interval: tuple[float, float],
-    count: int,
+    disturbances: DisturbanceSet,
     *,
-    seed: int = 0,
     values: int = VALUES,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[AttractorSample, ...]:
@@ -70,9 +78,8 @@ def sample_attractors(
     parameters : Parameters
     parameter : str
     interval : tuple of float
-    count : int
-        Disturbances at each value, besides starts next to every known motion; the same for the same seed.
-    seed : int
+    disturbances : DisturbanceSet
+        Those followed at each value.  Starts next to every known motion are followed besides; they count for no share.
     values : int
     progress : callable, optional
         Called with the share done.
@@ -86,14 +93,25 @@ def sample_attractors(
     found: list[AttractorSample] = []
     for done, value in enumerate(np.linspace(*interval, values).tolist()):
         rotor = jeffcott(vary(parameters, parameter, value))
-        attractors = find_attractors(rotor, seed=seed, count=count, patience=PATIENCE)
-        found += [
-            AttractorSample(value, each.name, each.outcome.label, each.whirl, each.share, _impacts(rotor, each))
-            for each in attractors
-            if each.settled
-        ]
+        attractors = find_attractors(
+            rotor, seed=disturbances.seed, count=disturbances.count, fastest=disturbances.fastest
+        )
+        found += [_sample(value, rotor, each) for each in attractors if each.settled]
         tell((done + 1) / values)
     return tuple(found)
+
+
+def _sample(value: float, rotor: Rotor, found: Attractor) -> AttractorSample:
+    return AttractorSample(
+        value,
+        found.name,
+        found.outcome.label,
+        found.whirl,
+        found.count,
+        found.share,
+        found.known,
+        _impacts(rotor, found),
+    )
 
 
 def _impacts(rotor: Rotor, attractor: Attractor) -> np.ndarray:

@@ -240,21 +240,31 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
 
 
 def _print_attractors(diagram: Diagram) -> None:
-    """Range of the parameter over which each simulated attractor was met."""
+    """Ranges of the parameter over which disturbances met each motion, and over which only a start next to it did."""
     from rich import box
     from rich.table import Table
 
     from carom.cli.fitting import fitted
 
-    table = Table(box=box.SIMPLE_HEAD, title="Where disturbances settled", title_justify="left")
-    for heading in ("motion", "met from", "to", "largest share of disturbances"):
+    screen, tried = console(), diagram.disturbances
+    if tried is None:
+        return
+    values = len({sample.value for sample in diagram.attractors})
+    table = Table(box=box.SIMPLE_HEAD, title="Where motions settled", title_justify="left")
+    for heading in ("motion", "from", "to", "at values", "reached by"):
         table.add_column(heading)
     for name in dict.fromkeys(sample.name for sample in diagram.attractors):
-        alike = [sample for sample in diagram.attractors if sample.name == name]
-        ends = (_shown(diagram.axis, sample.value) for sample in (alike[0], alike[-1]))
-        table.add_row(name, *ends, f"{100 * max(sample.share for sample in alike):.0f} %")
-    screen = console()
+        for met in (True, False):
+            alike = [sample for sample in diagram.attractors if sample.name == name and sample.met == met]
+            if alike:
+                ends = (_shown(diagram.axis, sample.value) for sample in (alike[0], alike[-1]))
+                most = max(sample.count for sample in alike)
+                reached = f"up to {most} of {tried.count} disturbances" if met else "a start next to it, no disturbance"
+                table.add_row(name, *ends, f"{len(alike)} of {values}", reached)
     screen.print(fitted(screen, table))
+    screen.print(
+        f"At each of {values} values {tried.general_words}; and starts next to the motions known in closed form."
+    )
 
 
 def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:

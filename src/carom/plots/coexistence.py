@@ -165,12 +165,12 @@ def _row_of_sample(sample: AttractorSample) -> str:
 
 
 def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:
-    """Area in proportion to the share of disturbances; a motion that none of them reached is a ring of its own size."""
+    """Area in proportion to the share of disturbances; a motion that none of them reached is a small empty ring."""
     axes.scatter(
         [sample.value / unit],
         [height],
-        s=_LARGEST * max(sample.share, 0.1),
-        facecolor="#ffffff" if sample.share else "none",
+        s=_LARGEST * (max(sample.share, 0.1) if sample.met else 0.05),
+        facecolor="#ffffff" if sample.met else "none",
         edgecolor="#1a1a1a",
         linewidth=0.6,
         zorder=4,

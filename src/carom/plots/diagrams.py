@@ -6,7 +6,7 @@ Conventions of the field: stable solid, unstable dashed, virtual faint; every ki
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -82,6 +82,9 @@ _FAINT = 0.3
 """Opacity of curves that only virtual orbits have."""
 _SHOWN = 0.004
 """Share of the plane above which a region is numbered."""
+_MET: dict[str, Any] = {"marker": ".", "ms": 3.2, "mew": 0.0, "color": "#1a1a1a"}
+_UNMET: dict[str, Any] = {"marker": "o", "ms": 2.2, "mew": 0.4, "mfc": "none", "mec": "#1a1a1a"}
+"""Impacts of motions that disturbances met, and of those that only a start next to them did."""
 _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
 
 
@@ -151,7 +154,7 @@ def _attractor_speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
     """Impacts of simulated attractors."""
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
-        axes.plot(values, sample.radial_speeds, ls="none", marker=".", ms=3.2, mew=0.0, color="#1a1a1a", zorder=4)
+        axes.plot(values, sample.radial_speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
 
 
 def _look_of(point: SpecialValue) -> Look:
@@ -289,15 +292,23 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
             continue
         words = f"{kind}: normal force"
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
-    if any(len(sample.radial_speeds) for sample in diagram.attractors):
-        entries.append(
-            Line2D([], [], ls="none", marker=".", ms=4.0, mew=0.0, color="#1a1a1a", label="simulated impacts")
-        )
-    if diagram.attractors:
-        ring = Line2D([], [], ls="none", marker="o", ms=4.0, mfc="#ffffff", mec="#1a1a1a", mew=0.6)
-        ring.set_label("simulated, by share of disturbances")
-        entries.append(ring)
-    return entries + [point_key(look) for look in marked]
+    return entries + _attractor_key(diagram) + [point_key(look) for look in marked]
+
+
+def _attractor_key(diagram: Diagram) -> list[Line2D]:
+    """What the marks of simulated motions mean, and which disturbances they are shares of."""
+    entries = []
+    for met, style, words in ((True, _MET, "impacts after a disturbance"), (False, _UNMET, "after a start next to it")):
+        if any(len(sample.radial_speeds) for sample in diagram.attractors if sample.met == met):
+            entries.append(Line2D([], [], ls="none", **style, label=words))
+    tried = diagram.disturbances
+    ring: dict[str, Any] = {"ls": "none", "marker": "o", "mec": "#1a1a1a", "mew": 0.6}
+    if tried and any(sample.met for sample in diagram.attractors):
+        words = f"share of {tried.count} disturbances up to {tried.fastest:.3g} $c_r\\Omega$"
+        entries.append(Line2D([], [], mfc="#ffffff", ms=4.0, **ring, label=words))
+    if any(not sample.met for sample in diagram.attractors):
+        entries.append(Line2D([], [], mfc="none", ms=2.0, **ring, label="met by none, only from a start next to it"))
+    return entries
 
 
 def point_key(look: Look) -> Line2D:

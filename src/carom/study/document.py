@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, Ending
+from carom.basins.shares import CONFIDENCE
 from carom.boundary import BoundaryEquilibrium
 from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
@@ -232,8 +233,10 @@ def _attractor(entry: Attractor, scales: Scales | None) -> dict[str, Any]:
 def _disturbances(found: AttractorSet, scales: Scales | None) -> dict[str, Any]:
     touched, smallest = touching(found), found.smallest_unrecovered_kick
     document = {
-        "seed": found.seed,
+        "seed": found.sample.seed if found.sample else None,
         "fastest": found.fastest,
+        "patience": found.patience,
+        "words": found.words(),
         "count": len(found.disturbances),
         "recovered": _recovered(found.disturbances),
         "touching": len(touched),
@@ -272,7 +275,22 @@ def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
         "rolling": safe.rolling,
     }
     documents = {name: _limit(limit, scales) if limit else None for name, limit in limits.items()}
-    return {**documents, "lowest": safe.lowest, "highest": safe.highest, "disturbances": safe.disturbances}
+    first, faster = safe.checks[0] if safe.checks else None, safe.faster
+    return {
+        **documents,
+        "lowest": safe.lowest,
+        "highest": safe.highest,
+        "disturbances": safe.sample.count,
+        "seed": safe.sample.seed,
+        "fastest": safe.sample.fastest,
+        "checked": [check.gamma for check in safe.checks],
+        "checked_from_si": first.gamma * scales.damping if first and scales else None,
+        "share_below": safe.share_below if safe.checks else None,
+        "confidence": CONFIDENCE,
+        "faster": {"fastest": faster.sample.fastest, "count": faster.sample.count, "lost": faster.lost}
+        if faster
+        else None,
+    }
 
 
 def _limit(limit: DampingLimit, scales: Scales | None) -> dict[str, Any]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from carom.basins.shares import CONFIDENCE
 from carom.outcome import Outcome
+from carom.safety.limits import DampingLimit, rounded_up, share_words
 from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
 from carom.study.ranges import Gain, Motion, free_spans
 from carom.study.wording import counted, listed, number
@@ -156,14 +158,7 @@ def names_of(orbits: list[Orbit]) -> str:
 def _disturbances(study: Study) -> str:
     say, found = study.wording, study.attractors
     sizes = kick_sizes(found)
-    tried = len(found.disturbances)
-    kicks = sum(size.directions for size in sizes)
-    what = []
-    if sizes:
-        smallest, largest = say.velocity(sizes[0].speed), say.velocity(sizes[-1].speed)
-        what.append(f"{kicks} velocity kicks of the levitating rotor, {smallest} to {largest},")
-    what.append(f"{tried - kicks} starts spread over the clearance at up to {say.velocity(found.fastest)}")
-    text = f"{tried} were simulated to where they settle: {' and '.join(what)}. {_endings(study)}"
+    text = f"Simulated to where they settle: {found.words(say.velocity)}. {_endings(study)}"
     lost = next((size for size in sizes if size.lost), None)
     if lost is not None:
         text += (
@@ -276,23 +271,49 @@ def _rolling_concerns(study: Study, gain: Gain) -> bool:
 def _safe_damping(study: Study) -> str:
     """What simulations at other dampings add to the ranges."""
     say, safe = study.wording, study.safe_damping
-    limit, name = safe.within_reach, say.gain_name("gamma")
-    tried = f"(simulated up to {say.gain('gamma', safe.highest)})"
+    limit, name, checks = safe.within_reach, say.gain_name("gamma"), safe.checks
+    if not checks:
+        return (
+            f"Some disturbances of up to {say.velocity(safe.sample.fastest)} did not come back even at the largest {name} "
+            f"tried ({say.gain('gamma', safe.highest)})."
+        )
+    ends = " to ".join(say.gain("gamma", check.gamma) for check in (checks[0], checks[-1]))
+    tried = (
+        f"None of {safe.sample.count:,} fresh disturbances (kicks of the levitating rotor and starts within the clearance, of up "
+        f"to {say.velocity(safe.sample.fastest)}) was lost at any of {len(checks)} values of {name} from {ends}: with "
+        f"{100 * CONFIDENCE:.0f} % confidence {share_words(safe.share_below)} at any of these."
+    )
+    return " ".join(part for part in (_limit_words(study, limit), tried, _faster_words(study)) if part)
+
+
+def _limit_words(study: Study, limit: DampingLimit | None) -> str:
+    """Above which damping disturbances came back, and what went last; a simulated limit with the digits known."""
+    say = study.wording
     if limit is None:
-        return f"The disturbances came back at every {name} tried {tried}."
-    if limit.above > safe.highest:
-        return f"Some disturbances did not come back even at the largest {name} tried {tried}."
+        return ""
     last = _LAST.get(limit.motion, ending_words(limit.motion))
+    if limit.evidence != "simulation":
+        return f"All disturbances came back above {say.gain('gamma', limit.above)}; the last motion to go is {last}."
+    factor = say.scales.damping if say.scales else 1.0
+    above = rounded_up(limit.above * factor, limit.digits) / factor
     return (
-        f"All disturbances came back at every {name} tried above {say.gain('gamma', limit.above)} {tried}; the last motion to "
-        f"go is {last}."
+        f"All disturbances came back above {say.gain('gamma', above)}; the last that was lost, at "
+        f"{say.gain('gamma', float(f'{limit.gamma * factor:.{limit.digits}g}') / factor)}, ended {ending_phrase(limit.motion)}."
     )
 
 
-_LAST = {
-    "synchronous rub": "the synchronous rub",
-    "rolling": "rolling backward whirl, which above it these disturbances do not reach",
-}
+def _faster_words(study: Study) -> str:
+    """What becomes of faster disturbances."""
+    say, faster = study.wording, study.safe_damping.faster
+    if faster is None:
+        return ""
+    return (
+        f"Of {faster.sample.count:,} of up to {say.velocity(faster.sample.fastest)}, {faster.lost or 'none'} "
+        f"{'was' if faster.lost <= 1 else 'were'} lost at {say.gain('gamma', faster.gamma)}."
+    )
+
+
+_LAST = {"synchronous rub": "the synchronous rub"}
 
 FINDINGS = {
     "Levitation": _levitation,

@@ -160,7 +160,7 @@ class StudyTask:
     def _damping(self, rotor: Rotor, seed: int) -> dict[str, Any]:
         from carom.safety import DampingLimit, least_safe_damping
 
-        safe = least_safe_damping(rotor.parameters, seed=seed, count=max(self.disturbances, 1))
+        safe = least_safe_damping(rotor.parameters, seed=seed, count=max(self.disturbances, 1), threads=1)
 
         def above(limit: DampingLimit | None) -> float:
             """Zero where nothing survives, infinite where something does up to the highest damping looked at."""

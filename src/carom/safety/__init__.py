@@ -1,0 +1,14 @@
+"""The least damping above which no contact motion is met, and which motion sets it.
+
+==============  ==============================================================================================
+``limits``      :class:`DampingLimit`, :class:`SafeDamping`: what was found, in words too
+``losses``      disturbances that are lost, and variants of them, at any damping
+``search``      :func:`least_safe_damping`
+==============  ==============================================================================================
+"""
+
+from carom.safety.limits import DampingLimit, SafeDamping
+from carom.safety.losses import DampingCheck
+from carom.safety.search import least_safe_damping
+
+__all__ = ["DampingCheck", "DampingLimit", "SafeDamping", "least_safe_damping"]

@@ -1,0 +1,214 @@
+"""The least damping above which no contact motion survives, and which motion sets it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Literal
+
+from carom.attractors import DisturbanceSet
+from carom.basins.shares import CONFIDENCE
+from carom.parameters import Parameters
+from carom.rotors import jeffcott
+from carom.safety.losses import DampingCheck
+from carom.whirl import Runaway
+
+__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "within_reach"]
+
+MOST_CHECKS = 120
+"""Fresh samples that a search may take; its statement holds for all of them together."""
+
+Evidence = Literal["closed form", "search", "simulation"]
+
+
+@dataclass(frozen=True)
+class DampingLimit:
+    """A damping up to which a contact motion exists.
+
+    Attributes
+    ----------
+    motion : str
+        ``"synchronous rub"``, ``"rolling"``, or the name of an orbit or attractor.
+    gamma : float
+        The largest damping at which it was found or is known to exist; of simulation, at which a disturbance was lost.
+    above : float
+        A damping from which on it is gone, the same as ``gamma`` where that is exact; of simulation the least one at which
+        none of the fresh disturbances was lost, infinite if there is none.
+    evidence : {"closed form", "search", "simulation"}
+        A closed form; a search over dampings by motions that are complete at each of them; simulated disturbances.
+    """
+
+    motion: str
+    gamma: float
+    above: float
+    evidence: Evidence
+
+    @property
+    def digits(self) -> int:
+        """Digits of ``above`` that are known: of a simulated limit two or three, by the width of its bracket."""
+        if self.evidence != "simulation":
+            return 5
+        return 3 if self.above <= 1.02 * self.gamma else 2
+
+
+@dataclass(frozen=True, eq=False)
+class SafeDamping:
+    """How much damping it takes that no contact motion survives, the other parameters as they are.
+
+    Attributes
+    ----------
+    parameters : Parameters
+        ``gamma`` is the machine's own and has no effect beyond the range looked at.
+    rub : DampingLimit or None
+        Stable synchronous rub; ``None`` if there is none with positive damping.
+    orbits : DampingLimit or None
+        Admissible orbits with one impact a period, stable or not.
+    simulated : DampingLimit or None
+        Whatever the simulated disturbances ended in, other than levitation.
+    rolling : DampingLimit or None
+        Rolling in backward whirl, which takes a fast start to get into.
+    runaway : Runaway
+        How fast, at the limit ``within_reach``.
+    lowest, highest : float
+        Range of ``gamma`` that was looked at for orbits and by simulation.
+    sample : DisturbanceSet
+        How many fresh disturbances were tried at each damping checked, and which kinds.
+    checks : tuple of DampingCheck
+        The dampings above the limit at which fresh disturbances were tried, growing; none was lost there.
+    faster : DampingCheck or None
+        Disturbances up to twice as fast at the first of these dampings.
+    """
+
+    parameters: Parameters
+    rub: DampingLimit | None
+    orbits: DampingLimit | None
+    simulated: DampingLimit | None
+    rolling: DampingLimit | None
+    runaway: Runaway
+    lowest: float
+    highest: float
+    sample: DisturbanceSet
+    checks: tuple[DampingCheck, ...]
+    faster: DampingCheck | None
+
+    @property
+    def within_reach(self) -> DampingLimit | None:
+        """The limit that counts for the disturbances tested: all but rolling, unless they reached it.
+
+        ``None`` if levitation is the only motion at any positive damping.
+        """
+        return within_reach(self.rub, self.orbits, self.simulated)
+
+    @property
+    def at_all(self) -> DampingLimit | None:
+        """The limit that counts for any start, however fast: rolling included."""
+        limits = [limit for limit in (self.within_reach, self.rolling) if limit]
+        return max(limits, key=lambda limit: limit.above, default=None)
+
+    @property
+    def share_below(self) -> float:
+        """Largest share of disturbances that may be lost at any of the dampings checked, at 95 % confidence.
+
+        With a share ``p`` none of ``n`` is lost with a probability of ``(1 − p)ⁿ``.  That this happens at any of the samples
+        a search may take, though more than this share is lost there, has a probability below 5 %.
+        """
+        return -math.expm1(math.log((1.0 - CONFIDENCE) / MOST_CHECKS) / self.sample.count)
+
+    @property
+    def words(self) -> str:
+        """What was found, and what it rests on."""
+        parts = (self._reach(), self._checked(), self._faster(), self._rolling())
+        return " ".join(sentence for sentence in parts if sentence)
+
+    def _reach(self) -> str:
+        limit = self.within_reach
+        if limit is None:
+            return "At no damping looked at was a disturbance lost."
+        if limit.above > self.highest:
+            return f"Contact motions survive up to the highest damping looked at, {self._damping(self.highest)}."
+        if limit.evidence != "simulation":
+            known = "a closed form" if limit.evidence == "closed form" else "a search over dampings"
+            return (
+                f"Above {self._damping(limit.above)} all disturbances tried came back to levitation. The last motion to "
+                f"vanish is {_with_article(limit.motion)}, known by {known}."
+            )
+        return (
+            f"Above {self._damping(limit.above, limit.digits, up=True)} all fresh disturbances tried came back to "
+            f"levitation; the largest damping at which one was seen to be lost is {self._damping(limit.gamma, 3)} (ends in "
+            f"{limit.motion})."
+        )
+
+    def _checked(self) -> str:
+        if not self.checks:
+            return ""
+        first, last = self.checks[0].gamma, self.checks[-1].gamma
+        rotor = jeffcott(self.parameters.replace(gamma=first))
+        return (
+            f"At each of {len(self.checks)} dampings from {self._damping(first, 4)} to {self._damping(last, 4)} none of "
+            f"{self.sample.count} fresh ones was lost: with {100 * CONFIDENCE:.0f} % confidence {share_words(self.share_below)} "
+            f"at any of these. This is evidence, not proof, and holds for these kinds: {self.sample.words(rotor)}."
+        )
+
+    def _faster(self) -> str:
+        if self.faster is None:
+            return ""
+        return (
+            f"Of {self.faster.sample.count} disturbances up to {self._speed(self.faster.sample.fastest)} "
+            f"{self.faster.lost or 'none'} {'was' if self.faster.lost in (0, 1) else 'were'} lost at {self._damping(self.faster.gamma, 4)}."
+        )
+
+    def _rolling(self) -> str:
+        if not self.rolling:
+            return "Rolling in backward whirl cannot sustain itself at any damping."
+        reached = self.simulated is not None and self.simulated.motion == "rolling"
+        return (
+            f"Rolling in backward whirl sustains itself up to {self._damping(self.rolling.gamma)}: once there, the rotor "
+            f"stays. At the limit above, contact surely leads there from backward speeds along the wall over "
+            f"{self._speed(self.runaway.certain)}; {'some' if reached else 'none'} of the disturbances tried got there."
+        )
+
+    def _damping(self, gamma: float, digits: int = 5, *, up: bool = False) -> str:
+        scales = self.parameters.scales
+
+        def write(value: float, most: int) -> str:
+            return f"{rounded_up(value, most) if up else float(f'{value:.{most}g}'):.10g}"
+
+        text = f"gamma = {write(gamma, digits)}"
+        return f"{text} ({write(gamma * scales.damping, min(digits, 4))} N s/m)" if scales else text
+
+    def _speed(self, speed: float) -> str:
+        scales = self.parameters.scales
+        return f"{speed:.3g} c_r Omega" + (f" ({speed * scales.velocity:.3g} m/s)" if scales else "")
+
+
+def _with_article(motion: str) -> str:
+    return f"the {motion}" if motion == "synchronous rub" else motion
+
+
+def rounded_up(value: float, digits: int) -> float:
+    """Return the least number with so many digits that is not below a positive one."""
+    near = Decimal(f"{value:.{digits - 1}e}")
+    exact = Decimal(value)
+    if near < exact:
+        near += Decimal(1).scaleb(near.adjusted() - digits + 1)
+    return float(near)
+
+
+def share_words(share: float) -> str:
+    """Say that less than a share is lost, rounded to the weaker side: ``fewer than 1 in 1,200 are lost``."""
+    if share >= 0.1:
+        return f"less than {math.ceil(100.0 * share)} % are lost"
+    one_in = 1.0 / share
+    unit = 10.0 ** (math.floor(math.log10(one_in)) - 1)
+    return f"fewer than 1 in {int(unit * math.floor(one_in / unit)):,} are lost"
+
+
+def within_reach(
+    rub: DampingLimit | None, orbits: DampingLimit | None, simulated: DampingLimit | None
+) -> DampingLimit | None:
+    """Limit that counts for the disturbances tried: that known exactly, unless one was lost above it."""
+    known = max((limit for limit in (rub, orbits) if limit), key=lambda limit: limit.above, default=None)
+    if simulated and (known is None or simulated.gamma > known.above):
+        return simulated
+    return known

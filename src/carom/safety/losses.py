@@ -1,0 +1,213 @@
+"""Search dampings for disturbances that are lost: from above downward, and upward from those that were lost last.
+
+The share of disturbances that is lost shrinks to slivers before the last of them comes back, so a sample alone finds the end
+too early.  Starts that were lost are therefore varied, within what the disturbances may be, and followed at more and more
+damping until no variant is lost.  Fresh disturbances have the last word.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.attractors import DisturbanceSet
+from carom.basins.motions import name_motions
+from carom.ensembles import Endings, settle_all
+from carom.outcome import Outcome
+from carom.parameters import Parameters
+from carom.rotors import Rotor, jeffcott
+
+__all__ = ["DampingCheck", "Loss", "Losses"]
+
+FIRST_LOOK = 256
+"""Disturbances of a sample that are followed first; the others only if none of these is lost."""
+VARIANTS = 768
+"""Variants of lost starts that are followed at each damping on the way up."""
+KEPT = 64
+"""Lost starts that are varied."""
+FINEST = 1e-5
+"""Least change of a variant, in clearances and in largest speeds; the greatest is one."""
+FIRST_STEP, GROWTH, LAST_STEP = 0.08, 1.5, 2e-3
+"""Relative steps of damping on the way up: of the first, how they grow, and below which the search ends."""
+SLOW = 4e-3
+"""Relative distance above the fold of the rub within which what is left of it holds motions for thousands of turns."""
+
+
+@dataclass(frozen=True)
+class DampingCheck:
+    """A fresh sample of disturbances at one damping.
+
+    Attributes
+    ----------
+    gamma : float
+    lost : int
+        How many did not come back to levitation.
+    sample : DisturbanceSet
+        Which were tried.
+    """
+
+    gamma: float
+    lost: int
+    sample: DisturbanceSet
+
+
+@dataclass(frozen=True, eq=False)
+class Loss:
+    """Starts that were lost at one damping.
+
+    Attributes
+    ----------
+    rotor : Rotor
+        With that damping.
+    kicked : ndarray of bool, shape (n,)
+        Which are kicks of the levitating rotor.
+    positions, velocities : ndarray of complex, shape (n,)
+        Of the starts, co-rotating frame.
+    endings : Endings
+    """
+
+    rotor: Rotor
+    kicked: np.ndarray
+    positions: np.ndarray
+    velocities: np.ndarray
+    endings: Endings
+
+    @property
+    def gamma(self) -> float:
+        """The damping."""
+        return self.rotor.parameters.gamma
+
+    @property
+    def motion(self) -> str:
+        """Name of the motion in which the first of them ended."""
+        _, names = name_motions(self.rotor, self.endings.outcomes[:1], _some(self.endings, slice(1)))
+        return names[0]
+
+    def __len__(self) -> int:
+        return len(self.kicked)
+
+    def __getitem__(self, chosen: np.ndarray) -> Loss:
+        """Some of them."""
+        kicked, positions, velocities = self.kicked[chosen], self.positions[chosen], self.velocities[chosen]
+        return Loss(self.rotor, kicked, positions, velocities, _some(self.endings, chosen))
+
+    @property
+    def ways(self) -> dict[Outcome, Loss]:
+        """The same by how they ended."""
+        outcomes = self.endings.outcomes
+        return {Outcome(code): self[outcomes == code] for code in np.unique(outcomes)}
+
+    def onward(self, fastest: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the starts, and the states in which they ended as far as those are starts within the clearance too."""
+        slow = np.abs(self.endings.velocities) <= fastest
+        return (
+            np.concatenate([self.kicked, np.zeros(slow.sum(), bool)]),
+            np.concatenate([self.positions, self.endings.positions[slow]]),
+            np.concatenate([self.velocities, self.endings.velocities[slow]]),
+        )
+
+
+def _some(endings: Endings, chosen: np.ndarray | slice) -> Endings:
+    return Endings(**{name: values[chosen] for name, values in vars(endings).items()})
+
+
+class Losses:
+    """Follows disturbances, and variants of lost ones, at any damping of a machine.
+
+    Parameters
+    ----------
+    parameters : Parameters
+    sample : DisturbanceSet
+        How many disturbances to try at each damping, the seed of all that is random, and how fast they may be.
+    rub_limit : float
+        Damping up to which a synchronous rub is known to exist; 0 if it is not.
+    threads : int, optional
+    """
+
+    def __init__(self, parameters: Parameters, sample: DisturbanceSet, rub_limit: float, threads: int | None) -> None:
+        self.parameters, self.sample, self.rub_limit, self.threads = parameters, sample, rub_limit, threads
+        self.random = np.random.default_rng(sample.seed)
+
+    def fresh(self, gamma: float, count: int) -> DampingCheck | Loss:
+        """Follow a sample that was never used before; the lost ones as soon as there are any."""
+        sample = DisturbanceSet(count, self._new_seed(), self.sample.fastest)
+        rotor = self._rotor(gamma)
+        positions, velocities = sample.states(rotor)
+        kicked = np.arange(count) < sample.kicks(rotor)
+        order = self.random.permutation(count)
+        for portion in (order[:FIRST_LOOK], order[FIRST_LOOK:]):
+            found = self._lost(rotor, kicked[portion], positions[portion], velocities[portion])
+            if found is not None:
+                return found
+        return DampingCheck(gamma, 0, sample)
+
+    def faster(self, gamma: float, count: int, times: float) -> DampingCheck:
+        """Follow disturbances up to so many times as fast, every one of them."""
+        sample = DisturbanceSet(count, self._new_seed(), times * self.sample.fastest)
+        rotor = self._rotor(gamma)
+        endings = settle_all(rotor, *sample.states(rotor), threads=self.threads)
+        return DampingCheck(gamma, count - endings.count(Outcome.LEVITATED), sample)
+
+    def climb(self, lost: Loss, highest: float) -> Loss:
+        """Vary lost starts at more and more damping; the last that were lost."""
+        step = FIRST_STEP
+        while step > LAST_STEP and lost.gamma < highest:
+            gamma = min(lost.gamma * (1.0 + step), highest)
+            if self.rub_limit < gamma < self.rub_limit * (1.0 + SLOW):
+                gamma = min(self.rub_limit * (1.0 + SLOW), highest)
+            found = self.vary(lost, gamma)
+            if found is None:
+                step /= 2.0
+            else:
+                lost, step = found, step * GROWTH
+        return lost
+
+    def vary(self, lost: Loss, gamma: float) -> Loss | None:
+        """Follow lost starts and variants of them at another damping; those that are lost there too.
+
+        What goes over to the synchronous rub where that is known to exist is left out: its end is known better.
+        """
+        rotor = self._rotor(gamma)
+        kicked, positions, velocities = lost.onward(self.sample.fastest)
+        kept = self.random.permutation(len(kicked))[:KEPT]
+        chosen = np.concatenate([kept, self.random.choice(kept, VARIANTS)])
+        sizes = np.exp(self.random.uniform(math.log(FINEST), 0.0, len(chosen)))
+        sizes[: len(kept)] = 0.0
+        changes = self.random.standard_normal((4, len(chosen))) * sizes
+        kicked = kicked[chosen]
+        positions = _within(positions[chosen] + (changes[0] + 1j * changes[1]), 1.0)
+        fastest = self.sample.fastest
+        velocities = _within(velocities[chosen] + fastest * (changes[2] + 1j * changes[3]), fastest)
+        if abs(rotor.equilibrium) >= 1.0:
+            kicked = np.zeros_like(kicked)
+        return self._lost(rotor, kicked, np.where(kicked, rotor.equilibrium, positions), velocities, self.rub_limit)
+
+    def _new_seed(self) -> int:
+        return int(self.random.integers(2**32))
+
+    def _rotor(self, gamma: float) -> Rotor:
+        return jeffcott(self.parameters.replace(gamma=gamma))
+
+    def _lost(
+        self, rotor: Rotor, kicked: np.ndarray, positions: np.ndarray, velocities: np.ndarray, explained: float = 0.0
+    ) -> Loss | None:
+        """Follow starts; those that did not come back, if there are any."""
+        if not len(kicked):
+            return None
+        endings = settle_all(rotor, positions, velocities, threads=self.threads)
+        lost = endings.outcomes != Outcome.LEVITATED
+        gamma = rotor.parameters.gamma
+        if gamma <= explained:
+            lost &= endings.outcomes != Outcome.FORWARD_RUB
+        if not lost.any():
+            return None
+        return Loss(rotor, kicked[lost], positions[lost], velocities[lost], _some(endings, lost))
+
+
+def _within(points: np.ndarray, radius: float) -> np.ndarray:
+    """Points drawn back into a disc."""
+    sizes = np.abs(points) / radius
+    drawn: np.ndarray = points / np.maximum(sizes * (1.0 + 1e-15), 1.0)
+    return drawn
