@@ -7,7 +7,7 @@ import secrets
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["lock", "sync_directory", "write_whole"]
+__all__ = ["sync_directory", "write_whole"]
 
 
 def write_whole(target: Path, data: bytes, parts: Path) -> None:
@@ -44,32 +44,3 @@ def sync_directory(directory: Path) -> None:
             os.fsync(handle)
         finally:
             os.close(handle)
-
-
-def lock(path: Path) -> int | None:
-    """Take a lock that ends with the process, however it ends.
-
-    Returns
-    -------
-    int or None
-        Handle to close, or None where the file system knows no locks.
-
-    Raises
-    ------
-    BlockingIOError
-        Another process holds it.
-    """
-    try:
-        import fcntl
-    except ImportError:  # not a POSIX system
-        return None
-    handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        os.close(handle)
-        raise
-    except OSError:
-        os.close(handle)
-        return None
-    return handle

@@ -79,6 +79,7 @@ def test_json_is_one_object(carom, sweep_file, store):
         "computed": 8,
         "seconds": 0,
         "rate": 0,
+        "damaged": 0,
         "failures": [],
     }
 

@@ -50,7 +50,7 @@ def test_xarray_opens_what_is_there(tmp_path):
     assert data.attrs["seed"] == 5
     assert data.attrs["plan_digest"] == PLAN.digest
     assert data.attrs["source"] == f"carom {carom.__version__}"
-    assert data.attrs["versions"].keys() == {"carom", "numpy", "numba", "python"}
+    assert data.attrs["versions"].keys() == {"carom", "numpy", "numba", "llvmlite", "python", "processors"}
     assert json.loads(data.attrs["plan"]) == PLAN.describe()
 
 
@@ -95,7 +95,7 @@ def test_store_of_another_plan_is_refused(tmp_path, other, words):
     assert stored_bytes(tmp_path / "s.zarr") == before
 
 
-@pytest.mark.parametrize("changed", ["carom", "numpy", "numba"])
+@pytest.mark.parametrize("changed", ["carom", "numpy", "numba", "llvmlite"])
 def test_store_of_another_version_is_refused(changed, tmp_path, monkeypatch):
     fill(tmp_path / "s.zarr", [0])
     monkeypatch.setattr("carom.sweeps.versions.version", lambda name: "9.9" if name == changed else version(name))
@@ -238,7 +238,7 @@ def test_finished_store_needs_no_writing(tmp_path, monkeypatch):
     def refuse(*arguments):
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 
-    monkeypatch.setattr("carom.sweeps.store.lock", refuse)
+    monkeypatch.setattr("carom.sweeps.store.FileLock.acquire", refuse)
     monkeypatch.setattr("carom.sweeps.store.write_whole", refuse)
     tally = run_sweep(PLAN, tmp_path / "s.zarr")
 

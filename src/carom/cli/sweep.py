@@ -124,6 +124,7 @@ def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> 
         "computed": tally.computed,
         "seconds": tally.seconds,
         "rate": tally.rate,
+        "damaged": len(tally.damaged),
         "failures": failures,
     }
 
@@ -153,6 +154,10 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
         screen.print(f"This run: {tally.computed:,} points in {_duration(tally.seconds)}, {rate}")
     else:
         screen.print("Nothing was left to compute.")
+    if tally.damaged:
+        chunks = ", ".join(map(str, tally.damaged[:_SHOWN])) + (", ..." if len(tally.damaged) > _SHOWN else "")
+        words = f"Computed again, as files of theirs were damaged or missing: {len(tally.damaged):,} chunks ({chunks})"
+        screen.print(words, soft_wrap=True)
     for failure in failures[:_SHOWN]:
         screen.print(f"Failed at {_place(failure)}: {failure['error']}", soft_wrap=True)
     if tally.failed:

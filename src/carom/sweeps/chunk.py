@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from carom.core.target import processor
 from carom.outcome import CaromError
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status
@@ -45,11 +46,14 @@ class Chunk:
     arrays : dict of ndarray
         One for each variable, and ``status``; shape of the part of the grid, then of the variable's own dimension.
     failures : tuple of Failure
+    processor : str
+        Kind of the processor that computed it; empty if none did.
     """
 
     number: int
     arrays: dict[str, np.ndarray]
     failures: tuple[Failure, ...]
+    processor: str = ""
 
 
 def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
@@ -80,7 +84,7 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
         for name, value in found.items():
             arrays[name][place] = value
         arrays["status"][place] = Status.DONE
-    return Chunk(number, arrays, tuple(failures))
+    return Chunk(number, arrays, tuple(failures), processor())
 
 
 def failed_chunk(plan: SweepPlan, number: int, error: str) -> Chunk:

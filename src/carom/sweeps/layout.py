@@ -16,14 +16,15 @@ import numpy as np
 
 from carom.files import sync_directory
 from carom.outcome import InputError
+from carom.sweeps.integrity import SUMS, damaged_metadata, sums
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status, flag_attributes
 from carom.sweeps.versions import other_version, versions
 
 __all__ = ["FAILURES", "OPTION", "PARTS", "attributes_of", "check_same", "create", "is_new"]
 
-OPTION = "--out"
-"""Name of the place in errors."""
+OPTION, ROOT = "--out", "zarr.json"
+"""Name of the place in errors, and of the file that says what a store holds."""
 FAILURES, PARTS = "failures", ".parts"
 
 
@@ -33,33 +34,47 @@ def is_new(path: Path) -> bool:
         return True
     if not path.is_dir():
         raise InputError(OPTION, path, "must be a directory, there or to be made; this is a file")
-    if attributes_of(path) is not None:
+    if _is_store(path):
         return False
     if any(path.iterdir()):
         raise InputError(OPTION, path, "holds something else than a sweep; give another directory")
     return True
 
 
-def attributes_of(path: Path) -> dict[str, Any] | None:
-    """Attributes of a store, or None if it is none."""
-    try:
-        attributes = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
-        json.loads(attributes["plan"])
-    except (FileNotFoundError, NotADirectoryError, ValueError, KeyError, TypeError):
-        return None
-    found: dict[str, Any] = attributes
-    return found
+def _is_store(path: Path) -> bool:
+    """Whether there is a store, be it damaged."""
+    if (path / SUMS).exists():
+        return True
+    return (path / ROOT).exists() and '"plan_digest"' in (path / ROOT).read_text("utf-8", "replace")
+
+
+def attributes_of(path: Path, option: str) -> dict[str, Any]:
+    """Attributes of a store.
+
+    Raises
+    ------
+    InputError
+        There is none, or its metadata are damaged.
+    """
+    if not _is_store(path):
+        raise InputError(option, path, "must be a directory that a sweep was written to")
+    if name := damaged_metadata(path):
+        remedy = "bring it back from a copy, or begin anew in another directory"
+        raise InputError(
+            option, path, f"its file {name} is damaged or missing, without which its numbers mean nothing; {remedy}"
+        )
+    attributes: dict[str, Any] = json.loads((path / ROOT).read_bytes())["attributes"]
+    return attributes
 
 
 def check_same(path: Path, plan: SweepPlan) -> None:
-    """Refuse a store that belongs to another plan, or was begun by another version."""
-    attributes = attributes_of(path) or {}
-    there, began = json.loads(attributes["plan"]), attributes.get("versions", {})
-    wanted = json.loads(json.dumps(plan.describe()))
+    """Refuse a store that belongs to another plan, was begun by another version, or is damaged beyond its chunks."""
+    attributes = attributes_of(path, OPTION)
+    there, wanted = json.loads(attributes["plan"]), json.loads(json.dumps(plan.describe()))
     if there != wanted:
         where = _difference(there, wanted)
         raise InputError(OPTION, path, f"belongs to another plan (its {where}); give another directory")
-    if other := other_version(began, versions()):
+    if other := other_version(attributes["versions"], versions()):
         name, then, now = other
         raise InputError(OPTION, path, f"was begun with {name} {then}, this is {now}; go on with that, or begin anew")
 
@@ -79,21 +94,26 @@ def _difference(there: Any, wanted: Any, where: str = "") -> str:
 
 
 def create(path: Path, plan: SweepPlan) -> None:
-    """Make the store without a chunk, beside its place, and move it there."""
+    """Make the store without a chunk, beside its place, and move it there, unless another sweep has just done so."""
     made = path.absolute().parent / f".{path.name}.{secrets.token_hex(4)}.part"
     try:
         made.mkdir(parents=True)
         _lay_out(made, plan)
+        (made / SUMS).write_bytes(sums(made))
         for directory in (PARTS, FAILURES):
             (made / directory).mkdir()
         made.rename(path)
         sync_directory(path.absolute().parent)
+    except OSError:
+        if not (path.is_dir() and _is_store(path)):
+            raise
     finally:
         shutil.rmtree(made, ignore_errors=True)
 
 
 def _lay_out(path: Path, plan: SweepPlan) -> None:
     import zarr
+    from zarr.codecs import Crc32cCodec
 
     attributes = {
         "Conventions": "CF-1.11",
@@ -101,7 +121,6 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
         "source": f"carom {versions()['carom']}",
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} begun",
         "versions": versions() | {"python": platform.python_version()},
-        "processor": platform.machine(),
         "seed": plan.seed,
         "plan": json.dumps(plan.describe()),
         "plan_digest": plan.digest,
@@ -115,7 +134,7 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
     for dimension in plan.task.dimensions:
         words = {"long_name": dimension.words, **flag_attributes(dimension.values, dimension.flags)}
         _add(group, dimension.name, np.array(dimension.values, np.int8), [dimension.name], words)
-    common: dict[str, Any] = {"compressors": None, "filters": None}
+    common: dict[str, Any] = {"compressors": Crc32cCodec(), "filters": None}
     for variable in plan.task.variables:
         along = [variable.along.name] if variable.along else []
         group.create_array(
@@ -146,6 +165,8 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
 
 
 def _add(group: Any, name: str, values: np.ndarray, dimensions: Sequence[str], attributes: dict[str, Any]) -> None:
+    from zarr.codecs import Crc32cCodec
+
     array = group.create_array(
         name,
         shape=values.shape,
@@ -153,6 +174,6 @@ def _add(group: Any, name: str, values: np.ndarray, dimensions: Sequence[str], a
         dtype=values.dtype,
         dimension_names=dimensions,
         attributes=attributes,
-        compressors=None,
+        compressors=Crc32cCodec(),
     )
     array[:] = values

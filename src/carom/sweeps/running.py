@@ -35,6 +35,8 @@ class Tally:
         Points computed by this run.
     seconds : float
         Time since it began.
+    damaged : tuple of int
+        Chunks that were finished before, and of which a file was damaged or missing; they are computed again.
     """
 
     store: Path
@@ -43,6 +45,7 @@ class Tally:
     failed: int
     computed: int
     seconds: float
+    damaged: tuple[int, ...] = ()
 
     @property
     def waiting(self) -> int:
@@ -73,7 +76,8 @@ def run_sweep(
     """Compute all points of a sweep that are not in its store yet.
 
     Each chunk is written once, whole, as soon as it is there: whatever ends this function, the same call goes on from what
-    was finished.  The results do not depend, to the last bit, on who computes what (on processors of one kind).
+    was finished.  What was finished before is compared with its checksums, and computed again if it is damaged.  The results
+    do not depend, to the last bit, on who computes what (on processors of one kind).
 
     Parameters
     ----------
@@ -98,7 +102,8 @@ def run_sweep(
     Raises
     ------
     InputError
-        The store cannot be written, or belongs to another plan.
+        The store cannot be written, is being written by another sweep, belongs to another plan, or is damaged beyond its
+        chunks.
     CaromError
         There is nobody to compute.
     """
@@ -108,7 +113,8 @@ def run_sweep(
     began, computed = time.monotonic(), 0
 
     def tally() -> Tally:
-        return Tally(book.path, plan.points, book.done, book.failed, computed, time.monotonic() - began)
+        seconds = time.monotonic() - began
+        return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged))
 
     if next(book.waiting(retry_failed), None) is None:
         return tally()

@@ -1,0 +1,55 @@
+"""The store of a sweep as Zarr reads it: a chunk that is damaged or missing is named, and never taken for what it is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
+
+from zarr.storage import LocalStore, WrapperStore
+
+from carom.outcome import InputError
+from carom.sweeps.integrity import is_whole
+from carom.sweeps.variables import STATUS
+
+if TYPE_CHECKING:
+    from zarr.abc.buffer import Buffer
+    from zarr.abc.store import ByteRequest
+    from zarr.core.buffer import BufferPrototype
+
+__all__ = ["CheckedStore"]
+
+
+class CheckedStore(WrapperStore[LocalStore]):
+    """A store that is read only."""
+
+    @classmethod
+    def at(cls, path: Path) -> Self:
+        """The store in a directory."""
+        return cls(LocalStore(path, read_only=True))
+
+    async def get(self, key: str, prototype: BufferPrototype, byte_range: ByteRequest | None = None) -> Buffer | None:
+        """Return the bytes of a file, or None where there is none and need not be any.
+
+        Raises
+        ------
+        InputError
+            It belongs to a finished chunk and is damaged or missing.
+        """
+        found = await self._store.get(key, prototype, byte_range)
+        _, _, place = key.partition("/c/")
+        if place and found is None and self._finished(place):
+            found = await self._store.get(key, prototype, byte_range)  # it may have come since
+            if found is None:
+                raise self._damage(key, "missing")
+        if place and found is not None and not is_whole(found.to_bytes()):
+            raise self._damage(key, "damaged")
+        return found
+
+    def _finished(self, place: str) -> bool:
+        """Whether a chunk has a status; a variable with a dimension of its own has one more number in its place."""
+        status = self._store.root / STATUS.name / "c" / place
+        return status.is_file() or status.parent.is_file()
+
+    def _damage(self, key: str, words: str) -> InputError:
+        remedy = "the carom sweep that wrote it computes this chunk again"
+        return InputError("store", self._store.root, f"its file {key} is {words}; {remedy}")

@@ -1,0 +1,269 @@
+"""Damaged stores: a chunk is computed again and named, all else is one line; nothing wrong is ever read."""
+
+import json
+import os
+import random
+import shutil
+
+import numpy as np
+import pytest
+from compilation import sized
+from damage import KINDS, damage
+from sweep_tasks import Drawn, Failing, plan_of, stored_bytes
+
+from carom.outcome import CaromWarning, InputError
+from carom.sweeps import open_sweep, run_sweep
+from carom.sweeps.store import SweepStore
+
+PLAN = plan_of(Failing(above=0.85), count=10, chunk=3)
+"""Four chunks: points 8 and 9, in the last two, fail."""
+
+
+@pytest.fixture(autouse=True)
+def quick_disk(monkeypatch):
+    """Nothing here is about power cuts."""
+    monkeypatch.setattr(os, "fsync", lambda handle: None)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A finished store; not to be touched."""
+    path = tmp_path_factory.mktemp("whole") / "s.zarr"
+    run(path)
+    return path
+
+
+@pytest.fixture
+def store(whole, tmp_path):
+    return shutil.copytree(whole, tmp_path / "s.zarr")
+
+
+def run(path, plan=PLAN, **options):
+    return run_sweep(plan, path, workers=1, threads=True, **options)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "directory"])
+@pytest.mark.parametrize("name", ["value/c/1", "draw/c/3"])
+def test_damaged_chunk_is_computed_again(whole, store, name, kind):
+    damage(store / name, random.Random(1), kind)
+    tally = run(store)
+
+    assert tally.damaged == (int(name[-1]),)
+    assert tally.computed == PLAN.size(int(name[-1]))
+    assert (tally.done, tally.failed) == (8, 2)
+    assert stored_bytes(store) == stored_bytes(whole)
+    assert run(store).damaged == ()
+
+
+@pytest.mark.parametrize("kind", ["empty", "cut", "flip", "deleted"])
+def test_chunk_without_its_status_is_computed_again(whole, store, kind):
+    damage(store / "status/c/2", random.Random(1), kind)
+
+    assert run(store).computed == 3
+    assert stored_bytes(store) == stored_bytes(whole)
+
+
+@pytest.mark.parametrize("kind", ["empty", "cut", "flip", "zeros", "deleted"])
+def test_damaged_chunk_is_named_when_it_is_read(store, kind):
+    damage(store / "value/c/1", random.Random(1), kind)
+    data = open_sweep(store)
+
+    np.testing.assert_array_equal(data.value[:3], PLAN.axes[0].values[:3])  # what is read is checked, and no more
+    assert data.draw.shape == data.draw.values.shape
+    words = "missing" if kind == "deleted" else "damaged"
+    with pytest.raises(InputError, match=f"^store = .*: its file value/c/1 is {words}; the carom sweep that wrote it"):
+        data.value.load()
+
+
+@pytest.mark.jit_only
+def test_chunk_of_a_variable_with_a_dimension_is_named(tmp_path):
+    from sweep_tasks import basins_plan
+
+    plan = basins_plan(starts=1, chunk=5, shape=(2, 5))
+    store = tmp_path / "s.zarr"
+    run(store, plan)
+    (store / "counts/c/1/0/0").unlink()
+    with pytest.raises(InputError, match="its file counts/c/1/0/0 is missing"):
+        open_sweep(store).counts.load()
+
+
+def test_chunks_that_wait_are_not_missing(store):
+    (store / "status/c/1").unlink()
+    (store / "value/c/1").unlink()
+
+    assert np.isnan(open_sweep(store).value[3:6]).all()
+
+
+def test_other_readers_of_zarr_notice_too(store):
+    import zarr
+
+    damage(store / "value/c/1", random.Random(1), "flip")
+    with pytest.raises(ValueError, match="checksum"):
+        zarr.open_group(store, mode="r")["value"][:]
+
+
+METADATA = ["zarr.json", "value/zarr.json", "status/zarr.json", "gamma/zarr.json", "gamma/c/0", "checksums.json"]
+
+
+@pytest.mark.parametrize("kind", ["empty", "cut", "flip", "deleted"])
+@pytest.mark.parametrize("name", METADATA)
+def test_damaged_metadata_are_one_line(store, name, kind):
+    damage(store / name, random.Random(1), kind)
+    for use in (run, open_sweep):
+        with pytest.raises(InputError, match="is damaged or missing, without which") as caught:
+            use(store)
+        assert f"its file {name}" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{", "[" * 100_000, '{"content": {"points": []}, "crc32c": 1}', "\xff\xfe", "null"]
+)
+def test_broken_record_of_failures_is_one_line(store, text):
+    record = store / "failures" / "0000003.json"
+    record.write_bytes(text.encode("latin-1"))
+    remedy = r"its file failures/0000003\.json is damaged; delete it, and the same command computes chunk 3 again$"
+    with pytest.raises(InputError, match=remedy):
+        run(store)
+    record.unlink()
+    tally = run(store)
+    assert (tally.damaged, tally.failed) == ((3,), 2)
+
+
+def test_other_words_in_a_record_of_failures_are_noticed(store):
+    record = store / "failures" / "0000003.json"
+    record.write_text(record.read_text().replace('"gamma": 1.0', '"gamma": 2.0'))
+    with pytest.raises(InputError, match=r"failures/0000003\.json is damaged"):
+        SweepStore(store, PLAN)
+
+
+@pytest.mark.parametrize(
+    "name", ["status/c/x", "status/c/99", "status/c/007", "value/c/99", "failures/notes.json", "mine"]
+)
+def test_folders_that_are_not_in_the_way_do_no_harm(store, name):
+    (store / name).mkdir()
+    (store / "status/c/٣").touch()
+
+    assert run(store).damaged == ()
+    assert open_sweep(store).status.values.tolist() == [1] * 8 + [2] * 2
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("value/c/1", "Is a directory"),
+        ("status/c/1", "Is a directory"),
+        ("failures/0000003.json", "Is a directory"),
+        ("processors.json", "Is a directory"),
+        ("zarr.json", "Is a directory"),
+    ],
+)
+@pytest.mark.skipif(os.name != "posix", reason="words of POSIX systems")
+def test_folders_in_the_way_are_one_line(store, name, words):
+    (store / name).unlink()
+    (store / name).mkdir()
+    with pytest.raises(InputError, match=rf"^--out = .*cannot be read or written \({words}: .*{name}\)"):
+        run(store)
+
+
+@pytest.mark.parametrize("name", [".parts", "failures", ".lock"])
+def test_what_stands_in_the_way_of_writing_is_one_line(store, name):
+    place = store / name
+    shutil.rmtree(place) if place.is_dir() else place.unlink()
+    place.touch() if name != ".lock" else place.mkdir()
+    (store / "status/c/0").unlink()
+    with pytest.raises(InputError, match=r"^--out = "):
+        run(store)
+
+
+def test_folder_among_unfinished_files_is_one_line(store):
+    (store / ".parts" / "mine").mkdir()
+    (store / "status/c/0").unlink()
+    with pytest.raises(InputError, match=r"^--out = .*\.parts/mine"):
+        run(store)
+    (store / ".parts" / "mine").rmdir()
+    assert run(store).computed == 3  # nothing is left locked
+
+
+@pytest.mark.parametrize("seed", range(sized(60, 60, 2500)))
+def test_nothing_wrong_is_read_whatever_is_damaged(whole, store, seed):
+    chance = random.Random(seed)
+    files = sorted(file for file in store.rglob("*") if file.is_file() and file.stat().st_size)
+    for file in chance.sample(files, chance.choice([1, 1, 2, 4])):
+        damage(file, chance)
+    right = open_sweep(whole).load()
+    data = unless_refused(lambda: open_sweep(store).load())
+    if data is not None:
+        known = data.status.values != 0
+        for name in data.variables:
+            some = known if data[name].dims == ("gamma",) and name != "gamma" else ...
+            np.testing.assert_array_equal(data[name].values[some], right[name].values[some], err_msg=name)
+    tally = unless_refused(lambda: run(store))
+    if tally is not None:
+        assert (tally.done, tally.failed) == (8, 2)
+        assert stored_bytes(store) == stored_bytes(whole)
+        assert SweepStore(store, PLAN).failures() == SweepStore(whole, PLAN).failures()
+
+
+def unless_refused(use):
+    """What a use gives, or None if it is refused in one line."""
+    try:
+        return use()
+    except InputError:
+        return None
+
+
+# --------------------------------------------------------------------------------------------------- two at the same time
+
+
+def test_store_that_another_sweep_has_just_made_is_taken(store, monkeypatch):
+    monkeypatch.setattr("carom.sweeps.store.is_new", lambda path: True)  # as it was a moment ago
+
+    assert SweepStore(store, PLAN).done == 8
+    assert [file.name for file in store.parent.iterdir()] == ["s.zarr"]
+
+
+def test_loser_of_two_is_told(store):
+    told = []
+
+    def start_another(tally):
+        if tally.computed == 3:  # and three points wait
+            with pytest.raises(InputError, match="another sweep is writing to it; let it end, or stop it") as caught:
+                run(store)
+            told.append(caught.value)
+
+    for number in (0, 1):
+        (store / f"status/c/{number}").unlink()
+    assert run(store, progress=start_another).done == 8
+    assert len(told) == 1
+
+
+# ------------------------------------------------------------------------------------------------------------ processors
+
+
+def on(monkeypatch, kind):
+    monkeypatch.setattr("carom.sweeps.chunk.processor", lambda: kind)
+
+
+def test_store_names_the_processors_that_computed_it(tmp_path, monkeypatch):
+    path = tmp_path / "s.zarr"
+    plan = plan_of(Drawn(), count=9, chunk=3)
+    assert open_sweep(SweepStore(path, plan).path).attrs["versions"]["processors"] == []
+    on(monkeypatch, "x86_64 avx2 fma")
+    run(path, plan)
+    assert open_sweep(path).attrs["versions"]["processors"] == ["x86_64 avx2 fma"]
+    (path / "status/c/0").unlink()
+    (path / "status/c/1").unlink()
+    on(monkeypatch, "x86_64 avx2 avx512f fma")
+    with pytest.warns(CaromWarning, match=r"a processor of another kind \(only here: avx512f\).*last bits") as told:
+        run(path, plan)
+    assert len(told) == 1
+    assert open_sweep(path).attrs["versions"]["processors"] == ["x86_64 avx2 fma", "x86_64 avx2 avx512f fma"]
+    (path / "status/c/1").unlink()
+    run(path, plan)  # both kinds are known
+
+
+def test_broken_record_of_processors_is_one_line(store):
+    (store / "processors.json").write_text(json.dumps(["x86_64"]))
+    for use in (run, open_sweep):
+        with pytest.raises(InputError, match=r"its file processors\.json is damaged; delete it"):
+            use(store)
