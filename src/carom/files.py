@@ -21,14 +21,14 @@ def write_whole(target: Path, data: bytes, parts: Path) -> None:
     parts : Path
         Directory on the same file system for the unfinished file.
     """
-    part = parts / secrets.token_hex(8)
-    target.parent.mkdir(parents=True, exist_ok=True)
+    part = parts / f".{secrets.token_hex(8)}.part"
     try:
         with part.open("xb", buffering=0) as stream:
             view = memoryview(data)
             while view:
                 view = view[stream.write(view) :]
             os.fsync(stream.fileno())
+        target.parent.mkdir(parents=True, exist_ok=True)
         os.replace(part, target)  # noqa: PTH105  (tests let it fail)
     except BaseException:
         with suppress(OSError):

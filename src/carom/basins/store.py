@@ -1,15 +1,20 @@
-"""Datasets as netCDF files, whole or not at all."""
+"""Datasets as netCDF files, whole or not at all, and with a checksum.
+
+The checksum stands behind the end of the file, where readers of netCDF do not look.  Without it a changed number would be read as
+it is, and the library that reads the file is not made for damaged ones.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.files import write_whole
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
@@ -17,11 +22,14 @@ if TYPE_CHECKING:
 
 __all__ = ["load", "save"]
 
+SIGNATURE = b"\x89HDF\r\n\x1a\n"
+MARK = b"\ncarom sha256 "
+LENGTH = len(MARK) + 65
 COMPRESSION = {"zlib": True, "complevel": 2, "shuffle": True}
 
 
 def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a dataset under another name first: the file is there complete, or as it was.
+    """Write a dataset: the file is there complete, or as it was.
 
     Raises
     ------
@@ -29,18 +37,14 @@ def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
         The file cannot be written.
     """
     target = Path(path)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    encoding = {str(name): dict(COMPRESSION) for name in dataset.data_vars}
     try:
-        dataset.to_netcdf(
-            part, engine="h5netcdf", encoding={str(name): dict(COMPRESSION) for name in dataset.data_vars}
-        )
-        part.replace(target)
+        # In memory: the library that writes such files brings down the process when the disk is full.
+        content = bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
+        write_whole(target, content + _checksum(content), target.parent)
     except OSError as problem:
         reason = os.strerror(problem.errno) if problem.errno else "this file system refuses"
         raise InputError("file", str(path), f"cannot be written ({reason}); give another path") from None
-    finally:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)
 
 
 def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
@@ -55,10 +59,11 @@ def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
     Raises
     ------
     InputError
-        The file cannot be read or is another one.
+        The file cannot be read, is damaged, or is another one.
     """
     import xarray
 
+    _check(Path(path), needed)
     try:
         with xarray.open_dataset(path, engine="h5netcdf") as opened:
             dataset = opened.load()
@@ -71,3 +76,25 @@ def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
     if any(name not in dataset for name in needed):
         raise InputError("file", str(path), f"must hold the variables {', '.join(needed)}")
     return dataset
+
+
+def _check(path: Path, needed: Sequence[str]) -> None:
+    """Refuse a file that does not agree with its checksum."""
+    try:
+        data = path.read_bytes()
+    except OSError as problem:
+        raise InputError("file", str(path), f"cannot be read ({problem.strerror})") from None
+    if not data.startswith(SIGNATURE):
+        raise InputError("file", str(path), "cannot be read (not netCDF)")
+    if _checksum(data[:-LENGTH]) == data[-LENGTH:]:
+        return
+    if data[-LENGTH:].startswith(MARK):
+        raise InputError(
+            "file", str(path), "is damaged: it does not agree with its checksum; bring it back from a copy"
+        )
+    wanted = f"must hold the variables {', '.join(needed)}, and end with the checksum that carom writes"
+    raise InputError("file", str(path), f"{wanted}; it was cut short, or written or changed by something else")
+
+
+def _checksum(data: bytes) -> bytes:
+    return MARK + hashlib.sha256(data).hexdigest().encode() + b"\n"

@@ -76,10 +76,10 @@ def write_csv(motion: Trajectory, path: str) -> None:
 
 def write_netcdf(motion: Trajectory, path: str) -> None:
     """Write impacts and lasting contacts as netCDF, in SI units where the machine is known."""
-    dataset = _dataset(motion)
+    content = bytes(_dataset(motion).to_netcdf(engine="h5netcdf"))  # in memory: HDF5 crashes when the disk is full
 
     def write(target: Path) -> None:
-        dataset.to_netcdf(target, engine="h5netcdf")
+        target.write_bytes(content)
 
     _write_whole("--netcdf", path, write)
 
