@@ -292,7 +292,7 @@ def test_newton_from_anywhere_finds_no_other_orbit():
         orbits = orbits_of(parameters)
         known = np.array([[orbit.period, orbit.radial_speed, orbit.angular_speed] for orbit in orbits])
         found = set()
-        for _ in range(sized(60, 60, 150)):
+        for _ in range(150):
             guess = [
                 random.uniform(-3, 3),
                 random.normal(),
