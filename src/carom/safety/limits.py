@@ -129,10 +129,7 @@ class SafeDamping:
             return f"Contact motions survive up to the highest damping looked at, {self._damping(self.highest)}."
         if limit.evidence != "simulation":
             known = "a closed form" if limit.evidence == "closed form" else "a search over dampings"
-            return (
-                f"Above {self._damping(limit.above)} all disturbances tried came back to levitation. The last motion to "
-                f"vanish is {_with_article(limit.motion)}, known by {known}."
-            )
+            return f"The last motion to vanish is {_with_article(limit.motion)}, at {self._damping(limit.above)}, known by {known}."
         return (
             f"Above {self._damping(limit.above, limit.digits, up=True)} all fresh disturbances tried came back to "
             f"levitation; the largest damping at which one was seen to be lost is {self._damping(limit.gamma, 3)} (ends in "

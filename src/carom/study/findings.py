@@ -293,11 +293,11 @@ def _limit_words(study: Study, limit: DampingLimit | None) -> str:
         return ""
     last = _LAST.get(limit.motion, ending_words(limit.motion))
     if limit.evidence != "simulation":
-        return f"All disturbances came back above {say.gain('gamma', limit.above)}; the last motion to go is {last}."
+        return f"The last motion to go is {last}, at {say.gain('gamma', limit.above)}."
     factor = say.scales.damping if say.scales else 1.0
     above = rounded_up(limit.above * factor, limit.digits) / factor
     return (
-        f"All disturbances came back above {say.gain('gamma', above)}; the last that was lost, at "
+        f"All fresh disturbances came back above {say.gain('gamma', above)}; the last that was found to be lost, at "
         f"{say.gain('gamma', float(f'{limit.gamma * factor:.{limit.digits}g}') / factor)}, ended {ending_phrase(limit.motion)}."
     )
 
