@@ -19,7 +19,17 @@ from carom.rotors import Rotor
 from carom.stability import Multipliers, multipliers
 from carom.trajectories import State, Trajectory, simulate
 
-__all__ = ["Orbit", "OrbitSet", "orbit_at", "orbits_within_reach", "period_condition", "single_impact_orbits"]
+__all__ = [
+    "Orbit",
+    "OrbitSet",
+    "longest_within_reach",
+    "orbit_at",
+    "orbits_within_reach",
+    "period_condition",
+    "radial_speeds",
+    "single_impact_orbits",
+    "slip_stays_forward",
+]
 
 MOST_RADIANS = 1500.0
 """How far the fastest mode may turn, or decay, within the longest period of the orbits looked up: some hundred orbits."""
@@ -213,12 +223,12 @@ def single_impact_orbits(rotor: Rotor, longest_period: float | None = None) -> O
     condition = PeriodCondition(rotor)
     roots = condition.roots(longest_period)
     orbits = _orbits_at(rotor, condition, roots, 1)
-    slip_stays_forward = _slip_stays_forward(rotor)
-    if not slip_stays_forward:
+    forward_only = slip_stays_forward(rotor)
+    if not forward_only:
         backward = PeriodCondition(rotor, slip=-1)
         reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
         orbits += [orbit for orbit in reversed_orbits if _slip_speed(orbit) < 0.0 < orbit.radial_speed]
-    return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, slip_stays_forward)
+    return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, forward_only)
 
 
 def orbits_within_reach(rotor: Rotor) -> OrbitSet:
@@ -233,12 +243,17 @@ def orbits_within_reach(rotor: Rotor) -> OrbitSet:
     OrbitSet
         Its ``complete`` and ``argument`` tell whether the list was cut.
     """
+    return single_impact_orbits(rotor, longest_within_reach(rotor))
+
+
+def longest_within_reach(rotor: Rotor) -> float | None:
+    """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
     condition = PeriodCondition(rotor)
     limit = MOST_RADIANS / float(abs(condition.exponents).max())
-    return single_impact_orbits(rotor, None if condition.longest_period() <= limit else limit)
+    return None if condition.longest_period() <= limit else limit
 
 
-def _slip_stays_forward(rotor: Rotor) -> bool:
+def slip_stays_forward(rotor: Rotor) -> bool:
     """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
 
     After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in the
@@ -268,7 +283,7 @@ def _orbits_at(rotor: Rotor, condition: PeriodCondition, roots: PeriodRoots, sli
     orbits = []
     for place, period, lever, turn in zip(places, roots.periods, levers, turns, strict=True):
         pair, longer = divmod(int(place), 2)
-        for high, speed in enumerate(_radial_speeds(rotor, complex(lever))):
+        for high, speed in enumerate(radial_speeds(rotor, complex(lever))):
             position = rotor.equilibrium / (1.0 + complex(lever) * speed)
             section = Section(cmath.phase(position), speed, -float(turn.imag) * speed)
             jacobian = _jacobian(rotor, slipping, section, float(period), slip)
@@ -319,7 +334,7 @@ def _slipping(rotor: Rotor, slip: int) -> Rotor:
     return replace(rotor, arrays=arrays)
 
 
-def _radial_speeds(rotor: Rotor, lever: complex) -> tuple[float, ...]:
+def radial_speeds(rotor: Rotor, lever: complex) -> tuple[float, ...]:
     """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; none where they have coalesced.
 
     ``lever`` is ``q a₁₂``.

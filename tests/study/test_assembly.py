@@ -88,6 +88,28 @@ def test_levitation_alone_is_what_the_other_ranges_leave(real):
                 real.range_of(motion, gain).exists_at(value) for motion in ("rub", "single-impact")
             )
             assert any(value in span for span in free) == alone
+        # Simulation found nothing that would cut them back.
+        assert real.alone_along(gain).spans == free
+
+
+def test_advice_names_the_change_and_how_it_was_checked(real):
+    text = finding(real, "What would change it")
+
+    assert "orbits with one impact a period are possible below 2,376,000 N/m" in text
+    assert "Levitation alone, backward whirl aside, is left above 2,376,000 N/m" in text
+    assert (
+        "1,096 disturbances of up to 0.258 m/s were simulated at each of 16 values of damping there: all came back"
+        in text
+    )
+    assert (
+        "The least change found that leaves levitation alone is a stiffness of 2,495,000 N/m (2.546 times this machine's, "
+        "5 % beyond the end of the range). All of 2,000 fresh disturbances of up to 0.258 m/s came back"
+    ) in text
+    assert "The other gain would do it with a damping of 3,578 N s/m (2.556 times" in text
+    first, second = real.to_dict()["advice"]
+    assert (first["quantity"], second["quantity"]) == ("stiffness", "damping")
+    assert first["recovered"] == first["disturbances"] == 2000
+    assert first["seed"] != real.attractors.seed
 
 
 def test_progress_never_goes_back():
@@ -208,7 +230,9 @@ def test_thresholds_have_both_units(real):
     assert len(rows) == len(real.thresholds)
     assert any(row.value == "3,408 N s/m" and row.dimensionless == "γ = 0.37001594" for row in rows)
     assert {row.quantity for row in rows} == {"damping", "stiffness"}
-    assert range_rows(real)[-1][1] == "above 3,408 N s/m"
+    alone, advised = range_rows(real)[-2:]
+    assert alone[1:] == ("above 3,408 N s/m", "above 2,376,000 N/m")
+    assert advised[2].startswith("2,495,000 N/m, where all of 2,000 fresh disturbances of up to 0.258 m/s came back")
 
 
 def test_kicks_by_size(real):

@@ -1,16 +1,14 @@
 """Where disturbances end: every attractor that a sample of starts and the known motions lead to.
 
-==============  ==============================================================================================
 ``starts``      the standard set of disturbances, and starts next to every motion known in closed form
 ``cycles``      what a settled motion repeats, and when two motions repeat the same
 ``following``   each start followed to where it settles
 ``groups``      :class:`Attractor`: motions that have settled to the same
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
-==============  ==============================================================================================
 """
 
 from carom.attractors.following import Ending
-from carom.attractors.groups import Attractor
+from carom.attractors.groups import Attractor, motion_name
 from carom.attractors.search import AttractorSet, find_attractors
 from carom.attractors.starts import DisturbanceSet, Start, disturbances, known_starts
 
@@ -23,4 +21,5 @@ __all__ = [
     "disturbances",
     "find_attractors",
     "known_starts",
+    "motion_name",
 ]

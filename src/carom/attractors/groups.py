@@ -13,7 +13,7 @@ from carom.orbits import Orbit
 from carom.outcome import Outcome
 from carom.trajectories import State, Trajectory
 
-__all__ = ["Attractor", "Groups"]
+__all__ = ["Attractor", "Groups", "motion_name"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,13 +130,18 @@ class Groups:
         )
 
 
+def motion_name(outcome: Outcome, multiplicity: int) -> str:
+    """Name of a settled motion that is no known orbit: ``"2-impact bouncing"``, ``"rolling"`` and so on."""
+    if outcome in _REPEATING:
+        noun = _REPEATING[outcome]
+        return f"{multiplicity}-impact {noun}" if multiplicity else f"irregular {noun}"
+    return _NAMES.get(outcome, f"unresolved: {outcome.label}")
+
+
 def _name(cycle: Cycle) -> str:
-    if cycle.outcome in _REPEATING:
-        noun = _REPEATING[cycle.outcome]
-        return f"{cycle.multiplicity}-impact {noun}" if cycle.multiplicity else f"irregular {noun}"
-    if cycle.outcome is Outcome.FORWARD_RUB:
-        return "synchronous rub" if cycle.synchronous else "drifting rub"
-    return _NAMES.get(cycle.outcome, f"unresolved: {cycle.outcome.label}")
+    if cycle.outcome is Outcome.FORWARD_RUB and not cycle.synchronous:
+        return "drifting rub"
+    return motion_name(cycle.outcome, cycle.multiplicity)
 
 
 def _words(cycle: Cycle, name: str) -> str:
@@ -155,6 +160,7 @@ def _words(cycle: Cycle, name: str) -> str:
 _REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
 _NAMES = {
     Outcome.LEVITATED: "levitation",
+    Outcome.FORWARD_RUB: "synchronous rub",
     Outcome.BACKWARD_WHIRL: "backward whirl",
     Outcome.ROLLING: "rolling",
 }

@@ -10,6 +10,7 @@ from carom.bifurcations.regions import Region, RegionMap, region_map
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch, SpecialValue
+from carom.bifurcations.windows import OrbitWindows, Window, WindowEnd, orbit_windows
 
 __all__ = [
     "KINDS",
@@ -24,6 +25,7 @@ __all__ = [
     "Motions",
     "Numbers",
     "OrbitBranch",
+    "OrbitWindows",
     "Plane",
     "Region",
     "RegionMap",
@@ -31,6 +33,8 @@ __all__ = [
     "RubbingBranch",
     "RubbingOrbit",
     "SpecialValue",
+    "Window",
+    "WindowEnd",
     "axis",
     "bifurcation_diagram",
     "continue_curve",
@@ -38,6 +42,7 @@ __all__ = [
     "continue_orbit",
     "continue_rubbing",
     "motions_at",
+    "orbit_windows",
     "region_map",
     "rubbing_orbits",
     "sample_attractors",

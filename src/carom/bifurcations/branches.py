@@ -14,6 +14,7 @@ from carom.bifurcations.conditions import (
     is_admissible,
     jacobian_at,
     letter,
+    margins_of,
     orbit_of,
     profile_at,
 )
@@ -91,7 +92,7 @@ class OrbitBranch:
     pair : str
         ``"B1"`` for the first pair of periods.
     numbers : tuple of Numbers
-        Parameters at the points of the branch.
+        Parameters at the points of the branch; with negative ``mu`` if the orbits slip backward.
     values, period, radial_speed : ndarray, shape (m,)
         The parameter, ``T`` and ``ṙ`` before the impact.
     special : tuple of Bifurcation
@@ -163,7 +164,6 @@ def continue_orbit(
     Parameters
     ----------
     orbit : Orbit
-        With forward slip.
     parameter : str
         Dimensionless (``"gamma"``) or physical (``"speed"``, SI units; needs scales).
     interval : tuple of float
@@ -177,25 +177,28 @@ def continue_orbit(
     Raises
     ------
     InputError
-        Unknown parameter, an interval without the orbit, or an orbit with backward slip.
+        Unknown parameter, or an interval without the orbit.
     """
     base = Numbers.of(orbit.rotor.parameters)
     along = axis(orbit.rotor.parameters, parameter)
     present = within(along.get(base), interval)
     if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
         raise InputError(parameter, interval, f"an interval that holds the orbit's own value {present:.6g}")
-    if not orbit.name.startswith("B"):
-        raise InputError("orbit", orbit.name, "an orbit with forward slip (its name begins with B)")
     pair = orbit.name.partition(",")[0]
+
+    def numbers_at(p: float) -> Numbers:
+        # Friction opposes backward slip as friction of the other sign would oppose forward slip.
+        numbers = along.set(base, p)
+        return numbers if orbit.slip > 0 else numbers._replace(mu=-numbers.mu)
 
     def residual(u: np.ndarray, p: float) -> np.ndarray:
         if u[0] <= 0.0:
             return np.full(2, np.nan)
-        return np.array(conditions_at(along.set(base, p), float(u[0]), float(u[1]))[:2])
+        return np.array(conditions_at(numbers_at(p), float(u[0]), float(u[1]))[:2])
 
     def watch(kind: str) -> Watch:
         test = TESTS[kind]
-        return Watch(kind, lambda u, p: test(along.set(base, p), float(u[0]), float(u[1])))
+        return Watch(kind, lambda u, p: test(numbers_at(p), float(u[0]), float(u[1])))
 
     size = max(abs(present), 0.1 * (interval[1] - interval[0]))
     branch = continue_branch(
@@ -207,11 +210,11 @@ def continue_orbit(
         steps=steps or STEPS,
         scales=np.array([1.0, 1.0, size]),
     )
-    special = (_bifurcation(point, along, base, pair) for point in branch.special)
+    special = (_bifurcation(point, along.name, numbers_at(point.parameter), pair) for point in branch.special)
     return OrbitBranch(
         axis=along,
         pair=pair,
-        numbers=tuple(along.set(base, p) for p in branch.parameters.tolist()),
+        numbers=tuple(numbers_at(p) for p in branch.parameters.tolist()),
         values=branch.parameters,
         period=branch.unknowns[:, 0],
         radial_speed=branch.unknowns[:, 1],
@@ -220,14 +223,13 @@ def continue_orbit(
     )
 
 
-def _bifurcation(point: SpecialPoint, along: Axis, base: Numbers, pair: str) -> Bifurcation | None:
+def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: str) -> Bifurcation | None:
     """The special point in terms of orbits; ``None`` if it is none.
 
     A fold is no branch point, and two real multipliers with a product of one are no Neimark–Sacker bifurcation.  The height
     of the radius changes sign too where the orbit shrinks to nothing, and, without rebound, where its maximum comes out of
     the impact as lasting contact begins: neither is grazing.
     """
-    numbers = along.set(base, point.parameter)
     at = numbers, float(point.unknowns[0]), float(point.unknowns[1])
     conditions = conditions_at(*at)
     kind = point.kind
@@ -240,14 +242,14 @@ def _bifurcation(point: SpecialPoint, along: Axis, base: Numbers, pair: str) -> 
     # Where two orbits meet, the point is named after the one with the longer period or the higher speed.
     meet = {"fold": {"period_fold": 1.0}, "speed-fold": {"speed_fold": 1.0}}.get(kind, {})
     name = f"{pair},{letter(conditions._replace(**meet))}"
-    return Bifurcation(kind, along.name, point.parameter, name, *at, _bounds_admissible(kind, *at), point.place)
+    return Bifurcation(kind, parameter, point.parameter, name, *at, _bounds_admissible(kind, *at), point.place)
 
 
 def _bounds_admissible(kind: str, numbers: Numbers, period: float, speed: float) -> bool:
     """Whether the orbits next to a special point are motions of the machine, on one side at least."""
     if kind == "non-smooth-hopf":
         speed = SMALL
-    slips = kind == "slip-stop" or numbers.mu == 0.0 or conditions_at(numbers, period, speed).slip_stop > 0.0
+    slips = kind == "slip-stop" or margins_of(numbers, period, speed)["slip-stop"] > 0.0
     # Where lasting contact begins, the radius may have a maximum next to the impact, of no height.
     slack = 1e-9 if kind == "contact-onset" else 0.0
     inside = kind == "grazing" or not profile_at(numbers, period, speed).height >= slack

@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -22,10 +22,12 @@ __all__ = [
     "OrbitConditions",
     "RadialProfile",
     "conditions_at",
+    "corrected",
     "grazing_equations",
     "is_admissible",
     "jacobian_at",
     "letter",
+    "margins_of",
     "orbit_of",
     "pressed_on",
     "profile_at",
@@ -86,15 +88,50 @@ def jacobian_at(numbers: Numbers, period: float, speed: float) -> np.ndarray:
     return jacobian
 
 
+def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float]:
+    """What an orbit has left of each condition it must meet to be a motion: all are positive on one that does.
+
+    Parameters
+    ----------
+    numbers : Numbers
+        A negative ``mu`` stands for backward slip, which friction opposes the other way.
+    period, speed : float
+
+    Returns
+    -------
+    dict of str to float
+        By the kind of the special point at which it vanishes: the radial speed, the slip after the impact, the depth of
+        the highest maximum of the radius below the wall (in ``r²``), and without rebound the pull off the wall.  Infinite
+        where there is nothing to meet.
+    """
+    slip, away = math.inf, math.inf
+    if numbers.mu != 0.0:
+        slip = math.copysign(1.0, numbers.mu) * conditions_at(numbers, period, speed).slip_stop
+    if numbers.d == 0.0:
+        away = -pressed_on(numbers, period, speed)
+    height = profile_at(numbers, period, speed).height
+    grazing = math.inf if math.isnan(height) else -height
+    return {"non-smooth-hopf": speed, "slip-stop": slip, "grazing": grazing, "contact-onset": away}
+
+
 def is_admissible(numbers: Numbers, period: float, speed: float) -> bool:
-    """Whether the orbit stays inside the wall and slips forward, by its extrema of the radius.
+    """Whether the orbit stays inside the wall and goes on slipping, by its extrema of the radius.
 
     The proof is left to the certified search of :attr:`carom.orbits.Orbit.admissible`.
     """
-    if not speed > 0.0:
-        return False
-    slips = numbers.mu == 0.0 or conditions_at(numbers, period, speed).slip_stop > 0.0
-    return slips and not profile_at(numbers, period, speed).height >= 0.0
+    return speed > 0.0 and min(margins_of(numbers, period, speed).values()) > 0.0
+
+
+def corrected(numbers: Numbers, period: float, speed: float) -> tuple[float, float]:
+    """Period and radial speed of the orbit at these parameters near a guess, by Newton's method."""
+    for _ in range(12):
+        at = conditions_at(numbers, period, speed)
+        step = at.closing / at.period_fold if at.period_fold else 0.0
+        change = at.balance / (2.0 * at.speed_fold) if at.speed_fold else 0.0
+        if abs(step) < 1e-13 and abs(change) < 1e-13:
+            break
+        period, speed = max(period - step, 0.5 * period), speed - change
+    return period, speed
 
 
 def letter(conditions: OrbitConditions) -> str:
@@ -103,13 +140,15 @@ def letter(conditions: OrbitConditions) -> str:
 
 
 def orbit_of(numbers: Numbers, pair: str, period: float, speed: float) -> Orbit:
-    """Orbit with its certificate of admissibility and its multipliers."""
+    """Orbit with its certificate of admissibility and its multipliers; of backward slip where ``mu`` is negative."""
+    slip: Literal[1, -1] = -1 if numbers.mu < 0.0 else 1
     conditions = conditions_at(numbers, period, speed)
     stiffness = complex(numbers.omega**2 - 1.0, numbers.gamma)
     angle = numbers.phi - cmath.phase(stiffness) - cmath.phase(1.0 + conditions.lever * speed)
     section = Section(math.remainder(angle, math.tau), speed, -conditions.turn.imag * speed)
     name, nontrivial = f"{pair},{letter(conditions)}", multipliers(jacobian_at(numbers, period, speed))
-    return orbit_at(jeffcott(numbers.parameters), name, period, section, nontrivial)
+    rotor = jeffcott(numbers._replace(mu=abs(numbers.mu)).parameters)
+    return orbit_at(rotor, name, period, section, nontrivial, slip)
 
 
 def pressed_on(numbers: Numbers, period: float, speed: float) -> float:

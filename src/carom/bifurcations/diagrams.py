@@ -10,7 +10,7 @@ import numpy as np
 from carom.attractors import DisturbanceSet
 from carom.bifurcations.axes import Axis, Numbers, axis, vary
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
-from carom.bifurcations.conditions import conditions_at
+from carom.bifurcations.conditions import corrected
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import (
@@ -180,22 +180,10 @@ def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     numbers = Numbers.of(orbit.rotor.parameters)
     for i in np.flatnonzero((first <= slack) & (last >= -slack)):
         for end in (i, i + 1):
-            found = _corrected(numbers, float(branch.period[end]), float(branch.radial_speed[end]))
+            found = corrected(numbers, float(branch.period[end]), float(branch.radial_speed[end]))
             if max(abs(found[0] - orbit.period), abs(found[1] - orbit.radial_speed)) < SAME * (1.0 + orbit.period):
                 return True
     return False
-
-
-def _corrected(numbers: Numbers, period: float, speed: float) -> tuple[float, float]:
-    """Orbit at these parameters near a guess."""
-    for _ in range(12):
-        at = conditions_at(numbers, period, speed)
-        step = at.closing / at.period_fold if at.period_fold else 0.0
-        change = at.balance / (2.0 * at.speed_fold) if at.speed_fold else 0.0
-        if abs(step) < 1e-13 and abs(change) < 1e-13:
-            break
-        period, speed = max(period - step, 0.5 * period), speed - change
-    return period, speed
 
 
 def _orbit_points(branches: list[OrbitBranch]) -> list[SpecialValue]:

@@ -6,12 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
-from carom.bifurcations.conditions import conditions_at, is_admissible, jacobian_at
+from carom.bifurcations.conditions import is_admissible, jacobian_at
 from carom.bifurcations.diagrams import LONGEST_PERIOD
+from carom.bifurcations.solutions import orbit_solutions
 from carom.equilibria import equilibria
 from carom.parameters import Parameters
-from carom.periods import PeriodCondition
 from carom.rotors import jeffcott
 from carom.whirl import rolling
 
@@ -96,9 +95,9 @@ def motions_at(parameters: Parameters) -> Motions:
     """
     rotor = jeffcott(parameters)
     contact_free, *rubs = equilibria(rotor)
-    numbers = Numbers.of(parameters)
-    orbits = [orbit for orbit in _orbits(parameters) if is_admissible(numbers, *orbit[1:])]
-    radii = [float(np.abs(np.linalg.eigvals(jacobian_at(numbers, *orbit[1:]))).max()) for orbit in orbits]
+    solutions = orbit_solutions(parameters, LONGEST_PERIOD if parameters.gamma < 0.05 else None)
+    orbits = [solution for solution in solutions if is_admissible(*solution[1:])]
+    radii = [float(np.abs(np.linalg.eigvals(jacobian_at(*orbit[1:]))).max()) for orbit in orbits]
     return Motions(
         contact_free=contact_free.status == "admissible",
         orbits=len(orbits),
@@ -108,26 +107,3 @@ def motions_at(parameters: Parameters) -> Motions:
         stable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius < 1.0)),
         unstable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius >= 1.0)),
     )
-
-
-def _orbits(parameters: Parameters) -> list[tuple[str, float, float]]:
-    """Name, period and radial speed of all single-impact orbits with forward slip and a positive radial speed."""
-    numbers, rotor = Numbers.of(parameters), jeffcott(parameters)
-    if rotor.equilibrium == 0.0:
-        return []
-    roots = PeriodCondition(rotor).roots(LONGEST_PERIOD if parameters.gamma < 0.05 else None)
-    gap = 1.0 - abs(rotor.equilibrium) ** 2
-    found = []
-    for place, period in enumerate(roots.periods.tolist(), start=int(roots.starts_below)):
-        lever = conditions_at(numbers, period, 0.0).lever
-        square, half = abs(lever) ** 2, lever.real
-        discriminant = half**2 - square * gap
-        if discriminant >= 0.0:
-            pair, longer = divmod(place, 2)
-            speeds = [(sign * np.sqrt(discriminant) - half) / square for sign in (-1.0, 1.0)]
-            found += [
-                (f"B{pair + 1},{'abcd'[longer + 2 * high]}", period, float(speed))
-                for high, speed in enumerate(speeds)
-                if speed > 0.0
-            ]
-    return found

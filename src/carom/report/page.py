@@ -110,7 +110,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         own=[(study.wording.gain_name(gain), _own(study, gain)) for gain in study.gains],
         thresholds=rows,
         in_si=study.wording.scales is not None,
-        searched=[entry for entry in study.ranges if entry.searched is not None],
+        searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
         kicks=kick_rows(study),
         figures=figures,
         not_covered=NOT_COVERED,

@@ -3,16 +3,21 @@
 ==================  ==================================================================================
 ``assembly``        :func:`study` and the frozen :class:`Study`
 ``ranges``          for which damping and stiffness equilibria exist, in closed form
-``folds``           for which damping and stiffness single-impact orbits exist, by search
+``orbit_ranges``    for which damping and stiffness single-impact orbits can happen, by search
+``alone``           where along damping and stiffness levitation is the only motion found
+``advice``          the least change of either that leaves it alone, checked by simulation
 ``endings``         what became of simulated disturbances
 ``verdict``         all of it in words
 ``findings``        the paragraphs of the verdict
+``remedies``        what would change it, in words
 ``wording``         numbers with units
 ``summaries``       its tables, as text
 ``document``        results as JSON
 ==================  ==================================================================================
 """
 
+from carom.study.advice import Advice
+from carom.study.alone import LevitationAlone, Met
 from carom.study.assembly import Study, study
 from carom.study.document import as_json, orbits_document, trajectory_document
 from carom.study.ranges import Edge, MotionRange, Span, Threshold, free_spans
@@ -21,8 +26,11 @@ from carom.study.wording import Wording
 
 __all__ = [
     "NOT_COVERED",
+    "Advice",
     "Edge",
     "Finding",
+    "LevitationAlone",
+    "Met",
     "MotionRange",
     "Span",
     "Study",

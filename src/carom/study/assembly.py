@@ -15,8 +15,10 @@ from carom.outcome import InputError
 from carom.parameters import Case, Machine, Parameters, Zones
 from carom.rotors import Rotor, jeffcott
 from carom.safety import SafeDamping, least_safe_damping
+from carom.study.advice import Advice, advise
+from carom.study.alone import LevitationAlone, levitation_alone
 from carom.study.document import study_document
-from carom.study.folds import single_impact_range
+from carom.study.orbit_ranges import single_impact_ranges
 from carom.study.ranges import Gain, Motion, MotionRange, Threshold, contact_free_range, rolling_range, rub_range
 from carom.study.verdict import Verdict, verdict
 from carom.study.wording import Wording
@@ -42,6 +44,10 @@ class Study:
         For which damping and which stiffness each motion exists, the other parameters fixed.
     boundaries : tuple of BoundaryEquilibrium
         Where, along damping and stiffness, the contact-free motion meets the wall, and what happens there.
+    alone : tuple of LevitationAlone
+        Where along damping and stiffness levitation is the only motion found.
+    advice : tuple of Advice
+        The least change of either that leaves levitation alone, checked; none for a machine that needs no change.
     attractors : AttractorSet
         Where simulated disturbances, and starts next to the known motions, end.
     safe_damping : SafeDamping
@@ -54,6 +60,8 @@ class Study:
     orbits: OrbitSet
     ranges: tuple[MotionRange, ...]
     boundaries: tuple[BoundaryEquilibrium, ...]
+    alone: tuple[LevitationAlone, ...]
+    advice: tuple[Advice, ...]
     attractors: AttractorSet
     safe_damping: SafeDamping
 
@@ -86,6 +94,10 @@ class Study:
     def range_of(self, motion: Motion, gain: Gain) -> MotionRange | None:
         """Where a motion exists along a gain; ``None`` if that was not found out."""
         return next((entry for entry in self.ranges if (entry.motion, entry.gain) == (motion, gain)), None)
+
+    def alone_along(self, gain: Gain) -> LevitationAlone | None:
+        """Where along a gain levitation is the only motion found; ``None`` if that was not searched."""
+        return next((entry for entry in self.alone if entry.gain == gain), None)
 
     @property
     def thresholds(self) -> tuple[Threshold, ...]:
@@ -141,17 +153,21 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     orbits = orbits_within_reach(rotor)
     tell(0.15, "disturbances")
     found = find_attractors(rotor, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
-    ranges = _ranges(parameters, lambda share: tell(0.3 + 0.2 * share, "thresholds of damping and stiffness"))
-    tell(0.5, "loss of levitation")
+    ranges = _ranges(parameters, lambda share: tell(0.3 + 0.15 * share, "thresholds of damping and stiffness"))
+    tell(0.45, "disturbances where levitation is alone")
+    looked_at = [levitation_alone(parameters, gain, ranges) for gain in _gains(parameters)]
+    alone = tuple(entry for entry in looked_at if entry is not None)
+    advice = advise(parameters, alone, ranges)
+    tell(0.53, "loss of levitation")
     boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
     safe = least_safe_damping(
         parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
     )
-    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, found, safe)
+    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe)
 
 
 def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:
-    found: list[MotionRange | None] = []
+    found: list[MotionRange] = []
     gains = _gains(parameters)
     for place, gain in enumerate(gains):
 
@@ -159,8 +175,8 @@ def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[
             progress((place + share) / len(gains))
 
         found += [contact_free_range(parameters, gain), rub_range(parameters, gain), rolling_range(parameters, gain)]
-        found.append(single_impact_range(parameters, gain, tell))
-    return tuple(entry for entry in found if entry is not None)
+        found += single_impact_ranges(parameters, gain, tell)
+    return tuple(found)
 
 
 def _gains(parameters: Parameters) -> tuple[Gain, ...]:

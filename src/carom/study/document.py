@@ -21,8 +21,10 @@ from carom.orbits import Orbit, OrbitSet
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
 from carom.safety import DampingLimit, SafeDamping
+from carom.study.advice import Advice
+from carom.study.alone import LevitationAlone
 from carom.study.endings import hardest_impulse, touching
-from carom.study.ranges import MotionRange, Span, Threshold, free_spans
+from carom.study.ranges import MotionRange, Span, Threshold
 from carom.study.verdict import NOT_COVERED
 from carom.study.wording import Wording
 from carom.trajectories import State, Trajectory
@@ -98,6 +100,8 @@ def study_document(study: Study) -> dict[str, Any]:
         "ranges": [_range(entry) for entry in study.ranges],
         "boundaries": [_boundary(entry, say) for entry in study.boundaries],
         "levitation_alone": {gain: _free(study, gain) for gain in study.gains},
+        "levitation_alone_checks": [_alone(entry) for entry in study.alone],
+        "advice": [_advice(entry, say) for entry in study.advice],
         "attractors": [_attractor(entry, case.parameters.scales) for entry in study.attractors],
         "disturbances": _disturbances(study.attractors, case.parameters.scales),
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
@@ -206,8 +210,47 @@ def _span(span: Span) -> list[float]:
 
 
 def _free(study: Study, gain: Any) -> list[list[float]] | None:
-    spans = free_spans(study.ranges, gain)
-    return None if spans is None else [_span(span) for span in spans]
+    found = study.alone_along(gain)
+    return None if found is None else [_span(span) for span in found.spans]
+
+
+def _alone(entry: LevitationAlone) -> dict[str, Any]:
+    return {
+        "parameter": entry.gain,
+        "spans": [_span(span) for span in entry.spans],
+        "ends": [[span.low.motion or span.low.kind, span.high.motion or span.high.kind] for span in entry.spans],
+        "backward_whirl": [_span(span) for span in entry.whirl],
+        "met": [
+            {"motion": met.motion, "value": met.value, "start": {"U": met.position, "V": met.velocity}}
+            for met in entry.met
+        ],
+        "values": list(entry.values),
+        "disturbances": entry.disturbances,
+        "on_the_wall": entry.rim,
+        "seed": entry.seed,
+        "fastest": entry.fastest,
+    }
+
+
+def _advice(entry: Advice, say: Wording) -> dict[str, Any]:
+    document: dict[str, Any] = {
+        "parameter": entry.gain,
+        "value": entry.value,
+        "change": entry.change,
+        "levitation_alone": entry.alone,
+        "margin": entry.margin,
+        "disturbances": entry.returned.total,
+        "recovered": entry.returned.count,
+        "share_low": entry.returned.low,
+        "share_high": entry.returned.high,
+        "seed": entry.seed,
+        "fastest": entry.fastest,
+    }
+    if say.scales is not None:
+        document["quantity"] = say.gain_name(entry.gain)
+        document["value_si"] = say.gain_in_si(entry.gain, entry.value)
+        document["fastest_si"] = entry.fastest * say.scales.velocity
+    return document
 
 
 def _attractor(entry: Attractor, scales: Scales | None) -> dict[str, Any]:

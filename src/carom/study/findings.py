@@ -8,7 +8,8 @@ from carom.basins.shares import CONFIDENCE
 from carom.outcome import Outcome
 from carom.safety.limits import DampingLimit, rounded_up, share_words
 from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
-from carom.study.ranges import Gain, Motion, free_spans
+from carom.study.ranges import Gain, Motion
+from carom.study.remedies import advice_lines, alone_sentences
 from carom.study.wording import counted, listed, number
 from carom.whirl import Rolling, Runaway, rolling, runaway_speed
 
@@ -232,7 +233,7 @@ def _with_weight(study: Study, force: float) -> str:
 def _remedies(study: Study) -> str:
     lines = [" ".join(_remedies_along(study, gain)) for gain in study.gains]
     lines[0] = f"{lines[0]} {_safe_damping(study)}"
-    return "\n".join(lines)
+    return "\n".join([*lines, *advice_lines(study)])
 
 
 def _remedies_along(study: Study, gain: Gain) -> list[str]:
@@ -244,28 +245,15 @@ def _remedies_along(study: Study, gain: Gain) -> list[str]:
         if entry is not None:
             parts.append(f"{words} {say.where(gain, entry.spans, entry.searched)}")
     sentences = [f"{name[0].upper()}{name[1:]} (this machine: {own}): {'; '.join(parts)}."]
-    orbits, free = study.range_of("single-impact", gain), free_spans(study.ranges, gain)
-    aside = ", backward whirl aside," if _rolling_concerns(study, gain) else ""
-    if free is None or orbits is None:
-        sentences.append(f"Which {name} would leave levitation alone was not found out.")
-    elif free:
-        where = say.where(gain, free, orbits.searched)
-        sentences.append(f"Of these motions levitation alone{aside} is left {where}.")
-    else:
-        sentences.append(f"No {name} in the range searched leaves levitation alone.")
-    return sentences
+    return [*sentences, *alone_sentences(study, gain)]
 
 
 _POSSIBLE: dict[Motion, str] = {
     "contact-free": "contact-free motion exists",
     "rub": "a synchronous rub can hold the rotor",
     "single-impact": "orbits with one impact a period are possible",
+    "stable-single-impact": "stable ones, which can hold the rotor,",
 }
-
-
-def _rolling_concerns(study: Study, gain: Gain) -> bool:
-    rolling = study.range_of("rolling", gain)
-    return rolling is not None and bool(rolling.spans)
 
 
 def _safe_damping(study: Study) -> str:

@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 Gain = Literal["gamma", "omega"]
-Motion = Literal["contact-free", "rub", "single-impact", "rolling"]
+Motion = Literal["contact-free", "rub", "single-impact", "stable-single-impact", "rolling"]
 
 
 @dataclass(frozen=True)
@@ -43,19 +43,22 @@ class Edge:
     value : float
         ``gamma`` or ``omega``; 0 and infinity are possible.
     kind : str
-        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"``, ``"fold"``, ``"vanishing-period"`` or
-        ``"rolling-limit"``; empty where nothing does, at the end
-        of the axis or of a search.
+        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"``; to an orbit what is listed
+        in :class:`~carom.bifurcations.Bifurcation`, or ``"vanishing-period"``; empty where nothing does, at the end of
+        the axis or of a search.
     period : float or None
-        Of the orbit that is born at a fold, in ``1/Ω``.
+        Of the orbit that appears, vanishes or changes there, in ``1/Ω``.
     certified : bool
-        Whether it is exact, or confirmed by a proven count on both sides.
+        Whether it is exact, or confirmed by the certified orbits close by on both sides.
+    motion : str
+        Where kind is ``"simulated"``, in what a disturbance ended beyond.
     """
 
     value: float
     kind: str = ""
     period: float | None = None
     certified: bool = True
+    motion: str = ""
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,7 @@ class Threshold:
 
     Attributes
     ----------
-    motion : {"contact-free", "rub", "single-impact", "rolling"}
+    motion : {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
     gain : {"gamma", "omega"}
     edge : Edge
     exists : {"above", "below"}
@@ -94,7 +97,7 @@ class MotionRange:
 
     Attributes
     ----------
-    motion : {"contact-free", "rub", "single-impact", "rolling"}
+    motion : {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
     gain : {"gamma", "omega"}
     spans : tuple of Span
         Disjoint, in growing order.

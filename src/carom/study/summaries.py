@@ -9,7 +9,8 @@ from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
 from carom.study.endings import ending_words, kick_sizes
-from carom.study.ranges import Edge, Motion, free_spans
+from carom.study.ranges import Edge, Motion
+from carom.study.remedies import check_words
 from carom.study.wording import Wording, number
 
 if TYPE_CHECKING:
@@ -86,6 +87,7 @@ MOTIONS: dict[Motion, str] = {
     "contact-free": "contact-free levitation",
     "rub": "synchronous rub",
     "single-impact": "orbits with one impact a period",
+    "stable-single-impact": "stable orbits with one impact a period",
     "rolling": "rolling backward whirl",
 }
 """Names of the motions whose ranges are known."""
@@ -94,6 +96,13 @@ _EVENTS = {
     "boundary-equilibrium": "the contact-free motion reaches the wall",
     "rub-fold": "a stable and an unstable rub meet (fold)",
     "fold": "two orbits meet (fold)",
+    "speed-fold": "two orbits of one period meet (fold)",
+    "grazing": "an orbit grazes the wall between its impacts",
+    "non-smooth-hopf": "an orbit shrinks into levitation on the wall (non-smooth Hopf)",
+    "slip-stop": "friction begins to stop the slip in the impacts of an orbit",
+    "contact-onset": "an orbit begins to stay on the wall after its impact",
+    "period-doubling": "an orbit loses its stability (period doubling)",
+    "neimark-sacker": "an orbit loses its stability (Neimark-Sacker)",
     "vanishing-period": "the period of an orbit shrinks to zero",
     "rolling-limit": "friction just keeps the rotor rolling at every angle",
 }
@@ -207,7 +216,9 @@ def threshold_rows(study: Study) -> list[ThresholdRow]:
     say = study.wording
     rows = []
     for entry in study.thresholds:
-        what = _EVENTS[entry.edge.kind] + ("" if entry.edge.certified else " (located, but not confirmed by a count)")
+        what = _EVENTS.get(entry.edge.kind, f"an orbit ends ({entry.edge.kind})") + (
+            "" if entry.edge.certified else " (located, but not confirmed by the orbits close by)"
+        )
         rows.append(
             ThresholdRow(
                 MOTIONS[entry.motion],
@@ -226,7 +237,7 @@ def _digits(edge: Edge) -> str:
 
 
 def range_rows(study: Study) -> list[tuple[str, ...]]:
-    """For each motion, where it exists along each gain of ``study.gains``; last, where levitation alone is left."""
+    """For each motion, where it exists along each gain of ``study.gains``; last, where levitation alone is left, and what is advised."""
     say = study.wording
     rows = []
     for motion, name in MOTIONS.items():
@@ -235,11 +246,19 @@ def range_rows(study: Study) -> list[tuple[str, ...]]:
             entry = study.range_of(motion, gain)
             cells.append(say.where(gain, entry.spans, entry.searched) if entry else "not searched")
         rows.append((name, *cells))
-    cells = []
+    return [*rows, *_alone_rows(study)]
+
+
+def _alone_rows(study: Study) -> list[tuple[str, ...]]:
+    """Where levitation alone is left, what is advised, and how that was checked."""
+    say = study.wording
+    alone, advised = [], []
     for gain in study.gains:
-        free, orbits = free_spans(study.ranges, gain), study.range_of("single-impact", gain)
-        cells.append(say.where(gain, free, orbits.searched) if free is not None and orbits else "not found out")
-    return [*rows, ("levitation alone, backward whirl aside", *cells)]
+        found, orbits = study.alone_along(gain), study.range_of("single-impact", gain)
+        alone.append(say.where(gain, found.spans, orbits.searched) if found and orbits else "not found out")
+        advice = next((entry for entry in study.advice if entry.gain == gain), None)
+        advised.append(f"{say.gain(gain, advice.value)}, where {check_words(study, advice)}" if advice else "none")
+    return [("levitation alone, backward whirl aside", *alone), ("advised", *advised)]
 
 
 def kick_rows(study: Study) -> list[tuple[str, str, str]]:

@@ -1,0 +1,340 @@
+"""Where along a parameter single-impact orbits are motions of the machine, and what ends each stretch.
+
+At some values of the parameter all orbits are known.  Between two of them an orbit that is admissible at both, and not
+near to losing that, is taken to be so throughout.  Every other orbit is followed from one value to the other, with the
+special points on the way: where it appears, vanishes, becomes virtual or changes its stability between the values, and
+where it comes near to that without doing so at either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from carom.bifurcations.axes import Numbers, vary
+from carom.bifurcations.branches import OrbitBranch, continue_orbit
+from carom.bifurcations.conditions import corrected, is_admissible, jacobian_at, margins_of, orbit_of
+from carom.bifurcations.solutions import Solution, orbit_solutions
+from carom.orbits import longest_within_reach, slip_stays_forward
+from carom.outcome import CaromError
+from carom.parameters import Parameters
+from carom.rotors import jeffcott
+
+__all__ = ["OrbitWindows", "Window", "WindowEnd", "orbit_windows"]
+
+SAME = 1e-6
+"""Relative difference of period and radial speed below which two solutions are the same."""
+MERGED = 1e-9
+"""Relative width of a gap that is none."""
+SHORT = 1e-3
+"""Period, in ``1/Ω``, below which a branch that ends ends because its period vanishes."""
+FAR = -1.0
+"""What an orbit that meets another between two values is short of being admissible, so that it surely stays virtual."""
+
+Level = Literal["possible", "stable"]
+
+
+@dataclass(frozen=True)
+class WindowEnd:
+    """Where a window ends.
+
+    Attributes
+    ----------
+    value : float
+        Of the parameter.
+    kind : str
+        That of the special point there (:class:`~carom.bifurcations.Bifurcation`), ``"vanishing-period"``, or empty at
+        the end of what was searched.
+    name : str
+        Of the orbit that appears, vanishes or changes there; empty at the end of what was searched.
+    period, radial_speed : float or None
+        Its period in ``1/Ω`` and radial speed in ``c_r Ω``.
+    """
+
+    value: float
+    kind: str = ""
+    name: str = ""
+    period: float | None = None
+    radial_speed: float | None = None
+
+
+@dataclass(frozen=True)
+class Window:
+    """A stretch of the parameter on which there is an orbit throughout."""
+
+    low: WindowEnd
+    high: WindowEnd
+
+
+@dataclass(frozen=True)
+class OrbitWindows:
+    """Windows of single-impact orbits along one parameter, in growing order.
+
+    Attributes
+    ----------
+    parameter : str
+    values : tuple of float
+        At which all orbits were looked for.
+    possible : tuple of Window
+        Where some orbit is admissible, stable or not.
+    stable : tuple of Window
+        Where some admissible orbit is stable.
+    """
+
+    parameter: str
+    values: tuple[float, ...]
+    possible: tuple[Window, ...]
+    stable: tuple[Window, ...]
+
+
+class _Member(NamedTuple):
+    """A solution at one value, and what is left until it is not admissible, or not stable, any more."""
+
+    solution: Solution
+    possible: float
+    stable: float
+
+
+class _Arc(NamedTuple):
+    """A part of a branch between two special points."""
+
+    low: WindowEnd
+    high: WindowEnd
+    possible: bool
+    stable: bool
+
+
+def orbit_windows(
+    parameters: Parameters, parameter: str, values: Sequence[float], progress: Callable[[float], None] | None = None
+) -> OrbitWindows:
+    """Find where along a parameter single-impact orbits are motions of the machine.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        With positive damping at all values.
+    parameter : str
+        Dimensionless, or physical (in SI units; needs scales).
+    values : sequence of float
+        In growing order: where to look for all orbits (:func:`~carom.orbits.orbits_within_reach`).  A window between two
+        of them is found if an orbit that has it exists at one of them, or nearly so.
+    progress : callable, optional
+        Called with the share done, 0 to 1.
+
+    Returns
+    -------
+    OrbitWindows
+    """
+    tell = progress or (lambda _: None)
+    columns: list[list[_Member]] = []
+    for done, value in enumerate(values):
+        columns.append(_members(vary(parameters, parameter, value)))
+        tell(0.7 * (done + 1) / len(values))
+    cells = list(pairwise(values))
+    partners = [_partners(*pair) for pair in pairwise(columns)]
+    near = {level: _near_zero(columns, partners, level) for level in _LEVELS}
+    pieces: dict[Level, list[Window]] = {level: [] for level in _LEVELS}
+    for place, (low, high) in enumerate(cells):
+        left, right, pairs = columns[place], columns[place + 1], partners[place]
+        whole = {level: _held(left, right, pairs, near[level][place], level) for level in _LEVELS}
+        for level in _LEVELS:
+            if whole[level]:
+                pieces[level].append(Window(WindowEnd(low), WindowEnd(high)))
+        if not all(whole.values()):
+            open_levels = [level for level in _LEVELS if not whole[level]]
+            chosen = _to_follow(left, right, pairs, [(level, near[level][place]) for level in open_levels])
+            for arc in _followed(chosen, parameter, (low, high)):
+                for level in _LEVELS:
+                    if not whole[level] and getattr(arc, level):
+                        pieces[level].append(Window(arc.low, arc.high))
+        tell(0.7 + 0.3 * (place + 1) / len(cells))
+    return OrbitWindows(parameter, tuple(values), _joined(pieces["possible"]), _joined(pieces["stable"]))
+
+
+_LEVELS: tuple[Level, ...] = ("possible", "stable")
+
+
+def _members(parameters: Parameters) -> list[_Member]:
+    rotor = jeffcott(parameters)
+    longest = longest_within_reach(rotor)
+    solutions = orbit_solutions(parameters, longest)
+    if not slip_stays_forward(rotor):
+        solutions += orbit_solutions(parameters, longest, backward=True)
+    return [_member(solution) for solution in solutions]
+
+
+def _member(solution: Solution) -> _Member:
+    at = solution.numbers, solution.period, solution.radial_speed
+    possible = min(margins_of(*at).values())
+    if possible <= 0.0:
+        return _Member(solution, possible, possible)
+    radius = float(np.abs(np.linalg.eigvals(jacobian_at(*at))).max())
+    return _Member(solution, possible, min(possible, 1.0 - radius))
+
+
+def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
+    """Which solution on the right each one on the left goes over to, as far as Newton's method finds it at once."""
+    found: dict[int, int] = {}
+    for backward in (False, True):
+        places = [index for index, member in enumerate(right) if (member.solution.numbers.mu < 0.0) == backward]
+        if not places:
+            continue
+        numbers = right[places[0]].solution.numbers
+        others = np.array([right[index].solution[2:] for index in places])
+        for place, (solution, *_) in enumerate(left):
+            if (solution.numbers.mu < 0.0) == backward:
+                guess = corrected(numbers, solution.period, solution.radial_speed)
+                nearest = int(np.argmin(np.abs(others - guess).max(axis=1)))
+                if (
+                    _same(float(others[nearest, 0]), float(others[nearest, 1]), *guess)
+                    and places[nearest] not in found.values()
+                ):
+                    found[place] = places[nearest]
+    return found
+
+
+def _same(period: float, speed: float, other_period: float, other_speed: float) -> bool:
+    return max(abs(period - other_period), abs(speed - other_speed)) < SAME * (1.0 + period)
+
+
+def _near_zero(columns: list[list[_Member]], partners: list[dict[int, int]], level: Level) -> list[set[int]]:
+    """For each cell, the solutions on its left that may pass zero and come back within it or the next.
+
+    Of three values of one sign the middle one is nearest to zero, and the parabola through them bends by more than
+    that: it may reach zero between them.
+    """
+    near: list[set[int]] = [set() for _ in partners]
+    for place, (first, second) in enumerate(pairwise(partners)):
+        for before, here in first.items():
+            if here not in second:
+                continue
+            ends = columns[place][before], columns[place + 1][here], columns[place + 2][second[here]]
+            low, middle, high = (getattr(member, level) for member in ends)
+            sizes = abs(low), abs(middle), abs(high)
+            alike = (low > 0.0) == (middle > 0.0) == (high > 0.0)
+            if alike and sizes[1] == min(sizes) and sizes[1] < sizes[0] + sizes[2] - 2.0 * sizes[1]:
+                near[place].add(before)
+                near[place + 1].add(here)
+    return near
+
+
+def _held(left: list[_Member], right: list[_Member], pairs: dict[int, int], near: set[int], level: Level) -> bool:
+    """Whether one orbit is there from one value to the other."""
+    return any(
+        getattr(left[one], level) > 0.0 and getattr(right[other], level) > 0.0 and one not in near
+        for one, other in pairs.items()
+    )
+
+
+def _to_follow(
+    left: list[_Member], right: list[_Member], pairs: dict[int, int], open_levels: list[tuple[Level, set[int]]]
+) -> list[Solution]:
+    """Solutions that change between two values, or may: one of each branch, if possible from where it is admissible."""
+    chosen = [member for index, member in enumerate(left) if index not in pairs and member.possible > FAR]
+    chosen += [member for index, member in enumerate(right) if index not in pairs.values() and member.possible > FAR]
+    for one, other in pairs.items():
+        before, after = left[one], right[other]
+        if any(
+            one in near or (getattr(before, level) > 0.0) != (getattr(after, level) > 0.0)
+            for level, near in open_levels
+        ):
+            chosen.append(max(before, after, key=lambda member: member.possible))
+    return [member.solution for member in sorted(chosen, key=lambda member: -member.possible)]
+
+
+def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[float, float]) -> list[_Arc]:
+    """Arcs of the branches through some solutions at either end of an interval."""
+    arcs: list[_Arc] = []
+    passed: list[tuple[Numbers, float, float]] = []
+    for solution in solutions:
+        if any(
+            numbers == solution.numbers and _same(period, speed, solution.period, solution.radial_speed)
+            for numbers, period, speed in passed
+        ):
+            continue
+        orbit = orbit_of(solution.numbers, solution.name.partition(",")[0], solution.period, solution.radial_speed)
+        try:
+            branch = continue_orbit(orbit, parameter, interval)
+        except CaromError:
+            continue
+        periods, speeds = branch.period.tolist(), branch.radial_speed.tolist()
+        passed += [(branch.numbers[end], periods[end], speeds[end]) for end in (0, -1)]
+        arcs += _arcs(branch)
+    return arcs
+
+
+def _arcs(branch: OrbitBranch) -> list[_Arc]:
+    """Parts between special points; the parameter grows, or falls, all along each."""
+    marks = [
+        (0.0, _branch_end(branch, 0)),
+        *(
+            (point.place, WindowEnd(point.value, point.kind, point.name, point.period, point.radial_speed))
+            for point in branch.special
+        ),
+        (len(branch) - 1.0, _branch_end(branch, -1)),
+    ]
+    arcs = []
+    for (start, one), (end, other) in pairwise(sorted(marks, key=lambda mark: mark[0])):
+        low, high = sorted((one, other), key=lambda mark: mark.value)
+        if high.value - low.value <= 1e-14 * abs(high.value):
+            continue
+        at = _halfway(branch, (start, one), (end, other))
+        if at is not None:
+            possible = is_admissible(*at)
+            stable = possible and float(np.abs(np.linalg.eigvals(jacobian_at(*at))).max()) < 1.0
+            arcs.append(_Arc(low, high, possible, stable))
+    return arcs
+
+
+def _branch_end(branch: OrbitBranch, end: Literal[0, -1]) -> WindowEnd:
+    value, period = float(branch.values[end]), float(branch.period[end])
+    stop = branch.stops[end]
+    if stop in ("parameter limit", "closed loop"):
+        return WindowEnd(value)
+    kind = "vanishing-period" if period < SHORT else stop
+    return WindowEnd(value, kind, branch.names[end], period, float(branch.radial_speed[end]))
+
+
+def _halfway(
+    branch: OrbitBranch, start: tuple[float, WindowEnd], end: tuple[float, WindowEnd]
+) -> tuple[Numbers, float, float] | None:
+    """Orbit in the middle of an arc; ``None`` where Newton's method does not find it."""
+    inner = np.arange(int(np.floor(start[0])) + 1, int(np.ceil(end[0])))
+    ends = [_at_mark(branch, mark) for mark in (start, end)]
+    values = np.array([ends[0][0], *branch.values[inner], ends[1][0]])
+    periods = np.array([ends[0][1], *branch.period[inner], ends[1][1]])
+    speeds = np.array([ends[0][2], *branch.radial_speed[inner], ends[1][2]])
+    order = np.argsort(values)
+    middle = 0.5 * float(values[0] + values[-1])
+    guess = (float(np.interp(middle, values[order], course[order])) for course in (periods, speeds))
+    numbers = branch.axis.set(branch.numbers[0], middle)
+    if branch.numbers[0].mu < 0.0:
+        numbers = numbers._replace(mu=-abs(numbers.mu))
+    period, speed = corrected(numbers, *guess)
+    return (numbers, period, speed) if np.isfinite([period, speed]).all() and period > 0.0 else None
+
+
+def _at_mark(branch: OrbitBranch, mark: tuple[float, WindowEnd]) -> tuple[float, float, float]:
+    place, end = mark
+    if end.period is None or end.radial_speed is None:
+        return (
+            float(branch.values[int(place)]),
+            float(branch.period[int(place)]),
+            float(branch.radial_speed[int(place)]),
+        )
+    return end.value, end.period, end.radial_speed
+
+
+def _joined(pieces: Iterable[Window]) -> tuple[Window, ...]:
+    """Windows that touch or overlap as one."""
+    joined: list[Window] = []
+    for piece in sorted(pieces, key=lambda window: window.low.value):
+        if joined and piece.low.value <= joined[-1].high.value + MERGED * abs(piece.low.value):
+            last = joined.pop()
+            piece = Window(last.low, max(last.high, piece.high, key=lambda end: end.value))
+        joined.append(piece)
+    return tuple(joined)
