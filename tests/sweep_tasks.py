@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 import signal
 import time
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from carom.outcome import CaromWarning
 from carom.parameters import Case, Parameters, Zones
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.plan import GridAxis, SweepPlan, cut
@@ -47,6 +49,15 @@ class Failing(Drawn):
     def evaluate(self, case, seed):
         if case.parameters.gamma > self.above and not Path(self.mended).exists():
             raise ZeroDivisionError("damping\nis too large")
+        return super().evaluate(case, seed)
+
+
+@dataclass(frozen=True)
+class Warned(Drawn):
+    """Has something to tell at every point."""
+
+    def evaluate(self, case, seed):
+        warnings.warn("the disk is full", CaromWarning, stacklevel=1)
         return super().evaluate(case, seed)
 
 

@@ -44,7 +44,18 @@ def test_older_results_are_replaced_and_foreign_files_stay(tmp_path):
 
 @pytest.mark.parametrize(
     "names",
-    ["../keep.txt", "/etc/hostname", "figures/../keep.txt", "figures/..", "notes.txt", 3, None, "figures/deep/x.svg"],
+    [
+        "../keep.txt",
+        "/etc/hostname",
+        "figures/../keep.txt",
+        "figures/..",
+        "notes.txt",
+        3,
+        None,
+        "figures/deep/x.svg",
+        "figures/\0",
+        "figures/" + "x" * 999,
+    ],
 )
 def test_a_manifest_removes_nothing_but_figures(tmp_path, names):
     (tmp_path / "keep.txt").write_text("mine", encoding="utf-8")
@@ -55,7 +66,7 @@ def test_a_manifest_removes_nothing_but_figures(tmp_path, names):
     assert content(tmp_path) == kept
 
 
-@pytest.mark.parametrize("manifest", ["", "[]", "{", '{"figures": 3}', "null"])
+@pytest.mark.parametrize("manifest", ["", "[]", "{", '{"figures": 3}', "null", "[" * 100_000])
 def test_manifest_that_is_none_is_no_obstacle(tmp_path, manifest):
     fill(tmp_path / "out", {"study.json": manifest})
     fill(tmp_path / "out", {"study.json": "{}"})

@@ -6,14 +6,15 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from itertools import count
 from pathlib import Path
 
 import numpy as np
 import pytest
-from sweep_tasks import Deadly, Drawn, Failing, basins_plan, plan_of, stored_bytes
+from sweep_tasks import Deadly, Drawn, Failing, Warned, basins_plan, plan_of, stored_bytes
 
-from carom.outcome import CaromError, InputError
+from carom.outcome import CaromError, CaromWarning, InputError
 from carom.sweeps import load_sweep, open_sweep, run_sweep
 from carom.sweeps.local import AHEAD, _put_off, on_processes, on_threads
 from carom.sweeps.studies import StudyTask
@@ -253,6 +254,15 @@ def test_process_that_cannot_start_is_an_error(monkeypatch):
 
     with pytest.raises(CaromError, match="worker processes end before they begin"):
         list(on_processes(plan_of(Drawn()), iter(range(5)), 1))
+
+
+def test_what_all_workers_warn_of_is_said_once(tmp_path):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("default")
+        tally = run_sweep(plan_of(Warned()), tmp_path / "s.zarr", workers=2)
+
+    assert tally.done == 10
+    assert [(warning.category, str(warning.message)) for warning in told] == [(CaromWarning, "the disk is full")]
 
 
 def test_progress_tells_how_far_and_how_fast(tmp_path):

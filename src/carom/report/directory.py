@@ -127,9 +127,9 @@ def _remove_stale_figures(target: Path, files: list[Path]) -> None:
     try:
         names = json.loads((target / MANIFEST).read_text(encoding="utf-8"))["figures"]
         stale = [Path(name) for name in names]
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):  # damaged: its figures stay
         return
     for file in stale:
         if len(file.parts) == 2 and file.parts[0] == FIGURES and file.parts[1] != ".." and file not in files:
-            with suppress(OSError):
+            with suppress(OSError, ValueError):  # the latter from a name that no file can have
                 (target / file).unlink(missing_ok=True)

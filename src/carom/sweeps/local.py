@@ -6,6 +6,7 @@ import os
 import queue
 import signal
 import threading
+import warnings
 from collections import Counter, deque
 from collections.abc import Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -113,6 +114,9 @@ class _Crew:
                 except (EOFError, OSError):
                     yield from self._lost(worker)
                     continue
+                if isinstance(told, Warning):
+                    warnings.warn(told, stacklevel=1)  # the same words from several workers are shown once
+                    continue
                 if isinstance(told, Chunk):
                     worker.given.remove(told.number)
                 worker.ready = True
@@ -173,13 +177,17 @@ def _ending(process: BaseProcess) -> str:
 
 
 def _serve(plan: SweepPlan, pipe: connection.Connection) -> None:
-    """Compute what comes through the pipe until its other end is closed."""
+    """Compute what comes through the pipe until its other end is closed; say what there was to warn of, then the chunk."""
     numbers: queue.SimpleQueue[int] = queue.SimpleQueue()
     threading.Thread(target=_receive, args=(pipe, numbers), daemon=True).start()
     try:
         pipe.send("ready")
-        while True:
-            pipe.send(compute_chunk(plan, numbers.get()))
+        with warnings.catch_warnings(record=True) as heard:
+            while True:
+                chunk = compute_chunk(plan, numbers.get())
+                while heard:
+                    pipe.send(heard.pop(0).message)
+                pipe.send(chunk)
     except OSError:
         return
 
