@@ -87,6 +87,15 @@ def test_chunk_of_a_variable_with_a_dimension_is_named(tmp_path):
         open_sweep(store).counts.load()
 
 
+def test_four_zeros_are_no_chunk(whole, store):
+    """They are the checksum of nothing at all."""
+    (store / "value/c/1").write_bytes(bytes(4))
+    with pytest.raises(InputError, match="its file value/c/1 is damaged"):
+        open_sweep(store).load()
+    assert run(store).damaged == (1,)
+    assert stored_bytes(store) == stored_bytes(whole)
+
+
 def test_chunks_that_wait_are_not_missing(store):
     (store / "status/c/1").unlink()
     (store / "value/c/1").unlink()

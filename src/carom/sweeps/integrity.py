@@ -30,8 +30,8 @@ def seal(data: bytes) -> bytes:
 
 
 def is_whole(sealed: bytes) -> bool:
-    """Whether data agree with the checksum at their end."""
-    return len(sealed) >= _SEAL and seal(unseal(sealed)) == sealed
+    """Whether data agree with the checksum at their end; four zeros alone would, being the checksum of nothing."""
+    return len(sealed) > _SEAL and seal(unseal(sealed)) == sealed
 
 
 def unseal(sealed: bytes) -> bytes:
