@@ -56,10 +56,14 @@ def test_all_of_them(found):
         "matrix after (4.1)",
         "(4.2)",
         "(4.6), second form",
+        "(4.7)",
+        "(4.8)",
         "Proposition 4.1",
         "Proposition 4.1",
         "section 4a",
         "section 5, choice of ε",
+        "section 5, place of the impact",
+        "section 5, solution for w₁,₀₋",
         "section 5, reset at order ε",
         "(5.4)",
         "section 5, last display",
@@ -111,6 +115,58 @@ def test_second_form(rows):
     assert row.value == pytest.approx(closing(GAMMA, 1.0), abs=1e-13)
     # With the three corrections the second form gives the right value; see tests/literature.
     assert abs(row.printed_value - row.value) > 0.4
+
+
+def tail(period: float, share: float, sign: int) -> tuple[float, float]:
+    """(4.7) and (4.8) less one, times ``e^{γT/2}``, from the eigenvalues: with ``cos(s₄T ± ζ)`` and ``ζ`` from ``share s₃``."""
+    upper, lower = sorted(np.linalg.eigvals(flight_matrix(PAPER.replace(gamma=GAMMA))), key=lambda v: -v.imag)
+    leading = size = 0.0
+    for value, side in ((upper, -1), (lower, 1)):
+        s3 = abs(complex(1.0, PAPER.mu) * value)
+        s4 = -side * value.imag
+        s5 = -side * GAMMA + 2.0 * s4 * PAPER.mu
+        s2 = 2.0 + side * (upper.imag - lower.imag) + GAMMA * PAPER.mu
+        zeta = sign * 2.0 * math.atan(s5 / (share * s3 + s2))
+        leading += side * s3 * math.cos(s4 * period + zeta)
+        size += s3
+    scale = (1.0 + PAPER.d) / (upper.imag - lower.imag)
+    return scale * leading, scale * size
+
+
+def test_long_periods(rows):
+    """(4.7) carries the ζ of (4.6); the bound (4.8) lacks ``1 − e^{−γT/2}``, with which it holds."""
+    decay = math.exp(0.5 * GAMMA * 200.0)
+    exact = (closing(GAMMA, 200.0) - 1.0) * decay
+    row = rows["(4.7)"]
+    assert row.value == pytest.approx(exact, rel=1e-9)
+    # What is left out is the next power of e^{−γT/2}.
+    leading, size = tail(200.0, 2.0, -1)
+    assert leading == pytest.approx(exact, abs=1.01 * size / decay)
+    assert row.printed_value == pytest.approx(tail(200.0, 1.0, 1)[0], rel=1e-9)
+    assert abs(row.printed_value - exact) > 0.03
+    periods = np.linspace(20.0, 40.0, 2001)
+    beyond = np.array([abs(closing(GAMMA, t) - 1.0) * math.exp(0.5 * GAMMA * t) / tail(t, 1.0, 1)[1] for t in periods])
+    row = rows["(4.8)"]
+    assert row.value == pytest.approx(beyond.max(), abs=1e-4)
+    assert round(row.value, 1) == 1.3
+    assert (beyond * (1.0 - np.exp(-0.5 * GAMMA * periods)) < 1.0).all()
+
+
+def test_letters_of_section_5(rows, birth):
+    """On the exact branch, by differences of the place of its impact."""
+    step = 1e-5
+    here = rest_position(PAPER.replace(gamma=birth))
+    ends = [orbit(birth + side * step, 2.0, 3.3, fast=False)[2] for side in (-1.0, 1.0)]
+    slope = (ends[1] - ends[0]) / (2.0 * step)
+    row = rows["section 5, solution for w₁,₀₋"]
+    assert row.value == pytest.approx(abs(slope), abs=1e-6)
+    # With b for b₁ the equilibrium itself stands where its shift belongs.
+    rests = [rest_position(PAPER.replace(gamma=birth + side * step)) for side in (-1.0, 1.0)]
+    shift = (rests[1] - rests[0]) / (2.0 * step)
+    assert row.printed_value == pytest.approx(abs(slope - shift + here), abs=1e-6)
+    row = rows["section 5, place of the impact"]
+    assert row.value == pytest.approx(1.0, abs=1e-9)
+    assert row.printed_value == pytest.approx(abs(shift / abs(shift) + abs(shift) * slope), abs=1e-6)
 
 
 def test_counts(found):

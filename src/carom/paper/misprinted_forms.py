@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.local import ContactSystem
 from carom.orbits import Orbit, period_condition, single_impact_orbits
 from carom.paper.branches import FirstPair, first_pair
 from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
@@ -23,6 +24,11 @@ from carom.propositions import fixed_points
 from carom.rotors import jeffcott
 
 __all__ = ["Misprint", "misprints", "printed_matrix", "printed_second_form"]
+
+LONG = 200.0
+"""Period, in ``1/Ω``, at which the leading term of ``F₁`` is right to four digits at ``γ = 0.1``."""
+SMALL = 1e-6
+"""Distance in damping from ``γ*`` at which the letters of section 5 are tried."""
 
 
 @dataclass(frozen=True)
@@ -126,6 +132,12 @@ def _closed_forms(orbit: Orbit) -> Iterator[Misprint]:
         abs(orbit.radial_speed + 1j * orbit.angular_speed * before.position),
         abs(before.velocity),
     )
+    yield from _second_form(orbit)
+
+
+def _second_form(orbit: Orbit) -> Iterator[Misprint]:
+    """The second form of (4.6), and what the text draws from it."""
+    parameters = orbit.rotor.parameters
     yield Misprint(
         "(4.6), second form",
         "cos(s₄T + ζ), ζ = 2 arctan(s₅/(s₃ + s₂)), s₄ with a factor T",
@@ -133,6 +145,26 @@ def _closed_forms(orbit: Orbit) -> Iterator[Misprint]:
         "F₁(T) at T = 1, γ = 0.1",
         printed_second_form(parameters, 1.0),
         float(period_condition(orbit.rotor, np.array([1.0]))[0]),
+    )
+    leading, _ = _printed_tail(parameters, LONG)
+    yield Misprint(
+        "(4.7)",
+        "the ζ of (4.6)",
+        "cos(s₄T − ζ) with the right ζ, as there",
+        f"(F₁(T) − 1)e^{{γT/2}} at T = {LONG:g}, γ = 0.1",
+        leading,
+        float(period_condition(orbit.rotor, np.array([LONG]))[0] - 1.0) * math.exp(0.5 * parameters.gamma * LONG),
+    )
+    periods = np.linspace(20.0, 40.0, 4001)
+    bounds = np.array([_printed_tail(parameters, period)[1] for period in periods])
+    beyond = np.abs(period_condition(orbit.rotor, periods) - 1.0) * np.exp(0.5 * parameters.gamma * periods) / bounds
+    yield Misprint(
+        "(4.8)",
+        "|F₁ − 1| < (1 + d)e^{−γT/2}(s₃⁻ + s₃⁺)/s₁",
+        "that over 1 − e^{−γT/2}: as printed only in the limit of long periods",
+        f"largest |F₁ − 1| over the printed bound for T in 20…40, γ = 0.1 (at T = {periods[beyond.argmax()]:.3g})",
+        1.0,
+        float(beyond.max()),
     )
 
 
@@ -151,16 +183,38 @@ def printed_matrix(parameters: Parameters, period: float) -> np.ndarray:
     )
 
 
+def _printed_tail(parameters: Parameters, period: float) -> tuple[float, float]:
+    """``F₁ − 1`` by (4.7) and the distance of the bounds (4.8) from 1, as printed, both times ``e^{γT/2}``.
+
+    But for the ``T`` that ``s₄`` has too many, which would make its phase grow with ``T²``.
+    """
+    leading, size = 0.0, 0.0
+    s1 = math.sqrt(4.0 * parameters.omega**2 - parameters.gamma**2)
+    for sign in (-1, 1):
+        _, s3, s4, zeta = _letters(parameters, period, sign)
+        leading += sign * s3 * math.cos(s4 + zeta)
+        size += s3
+    scale = (1.0 + parameters.d) / s1
+    return scale * leading, scale * size
+
+
+def _letters(parameters: Parameters, period: float, sign: int) -> tuple[float, float, float, float]:
+    """``s₂``, ``s₃``, ``s₄`` and ``ζ`` below (4.6), as printed."""
+    gamma, omega, mu = parameters.gamma, parameters.omega, parameters.mu
+    s1 = math.sqrt(4.0 * omega**2 - gamma**2)
+    s2, s3 = 2.0 + sign * s1 + gamma * mu, math.sqrt((1.0 + mu**2) * (1.0 + omega**2 + sign * s1))
+    s4, s5 = (2.0 * sign + s1) * period / 2.0, -sign * gamma + (2.0 * sign + s1) * mu
+    return s2, s3, s4, 2.0 * math.atan(s5 / (s3 + s2))
+
+
 def printed_second_form(parameters: Parameters, period: float) -> float:
     """The second form of (4.6) as printed."""
-    gamma, omega, mu = parameters.gamma, parameters.omega, parameters.mu
+    gamma, omega = parameters.gamma, parameters.omega
     s1 = math.sqrt(4.0 * omega**2 - gamma**2)
     half = math.exp(gamma * period / 2.0)
     total = 0.0
     for sign in (-1, 1):
-        s2, s3 = 2.0 + sign * s1 + gamma * mu, math.sqrt((1.0 + mu**2) * (1.0 + omega**2 + sign * s1))
-        s4, s5 = (2.0 * sign + s1) * period / 2.0, -sign * gamma + (2.0 * sign + s1) * mu
-        zeta = 2.0 * math.atan(s5 / (s3 + s2))
+        s2, s3, s4, zeta = _letters(parameters, period, sign)
         top = s2 * half - 2.0 * s3 * half**2 * math.cos(s4 * period + zeta)
         total -= sign * top / (1.0 + half**2 - 2.0 * half * math.cos(s4 * period))
     return 1.0 + (1.0 + parameters.d) / (2.0 * s1 * half) * total
@@ -219,6 +273,7 @@ def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
         -1.0,
         math.copysign(1.0, outward),
     )
+    yield from _letters_of_section_5(branches)
     turn = _direction_of_kick(branches, cycle.period)
     yield Misprint(
         "section 5, reset at order ε",
@@ -245,6 +300,35 @@ def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
         "dθ̇/dγ of B1,b at γ*",
         -cycle.angular_slope,
         cycle.angular_slope,
+    )
+
+
+def _letters_of_section_5(branches: FirstPair) -> Iterator[Misprint]:
+    """Letters of section 5 that stand for others, on the small ``B1,b``."""
+    hopf = branches.hopf
+    cycle = max(hopf.cycles, key=lambda entry: entry.period)
+    system = ContactSystem.of_rotor(machine_at(hopf.gamma))
+    rest = system.equilibrium  # u₀ = e^{iΨ}, as σ = 1
+    shift = -1j * rest / system.stiffness  # u₁ = c e^{iψ} of the equilibrium, with β₁ = i and Γ₁ = 0
+    across = cycle.angle_slope * 1j * rest  # r₁,₀ e^{iθ₁,₀} with θ₁,₀ = Ψ + π/2
+    yield Misprint(
+        "section 5, place of the impact",
+        "|σe^{iψ} + c r₁,₀e^{iθ₁,₀}|, with c and ψ those of the shifted equilibrium",
+        "|σe^{iΨ} + ε r₁,₀e^{iθ₁,₀}|",
+        f"its value for B1,b at γ* + {SMALL:g}, which must be σ = 1",
+        abs(shift / abs(shift) + abs(shift) * across),
+        abs(rest + SMALL * across),
+    )
+    condition = PeriodCondition(system)
+    # From ṙ = −ε r₁,₀θ̇₁,₀ at the impact; the normal is e^{iΨ}.
+    lever = complex((condition.factor * condition.a12(np.array([cycle.period])))[0]) * cycle.radial_slope * rest
+    yield Misprint(
+        "section 5, solution for w₁,₀₋",
+        "−A₀⁻¹b, and z₀ in b₁",
+        "−A₀⁻¹b₁ with b₁ = (0, Γ₁ − β₁u₀)",
+        "modulus of its position for B1,b, which must be |r₁,₀|",
+        abs(rest - lever),
+        abs(shift - lever),
     )
 
 
