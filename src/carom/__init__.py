@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from carom.basins import harmless_shock as harmless_shock
     from carom.basins import integrity as integrity
     from carom.basins import least_gain_change as least_gain_change
+    from carom.basins import smallest_loss as smallest_loss
     from carom.basins import smallest_unrecovered_kick as smallest_unrecovered_kick
     from carom.bifurcations import Diagram as Diagram
     from carom.bifurcations import OrbitBranch as OrbitBranch
@@ -174,6 +175,7 @@ _HOMES = {
     "settle_all": "ensembles",
     "simulate": "trajectories",
     "single_impact_orbits": "orbits",
+    "smallest_loss": "basins",
     "smallest_unrecovered_kick": "basins",
     "study": "study",
 }

@@ -69,7 +69,7 @@ def shaken(rotor: Rotor, duration: float) -> Rotor:
 
 def states_after_shocks(
     rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """State at the end of half-sine pulses that hit the levitating rotor.
 
     Parameters
@@ -87,6 +87,8 @@ def states_after_shocks(
         In the co-rotating frame at the end of the pulse; on the wall where the rotor is in contact then.
     undecided : ndarray of bool
         The wall was grazed so nearly that double precision cannot decide.
+    touched : ndarray of bool
+        The rotor met the wall during the pulse.
     """
     during = shaken(rotor, duration)
     arrays, table = during.arrays, during.table
@@ -95,7 +97,7 @@ def states_after_shocks(
     log, work, rub = EventLog.empty(LOGGED, MODES), workspace(MODES), rub_workspace(MODES)
     recollection = fresh_memory(during, 0)
     positions, velocities = np.empty((2, *peaks.shape), complex)
-    undecided = np.zeros(peaks.shape, bool)
+    undecided, touched = np.zeros((2, *peaks.shape), bool)
     for place in np.ndindex(peaks.shape):
         amplitudes = _at_rest(exponents, float(peaks[place]), float(directions[place]))
         forget(recollection)
@@ -109,8 +111,8 @@ def states_after_shocks(
         position = _sum(rest, rows, values)
         positions[place] = position / abs(position) if plane >= 0 else position
         velocities[place] = _sum(0j, rate_rows, values)
-        undecided[place] = outcome != TIME_REACHED
-    return positions, velocities, undecided
+        undecided[place], touched[place] = outcome != TIME_REACHED, events > 0
+    return positions, velocities, undecided, touched
 
 
 def _sum(start: complex, row: list[complex], amplitudes: list[complex]) -> complex:

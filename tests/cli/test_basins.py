@@ -61,6 +61,8 @@ def test_table_and_files(carom, machine, tmp_path):
         "Back to levitation",
         "Smallest kick",
         "provably",
+        "Known after: time from the start until it was known",
+        "Touched the wall: ",
         " % of the largest radius tried",
         "Present machine: stiffness of the levitation 980,000 N/m",
         "of 64 cells of a grid, each represented by its middle: no sampling error).",
@@ -127,7 +129,58 @@ def test_no_kick_is_lost(carom, machine):
     assert document["smallest_unrecovered_kick"] is None
     assert document["smallest_unrecovered_kick_si"] is None
     assert document["fractions"] == {"levitation": 1.0}
-    assert "Every kick tried comes back" in carom(*words)[1]
+    assert document["smallest_unrecovered_kick_bracket"] == [pytest.approx(0.05 / (0.7e-3 * 184.2)), None]
+    shown = carom(*words)[1]
+    assert "Smallest kick" not in shown
+    assert "all that were tried came back" in shown
+    assert "None of the 16 touched the wall." in shown
+
+
+@pytest.mark.parametrize(
+    ("words", "name", "unit"),
+    [
+        (("shock", "--grid", "4x4", "--peak", "1 g", "--duration", "5 ms"), "shock", 0.7e-3 * 184.2**2),
+        (("unbalance", "--grid", "4x4", "--before", "0.3 mm"), "step", 0.7e-3),
+        (("release", "--grid", "9"), "release_speed", 0.7e-3 * 184.2),
+    ],
+)
+def test_smallest_loss_is_that_of_the_disturbances(carom, machine, words, name, unit):
+    """A bracket in the unit of the disturbance, and not a word of kicks."""
+    called = ("basins", machine, "--disturbance", *words)
+    document, shown = json.loads(carom(*called, "--json")[1]), carom(*called)[1]
+    assert "kick" not in shown
+    assert document["smallest_unrecovered_kick"] is document["smallest_unrecovered_kick_si"] is None
+    size, (back, lost) = document[f"smallest_unrecovered_{name}"], document[f"smallest_unrecovered_{name}_bracket"]
+    assert size == lost
+    assert document[f"smallest_unrecovered_{name}_si"] == pytest.approx(size * unit)
+    if name == "release_speed":
+        assert (back, lost) == (None, 0.0)
+        assert document["touching"] == 9
+        return
+    assert document[f"harmless_{name}"] < back < lost < back * 1.002
+    assert document[f"smallest_unrecovered_{name}_bracket_si"] == pytest.approx([back * unit, lost * unit])
+    assert f"Smallest {name}" in shown
+    # Against the grid of the basin: what is lost there is not smaller.
+    assert document["touching"] >= round(document["starts"] * (1.0 - document["recovered"]["fraction"]))
+
+
+def test_states_have_no_smallest_kick(carom, dimensionless):
+    words = ("basins", dimensionless, "--disturbance", "state", "--starts", "40")
+    assert "kick" not in carom(*words)[1]
+    assert json.loads(carom(*words, "--json")[1])["smallest_unrecovered_kick"] is None
+
+
+def test_a_sample_of_which_all_come_back_and_what_it_can_show(carom, machine):
+    """100 of 100 show no share of 99 %; 381 do, and then no change is needed."""
+    words = ("basins", machine, "--set", "damping=9000 N s/m", "--fastest", "20 mm/s", "--gains", "2x2")
+    few, enough = (carom(*words, "--starts", count)[1] for count in ("100", "381"))
+    assert "4 of 4 bring back at least 99 % of the 100 tried" in few
+    assert "shown with 95 % confidence for none of them: 100 starts are too few, 381 (--starts 381) would" in few
+    assert "No machine" not in few
+    assert "shown with 95 % confidence for 4 of them." in enough
+    assert "No change is needed." in enough
+    document = json.loads(carom(*words, "--starts", "100", "--json")[1])["gains"]
+    assert (document["machines_reaching"], document["machines_sure"], document["starts_enough"]) == (4, 0, 381)
 
 
 @pytest.mark.parametrize(

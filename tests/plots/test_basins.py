@@ -76,13 +76,13 @@ def test_kicks_by_size_and_direction(rotor):
     round_, beside = figure.axes
     assert round_.name == "polar"
     (mark,) = [line for line in round_.get_lines() if line.get_gid() == "smallest"]
-    assert mark.get_ydata()[0] == pytest.approx(1e3 * smallest.speed * SCALES.velocity)
+    assert mark.get_ydata()[0] == pytest.approx(1e3 * smallest.size * SCALES.velocity)
     assert mark.get_xdata()[0] == pytest.approx(smallest.angle)
     assert "(mm/s)" in round_.get_xlabel()
     assert max(round_.get_yticks()) < 0.99 * round_.get_ylim()[1]
     assert beside.get_xlabel() == "size of the kick (mm/s)"
     assert any(text.startswith("levitates without contact, ") for text in words(figure))
-    assert "smallest kick that is lost" in words(figure)
+    assert "smallest kick found that is lost" in words(figure)
 
 
 def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):

@@ -5,7 +5,8 @@
 ``motions``         names of the motions that starts end on
 ``store``           netCDF files, whole or not at all
 ``shares``          shares with their confidence intervals
-``kicks``           the smallest kick that does not come back
+``kicks``           disturbances that provably never reach the wall
+``losses``          from which size on kicks, shocks, steps and releases are lost
 ``integrity``       the largest ball of starts that all come back
 ``entropy``         basin entropy and boundary basin entropy
 ``gains``           all that against two parameters: gain maps
@@ -19,7 +20,8 @@ from carom.basins.classification import Basin, basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, gain_map
 from carom.basins.integrity import Integrity, integrity
-from carom.basins.kicks import SmallestKick, harmless_kick, harmless_shock, smallest_unrecovered_kick
+from carom.basins.kicks import harmless_kick, harmless_shock, harmless_step
+from carom.basins.losses import SmallestLoss, smallest_loss, smallest_unrecovered_kick
 from carom.basins.shares import Share
 
 __all__ = [
@@ -29,13 +31,15 @@ __all__ = [
     "GainMap",
     "Integrity",
     "Share",
-    "SmallestKick",
+    "SmallestLoss",
     "basin_entropy",
     "basins",
     "gain_map",
     "harmless_kick",
     "harmless_shock",
+    "harmless_step",
     "integrity",
     "least_gain_change",
+    "smallest_loss",
     "smallest_unrecovered_kick",
 ]

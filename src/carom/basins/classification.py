@@ -59,7 +59,8 @@ class Basin:
     dataset : xarray.Dataset
         Dimensions are the coordinates of a grid, or ``start``.  Variables: ``outcome``
         (:class:`~carom.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the name of the motion),
-        ``time`` until that was known, ``impacts`` until then, ``multiplicity`` (impacts a period), and the starts
+        ``time`` until that was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, if only
+        during a shock or because it started there), ``multiplicity`` (impacts a period), and the starts
         ``start_x``, ``start_y``, ``start_vx``, ``start_vy`` in the co-rotating frame.  Lengths in ``c_r``, times in
         ``1/Ω``; coordinates ending in ``_si`` are there where the machine is known.  Attributes hold what it takes to
         do it again: parameters, disturbance, seed, criteria, versions.
@@ -111,6 +112,12 @@ class Basin:
         """Which come back to levitation for good."""
         recovered: np.ndarray = self.outcomes == Outcome.LEVITATED
         return recovered
+
+    @property
+    def touched(self) -> np.ndarray:
+        """In which of them the rotor met the wall."""
+        touched: np.ndarray = self.dataset["touched"].values > 0
+        return touched
 
     @property
     def resolved(self) -> np.ndarray:
@@ -176,7 +183,7 @@ class Basin:
         """
         from carom.basins.store import load
 
-        return cls(load(path, ("outcome", "motion", "time")))
+        return cls(load(path, ("outcome", "motion", "time", "touched")))
 
 
 def basins(
@@ -344,6 +351,10 @@ def _dataset(
         ),
         "time": (np.where(starts.exists, endings.times, np.nan), time),
         "impacts": (endings.impacts, {"units": "1", "long_name": "impacts until then"}),
+        "touched": (
+            _touched(starts, endings, outcomes).astype(np.int8),
+            {"units": "1", "long_name": "1 where the rotor met the wall, else 0"},
+        ),
         "multiplicity": (
             endings.multiplicities.astype(np.int32),
             {"units": "1", "long_name": "impacts in a period of bouncing; 0 otherwise (of bouncing: irregular)"},
@@ -358,6 +369,13 @@ def _dataset(
         coords=axes,
         attrs=dict(attributes),
     )
+
+
+def _touched(starts: Starts, endings: Endings, outcomes: np.ndarray) -> np.ndarray:
+    """In which motions the rotor met the wall; what settles there without an impact slides or rolls there."""
+    stays = outcomes > Outcome.LEVITATED
+    touched: np.ndarray = starts.exists & (starts.touched | (endings.impacts > 0) | stays)
+    return touched
 
 
 def _axes(rotor: Rotor, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:

@@ -11,14 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from carom.basins.changes import GainChange
+from carom.basins.changes import WANTED, GainChange
 from carom.basins.classification import Basin
 from carom.basins.entropy import basin_entropy
 from carom.basins.gains import GainMap
 from carom.basins.integrity import integrity
-from carom.basins.kicks import SmallestKick, harmless_shock
-from carom.basins.shares import Share
-from carom.disturbances import BaseShock
+from carom.basins.kicks import harmless_shock, harmless_step
+from carom.basins.losses import SmallestLoss, size_coordinate
+from carom.basins.shares import Share, starts_enough
+from carom.disturbances import BaseShock, Sample, UnbalanceStep
 from carom.outcome import InputError
 
 __all__ = ["basin_document"]
@@ -26,23 +27,26 @@ __all__ = ["basin_document"]
 
 def basin_document(
     basin: Basin,
-    smallest: SmallestKick | None,
+    smallest: SmallestLoss | None,
     harmless: float,
     gains: GainMap | None = None,
     change: GainChange | None = None,
+    wanted: float = WANTED,
 ) -> dict[str, Any]:
     """Everything known of a basin.
 
     Parameters
     ----------
     basin : Basin
-    smallest : SmallestKick or None
-        ``None`` if no kick tried is lost, or there is no levitation to be kicked out of.
+    smallest : SmallestLoss or None
+        Of the kind of its disturbances; ``None`` if they have no size, or there is no levitation to come back to.
     harmless : float
         Speed up to which kicks provably never reach the wall.
     gains : GainMap, optional
     change : GainChange, optional
         Least change of the two parameters that reaches the wanted share.
+    wanted : float
+        Share of the disturbances that is to come back, 0 to 1.
     """
     scales = basin.scales
     attributes = basin.dataset.attrs
@@ -50,13 +54,11 @@ def basin_document(
         "starts": basin.starts,
         "fractions": basin.fractions,
         "unresolved": basin.unresolved,
-        "smallest_unrecovered_kick": smallest.speed if smallest else None,
-        "smallest_unrecovered_kick_angle": smallest.angle if smallest else None,
-        "smallest_unrecovered_kick_outcome": smallest.outcome.label if smallest else None,
-        "smallest_unrecovered_kick_tolerance": smallest.tolerance if smallest else None,
-        "kicks_tried": smallest.tried if smallest else None,
+        **_loss(smallest, basin, "kick"),
         "harmless_kick": harmless,
         "recovered": _share(basin.share_recovered),
+        "touching": int(basin.touched.sum()),
+        "touching_recovered": int((basin.touched & basin.recovered).sum()),
         "integrity": _integrity(basin),
         "basin_entropy": _entropy(basin),
         "parameters": basin.parameters.as_dict(),
@@ -65,16 +67,48 @@ def basin_document(
         "source": attributes["source"],
     }
     if scales is not None:
-        document["smallest_unrecovered_kick_si"] = smallest.speed * scales.velocity if smallest else None
         document["harmless_kick_si"] = harmless * scales.velocity
         document["scales_si"] = {name: getattr(scales, name) for name in ("mass", "clearance", "speed")}
     model = basin.plan.model
+    if smallest is not None and smallest.kind != "kick":
+        document |= _loss(smallest, basin, smallest.kind)
+    if isinstance(model, UnbalanceStep):
+        document["harmless_step"] = harmless_step(basin.rotor)
+        if scales is not None:
+            document["harmless_step_si"] = document["harmless_step"] * scales.length
     if isinstance(model, BaseShock):
         document["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
         if scales is not None:
             document["harmless_shock_si"] = document["harmless_shock"] * scales.acceleration
     if gains is not None:
-        document["gains"] = _gains(gains, change)
+        document["gains"] = _gains(gains, change, wanted)
+    return document
+
+
+_SIZES = {"kick": "kick", "shock": "shock", "step": "step", "release": "release_speed"}
+
+
+def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, Any]:
+    """The smallest loss of a kind; all ``None`` where it was not looked for."""
+    found = smallest if smallest is not None and smallest.kind == kind else None
+    name = f"smallest_unrecovered_{_SIZES[kind]}"
+    bracket = [found.all_back, found.size] if found else None
+    document: dict[str, Any] = {
+        name: found.size if found else None,
+        f"{name}_bracket": bracket,
+        f"{name}_angle": found.angle if found else None,
+        f"{name}_outcome": found.outcome.label if found and found.outcome else None,
+        f"{name}_tolerance": found.tolerance if found else None,
+        f"{kind}s_tried": found.tried if found else None,
+        f"{kind}s_tried_afresh": found.fresh if found else None,
+        f"{kind}s_lost_below": found.share_below if found else None,
+    }
+    if kind == "release":
+        document[f"{name}_backward"] = found.backward if found else None
+    if basin.scales is not None:
+        unit = size_coordinate(basin.plan.model).si(basin.scales)
+        document[f"{name}_si"] = found.size * unit if found and found.size is not None else None
+        document[f"{name}_bracket_si"] = [None if end is None else end * unit for end in bracket] if bracket else None
     return document
 
 
@@ -103,8 +137,9 @@ def _entropy(basin: Basin) -> dict[str, Any] | None:
     return {"whole": found.whole, "boundary": found.boundary, "side": found.side, "fractal": found.fractal}
 
 
-def _gains(gains: GainMap, change: GainChange | None) -> dict[str, Any]:
+def _gains(gains: GainMap, change: GainChange | None, wanted: float) -> dict[str, Any]:
     first, second = gains.axes
+    drawn = isinstance(gains.plan, Sample)
     return {
         "parameters": [first.name, second.name],
         "units": [first.field.unit, second.field.unit],
@@ -113,6 +148,10 @@ def _gains(gains: GainMap, change: GainChange | None) -> dict[str, Any]:
         "levitates": (gains.dataset["levitates"].values > 0.0).tolist(),
         "present": list(gains.present),
         "present_recovered": _share(gains.present_share),
+        "starts_enough": starts_enough(wanted) if drawn else None,
+        "wanted": wanted,
+        "machines_reaching": int((gains.dataset["recovered"].values >= wanted).sum()),
+        "machines_sure": int((gains.dataset["recovered_low"].values >= wanted).sum()),
         "least_change": None
         if change is None
         else {

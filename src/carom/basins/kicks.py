@@ -1,58 +1,15 @@
-"""The smallest kick out of levitation that does not come back."""
+"""Disturbances that provably never bring the rotor to the wall, and the smallest of those tried that is lost."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
-from carom.disturbances import FASTEST, VelocityKick
-from carom.ensembles import settle_all
 from carom.outcome import InputError, Outcome
 from carom.rotors import Rotor
 
-__all__ = ["SmallestKick", "harmless_kick", "harmless_shock", "smallest_lost", "smallest_unrecovered_kick"]
-
-DIRECTIONS, SPEEDS = 96, 96
-TOLERANCE = 1e-3
-NARROWED = 4
-"""Factor by which the directions looked at close in, from one round to the next."""
-BESIDE = 8
-"""Directions to each side of the best one so far, in each round."""
-BELOW = 24
-"""Speeds up to that of the best one so far, tried in each of them."""
-
-
-@dataclass(frozen=True)
-class SmallestKick:
-    """The smallest kick found that does not come back to levitation.
-
-    Attributes
-    ----------
-    speed : float
-        Change of velocity in ``c_r Ω``.
-    angle : float
-        Direction in the co-rotating frame, rad.
-    outcome : Outcome
-        Where it ends.
-    recovered : float
-        A smaller kick in this direction, within the tolerance, that comes back.
-    harmless : float
-        Kicks up to this speed provably never reach the wall, in any direction; see :func:`harmless_kick`.
-    tolerance : float
-        Relative width of the bracket, and angle in rad between the directions looked at last.
-    tried : int
-        Kicks followed.
-    """
-
-    speed: float
-    angle: float
-    outcome: Outcome
-    recovered: float
-    harmless: float
-    tolerance: float
-    tried: int
+__all__ = ["harmless_kick", "harmless_shock", "harmless_step", "lost", "smallest_lost"]
 
 
 def harmless_kick(rotor: Rotor) -> float:
@@ -95,6 +52,26 @@ def harmless_shock(rotor: Rotor, duration: float) -> float:
     return harmless_kick(rotor) * math.pi / (2.0 * duration)
 
 
+def harmless_step(rotor: Rotor) -> float:
+    """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
+
+    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame, which is the deviation when
+    the step comes; its velocity in the fixed frame is ``iu₀``.  The deviation obeys ``ü + γu̇ + ω²u = 0`` there, whose energy
+    ``|u̇|² + ω²|u|²`` does not grow, so that it stays below ``|u₀|√(1 + 1/ω²)``.  A bound, and not a sharp one.
+
+    Returns
+    -------
+    float
+        In ``c_r``; zero where the rotor cannot levitate inside the wall or its levitation is unstable.
+    """
+    numbers = rotor.parameters
+    gap = 1.0 - abs(rotor.equilibrium)
+    if gap <= 0.0 or numbers.gamma < 0.0 or numbers.omega == 0.0:
+        return 0.0
+    stiffness = math.hypot((numbers.omega - 1.0) * (numbers.omega + 1.0), numbers.gamma)
+    return gap * (1.0 - 1e-9) * stiffness / math.hypot(1.0, 1.0 / numbers.omega)
+
+
 def _largest_response(gamma: float, omega: float) -> float:
     """Largest deviation after a kick of speed 1."""
     half = gamma / 2.0
@@ -107,103 +84,6 @@ def _largest_response(gamma: float, omega: float) -> float:
         rate = math.sqrt(-square)
         moment = math.log((half + rate) ** 2 / omega**2) / (2.0 * rate)
     return math.exp(-half * moment) / omega
-
-
-def smallest_unrecovered_kick(
-    rotor: Rotor,
-    fastest: float = FASTEST,
-    *,
-    directions: int = DIRECTIONS,
-    speeds: int = SPEEDS,
-    tolerance: float = TOLERANCE,
-    threads: int | None = None,
-) -> SmallestKick | None:
-    """Search the smallest kick that does not come back, beyond any grid.
-
-    All directions are scanned at growing speeds between the proven harmless one and the fastest; the first speed that
-    does not come back is bisected in every direction; then directions close in on the best one until they are
-    ``tolerance`` rad apart, each scanned and bisected below the best speed so far.  Basins can be thinner than any
-    scan: a smaller kick that is lost is possible, but all that were tried below come back.
-
-    Parameters
-    ----------
-    rotor : Rotor
-    fastest : float
-        Largest kick looked at, in ``c_r Ω``.
-    directions, speeds : int
-        Of the scan.
-    tolerance : float
-    threads : int, optional
-
-    Returns
-    -------
-    SmallestKick or None
-        ``None`` if every kick tried comes back.
-
-    Raises
-    ------
-    InputError
-        The rotor cannot levitate inside the wall, or its levitation is unstable.
-    """
-    if abs(rotor.equilibrium) >= 1.0:
-        raise InputError("kick", f"|U*| = {abs(rotor.equilibrium):.6g}", "needs levitation inside the wall")
-    if rotor.parameters.gamma < 0.0:
-        raise InputError("gamma", rotor.parameters.gamma, "at least 0: there is no levitation to come back to")
-    if not (np.isfinite(fastest) and fastest > 0.0):
-        raise InputError("fastest", fastest, "a speed above 0, in c_r Omega")
-    harmless = harmless_kick(rotor)
-    if harmless >= fastest:
-        return None
-    search = _Search(rotor, tolerance, threads)
-    levels = harmless + (fastest - harmless) * np.arange(1, speeds + 1) / speeds
-    search.look(2.0 * math.pi * np.arange(directions) / directions, np.append(harmless, levels))
-    if search.best is None:
-        return None
-    apart = 2.0 * math.pi / directions
-    while apart > tolerance:
-        apart /= NARROWED
-        _, speed, angle, _ = search.best
-        beside = angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
-        search.look(beside, np.linspace(harmless, speed, BELOW + 1))
-    recovered, speed, angle, outcome = search.best
-    return SmallestKick(
-        speed, math.remainder(angle, 2.0 * math.pi), outcome, recovered, harmless, tolerance, search.tried
-    )
-
-
-class _Search:
-    """Kicks followed so far, and the best bracket: largest recovered below, smallest lost, direction, outcome."""
-
-    def __init__(self, rotor: Rotor, tolerance: float, threads: int | None) -> None:
-        self.rotor, self.tolerance, self.threads = rotor, tolerance, threads
-        self.tried = 0
-        self.best: tuple[float, float, float, Outcome] | None = None
-
-    def look(self, angles: np.ndarray, levels: np.ndarray) -> None:
-        """Scan directions at growing speeds, of which the first is known to come back; bisect the first that is lost."""
-        outcomes = self._outcomes(levels[None, 1:], angles[:, None])
-        gone = lost(outcomes)
-        hit = np.flatnonzero(gone.any(axis=1))
-        if not len(hit):
-            return
-        first = gone[hit].argmax(axis=1)
-        low, high = levels[first], levels[first + 1]
-        ends, angles = outcomes[hit, first], angles[hit]
-        while ((high - low) > self.tolerance * high).any():
-            middle = 0.5 * (low + high)
-            found = self._outcomes(middle, angles)
-            gone = lost(found)
-            low, high = np.where(gone, low, middle), np.where(gone, middle, high)
-            ends = np.where(gone, found, ends)
-        place = int(high.argmin())
-        if self.best is None or high[place] < self.best[1]:
-            self.best = float(low[place]), float(high[place]), float(angles[place]), Outcome(int(ends[place]))
-
-    def _outcomes(self, speeds: np.ndarray, angles: np.ndarray) -> np.ndarray:
-        speeds, angles = np.broadcast_arrays(speeds, angles)
-        starts = VelocityKick().starts(self.rotor, speeds, angles)
-        self.tried += speeds.size
-        return settle_all(self.rotor, starts.positions, starts.velocities, threads=self.threads).outcomes
 
 
 def lost(outcomes: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from statistics import NormalDist
 
-__all__ = ["Share"]
+__all__ = ["Share", "starts_enough"]
 
 CONFIDENCE = 0.95
 
@@ -62,3 +62,22 @@ def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> t
     low = 0.0 if count == 0 else (middle - half) / (1.0 + weight)
     high = 1.0 if count == total else (middle + half) / (1.0 + weight)
     return low, high
+
+
+def starts_enough(wanted: float, confidence: float = CONFIDENCE) -> int | None:
+    """Fewest starts of which all must come back for the interval of the share to begin at the wanted one.
+
+    Of ``n`` of ``n`` Wilson's interval begins at ``n/(n + z²)``.
+
+    Returns
+    -------
+    int or None
+        ``None`` for a share of one, which no sample can show.
+    """
+    if wanted >= 1.0:
+        return None
+    square = NormalDist().inv_cdf(0.5 + confidence / 2.0) ** 2
+    count = max(1, math.floor(square * wanted / (1.0 - wanted)))
+    while wilson_interval(count, count, confidence)[0] < wanted:
+        count += 1
+    return count

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from carom.basins import Basin, GainChange, GainMap, SmallestKick
+    from carom.basins import Basin, GainChange, GainMap, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
@@ -29,7 +29,7 @@ _NAMES = {
 }
 
 
-def print_basin(screen: Console, basin: Basin, smallest: SmallestKick | None, harmless: float) -> None:
+def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print what was tried, where it ends, and how much it takes."""
     from rich import box
     from rich.table import Table
@@ -46,10 +46,15 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestKick | None, ha
         interval = [f"{100 * share.low:.3g} to {100 * share.high:.3g} %"] if drawn else []
         table.add_row(name, str(share.count), f"{100 * share.fraction:.4g} %", *interval, _time(when, basin.scales))
     screen.print(table)
+    screen.print(
+        "Known after: time from the start until it was known where the motion ends, proven or by the criterion of that outcome; "
+        "it need not be there yet. The median of the starts that end so."
+    )
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
+    screen.print(_touching(basin))
     if basin.unresolved:
         screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")
-    for line in (*_kicks(basin, smallest, harmless), *_shocks(basin), *_measures(basin)):
+    for line in (*_losses(basin, smallest, harmless), *_measures(basin)):
         screen.print(line)
 
 
@@ -63,15 +68,20 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     )
     screen.print(f"Present machine: {here}; {back} of the disturbances come back.")
     shape = " x ".join(str(size) for size in share.shape)
-    enough = float((share >= wanted).mean())
+    reach = int((share >= wanted).sum())
+    drawn = found.present_share.drawn
+    of_what = f"the {found.present_share.total} tried" if drawn else "the disturbances"
     screen.print(
-        f"Of {shape} machines with other {found.axes[0].name} and {found.axes[1].name}, {100 * enough:.3g} % bring back "
-        f"{100 * wanted:g} % of the disturbances; {100 * (1 - able.mean()):.3g} % cannot levitate without contact."
+        f"Of {shape} machines with other {found.axes[0].name} and {found.axes[1].name}, {reach} of {share.size} bring back at least "
+        f"{100 * wanted:g} % of {of_what}; {100 * (1 - able.mean()):.3g} % cannot levitate without contact."
     )
+    if drawn:
+        screen.print(_sure(found, wanted, reach))
     if not all(found.present):
         return
     if change is None:
-        screen.print(f"No machine of the map brings back {100 * wanted:g} %{_for_sure(found, enough)}.")
+        if not reach:
+            screen.print(f"No machine of the map brings back {100 * wanted:g} %.")
     elif change.size == 0.0:
         screen.print("No change is needed.")
     else:
@@ -84,11 +94,18 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
         )
 
 
-def _for_sure(found: GainMap, enough: float) -> str:
-    """What is asked of a sample, where some machines bring back enough of theirs."""
-    if enough == 0.0 or not found.present_share.drawn:
-        return ""
-    return f" with 95 % confidence, as is asked of a sample: {found.present_share.total} starts may be too few"
+def _sure(found: GainMap, wanted: float, reach: int) -> str:
+    """For how many machines a sample shows the wanted share, and how large it has to be to show it."""
+    from carom.basins.shares import starts_enough
+
+    sure = int((found.dataset["recovered_low"].values >= wanted).sum())
+    text = f"That at least {100 * wanted:g} % of all such disturbances come back is shown with 95 % confidence for {sure or 'none'} of them"
+    enough, total = starts_enough(wanted), found.present_share.total
+    if enough is None:
+        return f"{text}: no sample can show that all come back."
+    if sure < reach and total < enough:
+        return f"{text}: {total} starts are too few, {enough} (--starts {enough}) would show it where all of them come back."
+    return f"{text}."
 
 
 def _tried(basin: Basin) -> str:
@@ -107,31 +124,78 @@ def _tried(basin: Basin) -> str:
     return text + "."
 
 
-def _kicks(basin: Basin, smallest: SmallestKick | None, harmless: float) -> list[str]:
-    scales = basin.scales
-    if harmless <= 0.0:
-        return ["No kick is proven harmless: the rotor has no stable levitation inside the wall."]
-    proven = f"Kicks up to {_speed(harmless, scales)} provably never reach the wall."
-    if smallest is None:
-        return ["Every kick tried comes back.", proven]
-    heavy = math.degrees(math.remainder(smallest.angle - basin.parameters.phi, 2.0 * math.pi))
-    found = (
-        f"Smallest kick found that does not come back: {_speed(smallest.speed, scales)} in direction "
-        f"{smallest.angle:.4f} rad ({heavy:+.0f} deg from the heavy side); it ends in {smallest.outcome.label.replace('-', ' ')} "
-        f"(bracketed to {100 * smallest.tolerance:g} %, {smallest.tried} kicks tried)."
-    )
-    return [found, proven]
+def _touching(basin: Basin) -> str:
+    """How many met the wall, and how many of these come back."""
+    met, back = int(basin.touched.sum()), int((basin.touched & basin.recovered).sum())
+    if not met:
+        return f"None of the {basin.starts} touched the wall."
+    return f"Touched the wall: {met} of {basin.starts}; of these {back or 'none'} came back."
 
 
-def _shocks(basin: Basin) -> list[str]:
-    from carom.basins import harmless_shock
-    from carom.disturbances import BaseShock
+_LOSSES = {
+    "kick": "kick",
+    "shock": "shock of this duration",
+    "step": "step of the unbalance",
+    "release": "release",
+}
 
-    model = basin.plan.model
-    if not isinstance(model, BaseShock):
+
+def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[str]:
+    """From which size on disturbances are lost, for those that have a size."""
+    from carom.basins.losses import has_sizes, size_coordinate
+
+    if not has_sizes(basin.plan.model):
         return []
-    bound = _size(model.coordinates[0], harmless_shock(basin.rotor, model.duration), basin.scales)
-    return [f"Shocks of this duration up to {bound} provably never bring the rotor to the wall."]
+    if smallest is None or harmless <= 0.0:
+        return ["The rotor has no stable levitation inside the wall: no disturbance is proven harmless."]
+    size = size_coordinate(basin.plan.model)
+
+    def shown(value: float) -> str:
+        return _size(size, value, basin.scales, 5)
+
+    noun = _LOSSES[smallest.kind]
+    lines = []
+    if smallest.size is not None:
+        lines.append(
+            f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {_where(basin, smallest)}"
+            f"{_ending(smallest)}."
+        )
+    if smallest.all_back is None:
+        lines.append("It is lost already without any speed.")
+    elif smallest.fresh:
+        said = (
+            "lies between them"
+            if smallest.size is not None
+            else f"is larger than the largest tried, {shown(smallest.largest)}"
+        )
+        beyond = " beyond the proven size and" if smallest.harmless > 0.0 else ""
+        lines.append(
+            f"Up to {shown(smallest.all_back)} all that were tried came back, {smallest.fresh} of them fresh: with 95 % confidence "
+            f"less than {100.0 * smallest.share_below:.2g} % of those{beyond} up to there are lost. As far as {smallest.tried} trials "
+            f"tell, the smallest that is lost {said}."
+        )
+    else:
+        lines.append(f"Below it fresh trials went on finding losses ({smallest.tried} trials): it is not the smallest.")
+    if smallest.harmless > 0.0:
+        proven = "provably never bring the rotor to the wall, in any direction"
+        lines.append(f"Only those up to {shown(smallest.harmless)} {proven}.")
+    return lines
+
+
+def _where(basin: Basin, smallest: SmallestLoss) -> str:
+    """Direction of the smallest loss."""
+    angle = smallest.angle or 0.0
+    if smallest.kind == "release":
+        whirl = "backward" if smallest.backward else "forward"
+        return f"{'in ' + whirl + ' whirl ' if smallest.size else ''}at {angle:.4f} rad on the wall"
+    if smallest.kind == "step":
+        return f"from an eccentricity that differs by it at {math.degrees(angle):+.0f} deg from the heavy side"
+    heavy = math.degrees(math.remainder(angle - basin.parameters.phi, 2.0 * math.pi))
+    return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side)"
+
+
+def _ending(smallest: SmallestLoss) -> str:
+    return f"; it ends in {smallest.outcome.label.replace('-', ' ')}" if smallest.outcome else ""
 
 
 def _measures(basin: Basin) -> list[str]:
@@ -159,17 +223,12 @@ def _measures(basin: Basin) -> list[str]:
     return lines
 
 
-def _size(coordinate: Coordinate, value: float, scales: Scales | None) -> str:
-    own = f"{value:.4g} {_UNITS[coordinate.scale]}"
+def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: int = 4) -> str:
+    own = f"{value:.{digits}g} {_UNITS[coordinate.scale]}"
     if scales is None:
         return own
     factor, unit = _SHOWN[coordinate.unit]
-    return f"{value * coordinate.si(scales) * factor:.4g} {unit} ({own})"
-
-
-def _speed(value: float, scales: Scales | None) -> str:
-    own = f"{value:.5g} c_r Ω"
-    return own if scales is None else f"{1e3 * value * scales.velocity:.4g} mm/s ({own})"
+    return f"{value * coordinate.si(scales) * factor:.{digits}g} {unit} ({own})"
 
 
 def _time(value: float, scales: Scales | None) -> str:

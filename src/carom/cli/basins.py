@@ -33,7 +33,7 @@ from carom.cli.basin_options import (
 from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
 
 if TYPE_CHECKING:
-    from carom.basins import Basin, GainChange, GainMap, SmallestKick
+    from carom.basins import Basin, GainChange, GainMap, SmallestLoss
     from carom.disturbances import Plan
     from carom.parameters import Case
 
@@ -63,7 +63,7 @@ def basins(
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
-    """Find where disturbances go: what share comes back, the smallest kick that does not, and the gains that help.
+    """Find where disturbances go: what share comes back, the smallest that does not, and the gains that help.
 
     Every start is followed to where it settles. Values without a unit are dimensionless: lengths in clearances, times in
     1/Omega. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
@@ -78,7 +78,7 @@ def basins(
         from carom.report.directory import check_directory
 
         check_directory(out, "--out")
-    question = _Question(case, plan, asked, threads, _source(machine, settings))
+    question = _Question(case, plan, asked, wanted, threads, _source(machine, settings))
     with progress("following starts (the kernels are compiled on first use)") as tell:
         answer = _follow(question, tell)
         if out is not None:
@@ -87,7 +87,7 @@ def basins(
     if as_json:
         print_document(answer.document)
     else:
-        _print(answer, wanted)
+        _print(answer)
     if out is not None:
         console(errors=True).print(f"Written to {out}", soft_wrap=True)
 
@@ -97,6 +97,7 @@ class _Question:
     case: Case
     plan: Plan
     gains: Gains | None
+    wanted: float
     threads: int | None
     source: dict[str, str]
 
@@ -104,24 +105,25 @@ class _Question:
 @dataclass(frozen=True)
 class _Answer:
     basin: Basin
-    smallest: SmallestKick | None
+    smallest: SmallestLoss | None
     harmless: float
     gains: GainMap | None
     change: GainChange | None
+    wanted: float
 
     @cached_property
     def document(self) -> dict[str, Any]:
         """All of it as JSON knows it."""
         from carom.basins.document import basin_document
 
-        return basin_document(self.basin, self.smallest, self.harmless, self.gains, self.change)
+        return basin_document(self.basin, self.smallest, self.harmless, self.gains, self.change, self.wanted)
 
 
 def _follow(question: _Question, tell: Tell) -> _Answer:
-    """Basin, smallest lost kick and harmless speed of a machine; and its gain map, if that is asked for."""
+    """Basin, smallest loss and harmless speed of a machine; and its gain map, if that is asked for."""
     from carom.basins import basins as classify
-    from carom.basins import harmless_kick, smallest_unrecovered_kick
-    from carom.disturbances import FASTEST
+    from carom.basins import harmless_kick, smallest_loss
+    from carom.basins.losses import has_sizes
     from carom.rotors import jeffcott
 
     rotor, plan = jeffcott(question.case.parameters), question.plan
@@ -134,13 +136,12 @@ def _follow(question: _Question, tell: Tell) -> _Answer:
         progress=lambda done: tell(share * done, f"following {plan.count} starts"),
     )
     harmless, smallest = harmless_kick(rotor), None
-    if harmless > 0.0:
-        tell(share, "looking for the smallest kick that is lost")
-        kick_limit = plan.model.coordinates[0].high if plan.model.kind in ("kick", "kick-plane") else FASTEST
-        smallest = smallest_unrecovered_kick(rotor, kick_limit, threads=question.threads)
+    if harmless > 0.0 and has_sizes(plan.model):
+        tell(share, "looking for the smallest that is lost")
+        smallest = smallest_loss(rotor, plan.model, threads=question.threads)
     if question.gains is None:
-        return _Answer(basin, smallest, harmless, None, None)
-    return _Answer(basin, smallest, harmless, *_map(question, question.gains, tell))
+        return _Answer(basin, smallest, harmless, None, None, question.wanted)
+    return _Answer(basin, smallest, harmless, *_map(question, question.gains, tell), question.wanted)
 
 
 def _map(question: _Question, asked: Gains, tell: Tell) -> tuple[GainMap, GainChange | None]:
@@ -171,12 +172,12 @@ def _source(machine: str, settings: list[str] | None) -> dict[str, str]:
     }
 
 
-def _print(answer: _Answer, wanted: float) -> None:
+def _print(answer: _Answer) -> None:
     from carom.cli.basin_tables import print_basin, print_gains
 
     print_basin(console(), answer.basin, answer.smallest, answer.harmless)
     if answer.gains is not None:
-        print_gains(console(), answer.gains, answer.change, wanted)
+        print_gains(console(), answer.gains, answer.change, answer.wanted)
 
 
 def _write(out: str, answer: _Answer) -> None:

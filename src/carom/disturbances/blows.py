@@ -145,8 +145,8 @@ class BaseShock(Disturbance):
         peaks, directions = np.broadcast_arrays(*values)
         if not _levitates(rotor):
             return Starts.of(np.zeros(peaks.shape, complex), 0j, False)
-        positions, velocities, undecided = states_after_shocks(rotor, peaks, self.duration, directions)
-        return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided)
+        positions, velocities, undecided, touched = states_after_shocks(rotor, peaks, self.duration, directions)
+        return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
 
 
 def outward_from(rotor: Rotor) -> complex:

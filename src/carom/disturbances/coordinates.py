@@ -13,6 +13,8 @@ from carom.parameters import Scales
 __all__ = ["Coordinate", "Starts", "angle_coordinate", "complex_of", "inside", "length_coordinate", "speed_coordinate"]
 
 TURN = 2.0 * math.pi
+ON_WALL = 1e-12
+"""Distance from the wall at which a start lies on it, in clearances."""
 
 
 @dataclass(frozen=True)
@@ -85,18 +87,21 @@ class Starts(NamedTuple):
         Whether the disturbance is possible: the start lies inside the wall, the rotor could levitate before it.
     undecided : ndarray of bool
         The disturbance itself grazes the wall, and double precision cannot decide what follows.
+    touched : ndarray of bool
+        The rotor has met the wall by then: during a shock, or because it starts there.
     """
 
     positions: np.ndarray
     velocities: np.ndarray
     exists: np.ndarray
     undecided: np.ndarray
+    touched: np.ndarray
 
     @classmethod
     def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: np.ndarray | bool) -> Starts:
         """Give all arrays one shape."""
         places, speeds, there = np.broadcast_arrays(np.asarray(positions, complex), velocities, exists)
-        return cls(places, speeds.astype(complex), there, np.zeros(places.shape, bool))
+        return cls(places, speeds.astype(complex), there, np.zeros(places.shape, bool), np.abs(places) >= 1.0 - ON_WALL)
 
 
 def inside(positions: np.ndarray, velocities: np.ndarray) -> Starts:

@@ -22,7 +22,7 @@ from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, st
 from carom.plots.words import number, orbit_symbol
 
 if TYPE_CHECKING:
-    from carom.basins import Basin, SmallestKick
+    from carom.basins import Basin, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
@@ -68,7 +68,7 @@ class _Shown:
 
 
 @styled
-def basin(basin: Basin, smallest: SmallestKick | None = None, title: str | None = None) -> Figure:
+def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None = None) -> Figure:
     """Draw where disturbances end, in the way that fits them.
 
     Kicks and shocks by size and direction: a polar picture, and beside it the shares at each size.  Kicks by their parts
@@ -78,8 +78,8 @@ def basin(basin: Basin, smallest: SmallestKick | None = None, title: str | None 
     Parameters
     ----------
     basin : carom.basins.Basin
-    smallest : carom.basins.SmallestKick, optional
-        Smallest kick that is lost, to be marked among kicks.
+    smallest : carom.basins.SmallestLoss, optional
+        Smallest kick or shock found that is lost, to be marked among its like.
     title : str, optional
 
     Returns
@@ -178,7 +178,7 @@ def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions:
             area.set_rasterized(True)
 
 
-def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestKick | None, title: str | None) -> Figure:
+def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, title: str | None) -> Figure:
     size, direction = basin.coordinates
     factor, label = _axis(size, basin.scales)
     dataset = basin.dataset
@@ -193,7 +193,7 @@ def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestKick | None, t
     _rule(round_, factor * size.high)
     round_.set_xlabel(f"radius: {label}\nangle: {direction.words}, co-rotating frame")
     handles: list[Artist] = []
-    if smallest is not None and basin.plan.model.kind == "kick":
+    if smallest is not None and basin.plan.model.kind == smallest.kind:
         handles = _mark_smallest(round_, smallest, factor)
     _stacked(beside, basin, motions)
     beside.set_title("(b)", loc="left")
@@ -242,30 +242,27 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[_Shown]) -> None:
     axes.set_ylabel("share of the directions (%)")
 
 
-def _mark_smallest(axes: Axes, smallest: SmallestKick, factor: float) -> list[Artist]:
-    """Mark the smallest lost kick and the circle of the kicks that cannot reach the wall."""
+def _mark_smallest(axes: Axes, smallest: SmallestLoss, factor: float) -> list[Artist]:
+    """Mark the smallest kick or shock found that is lost and the circle of those that cannot reach the wall."""
     ring = np.linspace(0.0, 2.0 * np.pi, 361)
-    wall, start = LOOKS["wall"], LOOKS["start"]
-    axes.plot(ring, np.full(ring.shape, factor * smallest.harmless), ls=(0.0, (4.0, 2.0)), lw=0.7, color=wall.colour)
-    axes.plot(
-        [smallest.angle],
-        [factor * smallest.speed],
-        marker="o",
-        ms=4.0,
-        mfc="white",
-        mec=start.colour,
-        ls="none",
-        gid="smallest",
-    )
-    return [
-        Line2D([], [], ls=(0.0, (4.0, 2.0)), lw=0.7, color=wall.colour, label="below: proven never to touch"),
-        Line2D(
-            [], [], ls="none", marker="o", ms=4.0, mfc="white", mec=start.colour, label="smallest kick that is lost"
-        ),
-    ]
+    wall = LOOKS["wall"]
+    dashes = (0.0, (4.0, 2.0))
+    axes.plot(ring, np.full(ring.shape, factor * smallest.harmless), ls=dashes, lw=0.7, color=wall.colour)
+    handles: list[Artist] = [Line2D([], [], ls=dashes, lw=0.7, color=wall.colour, label="below: proven never to touch")]
+    if smallest.size is not None:
+        axes.plot([smallest.angle or 0.0], [factor * smallest.size], ls="none", gid="smallest", **_LOST)
+        handles.append(_lost_handle(smallest))
+    return handles
 
 
-def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestKick | None, title: str | None) -> Figure:
+_LOST: dict[str, Any] = {"marker": "o", "ms": 4.0, "mfc": "white", "mec": "#1a1a1a"}
+
+
+def _lost_handle(smallest: SmallestLoss) -> Line2D:
+    return Line2D([], [], ls="none", label=f"smallest {smallest.kind} found that is lost", **_LOST)
+
+
+def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, title: str | None) -> Figure:
     x, y = basin.coordinates
     dataset, kind = basin.dataset, basin.plan.model.kind
     cells = dataset["outcome"].shape
@@ -291,23 +288,10 @@ def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestKick | None, t
         axes.set_ylabel(label_across)
         axes.set_aspect("equal")
         axes.plot([0.0], [0.0], "+", ms=6.0, mew=0.7, color="white")
-        if smallest is not None:
-            turned = smallest.speed * np.exp(1j * smallest.angle) * np.conj(_outward(basin))
-            axes.plot(
-                [factor * turned.real], [factor * turned.imag], "o", ms=4.0, mfc="white", mec="#1a1a1a", gid="smallest"
-            )
-            handles = [
-                Line2D(
-                    [],
-                    [],
-                    ls="none",
-                    marker="o",
-                    ms=4.0,
-                    mfc="white",
-                    mec="#1a1a1a",
-                    label="smallest kick that is lost",
-                )
-            ]
+        if smallest is not None and smallest.size is not None:
+            turned = smallest.size * np.exp(1j * (smallest.angle or 0.0)) * np.conj(_outward(basin))
+            axes.plot([factor * turned.real], [factor * turned.imag], ls="none", gid="smallest", **_LOST)
+            handles = [_lost_handle(smallest)]
     return _finish(figure, motions, title, handles, columns=2)
 
 

@@ -1,0 +1,346 @@
+"""From which size on disturbances are lost: kicks, shocks, steps of the unbalance, releases from contact.
+
+A search, not a proof.  Its answer is a bracket: the largest size up to which every start tried came back, and the smallest
+size found that does not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.basins.kicks import harmless_kick, harmless_shock, harmless_step, lost
+from carom.disturbances import (
+    FASTEST,
+    BaseShock,
+    ContactRelease,
+    Coordinate,
+    Disturbance,
+    KickPlane,
+    Starts,
+    UnbalanceStep,
+    VelocityKick,
+)
+from carom.ensembles import settle_all
+from carom.outcome import InputError, Outcome
+from carom.rotors import Rotor
+
+__all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_kick"]
+
+DIRECTIONS, SIZES = 96, 96
+TOLERANCE = 1e-3
+NARROWED = 4
+"""Factor by which the directions looked at close in, from one round to the next."""
+BESIDE = 8
+"""Directions to each side of the best one so far, in each round."""
+BELOW = 24
+"""Sizes up to that of the best one so far, tried in each of them."""
+DRAWN, ROUND = 2000, 720
+"""Fresh starts below the smallest loss, and directions all round at the upper end of these sizes."""
+MOST_CHECKS = 8
+"""Times that fresh starts may bring the smallest loss down."""
+CONFIDENCE = 0.95
+TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True)
+class SmallestLoss:
+    """Between which sizes a disturbance begins to be lost.
+
+    Attributes
+    ----------
+    kind : {"kick", "shock", "step", "release"}
+    size : float or None
+        Smallest one found that is lost: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
+        eccentricity in ``c_r``, or speed along the wall in ``c_r Ω`` (fixed frame).  ``None`` where none was found.
+    angle : float or None
+        Its direction in rad: of a kick or shock as in :mod:`carom.disturbances`; of a step that of the eccentricity before it as
+        seen from the one after it, relative to the latter; of a release the place on the wall.
+    outcome : Outcome or None
+        Where it ends.
+    backward : bool
+        A release in backward whirl.
+    recovered : float
+        A smaller size in this direction, within the tolerance, that comes back.
+    all_back : float or None
+        Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
+        smallest starts are lost already.
+    fresh : int
+        Starts up to ``all_back`` that the search had not led to: 2,000 drawn evenly over sizes above the harmless one and over
+        directions, and 720 directions all round at that size.
+    harmless : float
+        Up to this size contact is proven to be impossible, in any direction; 0 where nothing is.
+    largest : float
+        Size up to which was searched.
+    tolerance : float
+        Relative width to which the smallest loss is bisected, and angle in rad between the directions looked at last.
+    tried : int
+        Starts followed.
+    """
+
+    kind: str
+    size: float | None
+    angle: float | None
+    outcome: Outcome | None
+    backward: bool
+    recovered: float
+    all_back: float | None
+    fresh: int
+    harmless: float
+    largest: float
+    tolerance: float
+    tried: int
+
+    @property
+    def share_below(self) -> float:
+        """Share of the sizes and directions up to ``all_back`` that may be lost: a bound at 95 % confidence.
+
+        ``1 − 0.05^{1/n}`` for ``n`` starts of which none is lost (Clopper and Pearson, one-sided).
+        """
+        drawn = max(self.fresh - ROUND, 0)
+        return -math.expm1(math.log(1.0 - CONFIDENCE) / drawn) if drawn else 1.0
+
+
+@dataclass(frozen=True)
+class _Family:
+    """Disturbances by size and direction; directions beyond one turn stand for backward whirl."""
+
+    kind: str
+    largest: float
+    harmless: float
+    starts: Callable[[np.ndarray, np.ndarray], Starts]
+    turns: int = 1
+
+
+def has_sizes(model: Disturbance) -> bool:
+    """Whether a model of a disturbance has a size from which on it is lost: kicks, shocks, steps and releases have."""
+    return isinstance(model, VelocityKick | KickPlane | BaseShock | UnbalanceStep | ContactRelease)
+
+
+def smallest_loss(
+    rotor: Rotor,
+    model: Disturbance,
+    *,
+    directions: int = DIRECTIONS,
+    sizes: int = SIZES,
+    tolerance: float = TOLERANCE,
+    threads: int | None = None,
+) -> SmallestLoss:
+    """Search the smallest disturbance of a kind that does not come back to levitation, beyond any grid.
+
+    All directions are scanned at growing sizes between the proven harmless one and the largest; the first size that does not
+    come back is bisected in every direction; then directions close in on the best one until they are ``tolerance`` rad apart,
+    each scanned and bisected below the best size so far.  Then fresh starts are drawn below it: what they lose brings it
+    down, and the search goes on from there.  Basins can be thinner than any sample: a smaller loss is possible.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    model : Disturbance
+        A kick, a shock, a step of the unbalance or a release from contact, up to its own largest size (a step: the largest
+        change to the eccentricity of the machine; a release: whirl forward and backward up to 2 ``c_r Ω`` from rest).
+    directions, sizes : int
+        Of the scan.
+    tolerance : float
+    threads : int, optional
+
+    Raises
+    ------
+    InputError
+        The model has no size, or the rotor cannot levitate inside the wall, or its levitation is unstable.
+    """
+    if abs(rotor.equilibrium) >= 1.0:
+        raise InputError("disturbance", f"|U*| = {abs(rotor.equilibrium):.6g}", "needs levitation inside the wall")
+    if rotor.parameters.gamma < 0.0:
+        raise InputError("gamma", rotor.parameters.gamma, "at least 0: there is no levitation to come back to")
+    family = _family(rotor, model)
+    search = _Search(rotor, family, tolerance, threads)
+    if family.harmless >= family.largest:
+        return search.result(family.largest, 0)
+    if family.harmless == 0.0:
+        search.look(_all_round(family, directions), np.zeros(1))
+        if search.best is not None:
+            return search.result(None, 0)
+    levels = family.harmless + (family.largest - family.harmless) * np.arange(sizes + 1) / sizes
+    search.look(_all_round(family, directions), levels)
+    search.close_in(TURN / directions)
+    for number in range(MOST_CHECKS):
+        below = family.largest if search.best is None else search.best[0]
+        if below <= family.harmless:
+            break
+        before = search.best
+        fresh = search.draw(below, number)
+        if search.best is before:
+            return search.result(below, fresh)
+        search.close_in(TURN / directions)
+    return search.result(family.harmless or None, 0)
+
+
+def smallest_unrecovered_kick(
+    rotor: Rotor,
+    fastest: float = FASTEST,
+    *,
+    directions: int = DIRECTIONS,
+    speeds: int = SIZES,
+    tolerance: float = TOLERANCE,
+    threads: int | None = None,
+) -> SmallestLoss | None:
+    """Search the smallest kick out of levitation that does not come back; see :func:`smallest_loss`.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    fastest : float
+        Largest kick looked at, in ``c_r Ω``.
+    directions, speeds : int
+        Of the scan.
+    tolerance : float
+    threads : int, optional
+
+    Returns
+    -------
+    SmallestLoss or None
+        ``None`` if every kick tried comes back.
+
+    Raises
+    ------
+    InputError
+        The rotor cannot levitate inside the wall, or its levitation is unstable.
+    """
+    model = VelocityKick(fastest)
+    found = smallest_loss(rotor, model, directions=directions, sizes=speeds, tolerance=tolerance, threads=threads)
+    return None if found.size is None else found
+
+
+def _family(rotor: Rotor, model: Disturbance) -> _Family:
+    """How a disturbance is searched."""
+    if isinstance(model, VelocityKick | KickPlane):
+        kick = VelocityKick(model.fastest)
+        return _Family("kick", kick.fastest, harmless_kick(rotor), lambda *at: kick.starts(rotor, *at))
+    if isinstance(model, BaseShock):
+        shock = model
+        return _Family("shock", shock.peak, harmless_shock(rotor, shock.duration), lambda *at: shock.starts(rotor, *at))
+    if isinstance(model, UnbalanceStep):
+        step, now = model, rotor.parameters.rho
+
+        def changed(sizes: np.ndarray, angles: np.ndarray) -> Starts:
+            x, y = now + sizes * np.cos(angles), sizes * np.sin(angles)
+            return step.starts(rotor, np.hypot(x, y), np.arctan2(y, x))
+
+        return _Family("step", step.largest + now, harmless_step(rotor), changed)
+    if isinstance(model, ContactRelease):
+
+        def released(sizes: np.ndarray, places: np.ndarray) -> Starts:
+            cosine, sine = np.cos(places), np.sin(places)
+            rate = np.where(np.mod(places, 2.0 * TURN) < TURN, sizes, -sizes) - 1.0
+            positions, velocities = np.empty((2, *np.shape(rate)), complex)
+            positions.real, positions.imag = np.broadcast_arrays(cosine, sine)
+            velocities.real, velocities.imag = -rate * sine, rate * cosine
+            return Starts.of(positions, velocities, True)
+
+        return _Family("release", FASTEST, 0.0, released, turns=2)
+    raise InputError("disturbance", model.kind, "one with a size: a kick, a shock, a step of the unbalance, a release")
+
+
+def _all_round(family: _Family, directions: int) -> np.ndarray:
+    """Directions evenly all round."""
+    angles: np.ndarray = TURN * np.arange(family.turns * directions) / directions
+    return angles
+
+
+class _Search:
+    """Starts followed so far, and the best bracket: largest recovered below, smallest lost, direction, outcome."""
+
+    def __init__(self, rotor: Rotor, family: _Family, tolerance: float, threads: int | None) -> None:
+        self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads
+        self.tried = 0
+        self.best: tuple[float, float, float, Outcome] | None = None
+
+    def result(self, all_back: float | None, fresh: int) -> SmallestLoss:
+        """What is known now."""
+        family = self.family
+        recovered, size, angle, outcome = self.best or (all_back or 0.0, None, None, None)
+        backward = angle is not None and family.turns > 1 and angle % (2.0 * TURN) >= TURN
+        if angle is not None:
+            angle = math.remainder(angle, TURN)
+        return SmallestLoss(
+            kind=family.kind,
+            size=size,
+            angle=angle,
+            outcome=outcome,
+            backward=backward,
+            recovered=recovered,
+            all_back=all_back,
+            fresh=fresh,
+            harmless=family.harmless,
+            largest=family.largest,
+            tolerance=self.tolerance,
+            tried=self.tried,
+        )
+
+    def look(self, angles: np.ndarray, levels: np.ndarray) -> None:
+        """Scan directions at growing sizes, of which the first is known to come back; bisect the first that is lost.
+
+        A single size is only tried, not bisected.
+        """
+        bisect = len(levels) > 1
+        outcomes, gone = self._follow(levels[None, bisect:], angles[:, None])
+        hit = np.flatnonzero(gone.any(axis=1))
+        if not len(hit):
+            return
+        first = gone[hit].argmax(axis=1)
+        low, high = levels[first], levels[first + 1] if bisect else levels[first]
+        ends, angles = outcomes[hit, first], angles[hit]
+        while ((high - low) > self.tolerance * high).any():
+            middle = 0.5 * (low + high)
+            found, gone = self._follow(middle, angles)
+            low, high = np.where(gone, low, middle), np.where(gone, middle, high)
+            ends = np.where(gone, found, ends)
+        place = int(high.argmin())
+        if self.best is None or high[place] < self.best[1]:
+            self.best = float(low[place]), float(high[place]), float(angles[place]), Outcome(int(ends[place]))
+
+    def close_in(self, apart: float) -> None:
+        """Look beside the best direction, ever closer."""
+        while self.best is not None and apart > self.tolerance:
+            apart /= NARROWED
+            _, size, angle, _ = self.best
+            beside = angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
+            self.look(beside, np.linspace(self.family.harmless, size, BELOW + 1))
+
+    def draw(self, below: float, seed: int) -> int:
+        """Try fresh starts up to a size and all round at it; bisect what is lost, the smallest first.  Their number."""
+        family = self.family
+        random = np.random.default_rng(seed)
+        sizes = np.append(random.uniform(family.harmless, below, DRAWN), np.full(ROUND, below))
+        span = TURN * family.turns
+        angles = np.append(span * random.random(DRAWN), span * (np.arange(ROUND) + random.random()) / ROUND)
+        _, gone = self._follow(sizes, angles)
+        for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
+            if self.best is None or sizes[place] < self.best[1]:
+                self.look(angles[place : place + 1], np.linspace(family.harmless, sizes[place], BELOW + 1))
+        return len(sizes)
+
+    def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Outcomes, and which starts are lost; one that cannot be is not."""
+        sizes, angles = np.broadcast_arrays(sizes, angles)
+        starts = self.family.starts(sizes, angles)
+        chosen = starts.exists & ~starts.undecided
+        outcomes = np.full(chosen.shape, Outcome.GRAZING, np.int8)
+        if chosen.any():
+            followed = settle_all(self.rotor, starts.positions[chosen], starts.velocities[chosen], threads=self.threads)
+            outcomes[chosen] = followed.outcomes
+        self.tried += int(chosen.sum())
+        return outcomes, lost(outcomes)
+
+
+def size_coordinate(model: Disturbance) -> Coordinate:
+    """Words and unit of the size of a disturbance."""
+    if isinstance(model, UnbalanceStep):
+        return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length", "m")
+    if isinstance(model, ContactRelease):
+        return Coordinate("release_speed", "speed along the wall", 0.0, math.inf, "velocity", "m/s")
+    return model.coordinates[0]
