@@ -174,7 +174,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
             f"less than {100.0 * smallest.share_below:.2g} % of those{beyond} up to there are lost. As far as {smallest.tried} trials "
             f"tell, the smallest that is lost {said}."
         )
-    else:
+    elif smallest.size is not None:
         lines.append(f"Below it fresh trials went on finding losses ({smallest.tried} trials): it is not the smallest.")
     if smallest.harmless > 0.0:
         proven = "provably never bring the rotor to the wall, in any direction"
