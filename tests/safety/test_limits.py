@@ -1,6 +1,7 @@
 """What a limit is said to be: no digit more than is known, and which disturbances it holds for."""
 
 import pytest
+from scipy.stats import binom
 
 from carom.attractors import DisturbanceSet
 from carom.parameters import Parameters, Scales
@@ -44,7 +45,7 @@ def test_simulated_limit_has_the_digits_of_its_bracket():
 
     assert (narrow.within_reach.digits, wide.within_reach.digits) == (3, 2)
     assert "Above gamma = 0.507 (4670 N s/m) all fresh disturbances tried came back" in narrow.words
-    assert "one was seen to be lost is gamma = 0.501 (4620 N s/m) (ends in rolling)" in narrow.words
+    assert "one was found to be lost is gamma = 0.501 (4620 N s/m) (ends in rolling)" in narrow.words
     assert "Above gamma = 0.54 (4900 N s/m) all fresh" in wide.words
 
 
@@ -60,6 +61,20 @@ def test_words_name_the_disturbances_their_speed_and_the_confidence():
     assert "2000 starts spread over the clearance at up to 2 c_r Omega (0.258 m/s)" in words
     assert "Of 1250 disturbances up to 4 c_r Omega (0.516 m/s) 7 were lost at gamma = 0.6" in words
     assert "none of the disturbances tried got there" in words
+
+
+def test_irregular_bouncing_is_not_called_an_end():
+    words = safe(DampingLimit("irregular bouncing", 0.50113, 0.50614, "simulation")).words
+
+    assert "gamma = 0.501 (4620 N s/m) (irregular bouncing, not seen to come back in 20,000 impacts)." in words
+
+
+@pytest.mark.parametrize(("lost", "chance"), [(0, (0.05, 0.0501)), (1, (0.005, 0.05)), (700, (0.02, 0.03))])
+def test_share_that_may_be_lost_would_seldom_show_so_few(lost, chance):
+    bound = DampingCheck(0.5, lost, DisturbanceSet(5000)).share_below
+
+    low, high = chance
+    assert low * (1.0 - 1e-9) <= binom.cdf(lost, 5000, bound) <= high
 
 
 def test_nothing_is_claimed_without_checks():

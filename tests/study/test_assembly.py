@@ -168,13 +168,19 @@ def test_words_never_promise_recovery(parameters):
     assert finding(result, "Not covered").split("\n") == list(NOT_COVERED)
     assert "nan" not in verdict.text
     assert "inf " not in verdict.text
-    assert f"{len(tried)} were simulated" in finding(result, "Disturbances tried")
+    assert f"{len(tried)} disturbances (seed 0): " in finding(result, "Disturbances tried")
+    # Many others are tried where all of these came back.
+    assert (result.fresh is not None) == all(ending.outcome is Outcome.LEVITATED for ending in tried)
 
 
 def test_best_verdict_is_still_no_guarantee(quiet):
     assert quiet.verdict.level == "all-tried-came-back"
     assert {ending.outcome for ending in quiet.attractors.disturbances} == {Outcome.LEVITATED}
     assert "no guarantee" in quiet.verdict.headline
+    assert (quiet.fresh.lost, quiet.fresh.sample.count) == (0, 10_000)
+    assert "so did 10,000 others of the same kinds: with 95 % confidence fewer than 1 in 3,300 are lost" in finding(
+        quiet, "Disturbances tried"
+    )
     assert "No synchronous rub exists" in finding(quiet, "Rub")
 
 
@@ -350,3 +356,21 @@ def test_machine_at_the_end_of_the_allowed_range_has_a_study(changes):
 
     assert result.safe_damping.highest <= 1e3
     assert result.levitates
+
+
+@pytest.mark.jit_only
+def test_few_that_came_back_do_not_hide_what_many_others_do():
+    """Rolling takes 1 in 500 disturbances of this machine, none of the 200 that are listed."""
+    machine = Parameters(
+        gamma=0.4, omega=0.557251, rho=0.137942, phi=-0.797449, mu=0.472273, d=0.363411, radius_ratio=1.882414
+    )
+    result = study(machine)
+
+    assert all(ending.outcome is Outcome.LEVITATED for ending in result.attractors.disturbances)
+    assert result.fresh.lost > 5
+    assert result.verdict.level == "may-not-come-back"
+    assert f"{result.fresh.lost} of 10,000 disturbances tried" in result.verdict.headline
+    assert f"but of 10,000 others of the same kinds {result.fresh.lost} did not" in finding(
+        result, "Disturbances tried"
+    )
+    assert "All fresh disturbances came back above 0.507" in finding(result, "What would change it")

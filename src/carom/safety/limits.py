@@ -12,9 +12,10 @@ from carom.basins.shares import CONFIDENCE
 from carom.parameters import Parameters
 from carom.rotors import jeffcott
 from carom.safety.losses import DampingCheck
+from carom.settling import PATIENCE
 from carom.whirl import Runaway
 
-__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "within_reach"]
+__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "unsettled_words", "within_reach"]
 
 MOST_CHECKS = 120
 """Fresh samples that a search may take; its statement holds for all of them together."""
@@ -50,6 +51,11 @@ class DampingLimit:
         if self.evidence != "simulation":
             return 5
         return 3 if self.above <= 1.02 * self.gamma else 2
+
+    @property
+    def settles(self) -> bool:
+        """Whether the motion has settled: of irregular bouncing it is not known whether it ever ends."""
+        return not self.motion.startswith(("irregular", "unresolved"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,8 +138,8 @@ class SafeDamping:
             return f"The last motion to vanish is {_with_article(limit.motion)}, at {self._damping(limit.above)}, known by {known}."
         return (
             f"Above {self._damping(limit.above, limit.digits, up=True)} all fresh disturbances tried came back to "
-            f"levitation; the largest damping at which one was seen to be lost is {self._damping(limit.gamma, 3)} (ends in "
-            f"{limit.motion})."
+            f"levitation; the largest damping at which one was found to be lost is {self._damping(limit.gamma, limit.digits)} "
+            f"({'ends in ' + limit.motion if limit.settles else unsettled_words(limit.motion)})."
         )
 
     def _checked(self) -> str:
@@ -181,6 +187,13 @@ class SafeDamping:
 
 def _with_article(motion: str) -> str:
     return f"the {motion}" if motion == "synchronous rub" else motion
+
+
+def unsettled_words(motion: str) -> str:
+    """Say why a disturbance that has not settled counts as lost."""
+    if motion.startswith("unresolved"):
+        return f"{motion}, not seen to come back"
+    return f"{motion}, not seen to come back in {PATIENCE:,} impacts"
 
 
 def rounded_up(value: float, digits: int) -> float:

@@ -14,12 +14,13 @@ import numpy as np
 
 from carom.attractors import DisturbanceSet
 from carom.basins.motions import name_motions
+from carom.basins.shares import CONFIDENCE, Share
 from carom.ensembles import Endings, settle_all
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.rotors import Rotor, jeffcott
 
-__all__ = ["DampingCheck", "Loss", "Losses"]
+__all__ = ["DampingCheck", "Loss", "Losses", "try_disturbances"]
 
 FIRST_LOOK = 256
 """Disturbances of a sample that are followed first; the others only if none of these is lost."""
@@ -51,6 +52,23 @@ class DampingCheck:
     gamma: float
     lost: int
     sample: DisturbanceSet
+
+    @property
+    def share_below(self) -> float:
+        """Largest share that may be lost at this damping, at 95 % confidence.
+
+        Where none is lost, the ``p`` with which that has a probability of 5 %, ``1 − 0.05^(1/n)``; otherwise the upper end of
+        :class:`~carom.basins.Share`.
+        """
+        if self.lost:
+            return Share.of(self.lost, self.sample.count, drawn=True).high
+        return -math.expm1(math.log(1.0 - CONFIDENCE) / self.sample.count)
+
+
+def try_disturbances(rotor: Rotor, sample: DisturbanceSet, threads: int | None = None) -> DampingCheck:
+    """Follow disturbances, every one of them, and count those that do not come back."""
+    endings = settle_all(rotor, *sample.states(rotor), threads=threads)
+    return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,11 +162,9 @@ class Losses:
         return DampingCheck(gamma, 0, sample)
 
     def faster(self, gamma: float, count: int, times: float) -> DampingCheck:
-        """Follow disturbances up to so many times as fast, every one of them."""
+        """Follow disturbances up to so many times as fast."""
         sample = DisturbanceSet(count, self._new_seed(), times * self.sample.fastest)
-        rotor = self._rotor(gamma)
-        endings = settle_all(rotor, *sample.states(rotor), threads=self.threads)
-        return DampingCheck(gamma, count - endings.count(Outcome.LEVITATED), sample)
+        return try_disturbances(self._rotor(gamma), sample, self.threads)
 
     def climb(self, lost: Loss, highest: float) -> Loss:
         """Vary lost starts at more and more damping; the last that were lost."""

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from carom.attractors import AttractorSet, find_attractors
+from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.equilibria import Equilibrium, equilibria
 from carom.orbits import Orbit, OrbitSet, orbits_within_reach
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Parameters, Zones
 from carom.rotors import Rotor, jeffcott
-from carom.safety import SafeDamping, least_safe_damping
+from carom.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.study.advice import Advice, advise
 from carom.study.alone import LevitationAlone, levitation_alone
 from carom.study.document import study_document
@@ -52,6 +52,8 @@ class Study:
         Where simulated disturbances, and starts next to the known motions, end.
     safe_damping : SafeDamping
         The damping above which all disturbances came back, found by simulation at other dampings too.
+    fresh : DampingCheck or None
+        Where all disturbances of ``attractors`` came back: many others, at the machine's own damping, counted only.
     """
 
     case: Case
@@ -64,6 +66,7 @@ class Study:
     advice: tuple[Advice, ...]
     attractors: AttractorSet
     safe_damping: SafeDamping
+    fresh: DampingCheck | None
 
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:
@@ -160,10 +163,11 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     advice = advise(parameters, alone, ranges)
     tell(0.53, "loss of levitation")
     boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
+    fresh = try_disturbances(rotor, DisturbanceSet(FRESH, seed=1)) if found.recovered == 1.0 else None
     safe = least_safe_damping(
         parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
     )
-    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe)
+    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe, fresh)
 
 
 def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:

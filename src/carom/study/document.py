@@ -20,7 +20,7 @@ from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
-from carom.safety import DampingLimit, SafeDamping
+from carom.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.study.advice import Advice
 from carom.study.alone import LevitationAlone
 from carom.study.endings import hardest_impulse, touching
@@ -103,7 +103,8 @@ def study_document(study: Study) -> dict[str, Any]:
         "levitation_alone_checks": [_alone(entry) for entry in study.alone],
         "advice": [_advice(entry, say) for entry in study.advice],
         "attractors": [_attractor(entry, case.parameters.scales) for entry in study.attractors],
-        "disturbances": _disturbances(study.attractors, case.parameters.scales),
+        "disturbances": _disturbances(study.attractors, case.parameters.scales)
+        | {"fresh": _check(study.fresh) if study.fresh else None},
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
         "not_covered": list(NOT_COVERED),
     }
@@ -318,7 +319,7 @@ def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
         "rolling": safe.rolling,
     }
     documents = {name: _limit(limit, scales) if limit else None for name, limit in limits.items()}
-    first, faster = safe.checks[0] if safe.checks else None, safe.faster
+    faster = safe.faster
     return {
         **documents,
         "lowest": safe.lowest,
@@ -327,12 +328,21 @@ def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
         "seed": safe.sample.seed,
         "fastest": safe.sample.fastest,
         "checked": [check.gamma for check in safe.checks],
-        "checked_from_si": first.gamma * scales.damping if first and scales else None,
         "share_below": safe.share_below if safe.checks else None,
         "confidence": CONFIDENCE,
-        "faster": {"fastest": faster.sample.fastest, "count": faster.sample.count, "lost": faster.lost}
-        if faster
-        else None,
+        "faster": _check(faster) if faster else None,
+    }
+
+
+def _check(check: DampingCheck) -> dict[str, Any]:
+    tried = check.sample
+    return {
+        "gamma": check.gamma,
+        "fastest": tried.fastest,
+        "seed": tried.seed,
+        "count": tried.count,
+        "lost": check.lost,
+        "share_below": check.share_below,
     }
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from carom.basins.shares import CONFIDENCE
 from carom.outcome import Outcome
-from carom.safety.limits import DampingLimit, rounded_up, share_words
+from carom.safety.limits import DampingLimit, rounded_up, share_words, unsettled_words
 from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
 from carom.study.ranges import Gain, Motion
 from carom.study.remedies import advice_lines, alone_sentences
@@ -175,7 +175,7 @@ def _endings(study: Study) -> str:
     found = study.attractors
     counts = {member.name: member.count for member in found if member.count}
     if list(counts) == ["levitation"]:
-        return "All of them came back to contact-free levitation."
+        return f"All of them came back to contact-free levitation{_fresh_words(study)}."
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}."
     touched = touching(found)
@@ -183,6 +183,19 @@ def _endings(study: Study) -> str:
     if study.levitates and touched:
         text += f" Of the {len(touched)} that touched the wall {back or 'none'} came back to levitation."
     return text
+
+
+def _fresh_words(study: Study) -> str:
+    """What became of many other disturbances, where all of the few came back."""
+    fresh = study.fresh
+    if fresh is None:
+        return ""
+    if fresh.lost:
+        return f", but of {fresh.sample.count:,} others of the same kinds {fresh.lost} did not"
+    return (
+        f", and so did {fresh.sample.count:,} others of the same kinds: with {100 * CONFIDENCE:.0f} % confidence "
+        f"{share_words(fresh.share_below)}"
+    )
 
 
 def _backward_whirl(study: Study) -> str:
@@ -286,7 +299,8 @@ def _limit_words(study: Study, limit: DampingLimit | None) -> str:
     above = rounded_up(limit.above * factor, limit.digits) / factor
     return (
         f"All fresh disturbances came back above {say.gain('gamma', above)}; the last that was found to be lost, at "
-        f"{say.gain('gamma', float(f'{limit.gamma * factor:.{limit.digits}g}') / factor)}, ended {ending_phrase(limit.motion)}."
+        f"{say.gain('gamma', float(f'{limit.gamma * factor:.{limit.digits}g}') / factor)}, "
+        f"{f'ended {ending_phrase(limit.motion)}' if limit.settles else f'was in {unsettled_words(limit.motion)}'}."
     )
 
 

@@ -104,6 +104,8 @@ def _what_may_hold(study: Study) -> list[str]:
     if lost:
         share = f"{lost} of {len(tried)}" if lost < len(tried) else f"any of the {lost}"
         holds.append(f"it did not come back from {share} disturbances tried")
+    elif study.fresh is not None and study.fresh.lost:
+        holds.append(f"it did not come back from {study.fresh.lost} of {study.fresh.sample.count:,} disturbances tried")
     if not study.orbits.complete and not study.stable_orbits:
         holds.append("not all of its periodic motions could be searched")
     return holds
