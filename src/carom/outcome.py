@@ -6,9 +6,27 @@ Kernels return an :class:`Outcome`; Python code turns it into a result that carr
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from enum import IntEnum
+from typing import Any, ParamSpec, TypeVar
 
-__all__ = ["CaromError", "CaromWarning", "InputError", "Outcome", "Phase"]
+__all__ = [
+    "CaromError",
+    "CaromWarning",
+    "InputError",
+    "MultipleInputError",
+    "Outcome",
+    "Phase",
+    "Problems",
+    "printable",
+    "shown",
+    "together",
+]
+
+_LONGEST_VALUE, _LONGEST_WORDS = 160, 600
+_MOST_LINES = 20
+_Given = ParamSpec("_Given")
+_Read = TypeVar("_Read")
 
 
 class Outcome(IntEnum):
@@ -91,6 +109,8 @@ class CaromWarning(UserWarning):
 class InputError(CaromError, ValueError):
     """An input that cannot be used.
 
+    Its text is one line without control characters, whatever the input was.
+
     Parameters
     ----------
     field : str
@@ -105,10 +125,88 @@ class InputError(CaromError, ValueError):
         self.field = field
         self.value = value
         self.allowed = allowed
-        shown = "nothing given" if value is None else _one_line(value)
-        super().__init__(f"{field} = {shown}: {_one_line(allowed)}")
+        given = "nothing given" if value is None else shown(value)
+        super().__init__(f"{shown(field)} = {given}: {printable(_cut(allowed, _LONGEST_WORDS))}")
+
+    @property
+    def errors(self) -> tuple[InputError, ...]:
+        """All errors that it tells: itself."""
+        return (self,)
 
 
-def _one_line(value: object, limit: int = 300) -> str:
-    text = " ".join(str(value).split())
-    return text if len(text) <= limit else text[: limit - 1] + "…"
+class MultipleInputError(InputError):
+    """Several inputs that cannot be used, found together: one line each, of very many the first ones.
+
+    Field, value and what is allowed are those of the first.
+
+    Parameters
+    ----------
+    errors : sequence of InputError
+    """
+
+    def __init__(self, errors: Sequence[InputError]) -> None:
+        first = errors[0]
+        super().__init__(first.field, first.value, first.allowed)
+        self._errors = tuple(errors)
+        lines = [str(error) for error in self._errors[:_MOST_LINES]]
+        if len(self._errors) > _MOST_LINES:
+            lines.append(f"{len(self._errors) - _MOST_LINES} more errors of this kind or others")
+        self.args = ("\n".join(lines),)
+
+    @property
+    def errors(self) -> tuple[InputError, ...]:
+        """All of them."""
+        return self._errors
+
+
+class Problems:
+    """Input errors that are gathered while reading goes on, to be told together."""
+
+    def __init__(self) -> None:
+        self.errors: list[InputError] = []
+
+    def attempt(self, read: Callable[_Given, _Read], /, *given: _Given.args, **named: _Given.kwargs) -> _Read | None:
+        """Return what a function reads, or None if it raises an input error, which is kept."""
+        try:
+            return read(*given, **named)
+        except InputError as problem:
+            self.errors += problem.errors
+            return None
+
+    def tell(self) -> None:
+        """Raise what was gathered, if anything was."""
+        if self.errors:
+            raise together(self.errors)
+
+
+def together(errors: Sequence[InputError]) -> InputError:
+    """One error for one or more."""
+    return errors[0] if len(errors) == 1 else MultipleInputError(errors)
+
+
+def printable(text: str) -> str:
+    r"""Return a text as it may be shown anywhere: on one line, what is not printable as an escape.
+
+    Control characters, line breaks, marks that change the direction of writing and halves of characters become ``\x1b``,
+    ``\n``, ``\u202e``, ...; all that can be seen stays.
+    """
+    if text.isprintable():
+        return text
+    return "".join(sign if sign.isprintable() else sign.encode("unicode_escape").decode("ascii") for sign in text)
+
+
+def shown(given: Any) -> str:
+    """Return a value as an error message prints it: printable, not too long, never empty."""
+    if isinstance(given, bool):
+        return str(given).lower()
+    try:
+        text = str(given)
+    except ValueError:  # an integer of more digits than Python is willing to print
+        return "a number of thousands of digits"
+    except RecursionError:
+        return "a value that is nested too deeply"
+    return printable(_cut(text, _LONGEST_VALUE)) if text.strip() else repr(text[:_LONGEST_VALUE])
+
+
+def _cut(text: str, length: int) -> str:
+    return text if len(text) <= length else text[: length - 1] + "…"

@@ -9,6 +9,7 @@
 ``starts``     starts and times from text, with or without units
 ``tables``     tables for people
 ``terminal``   output, progress and options that commands share
+``screen``     no control character of a name or a file reaches the terminal
 =============  ==========================================================
 
 Modules here import only what is needed to show help; commands load the rest when they run.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import io
 import os
 import sys
 import threading
@@ -21,7 +22,7 @@ from carom.cli.paper import paper
 from carom.cli.simulate import simulate
 from carom.cli.study import study
 from carom.cli.sweep import sweep
-from carom.outcome import CaromError, CaromWarning
+from carom.outcome import CaromError, CaromWarning, InputError, printable
 
 __all__ = ["app", "main"]
 
@@ -83,11 +84,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     if sys.stdout is None:  # closed by the caller: output goes nowhere
         sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # terminals that know no Greek get escapes
+            stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
         with _interruptions_heeded(), _warnings_on_one_line():
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
+    except InputError as problem:
+        for line in str(problem).split("\n"):
+            _complain(line, BAD_INPUT)
+        return BAD_INPUT
     except CaromError as problem:
         return _complain(str(problem), BAD_INPUT)
     except UsageError as problem:
@@ -157,7 +165,7 @@ def _unexpected(problem: BaseException) -> int:
 
 def _complain(message: str, code: int) -> int:
     """Say on one line what went wrong."""
-    print(f"carom: {' '.join(message.split())}", file=sys.stderr)  # noqa: T201
+    print(f"carom: {printable(' '.join(message.split()))}", file=sys.stderr)  # noqa: T201
     return code
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
@@ -41,14 +42,25 @@ RELEASES = 360
 STARTS = 10_000
 MOST_STARTS = 5_000_000
 """More would not fit into the memory of a common machine; larger sets are the business of sweeps."""
-KINDS = ("kick", "kick-plane", "shock", "unbalance", "release", "slice", "state")
+WANTED = 0.99
+_OPTIONS = {
+    "kick": ("fastest",),
+    "kick-plane": ("fastest",),
+    "shock": ("peak", "duration"),
+    "unbalance": ("before",),
+    "release": ("release",),
+    "slice": (),
+    "state": ("fastest",),
+}
+"""Kinds of disturbances, and the options that say more about each."""
+KINDS = tuple(_OPTIONS)
 
 Kind = Annotated[str, typer.Option(metavar="KIND", help=f"What happens to the rotor: {', '.join(KINDS)}.")]
 Cells = Annotated[
     str | None, typer.Option(metavar="NxM", help="Cells of size and direction, or of x and y; N for releases.")
 ]
 Starts = Annotated[int | None, typer.Option(metavar="N", help="Instead of a grid: a seeded sample of this size.")]
-Seed = Annotated[int, typer.Option(metavar="S", help="Of the sample.")]
+Seed = Annotated[int | None, typer.Option(metavar="S", help="Of the sample, by default 0.")]
 Fastest = Annotated[str | None, typer.Option(metavar="SPEED", help="Largest kick or start speed, such as '50 mm/s'.")]
 Peak = Annotated[str | None, typer.Option(metavar="ACC", help="Largest peak of a shock, such as '20 g'.")]
 Duration = Annotated[str | None, typer.Option(metavar="TIME", help="Duration of its half-sine pulse, such as '5 ms'.")]
@@ -56,7 +68,10 @@ Before = Annotated[
     str | None,
     typer.Option(metavar="LENGTH", help="Largest eccentricity before an unbalance step, such as '0.1 mm'."),
 ]
-Release = Annotated[str, typer.Option(metavar="MOTION", help="Of a release from the wall: fixed, rotating or rolling.")]
+Release = Annotated[
+    str | None,
+    typer.Option(metavar="MOTION", help="Of a release from the wall: fixed (the default), rotating or rolling."),
+]
 GainsWanted = Annotated[
     str | None, typer.Option(metavar="NxM", help="Map the share that comes back against two parameters.")
 ]
@@ -67,7 +82,10 @@ FirstRange = Annotated[
     str | None, typer.Option("--x", metavar="A,B", help="Range of the first, by default half to twice.")
 ]
 SecondRange = Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second.")]
-Wanted = Annotated[float, typer.Option(metavar="SHARE", help="Share that is to come back, for the least change.")]
+Wanted = Annotated[
+    float | None,
+    typer.Option(metavar="SHARE", help="Share that is to come back, for the least change; by default 0.99."),
+]
 Threads = Annotated[
     int | None, typer.Option(metavar="N", min=1, help="Cores to use; the result does not depend on it.")
 ]
@@ -98,36 +116,55 @@ class Gains:
 
 
 def read_gains(
-    parameters: Parameters, cells: str | None, plane: str | None, x: str | None, y: str | None, wanted: float
+    parameters: Parameters, cells: str | None, plane: str | None, x: str | None, y: str | None, wanted: float | None
 ) -> Gains | None:
-    """Return the gain map that is asked for, if one is; what else is said of it is checked all the same."""
-    shape = None if cells is None else _cells("--gains", cells, 2)
-    if not 0.0 < wanted <= 1.0:
-        raise InputError("--wanted", wanted, "must be a share above 0 and at most 1, such as 0.99")
+    """Return the gain map that is asked for, if one is; what else is said of it is refused without."""
+    more = {"--plane": plane, "--x": x, "--y": y, "--wanted": wanted}
+    if cells is None:
+        for option, value in more.items():
+            if value is not None:
+                raise InputError(option, value, "goes with --gains NxM alone")
+        return None
+    shape = _cells("--gains", cells, 2)
+    share = WANTED if wanted is None else wanted
+    if not 0.0 < share <= 1.0:
+        raise InputError("--wanted", share, "must be a share above 0 and at most 1, such as 0.99")
     names, ranges = _plane(parameters, plane, x, y)
-    return None if shape is None else Gains(names, ranges, (shape[0], shape[1]), wanted)
+    return Gains(names, ranges, (shape[0], shape[1]), share)
 
 
 def read_plan(
-    parameters: Parameters, kind: str, sizes: dict[str, str | None], grid: str | None, starts: int | None, seed: int
+    parameters: Parameters,
+    kind: str,
+    sizes: dict[str, str | None],
+    grid: str | None,
+    starts: int | None,
+    seed: int | None,
 ) -> Plan:
     """Disturbances from the options."""
     from carom.disturbances import Grid, Sample
 
     if kind not in KINDS:
         raise InputError("--disturbance", kind, f"must be one of: {', '.join(KINDS)}")
+    for option, value in sizes.items():
+        if value is not None and option not in _OPTIONS[kind]:
+            kinds = " or ".join(other for other in KINDS if option in _OPTIONS[other])
+            raise InputError(f"--{option}", value, f"goes with --disturbance {kinds} alone, not with {kind}")
     if grid is not None and starts is not None:
         raise InputError("--starts", starts, "must be left out where --grid is given")
-    if seed < 0:
+    drawn = starts is not None or kind == "state"
+    if seed is not None and not drawn:
+        raise InputError("--seed", seed, "goes with a sample alone: give --starts too")
+    if seed is not None and seed < 0:
         raise InputError("--seed", seed, "must be a whole number of at least 0")
     model = _model(parameters, kind, sizes)
     if kind == "state" and grid is not None:
         raise InputError("--grid", grid, "must be left out for states, of four coordinates: give --starts")
-    if starts is not None or kind == "state":
+    if drawn:
         count = STARTS if starts is None else starts
         if not 1 <= count <= MOST_STARTS:
             raise InputError("--starts", count, f"must be a whole number from 1 to {MOST_STARTS}")
-        return Sample(model, count, seed)
+        return Sample(model, count, seed or 0)
     dimensions = len(model.coordinates)
     if grid is None:
         return Grid(model, (RELEASES,) if dimensions == 1 else (CELLS, CELLS))
@@ -135,7 +172,7 @@ def read_plan(
 
 
 def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> Disturbance:
-    from carom.cli.starts import read_size
+    from carom.cli.starts import read_positive
     from carom.disturbances import (
         FASTEST,
         AnyState,
@@ -152,7 +189,7 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
     def size(name: str, measure: str, default: float | None) -> float:
         given = sizes[name]
         if given is not None:
-            return read_size(f"--{name}", given, measure, scales)
+            return read_positive(f"--{name}", given, measure, scales)
         if default is None:
             example = {"peak": "'20 g'", "duration": "'5 ms'"}[name]
             raise InputError(f"--{name}", None, f"needed for a {kind}, such as {example}, or dimensionless")
@@ -164,7 +201,7 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
         # The unbalance that would just fill the clearance.
         return UnbalanceStep(size("before", "length", abs(complex(parameters.omega**2 - 1.0, parameters.gamma))))
     if kind == "release":
-        motion = str(sizes["release"])
+        motion = sizes["release"] or "fixed"
         if motion not in ("fixed", "rotating", "rolling"):
             raise InputError("--release", motion, "must be fixed, rotating or rolling")
         return ContactRelease(motion)  # type: ignore[arg-type]
@@ -176,16 +213,15 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
 
 def _cells(option: str, text: str, dimensions: int) -> tuple[int, ...]:
     """Read ``60x60``."""
-    example = "60x60" if dimensions == 2 else "360"
-    match = re.fullmatch("[x×X]".join([r"\s*([0-9]{1,5})\s*"] * dimensions), text)
+    example, least = ("60x60" if dimensions == 2 else "360"), (2 if option == "--gains" else 1)
+    match = re.fullmatch("[x×X]".join([r"\s*([0-9]{1,30})\s*"] * dimensions), text)
     cells = tuple(int(number) for number in match.groups()) if match else ()
-    if not match or min(cells) < (2 if option == "--gains" else 1):
-        raise InputError(option, text, f"must be {dimensions} whole number{'s'[: dimensions - 1]} such as {example}")
-    total = 1
-    for number in cells:
-        total *= number
+    if not match or min(cells) < least:
+        words = f"{dimensions} whole number{'s'[: dimensions - 1]} of at least {least}"
+        raise InputError(option, text, f"must be {words}, such as {example}")
+    total = math.prod(cells)
     if total > MOST_STARTS:
-        raise InputError(option, text, f"must make at most {MOST_STARTS} cells")
+        raise InputError(option, text, f"makes {total} cells; at most {MOST_STARTS} are allowed")
     return cells
 
 
@@ -194,23 +230,15 @@ def _plane(
 ) -> tuple[tuple[str, str], tuple[Any, Any]]:
     """Names and ranges of the two parameters of a gain map."""
     from carom.bifurcations import axis
-    from carom.parameters import read_quantity
+    from carom.cli.starts import read_range
 
     given = plane or ("stiffness,damping" if parameters.scales else "omega,gamma")
     names = [name.strip() for name in given.split(",")]
     if len(names) != 2 or names[0] == names[1]:
         raise InputError("--plane", given, "must be two names with a comma between them, such as stiffness,damping")
-    axes = axis(parameters, names[0]), axis(parameters, names[1])
-    ranges: list[tuple[float, float] | None] = []
-    for varied, option, text in zip(axes, ("--x", "--y"), (x, y), strict=True):
-        if text is None:
-            ranges.append(None)
-            continue
-        parts = text.split(",")
-        if len(parts) != 2:
-            raise InputError(option, text, f"must be two values of {varied.name} with a comma between them")
-        low, high = (read_quantity(varied.field, part, bare=True) for part in parts)
-        if not low < high:
-            raise InputError(option, text, f"must be two growing values of {varied.name}")
-        ranges.append((low, high))
-    return (axes[0].name, axes[1].name), (ranges[0], ranges[1])
+    first, second = (axis(parameters, name) for name in names)
+    ranges = [
+        None if text is None else read_range(option, text, varied)
+        for varied, option, text in ((first, "--x", x), (second, "--y", y))
+    ]
+    return (first.name, second.name), (ranges[0], ranges[1])

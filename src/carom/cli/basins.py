@@ -48,17 +48,17 @@ def basins(
     disturbance: Kind = "kick",
     grid: Cells = None,
     starts: Starts = None,
-    seed: Seed = 0,
+    seed: Seed = None,
     fastest: Fastest = None,
     peak: Peak = None,
     duration: Duration = None,
     before: Before = None,
-    release: Release = "fixed",
+    release: Release = None,
     gains: GainsWanted = None,
     plane: Plane = None,
     x: FirstRange = None,
     y: SecondRange = None,
-    wanted: Wanted = 0.99,
+    wanted: Wanted = None,
     threads: Threads = None,
     out: Out = None,
     as_json: AsJson = False,
@@ -66,7 +66,8 @@ def basins(
     """Find where disturbances go: what share comes back, the smallest that does not, and the gains that help.
 
     Every start is followed to where it settles. Values without a unit are dimensionless: lengths in clearances, times in
-    1/Omega. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
+    1/Omega; those of a parameter of the machine are in SI units. With --gains the share that comes back is mapped
+    against P and D gain, or any two parameters.
     """
     from carom.parameters import load_case
 

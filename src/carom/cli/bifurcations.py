@@ -39,7 +39,9 @@ Sampled = Annotated[
         help="Simulate N disturbances at each of 31 values and show where they settle: irregular bouncing, rolling, …",
     ),
 ]
-Seed = Annotated[int, typer.Option(metavar="N", min=0, help="Seed of these disturbances.")]
+Seed = Annotated[
+    int | None, typer.Option(metavar="N", min=0, help="Seed of these disturbances, by default 0; with --attractors.")
+]
 NEAR = (0.25, 2.5)
 """Default range of a parameter, in its present value."""
 _NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacker"}
@@ -57,7 +59,7 @@ def bifurcations(
     virtual: Virtual = False,
     lasting: Lasting = False,
     attractors: Sampled = 0,
-    seed: Seed = 0,
+    seed: Seed = None,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
@@ -69,21 +71,26 @@ def bifurcations(
     """
     from carom.bifurcations import Numbers, axis, bifurcation_diagram
     from carom.bifurcations.documents import diagram_document
+    from carom.cli.starts import read_value
     from carom.parameters import load_case
 
     parameters = load_case(machine, settings or ()).parameters
     varied = axis(parameters, along.strip())
-    interval = _value(varied, start), _value(varied, end)
+    first, last = read_value("--from", start, varied), read_value("--to", end, varied)
+    if first == last:
+        raise InputError("--to", end, "must be another value than --from; which of the two is larger does not matter")
+    if seed is not None and not attractors:
+        raise InputError("--seed", seed, "goes with --attractors alone")
     directory = _directory(out)
     with progress("following orbits (the kernels are compiled on first use)") as tell:
         diagram = bifurcation_diagram(
             parameters,
             varied.name,
-            interval,
+            (min(first, last), max(first, last)),
             virtual=virtual,
             lasting=lasting,
             attractors=attractors,
-            seed=seed,
+            seed=seed or 0,
             progress=lambda share: tell(share, "following motions"),
         )
     document = diagram_document(parameters, diagram)
@@ -152,21 +159,14 @@ def regions(
     _print_map(found, axes)
 
 
-def _value(varied: Axis, given: str) -> float:
-    from carom.parameters import read_quantity
-
-    return read_quantity(varied.field, given, bare=True)
-
-
 def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
     """Range of a parameter: as given, or around its present value."""
     from carom.bifurcations import Numbers
 
     if given is not None:
-        parts = given.split(",")
-        if len(parts) != 2:
-            raise InputError(option, given, f"two values of {varied.name} with a comma between them")
-        return _value(varied, parts[0]), _value(varied, parts[1])
+        from carom.cli.starts import read_range
+
+        return read_range(option, given, varied)
     present = varied.get(Numbers.of(parameters))
     if not present > 0.0:
         raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")

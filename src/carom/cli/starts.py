@@ -1,20 +1,19 @@
-"""Starts, kicks and times from text: dimensionless, or with units where the machine is known."""
+"""Starts, kicks, times and ranges from text: dimensionless, or with units where the machine is known."""
 
 from __future__ import annotations
 
 import math
-import re
 from typing import TYPE_CHECKING
 
 from carom.outcome import InputError
-from carom.parameters import Field, Scales, read_quantity
+from carom.parameters import Scales, read_quantity, read_size
 
 if TYPE_CHECKING:
+    from carom.bifurcations import Axis
     from carom.trajectories import Kick, State
 
-__all__ = ["read_kick", "read_size", "read_start", "read_time"]
+__all__ = ["read_kick", "read_positive", "read_range", "read_start", "read_time", "read_value"]
 
-_HUGE = 1e12
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
 _KICK = "must be SPEED or SPEED,ANGLE such as 0.4,0.2 or '50 mm/s,30 deg'"
 
@@ -25,7 +24,7 @@ def read_start(text: str, scales: Scales | None) -> State:
     Parameters
     ----------
     text : str
-        Each value is a number, in ``c_r`` or ``c_r Ω``, or has a unit of length or velocity.
+        Each value has a unit of length or velocity, or is a number in ``c_r`` or ``c_r Ω``.
     scales : Scales or None
         Needed for values with units.
 
@@ -39,8 +38,8 @@ def read_start(text: str, scales: Scales | None) -> State:
         Naming ``--start``, the value and what is allowed.
     """
     parts = _split("--start", text, (4,), _START)
-    x, y = (_number("--start", part, "length", scales) for part in parts[:2])
-    vx, vy = (_number("--start", part, "velocity", scales) for part in parts[2:])
+    x, y = (read_size("--start", part, "length", scales).own(scales) for part in parts[:2])
+    vx, vy = (read_size("--start", part, "velocity", scales).own(scales) for part in parts[2:])
     radius = math.hypot(x, y)
     if radius > 1.0 + 1e-12:
         raise InputError("--start", text, f"must lie inside the wall, |U| <= 1 (here |U| = {radius:.6g})")
@@ -58,8 +57,8 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
         Naming ``--kick``.
     """
     speed, *angle = _split("--kick", text, (1, 2), _KICK)
-    size = _number("--kick", speed, "velocity", scales)
-    direction = _number("--kick", angle[0], "angle", scales) if angle else 0.0
+    size = read_size("--kick", speed, "velocity", scales).own(scales)
+    direction = read_size("--kick", angle[0], "angle", scales).own(scales) if angle else 0.0
     from carom.trajectories import Kick
 
     return Kick(size, direction)
@@ -73,25 +72,51 @@ def read_time(text: str, scales: Scales | None, option: str = "--until") -> floa
     InputError
         Naming the option.
     """
-    time = _number(option, text, "time", scales)
-    if not time > 0:
-        raise InputError(option, text, "must be a time above 0, such as 500 or '2 s'")
-    return time
+    return read_positive(option, text, "time", scales)
 
 
-def read_size(option: str, text: str, kind: str, scales: Scales | None) -> float:
-    """Read a length, velocity, acceleration or time above 0, dimensionless or with a unit; ``20 g`` are gravities.
+def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> float:
+    """Read a length, velocity, acceleration or time above 0, in units of the equations.
 
     Raises
     ------
     InputError
         Naming the option.
     """
-    size = _number(option, text, kind, scales)
+    size = read_size(option, text, kind, scales).own(scales)
     if not size > 0:
         article = "an" if kind[0] in "aeiou" else "a"
-        raise InputError(option, text, f"must be {article} {kind} above 0, such as {_UNITS[kind][1]!r}")
+        raise InputError(option, text, f"must be {article} {kind} above 0")
     return size
+
+
+def read_value(option: str, text: str, varied: Axis) -> float:
+    """Read a value of a parameter to vary.
+
+    Raises
+    ------
+    InputError
+        Naming the option.
+    """
+    try:
+        return read_quantity(varied.field, text)
+    except InputError as problem:
+        raise InputError(option, problem.value, f"{varied.name} {problem.allowed}") from None
+
+
+def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
+    """Read ``A,B``, the ends of a range of a parameter in either order; they come back with the smaller first.
+
+    Raises
+    ------
+    InputError
+        Naming the option.
+    """
+    allowed = f"must be two different values of {varied.name} with a comma between them"
+    first, second = (read_value(option, part, varied) for part in _split(option, text, (2,), allowed))
+    if first == second:
+        raise InputError(option, text, allowed)
+    return min(first, second), max(first, second)
 
 
 def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> list[str]:
@@ -99,41 +124,3 @@ def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> lis
     if len(parts) not in counts or not all(parts):
         raise InputError(option, text, allowed)
     return parts
-
-
-_UNITS = {
-    "length": ("m", "0.3 mm"),
-    "velocity": ("m/s", "5 mm/s"),
-    "acceleration": ("m/s^2", "20 g"),
-    "time": ("s", "2 s"),
-    "angle": ("rad", "30 deg"),
-}
-_GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*")
-"""As engineers write shocks; in tables of units g is the gram."""
-
-
-def _number(option: str, text: str, kind: str, scales: Scales | None) -> float:
-    """A plain number as it is; one with a unit in units of the equations."""
-    unit, example = _UNITS[kind]
-    article = f"an {kind}" if kind[0] == "a" else f"a {kind}"
-    try:
-        float(text)
-    except ValueError:
-        pass
-    else:
-        own = {
-            "length": " in c_r",
-            "velocity": " in c_r Omega",
-            "acceleration": " in c_r Omega^2",
-            "time": " in 1/Omega",
-        }
-        field = Field(option, "", "", article + own.get(kind, ""), "", -_HUGE, _HUGE, f"0.5 or '{example}'")
-        return read_quantity(field, text, bare=True)
-    field = Field(option, "", "", article, unit, -_HUGE, _HUGE, f"'{example}'")
-    gravities = _GRAVITIES.fullmatch(text) if kind == "acceleration" else None
-    number = read_quantity(field, f"{gravities[1]} standard_gravity" if gravities else text)
-    if kind == "angle":
-        return number
-    if scales is None:
-        raise InputError(option, text, "must be without units: the file is dimensionless and has no scales")
-    return number / float(getattr(scales, kind))

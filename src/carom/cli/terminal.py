@@ -36,11 +36,11 @@ _CLOCK = len("0:00:00")
 
 def console(errors: bool = False) -> Console:
     """Console for people; plain text where the output is no terminal."""
-    from rich.console import Console
+    from carom.cli.screen import Screen
 
     stream = sys.stderr if errors else sys.stdout
     width = None if stream.isatty() else PIPE_WIDTH
-    return Console(file=stream, markup=False, highlight=False, emoji=False, width=width)
+    return Screen(file=stream, markup=False, highlight=False, emoji=False, width=width)
 
 
 def print_document(document: dict[str, Any]) -> None:

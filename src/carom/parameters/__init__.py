@@ -3,6 +3,7 @@
 ========================  =================================================================
 ``fields``                names, symbols, units and ranges of all numbers
 ``quantities``            text with units -> float in SI units
+``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           file -> raw tables
 ``scaling``               :class:`Scales`, :class:`Parameters`
 ``machine``               :class:`Machine` and the way to its parameters and back
@@ -15,6 +16,7 @@ from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load_case
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters, Scales
+from carom.parameters.sizes import Size, read_size
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",
@@ -25,8 +27,10 @@ __all__ = [
     "Machine",
     "Parameters",
     "Scales",
+    "Size",
     "Zones",
     "load_case",
     "read_quantity",
+    "read_size",
     "unknown_name",
 ]

@@ -10,11 +10,20 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from carom.outcome import InputError
+from carom.outcome import InputError, shown
 
-__all__ = ["DIMENSIONLESS_FIELDS", "MACHINE_FIELDS", "PHYSICAL_PARTNER", "Field", "shown", "unknown_name"]
+__all__ = [
+    "DIMENSIONLESS_FIELDS",
+    "MACHINE_FIELDS",
+    "PHYSICAL_PARTNER",
+    "Field",
+    "name_errors",
+    "nearest_name",
+    "unknown_name",
+]
 
-_LONGEST_SHOWN = 160
+_LONGEST_NAME = 60
+_MOST_SUGGESTIONS = 100
 
 
 @dataclass(frozen=True)
@@ -41,6 +50,8 @@ class Field:
         Zero is allowed too although it lies outside the range.
     formula : str
         Definition of a dimensionless number by physical ones.
+    bare : str
+        What a number without a unit is in; by default the SI unit.
     """
 
     name: str
@@ -53,6 +64,7 @@ class Field:
     example: str
     zero: bool = False
     formula: str = ""
+    bare: str = ""
 
     @property
     def allowed(self) -> str:
@@ -63,7 +75,9 @@ class Field:
         elif self.lowest > 0:
             limits = f"> 0 ({limits})"
         unit = f" in {self.unit}" if self.unit else ""
-        return f"must be {self.kind}{unit}, {limits}, such as {self.example}"
+        bare = self.bare or self.unit
+        bare = f" (a number without a unit is in {bare})" if bare else ""
+        return f"must be {self.kind}{unit}, {limits}, such as {self.example}{bare}"
 
     def contains(self, number: float) -> bool:
         """Whether a number in the field's SI unit is allowed; never true of NaN."""
@@ -152,18 +166,6 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
 
 
-def shown(given: object) -> str:
-    """Return a value as an error message prints it: on one line, without control characters, never empty."""
-    if isinstance(given, bool):
-        return str(given).lower()
-    try:
-        text = str(given)
-    except ValueError:  # an integer of more digits than Python is willing to print
-        return "a number of thousands of digits"
-    text = text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 1] + "…"
-    return text if text.isprintable() and text.strip() else ascii(text)
-
-
 def unknown_name(name: str, given: object, known: Mapping[str, object], where: str) -> InputError:
     """Error for a name that does not exist, with the nearest name that does.
 
@@ -183,11 +185,42 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     InputError
         To be raised by the caller.
     """
-    symbols = {field.symbol: key for key, field in known.items() if isinstance(field, Field)}
-    lookup = {key.lower(): key for key in known}
-    wanted = name.strip().lower().replace("-", "_").replace(" ", "_")
-    near = difflib.get_close_matches(wanted, lookup, n=1, cutoff=0.6)
-    partner = _PARTNERS.get(wanted)
-    best = symbols.get(name) or (partner if partner in known else lookup[near[0]] if near else None)
+    best = nearest_name(name, known)
     advice = f"did you mean {best}? " if best else ""
     return InputError(shown(name), shown(given), f"unknown name in {where}; {advice}allowed: {', '.join(known)}")
+
+
+def name_errors(table: Mapping[str, object], fields: Mapping[str, Field], where: str) -> list[InputError]:
+    """Errors for all names of a table that are unknown or missing.
+
+    A missing name that an unknown one seems to mean is told once, as that one.
+
+    Parameters
+    ----------
+    table : mapping
+        What the user wrote.
+    fields : mapping
+        What must stand there, and nothing else.
+    where : str
+        Name of the table, for example ``"[machine]"``.
+    """
+    unknown = [name for name in table if name not in fields]
+    absent = {name: field for name, field in fields.items() if name not in table}
+    meant = {nearest_name(name, fields) for name in unknown[:_MOST_SUGGESTIONS]}
+    errors = [unknown_name(name, table[name], fields, where) for name in unknown[:_MOST_SUGGESTIONS]]
+    errors += [InputError(name, shown(table[name]), f"unknown name in {where}") for name in unknown[_MOST_SUGGESTIONS:]]
+    return errors + [
+        InputError(name, None, f"missing in {where}; {field.allowed}")
+        for name, field in absent.items()
+        if name not in meant
+    ]
+
+
+def nearest_name(name: str, known: Mapping[str, object]) -> str | None:
+    """Return the known name that was probably meant, if there is one."""
+    symbols = {field.symbol: key for key, field in known.items() if isinstance(field, Field)}
+    lookup = {key.lower(): key for key in known}
+    wanted = name[:_LONGEST_NAME].strip().lower().replace("-", "_").replace(" ", "_")
+    near = difflib.get_close_matches(wanted, lookup, n=1, cutoff=0.6)
+    partner = _PARTNERS.get(wanted)
+    return symbols.get(name) or (partner if partner in known else lookup[near[0]] if near else None)

@@ -7,12 +7,12 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Context, Decimal, localcontext
-from typing import Any, Self
+from typing import Any, Self, cast
 
 import pydantic
 
-from carom.outcome import InputError
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, shown, unknown_name
+from carom.outcome import InputError, Problems, shown, together
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_name
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters, Scales
 from carom.parameters.toml_reader import read_machine_tables
@@ -23,8 +23,8 @@ __all__ = ["Machine", "check_names"]
 class Machine(pydantic.BaseModel):
     """A rotor, its levitation and its touchdown bearing, in SI units.
 
-    Every value is a number in the SI unit below, or text with a unit such as ``"1759 rpm"`` or ``"0.3 mm"``; the
-    ranges are those of :data:`carom.parameters.fields.MACHINE_FIELDS`. Instances are immutable and hashable.
+    Every value is a number in the SI unit below, or text with a unit such as ``"1759 rpm"`` or ``"0.3 mm"``; a number in
+    quotes without a unit is in the SI unit too. The ranges are those of :data:`carom.parameters.fields.MACHINE_FIELDS`. Instances are immutable and hashable.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Machine(pydantic.BaseModel):
     ------
     InputError
         If a field is missing, unknown, of another dimension, out of range, or if the machine as a whole has a
-        dimensionless parameter out of range.
+        dimensionless parameter out of range.  It tells all errors at once.
     """
 
     model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
@@ -73,7 +73,7 @@ class Machine(pydantic.BaseModel):
         try:
             super().__init__(**values)
         except pydantic.ValidationError as problem:
-            raise _input_error(problem, values) from None
+            raise together(_input_errors(problem, values)) from None
 
     @pydantic.field_validator("*", mode="before")
     @classmethod
@@ -105,11 +105,14 @@ class Machine(pydantic.BaseModel):
         InputError
             If the file cannot be read, is not TOML, holds no ``[machine]`` table, or a value is not allowed.
         """
-        tables = read_machine_tables(path)
+        problems = Problems()
+        tables = read_machine_tables(path, problems)
         if tables.kind != "machine":
             remedy = "must hold a [machine] table; a [dimensionless] one has no mass, clearance and speed"
             raise InputError("machine file", shown(path), remedy)
-        return cls(**tables.values)
+        machine = problems.attempt(cls, **tables.values)
+        problems.tell()
+        return cast("Machine", machine)
 
     @classmethod
     def from_parameters(cls, parameters: Parameters, scales: Scales | None = None) -> Machine:
@@ -205,16 +208,19 @@ def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
     Raises
     ------
     InputError
-        If a name is unknown, or both ``damping`` and ``gamma`` (say) are there.
+        If a name is unknown, or both ``damping`` and ``gamma`` (say) are there.  It tells all errors at once.
     """
     values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
     known = {**MACHINE_FIELDS, **DIMENSIONLESS_FIELDS}
+    problems = Problems()
     for name, value in values.items():
-        if name not in known:
-            raise unknown_name(name, value, known, "a machine or its parameters")
         partner = PHYSICAL_PARTNER.get(name)
-        if partner in values:
-            raise InputError(name, shown(value), f"sets {partner}, which is set too; give one of the two")
+        if name not in known:
+            problems.errors.append(unknown_name(name, value, known, "a machine or its parameters"))
+        elif partner in values:
+            allowed = f"sets {partner}, which is set too; give one of the two"
+            problems.errors.append(InputError(name, shown(value), allowed))
+    problems.tell()
 
 
 @dataclass(frozen=True)
@@ -274,16 +280,11 @@ _LINKS: Mapping[str, _Link] = {
 }
 
 
-def _input_error(problem: pydantic.ValidationError, values: Mapping[str, Any]) -> InputError:
-    """Return the one error to show: an unknown name first, since it is mostly the missing one misspelt."""
-    errors = sorted(problem.errors(), key=lambda error: error["type"] != "extra_forbidden")
-    first = errors[0]
-    name = str(first["loc"][0]) if first["loc"] else ""
-    if first["type"] == "extra_forbidden":
-        return unknown_name(name, values[name], MACHINE_FIELDS, "[machine]")
-    if first["type"] == "missing":
-        return InputError(name, None, f"missing in [machine]; {MACHINE_FIELDS[name].allowed}")
-    cause = first.get("ctx", {}).get("error")
-    if isinstance(cause, InputError):  # as the user wrote the value, units and all
-        return InputError(cause.field, shown(values[cause.field]), cause.allowed)
-    return MACHINE_FIELDS[name].error(values[name], first["msg"])
+def _input_errors(problem: pydantic.ValidationError, values: Mapping[str, Any]) -> list[InputError]:
+    """All errors: names first, since an unknown one is mostly a missing one misspelt."""
+    found = name_errors(values, MACHINE_FIELDS, "[machine]")
+    for error in problem.errors():
+        cause = error.get("ctx", {}).get("error")
+        if isinstance(cause, InputError):  # as the user wrote the value, units and all
+            found.append(InputError(cause.field, shown(values[cause.field]), cause.allowed))
+    return found

@@ -7,10 +7,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
-from carom.outcome import InputError
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, shown, unknown_name
+from carom.outcome import InputError, Problems, printable, shown
+from carom.parameters.fields import (
+    DIMENSIONLESS_FIELDS,
+    MACHINE_FIELDS,
+    PHYSICAL_PARTNER,
+    Field,
+    name_errors,
+    unknown_name,
+)
 from carom.parameters.machine import Machine, check_names
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters
@@ -78,7 +85,7 @@ class Case:
     Parameters
     ----------
     name : str
-        Name of the file without folder and suffix.
+        Name of the file without folder and suffix, printable.
     parameters : Parameters
         Dimensionless parameters, with scales if the file describes a machine. A dimensionless number that was set is
         here in every bit.
@@ -116,7 +123,7 @@ def load_case(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Cas
     ------
     InputError
         If the file cannot be used, or a setting has no value, an unknown name, a value that is not allowed, sets
-        what another one sets, or sets a physical value of a file that has no scales.
+        what another one sets, or sets a physical value of a file that has no scales.  It tells all errors at once.
 
     Examples
     --------
@@ -124,34 +131,48 @@ def load_case(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Cas
     >>> case.parameters.gamma
     0.1
     """
-    tables = read_machine_tables(path)
-    zones = _read_zones(tables.zones)
-    texts = _split(settings)
-    dimensionless = {name: text for name, text in texts.items() if name in DIMENSIONLESS_FIELDS}
-    physical = {name: text for name, text in texts.items() if name in MACHINE_FIELDS}
-    numbers = {name: read_quantity(DIMENSIONLESS_FIELDS[name], text, bare=True) for name, text in dimensionless.items()}
-    name = Path(path).stem
-    if tables.kind == "dimensionless":
-        _refuse_physical(physical)
-        return Case(name, _read_dimensionless(tables).replace(**numbers), None, zones)
-    machine = Machine(**tables.values)
-    physical_numbers = {name: read_quantity(MACHINE_FIELDS[name], text, bare=True) for name, text in physical.items()}
-    machine = machine.replace(**physical_numbers, **numbers)
-    return Case(name, machine.parameters.replace(**numbers), machine, zones)
+    problems = Problems()
+    tables = read_machine_tables(path, problems)
+    zones = problems.attempt(_read_zones, tables.zones)
+    of_machine = tables.kind == "machine"
+    base: Machine | Parameters | None = (
+        problems.attempt(Machine, **tables.values) if of_machine else problems.attempt(_read_dimensionless, tables)
+    )
+    texts = _split(settings, problems)
+    dimensionless = _read_settings(texts, DIMENSIONLESS_FIELDS, problems)
+    if not of_machine:
+        problems.attempt(_refuse_physical, {name: text for name, text in texts.items() if name in MACHINE_FIELDS})
+    physical = _read_settings(texts, MACHINE_FIELDS, problems) if of_machine else {}
+    problems.tell()
+    name = printable(Path(path).stem)
+    zones = zones or Zones()
+    if not isinstance(base, Machine):
+        return Case(name, cast("Parameters", base).replace(**dimensionless), None, zones)
+    machine = base.replace(**physical, **dimensionless)
+    return Case(name, machine.parameters.replace(**dimensionless), machine, zones)
 
 
-def _split(settings: Iterable[str]) -> dict[str, str]:
+def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
     """Names and texts of the settings, checked for everything but the values."""
     texts: dict[str, str] = {}
     for setting in settings:
         name, equals, text = (part.strip() for part in str(setting).partition("="))
         if not equals or not name:
-            raise InputError(_SETTING, shown(setting), "must be name=value, such as gamma=0.1 or damping=2000 N s/m")
+            allowed = "must be name=value, such as gamma=0.1 or damping=2000 N s/m"
+            problems.errors.append(InputError(_SETTING, shown(setting), allowed))
+            continue
         if name in texts:
-            raise InputError(name, shown(text), f"is set twice by {_SETTING}; give it once")
+            problems.errors.append(InputError(name, shown(text), f"is set twice by {_SETTING}; give it once"))
         texts[name] = text
-    check_names(texts)
+    problems.attempt(check_names, texts)
     return texts
+
+
+def _read_settings(texts: Mapping[str, str], fields: Mapping[str, Field], problems: Problems) -> dict[str, float]:
+    numbers = {
+        name: problems.attempt(read_quantity, fields[name], text) for name, text in texts.items() if name in fields
+    }
+    return {name: number for name, number in numbers.items() if number is not None}
 
 
 def _refuse_physical(physical: Mapping[str, str]) -> None:
@@ -166,21 +187,25 @@ def _refuse_physical(physical: Mapping[str, str]) -> None:
 
 
 def _read_dimensionless(tables: MachineTables) -> Parameters:
-    for name, value in tables.values.items():
-        if name not in DIMENSIONLESS_FIELDS:
-            raise unknown_name(name, value, DIMENSIONLESS_FIELDS, "[dimensionless]")
-    for name, field in DIMENSIONLESS_FIELDS.items():
-        if name not in tables.values:
-            raise InputError(name, None, f"missing in [dimensionless]; {field.allowed}")
-    numbers = {name: read_quantity(field, tables.values[name]) for name, field in DIMENSIONLESS_FIELDS.items()}
-    return Parameters(**numbers, scales=None)
+    problems = Problems()
+    problems.errors += name_errors(tables.values, DIMENSIONLESS_FIELDS, "[dimensionless]")
+    numbers = {
+        name: problems.attempt(read_quantity, field, tables.values[name])
+        for name, field in DIMENSIONLESS_FIELDS.items()
+        if name in tables.values
+    }
+    problems.tell()
+    return Parameters(**cast("dict[str, float]", numbers), scales=None)
 
 
 def _read_zones(table: Mapping[str, Any]) -> Zones:
-    for name, value in table.items():
-        if name != "limits":
-            raise unknown_name(name, value, {"limits": None}, "[zones]")
-    return Zones(**table)
+    problems = Problems()
+    problems.errors += [
+        unknown_name(name, value, {"limits": None}, "[zones]") for name, value in table.items() if name != "limits"
+    ]
+    zones = problems.attempt(Zones, *(value for name, value in table.items() if name == "limits"))
+    problems.tell()
+    return zones or Zones()
 
 
 def _read_limits(limits: object) -> tuple[float, float, float]:

@@ -39,19 +39,18 @@ _PARSER_ERRORS = (
 )
 
 
-def read_quantity(field: Field, given: object, *, bare: bool = False) -> float:
+def read_quantity(field: Field, given: object) -> float:
     """Read a number, or text with a unit, as a float in the SI unit of a field.
 
-    The decimal text is converted exactly and rounded once, so that ``"0.7 mm"`` and ``0.0007`` are the same double.
+    The decimal text is converted exactly and rounded once, so that ``"0.7 mm"`` and ``0.0007`` are the same double.  A
+    number without a unit is in the SI unit, in quotes or not.
 
     Parameters
     ----------
     field : Field
         What is read: its unit and its range.
     given : object
-        A real number in the SI unit, or text such as ``"1759 rpm"``.
-    bare : bool
-        Accept text without a unit as a number in the SI unit (on the command line everything is text).
+        A real number, or text such as ``"1759 rpm"``.
 
     Returns
     -------
@@ -64,7 +63,7 @@ def read_quantity(field: Field, given: object, *, bare: bool = False) -> float:
         If `given` is anything else, of another dimension, not finite or out of range.
     """
     if isinstance(given, str):
-        number = _from_text(field, given, bare)
+        number = _from_text(field, given)
     elif isinstance(given, Real) and not isinstance(given, bool):
         try:
             number = float(given)
@@ -75,14 +74,12 @@ def read_quantity(field: Field, given: object, *, bare: bool = False) -> float:
     return field.check(number, given)
 
 
-def _from_text(field: Field, text: str, bare: bool) -> float:
+def _from_text(field: Field, text: str) -> float:
     match = _TEXT.fullmatch(text.strip())
     if not match:
         raise field.error(text, "this does not start with a number" if text.strip() else "this is empty")
     number, unit = float(match["number"]), match["unit"].strip()
     if not unit:
-        if field.unit and not bare:
-            raise field.error(text, f"a number in quotes needs its unit, or write it without quotes in {field.unit}")
         return number
     with decimal.localcontext(_DIGITS):
         factor = _factor(field, unit, text)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from carom.outcome import InputError
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, shown, unknown_name
+from carom.outcome import InputError, shown
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, unknown_name
 from carom.parameters.quantities import read_quantity
 
 __all__ = ["Parameters", "Scales"]

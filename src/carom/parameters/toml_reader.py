@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
+import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from carom.outcome import InputError
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, shown, unknown_name
+from carom.outcome import InputError, Problems, shown, together
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknown_name
 
 __all__ = ["MachineTables", "read_machine_tables", "read_toml"]
 
@@ -18,6 +19,15 @@ _WHAT = "machine file"
 _TABLES = {"machine": None, "dimensionless": None, "zones": None}
 _LARGEST_BYTES = 1_000_000
 _REMEDY = "must hold a [machine] or a [dimensionless] table"
+_MOST_LEVELS = 16
+_PARTS = re.compile(
+    r'''"""(?:[^"\\]++|\\(?:.|\Z)|"(?!""))*+(?:"""|\Z)'''
+    r"""|'''(?:[^']++|'(?!''))*+(?:'''|\Z)"""
+    r"""|"(?:[^"\\\n]++|\\(?:.|\Z))*+"?|'[^'\n]*+'?|#[^\n]*+|[][{}.,=\n]""",
+    re.DOTALL,
+)
+"""Strings and comments, each as a whole, and the signs between which keys and values stand."""
+_PLACE = re.compile(r"\(at line ([0-9]+), ")
 
 
 @dataclass(frozen=True)
@@ -39,13 +49,15 @@ class MachineTables:
     zones: Mapping[str, Any] = field(default_factory=dict)
 
 
-def read_machine_tables(path: str | os.PathLike[str]) -> MachineTables:
+def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:
     """Read the tables of a machine file.
 
     Parameters
     ----------
     path : path
         A TOML file with either a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``.
+    problems : Problems
+        Gets the errors of what stands beside these tables.
 
     Returns
     -------
@@ -55,19 +67,23 @@ def read_machine_tables(path: str | os.PathLike[str]) -> MachineTables:
     Raises
     ------
     InputError
-        If the file cannot be read, is not TOML, or does not hold exactly one of the two tables.
+        If the file cannot be read, is not TOML, or does not hold exactly one of the two tables; with all of `problems`.
     """
     name, content = read_toml(path, _WHAT, _REMEDY)
     for key, value in content.items():
         if key not in _TABLES:
-            raise _unknown_at_top(key, value)
-        if not isinstance(value, dict):
-            raise InputError(key, shown(value), f"must be a table that starts with the line [{key}], not a value")
+            problems.errors.append(_unknown_at_top(key, value))
+        elif not isinstance(value, dict):
+            allowed = f"must be a table that starts with the line [{key}], not a value"
+            problems.errors.append(InputError(key, shown(value), allowed))
     kinds = [kind for kind in ("machine", "dimensionless") if kind in content]
-    if len(kinds) != 1:
+    if len(kinds) != 1 and not (problems.errors and not kinds):  # a table with another name is what is missing
         found = "holds both" if kinds else "holds neither"
-        raise InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}")
-    return MachineTables(kinds[0], content[kinds[0]], content.get("zones", {}))
+        problems.errors.append(InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}"))
+    if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
+        problems.tell()
+    zones = content.get("zones", {})
+    return MachineTables(kinds[0], content[kinds[0]], zones if isinstance(zones, dict) else {})
 
 
 def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:
@@ -131,15 +147,55 @@ def _read(name: str, what: str, remedy: str) -> str:
 def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, Any]:
     if not text.strip():
         raise InputError(what, shown(name), f"{remedy}; it is empty")
+    if line := _first_deep_line(text):
+        words = f"must be valid TOML of at most {_MOST_LEVELS} levels; line {line} is nested too deeply"
+        raise InputError(what, shown(name), words)
     try:
         return tomllib.loads(text)
-    except RecursionError:
-        raise InputError(what, shown(name), "must be valid TOML; it is nested too deeply") from None
-    except ValueError as problem:
+    except tomllib.TOMLDecodeError as problem:
         advice = str(problem)
+        place = _PLACE.search(advice)
+        bare = list(_bare_texts(text, name))
+        if place and int(place[1]) in (line for line, _ in bare):
+            raise together([error for _, error in bare]) from None
         if advice.startswith("Cannot overwrite a value"):
             advice += ": the same key is given twice"
         raise InputError(what, shown(name), f"must be valid TOML; {advice}") from None
+    except ValueError:
+        raise InputError(what, shown(name), "must be valid TOML; a number in it has thousands of digits") from None
+
+
+def _first_deep_line(text: str) -> int | None:
+    """Number of the first line with too many levels, in time proportional to the length: the parser's grows faster."""
+    brackets = dots = 0
+    for part in _PARTS.finditer(text):
+        sign = part[0]
+        if sign == ".":
+            dots += 1
+        elif sign in "[{":
+            brackets, dots = brackets + 1, 0
+        elif sign in "]}":
+            brackets, dots = max(brackets - 1, 0), 0
+        elif sign in ",=\n":
+            dots = 0
+        if brackets >= _MOST_LEVELS or dots >= _MOST_LEVELS:
+            return text.count("\n", 0, part.start()) + 1
+    return None
+
+
+def _bare_texts(text: str, name: str) -> Iterator[tuple[int, InputError]]:
+    """Lines ``key = value`` whose value would be text if it stood in quotes, such as ``mass = 50 kg``."""
+    for number, line in enumerate(text.split("\n"), start=1):
+        key, equals, value = (part.strip() for part in line.partition("#")[0].partition("="))
+        if not equals or not key or not value or not set(value).isdisjoint("\"'[]{}=\\"):
+            continue
+        try:
+            tomllib.loads(f"x = {value}")
+        except ValueError:
+            allowed = (
+                f'must stand in quotes if it is text or has a unit: {key} = "{value}" (line {number} of {shown(name)})'
+            )
+            yield number, InputError(key, value, allowed)
 
 
 def _unknown_at_top(key: str, value: object) -> InputError:

@@ -36,8 +36,14 @@ __all__ = ["as_json", "orbits_document", "study_document", "trajectory_document"
 
 
 def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
-    """Write a document as one JSON object: plain types only, ``null`` for what is not finite."""
-    return json.dumps(_plain(document), indent=indent, ensure_ascii=False, allow_nan=False)
+    """Write a document as one JSON object: plain types only, ``null`` for what is not finite.
+
+    What is not printable is escaped.
+    """
+    text = json.dumps(_plain(document), indent=indent, ensure_ascii=False, allow_nan=False)
+    if text.replace("\n", "").isprintable():
+        return text
+    return "".join(sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1] for sign in text)
 
 
 def orbits_document(

@@ -109,6 +109,10 @@ def run_sweep(
     """
     if workers is not None and workers < 1:
         raise InputError("--workers", workers, "must be a whole number of at least 1")
+    if scheduler is not None and threads:
+        raise InputError("--threads", "given", "goes without --scheduler, whose workers compute")
+    if scheduler not in (None, "slurm") and workers is not None:
+        raise InputError("--workers", workers, "goes without --scheduler ADDRESS, whose workers compute; or with slurm")
     book = SweepStore(store, plan)
     began, computed = time.monotonic(), 0
 
@@ -140,8 +144,6 @@ def _chunks(
     if scheduler is not None:
         from carom.sweeps.cluster import connect, on_cluster
 
-        if threads:
-            raise InputError("--threads", "given", "goes without --scheduler, whose workers compute")
         client = stack.enter_context(connect(scheduler, workers)) if isinstance(scheduler, str) else scheduler
         return on_cluster(plan, numbers, client)
     from carom.sweeps.local import on_processes, on_threads

@@ -6,23 +6,25 @@ import dataclasses
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias, TypeVar, cast
 
 import pydantic
 
 from carom.disturbances import MODELS
-from carom.outcome import InputError
+from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     MACHINE_FIELDS,
     Case,
     Field,
     Scales,
+    Zones,
     load_case,
     read_quantity,
+    read_size,
     unknown_name,
 )
-from carom.parameters.fields import shown
+from carom.parameters.fields import nearest_name
 from carom.parameters.machine import check_names
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.basins import BasinsTask
@@ -35,13 +37,8 @@ _WHAT = "sweep file"
 _REMEDY = 'must hold machine = "...", a table [axes.NAME] for each axis, and a [study] or a [basins] table'
 _LONGEST_AXIS = 1_000_000
 _MOST_STARTS = 10**12
-_GRAVITY = " standard_gravity"
-_SIZES: Mapping[str, tuple[str, str, str]] = {
-    "velocity": ("m/s", "a velocity", "0.3 m/s"),
-    "acceleration": ("m/s^2", "an acceleration", "20 g"),
-    "time": ("s", "a time", "11 ms"),
-    "length": ("m", "a length", "0.2 mm"),
-}
+_ANY_SCALES = Scales(1.0, 1.0, 1.0)
+"""With which sizes are checked where those of the machine are not known, as its file has errors of its own."""
 
 
 class _Table(pydantic.BaseModel):
@@ -56,7 +53,7 @@ class _Axis(_Table):
     end: _Value | None = pydantic.Field(None, alias="to")
     count: int | None = pydantic.Field(None, ge=2, le=_LONGEST_AXIS)
     spacing: Literal["linear", "log"] | None = None
-    values: list[_Value] | None = pydantic.Field(None, min_length=1, max_length=_LONGEST_AXIS)
+    values: list[Any] | None = pydantic.Field(None, min_length=1, max_length=_LONGEST_AXIS)
 
 
 class _Study(_Table):
@@ -69,16 +66,17 @@ class _Basins(_Table):
     disturbance: dict[str, Any]
 
 
-class _SweepFile(_Table):
+class _Top(_Table):
     machine: str
     settings: list[str] = pydantic.Field([], alias="set")
-    seed: int = pydantic.Field(0, ge=0, lt=2**63)
+    seed: int | None = pydantic.Field(None, ge=0, lt=2**63)
     chunk: int | None = pydantic.Field(None, ge=1)
-    axes: dict[str, _Axis] = pydantic.Field(min_length=1)
-    study: _Study | None = None
-    basins: _Basins | None = None
 
 
+_TABLES = ("axes", "study", "basins")
+_PARAMETERS = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
+_Sizes: TypeAlias = tuple[tuple[str, Any, bool], ...]
+_Model = TypeVar("_Model", bound=_Table)
 _ALLOWED = {
     "machine": 'must be the path of a machine file, from the folder of the sweep file, such as "keogh-cole.toml"',
     "set": 'must be a list of settings, such as ["friction=0.2"]',
@@ -90,8 +88,6 @@ _ALLOWED = {
     "count": f"must be a whole number from 2 to {_LONGEST_AXIS}: how many values",
     "spacing": 'must be "linear" or "log"',
     "values": f"must be a list of 1 to {_LONGEST_AXIS} values, numbers or texts with a unit",
-    "study": "must be a table [study]",
-    "basins": "must be a table [basins]",
     "disturbances": "must be a whole number from 0 to 1000000: motions simulated at each point",
     "least_damping": "must be true or false",
     "starts": f"must be a whole number from 1 to {_MOST_STARTS:.0e}: disturbances at each point",
@@ -116,61 +112,122 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     Raises
     ------
     InputError
-        The file, or the machine file it names, cannot be used.
+        The file, or the machine file it names, cannot be used.  It tells all errors at once.
     """
     name, content = read_toml(path, _WHAT, _REMEDY)
-    try:
-        given = _SweepFile.model_validate(content)
-    except pydantic.ValidationError as problem:
-        raise _input_error(problem, content) from None
-    machine = Path(name).parent / given.machine
-    listed = [*given.settings, *settings]
-    case = load_case(machine, listed)
-    fixed = _fixed(case, listed, given.axes)
-    axes = tuple(_axis(case, axis, table) for axis, table in given.axes.items())
-    task = _task(case, given)
-    shape = tuple(axis.count for axis in axes)
+    problems = Problems()
+    tables = {table: content.pop(table) for table in _TABLES if table in content}
+    top = problems.attempt(_read, _Top, content, "", _TABLES)
+    listed = [*(top.settings if top else []), *settings]
+    machine = Path(name).parent / (top.machine if top else "")
+    case = problems.attempt(load_case, machine, listed) if top else None
+    axes = problems.attempt(_axes, tables.get("axes"), listed, case)
+    task = problems.attempt(_task, tables, top, case)
+    problems.tell()
+    case, axes, task, top = cast("tuple[Case, tuple[GridAxis, ...], Task, _Top]", (case, axes, task, top))
+    chunk = cut(tuple(axis.count for axis in axes), task, top.chunk)
+    names = [setting.partition("=")[0].strip() for setting in listed]
+    fixed = {name: getattr(case.parameters, name) for name in names if name in DIMENSIONLESS_FIELDS}
     sources = {
         "sweep_file": Path(name).read_text(encoding="utf-8-sig"),
         "machine_file": machine.read_text(encoding="utf-8-sig"),
     }
-    return SweepPlan(case, axes, task, cut(shape, task, given.chunk), given.seed, fixed, sources)
+    return SweepPlan(case, axes, task, chunk, top.seed or 0, fixed, sources)
 
 
-def _fixed(case: Case, settings: list[str], axes: Mapping[str, object]) -> dict[str, float]:
-    """Dimensionless numbers among the settings; no setting may touch what an axis varies."""
+def _read(model: type[_Model], content: object, where: str, besides: Iterable[str] = ()) -> _Model:
+    """Check the entries of a table; `besides` are names of other tables, for the errors of unknown names."""
+    if not isinstance(content, dict):
+        raise InputError(where, shown(content), f"must be a table [{where}]")
+    try:
+        return model.model_validate(content)
+    except pydantic.ValidationError as problem:
+        errors = problem.errors()
+    names = {field.alias or name: None for name, field in model.model_fields.items()}
+    known = {**names, **dict.fromkeys(besides)}
+    prefix = f"{where}." if where else ""
+    unknown = [entry for entry in content if entry not in names]
+    found = [unknown_name(entry, content[entry], known, f"[{where}]" if where else _WHAT) for entry in unknown]
+    meant = {nearest_name(entry, names) for entry in unknown}
+    for entry in dict.fromkeys(str(error["loc"][0]) for error in errors):
+        if entry in content and entry in names:
+            found.append(InputError(f"{prefix}{entry}", shown(content[entry]), _ALLOWED[entry]))
+        elif entry in names and entry not in meant:
+            found.append(InputError(f"{prefix}{entry}", None, f"missing; {_ALLOWED[entry]}"))
+    raise together(found)
+
+
+# -------------------------------------------------------------------------------------------------------------- axes
+
+
+def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridAxis, ...]:
+    if not isinstance(tables, dict) or not tables:
+        raise InputError("axes", None if tables is None else shown(tables), _ALLOWED["axes"])
+    problems = Problems()
+    problems.attempt(_check_varied, list(tables), settings)
+    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in _PARAMETERS]
+    problems.tell()
+    return cast("tuple[GridAxis, ...]", tuple(axes))
+
+
+def _check_varied(axes: list[str], settings: list[str]) -> None:
+    """No setting may touch what an axis varies."""
     names = {setting.partition("=")[0].strip(): "set" for setting in settings}
-    for name in axes:
-        if name in names:
-            raise InputError(f"axes.{name}", "varied", "is set too; do one of the two")
-    check_names({**names, **dict.fromkeys(axes, "varied")})
-    return {name: getattr(case.parameters, name) for name in names if name in DIMENSIONLESS_FIELDS}
+    problems = Problems()
+    problems.errors += [
+        InputError(f"axes.{name}", "varied", "is set too; do one of the two") for name in axes if name in names
+    ]
+    unknown = [name for name in names if name not in _PARAMETERS]  # an error of the settings
+    problems.attempt(
+        check_names,
+        {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
+    )
+    problems.tell()
 
 
-def _axis(case: Case, name: str, table: _Axis) -> GridAxis:
-    field = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}[name]
-    where = f"axes.{name}"
-    if name in MACHINE_FIELDS and case.machine is None:
-        raise InputError(where, shown(name), "the machine file is dimensionless; vary dimensionless parameters")
+def _axis(case: Case | None, name: str, given: object) -> GridAxis:
+    where, field = f"axes.{name}", _PARAMETERS[name]
+    problems = Problems()
+    if name in MACHINE_FIELDS and case is not None and case.machine is None:
+        words = "the machine file is dimensionless; vary dimensionless parameters"
+        problems.errors.append(InputError(where, shown(name), words))
+    table = problems.attempt(_read, _Axis, given, where)
+    axis = problems.attempt(_values, where, field, table) if table else None
+    problems.tell()
+    return cast("GridAxis", axis)
+
+
+def _values(where: str, field: Field, table: _Axis) -> GridAxis:
     ends = {"from": table.start, "to": table.end, "count": table.count}
+    problems = Problems()
     if table.values is not None:
-        for key, value in {**ends, "spacing": table.spacing}.items():
-            if value is not None:
-                raise InputError(f"{where}.{key}", shown(value), "goes without values; give one or the other")
-        values = tuple(_number(f"{where}.values", field, value) for value in table.values)
+        problems.errors += [
+            InputError(f"{where}.{key}", shown(value), "goes without values; give one or the other")
+            for key, value in {**ends, "spacing": table.spacing}.items()
+            if value is not None
+        ]
+        values = [problems.attempt(_number, f"{where}.values", field, value) for value in table.values]
+        problems.tell()
         if len(set(values)) < len(values):
             raise InputError(f"{where}.values", shown(table.values), "must be different values")
-        return GridAxis(name, "list", values, len(values))
-    for key, value in ends.items():
-        if value is None:
-            raise InputError(f"{where}.{key}", None, f"missing; {_ALLOWED[key]}; or give values = [...]")
-    low, high = (_number(f"{where}.{key}", field, ends[key]) for key in ("from", "to"))
+        return GridAxis(field.name, "list", cast("tuple[float, ...]", tuple(values)), len(values))
+    problems.errors += [
+        InputError(f"{where}.{key}", None, f"missing; {_ALLOWED[key]}; or give values = [...]")
+        for key, value in ends.items()
+        if value is None
+    ]
+    low, high = (
+        problems.attempt(_number, f"{where}.{key}", field, ends[key]) if ends[key] is not None else None
+        for key in ("from", "to")
+    )
+    problems.tell()
+    low, high = cast("tuple[float, float]", (low, high))
     if low == high:
         raise InputError(f"{where}.to", shown(table.end), "must be another value than from")
     spacing = table.spacing or "linear"
     if spacing == "log" and not (low > 0 and high > 0):
         raise InputError(f"{where}.spacing", "log", "needs ends above 0")
-    return GridAxis(name, spacing, (low, high), int(table.count or 0))
+    return GridAxis(field.name, spacing, (low, high), int(table.count or 0))
 
 
 def _number(where: str, field: Field, given: object) -> float:
@@ -180,21 +237,37 @@ def _number(where: str, field: Field, given: object) -> float:
         raise InputError(where, problem.value, problem.allowed) from None
 
 
-def _task(case: Case, given: _SweepFile) -> Task:
-    if (given.study is None) == (given.basins is None):
-        found = "neither" if given.study is None else "both"
+# -------------------------------------------------------------------------------------------------------------- work
+
+
+def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> Task:
+    """What is to be found out at each point; without a case only its errors are."""
+    if ("study" in tables) == ("basins" in tables):
+        found = "both" if "study" in tables else "neither"
         raise InputError(_WHAT, found, "must hold a [study] or a [basins] table, one of them alone")
-    scales = case.parameters.scales
-    if given.study is not None:
-        if given.study.least_damping and not given.study.disturbances:
-            raise InputError("study.disturbances", 0, "must be above 0 where least_damping is wanted, such as 100")
-        return StudyTask(
-            given.study.disturbances, given.study.least_damping, case.zones.limits, has_scales=scales is not None
-        )
-    basins = given.basins
-    if basins is None:
-        raise InputError("basins", None, _ALLOWED["basins"])
-    kind, sizes = _disturbance(basins.disturbance, scales)
+    scales = case.parameters.scales if case else _ANY_SCALES
+    if "basins" in tables:
+        return _basins(tables["basins"], scales)
+    study = _read(_Study, tables["study"], "study")
+    problems = Problems()
+    if study.least_damping and not study.disturbances:
+        allowed = "must be above 0 where least_damping is wanted, such as 100"
+        problems.errors.append(InputError("study.disturbances", study.disturbances, allowed))
+    if top and top.seed is not None and not study.disturbances:
+        allowed = "goes with simulated disturbances; leave it out, or set study.disturbances above 0"
+        problems.errors.append(InputError("seed", top.seed, allowed))
+    problems.tell()
+    limits = case.zones.limits if case else Zones().limits
+    return StudyTask(study.disturbances, study.least_damping, limits, has_scales=scales is not None)
+
+
+def _basins(given: object, scales: Scales | None) -> BasinsTask:
+    problems = Problems()
+    basins = problems.attempt(_read, _Basins, given, "basins")
+    table = given.get("disturbance") if isinstance(given, dict) else None
+    found = problems.attempt(_disturbance, table, scales) if isinstance(table, dict) else None
+    problems.tell()
+    basins, (kind, sizes) = cast("tuple[_Basins, tuple[str, _Sizes]]", (basins, found))
     task = BasinsTask(basins.starts, kind, sizes, has_scales=scales is not None)
     try:
         task.model(scales)
@@ -203,27 +276,29 @@ def _task(case: Case, given: _SweepFile) -> Task:
     return task
 
 
-def _disturbance(table: dict[str, Any], scales: Scales | None) -> tuple[str, tuple[tuple[str, Any, bool], ...]]:
+def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, _Sizes]:
     """Kind and sizes of a disturbance."""
     where = "basins.disturbance"
     kind = table.get("kind")
     if not isinstance(kind, str) or kind not in MODELS:
         raise _unknown(f"{where}.kind", kind, MODELS)
     fields = {field.name: field for field in dataclasses.fields(MODELS[kind])}
-    for name, value in table.items():
-        if name != "kind" and name not in fields:
-            raise unknown_name(name, value, {"kind": None, **fields}, f"[{where}] of a {kind}")
-    sizes = []
+    unknown = [name for name in table if name != "kind" and name not in fields]
+    problems = Problems()
+    problems.errors += [
+        unknown_name(name, table[name], {"kind": None, **fields}, f"[{where}] of a {kind}") for name in unknown
+    ]
+    meant = {nearest_name(name, fields) for name in unknown}
+    sizes: list[tuple[str, Any, bool] | None] = []
     for name, field in fields.items():
         if name in table:
-            scale = MODELS[kind].measured_in.get(name, "")
-            read = _pair if isinstance(field.default, complex) else _size
-            sizes.append((name, *read(f"{where}.{name}", table[name], scale, scales)))
-        elif field.default is dataclasses.MISSING:
-            raise InputError(f"{where}.{name}", None, f"missing; a {kind} needs it")
-        else:
+            sizes.append(problems.attempt(_size, f"{where}.{name}", table[name], kind, field, scales))
+        elif field.default is not dataclasses.MISSING:
             sizes.append((name, field.default, False))
-    return kind, tuple(sizes)
+        elif name not in meant:
+            problems.errors.append(InputError(f"{where}.{name}", None, f"missing; a {kind} needs it"))
+    problems.tell()
+    return kind, cast("_Sizes", tuple(sizes))
 
 
 def _unknown(where: str, given: object, known: Mapping[str, Any]) -> InputError:
@@ -233,60 +308,18 @@ def _unknown(where: str, given: object, known: Mapping[str, Any]) -> InputError:
     return InputError(where, shown(given), problem.allowed.replace("unknown name", "unknown"))
 
 
-def _size(where: str, given: object, scale: str, scales: Scales | None) -> tuple[Any, bool]:
-    """A size: a number in units of the equations, or text with a unit; and whether it is in SI units."""
+def _size(
+    where: str, given: object, kind: str, field: dataclasses.Field[Any], scales: Scales | None
+) -> tuple[str, Any, bool]:
+    """Name of a size, its value - of a complex one, from its two parts - and whether that is in SI units."""
+    scale = MODELS[kind].measured_in.get(field.name, "")
     if not scale:
-        return given, False
-    unit, kind, example = _SIZES[scale]
-    if not isinstance(given, str):
-        field = Field(where, "", "", "a number", "", -1e30, 1e30, f"0.5, in units of the equations, or '{example}'")
-        return read_quantity(field, given), False
-    if scales is None:
-        raise InputError(where, given, "must be a number: the machine file is dimensionless and has no scales")
-    text = given.strip()
-    if scale == "acceleration" and text.endswith("g") and not text[:-1].strip().endswith(("k", "m")):
-        text = text[:-1] + _GRAVITY
-    try:
-        return read_quantity(Field(where, "", "", kind, unit, -1e30, 1e30, f"'{example}'"), text), True
-    except InputError as problem:
-        raise InputError(where, given, problem.allowed) from None
-
-
-def _pair(where: str, given: object, scale: str, scales: Scales | None) -> tuple[complex, bool]:
-    """A complex size: its real and imaginary part, both with a unit or both without."""
-    parts = [_size(where, part, scale, scales) for part in given] if isinstance(given, list) else []
-    if len(parts) != 2 or parts[0][1] != parts[1][1]:
-        example = _SIZES[scale][2]
-        allowed = f'must be two sizes along x and y, both with a unit or none, such as [0.5, 0], or ["{example}", "{example}"]'
+        return field.name, given, False
+    if not isinstance(field.default, complex):
+        size = read_size(where, given, scale, scales)
+        return field.name, size.value, size.in_si
+    parts = [read_size(where, part, scale, scales) for part in given] if isinstance(given, list) else []
+    if len(parts) != 2 or parts[0].in_si != parts[1].in_si:
+        allowed = 'must be two sizes along x and y, both with a unit or none, such as [0.5, 0], or ["0.3 m/s", "0 m/s"]'
         raise InputError(where, shown(given), allowed)
-    (real, in_si), (imaginary, _) = parts
-    return complex(real, imaginary), in_si
-
-
-def _input_error(problem: pydantic.ValidationError, content: Mapping[str, Any]) -> InputError:
-    """Return the one error to show: an unknown name first, since it is mostly the missing one misspelt."""
-    errors = sorted(problem.errors(), key=lambda error: error["type"] != "extra_forbidden")
-    first = errors[0]
-    path = [part for part in first["loc"] if isinstance(part, str)]
-    # Of a union of types pydantic names the alternatives too.
-    known = [part for place, part in enumerate(path) if place < 2 or part in _ALLOWED]
-    where, name = ".".join(known), known[-1]
-    if first["type"] == "extra_forbidden":
-        return _unknown_entry(path, first["input"])
-    given = None if first["type"] == "missing" else shown(_find(content, path))
-    return InputError(where, given, _ALLOWED[name if name in _ALLOWED else "axes"])
-
-
-def _find(content: Any, path: list[str]) -> Any:
-    for part in path:
-        if not isinstance(content, Mapping) or part not in content:
-            break
-        content = content[part]
-    return content
-
-
-def _unknown_entry(path: list[str], given: object) -> InputError:
-    tables: dict[str, type[_Table]] = {"study": _Study, "basins": _Basins, "axes": _Axis}
-    table = tables.get(path[0], _SweepFile) if len(path) > 1 else _SweepFile
-    names = {field.alias or name: None for name, field in table.model_fields.items()}
-    return unknown_name(path[-1], given, names, f"[{'.'.join(path[:-1])}]" if len(path) > 1 else "the sweep file")
+    return field.name, complex(parts[0].value, parts[1].value), parts[0].in_si

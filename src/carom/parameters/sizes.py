@@ -1,0 +1,92 @@
+"""Sizes of starts, times and disturbances: in units of the equations, or with a unit where the machine is known."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from carom.outcome import InputError, shown
+from carom.parameters.fields import Field
+from carom.parameters.quantities import read_quantity
+from carom.parameters.scaling import Scales
+
+__all__ = ["Size", "read_size"]
+
+_HUGE = 1e12
+
+
+class _Kind(NamedTuple):
+    words: str
+    unit: str
+    own: str
+    example: str
+
+
+_KINDS: Mapping[str, _Kind] = {
+    "length": _Kind("a length", "m", "c_r", "0.3 mm"),
+    "velocity": _Kind("a velocity", "m/s", "c_r Omega", "50 mm/s"),
+    "acceleration": _Kind("an acceleration", "m/s^2", "c_r Omega^2", "20 g"),
+    "time": _Kind("a time", "s", "1/Omega", "11 ms"),
+    "angle": _Kind("an angle", "rad", "rad", "30 deg"),
+}
+_PLAIN = re.compile(r"\s*[+-]?(?:[0-9.]+(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity))\s*")
+_GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*", re.DOTALL)
+"""As engineers write shocks; in tables of units g is the gram."""
+
+
+class Size(NamedTuple):
+    """A size as it was given.
+
+    Attributes
+    ----------
+    value : float
+    in_si : bool
+        Whether it is in the SI unit; otherwise it is in units of the equations.
+    kind : str
+        Property of :class:`Scales` that is its unit, or ``"angle"``.
+    """
+
+    value: float
+    in_si: bool
+    kind: str
+
+    def own(self, scales: Scales | None) -> float:
+        """Return it in units of the equations; those of one in SI units must be known."""
+        return self.value / float(getattr(scales, self.kind)) if self.in_si else self.value
+
+
+def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Size:
+    """Read a size: a number without a unit counts units of the equations, in quotes or not.
+
+    Parameters
+    ----------
+    name : str
+        Of the option or entry, for errors.
+    given : object
+        A real number, or text; ``"20 g"`` are standard gravities.
+    kind : {"length", "velocity", "acceleration", "time", "angle"}
+    scales : Scales or None
+        Needed for values with units.
+
+    Raises
+    ------
+    InputError
+        That is no such size, or it has a unit and the scales are not known.
+    """
+    words, unit, own, example = _KINDS[kind]
+    field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
+    if not isinstance(given, str) or _PLAIN.fullmatch(given):
+        return Size(read_quantity(field, given), False, kind)
+    gravities = _GRAVITIES.fullmatch(given) if kind == "acceleration" else None
+    try:
+        number = read_quantity(replace(field, unit=unit), f"{gravities[1]} standard_gravity" if gravities else given)
+    except InputError as problem:
+        raise InputError(name, shown(given), problem.allowed) from None
+    if kind == "angle":
+        return Size(number, False, kind)
+    if scales is None:
+        words = f"must be a number without a unit, in {own}: the machine file is dimensionless and has no scales"
+        raise InputError(name, shown(given), words)
+    return Size(number, True, kind)
