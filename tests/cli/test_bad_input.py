@@ -109,7 +109,7 @@ def test_field_huge(refused, name):
         ("", "empty"),
         ("\n \n", "empty"),
         ("mass = 1", "mass"),
-        ("[machine]", "missing"),
+        ("[dimensionless]\ngamma=1\nomega=1\nrho=0\nphi=0\nmu=0\nd=1", "missing"),
         ("[machine\nmass=1", "TOML"),
         ("[machines]\nmass=1", "machine"),
         ("[machine]\nmass=1\n[dimensionless]\ngamma=1", "both"),
@@ -206,6 +206,96 @@ def test_units_need_a_machine(carom, dimensionless):
 )
 def test_wrong_usage(carom, machine, arguments, words):
     assert_refused(carom(*(machine if word == "MACHINE" else word for word in arguments)), words)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("basins", "MACHINE", "--peak", "20 g"), "--peak = 20 g: goes with --disturbance shock alone, not with kick"),
+        (("basins", "MACHINE", "--disturbance", "shock", "--fastest", "1"), "kick or kick-plane or state alone"),
+        (("basins", "MACHINE", "--disturbance", "slice", "--fastest", "1"), "--fastest = 1: goes with"),
+        (("basins", "MACHINE", "--disturbance", "state", "--before", "1"), "--before = 1: goes with"),
+        (("basins", "MACHINE", "--release", "fixed"), "--release = fixed: goes with --disturbance release alone"),
+        (("basins", "MACHINE", "--duration", "5 ms"), "--duration = 5 ms: goes with"),
+        (("basins", "MACHINE", "--seed", "1"), "--seed = 1: goes with a sample alone"),
+        (("basins", "MACHINE", "--plane", "gamma,omega"), "--plane = gamma,omega: goes with --gains NxM alone"),
+        (("basins", "MACHINE", "--x", "1,2"), "--x = 1,2: goes with --gains"),
+        (("basins", "MACHINE", "--y", "1,2"), "--y = 1,2: goes with --gains"),
+        (("basins", "MACHINE", "--wanted", "0.9"), "--wanted = 0.9: goes with --gains"),
+        (("basins", "MACHINE", "--grid", "100000x100000"), "makes 10000000000 cells; at most 5000000 are allowed"),
+        (("basins", "MACHINE", "--gains", "100000x100000"), "makes 10000000000 cells; at most 5000000 are allowed"),
+        (("basins", "MACHINE", "--grid", "0x5"), "must be 2 whole numbers of at least 1, such as 60x60"),
+        (("basins", "MACHINE", "--gains", "1x5"), "must be 2 whole numbers of at least 2, such as 60x60"),
+        (("basins", "MACHINE", "--gains", "2x2", "--x", "3,3"), "--x = 3,3: must be two different values of stiffness"),
+        (("basins", "MACHINE", "--fastest", "1 m"), "(a number without a unit is in c_r Omega)"),
+        (("bifurcations", "MACHINE", "--along", "speed", "--from", "1 m", "--to", "2"), "--from = 1 m: speed must be"),
+        (("bifurcations", "MACHINE", "--along", "speed", "--from", "1", "--to", "1.0"), "--to = 1.0: must be another"),
+        (
+            ("bifurcations", "MACHINE", "--along", "mu", "--from", "0", "--to", "1", "--seed", "1"),
+            "goes with --attractors",
+        ),
+        (("regions", "MACHINE", "--x", "1,1"), "--x = 1,1: must be two different values of gamma"),
+        (("regions", "MACHINE", "--x", "1,2,3"), "--x = 1,2,3: must be two different values of gamma"),
+        (("simulate", "MACHINE", "--kick", "1 kg"), "(a number without a unit is in c_r Omega)"),
+        (("simulate", "MACHINE", "--kick", "1", "--until", "1 kg"), "(a number without a unit is in 1/Omega)"),
+        (("orbits", "MACHINE", "--set", "speed=1 kg"), "(a number without a unit is in rad/s)"),
+    ],
+)
+def test_options_that_do_not_apply_or_fit(carom, machine, arguments, words):
+    assert_refused(carom(*(machine if word == "MACHINE" else word for word in arguments)), words)
+
+
+def test_all_errors_of_a_file_are_told_a_line_each(carom, tmp_path):
+    path = tmp_path / "machine.toml"
+    path.write_text(toml(good() | {"mass": "1 m", "color": "red", "speed": -1}), encoding="utf-8")
+    code, out, err = carom("orbits", path, "--set", "gama=1")
+
+    assert (code, out) == (BAD_INPUT, "")
+    assert [line.split(" = ")[0] for line in err.splitlines()] == [
+        "carom: color",
+        "carom: mass",
+        "carom: speed",
+        "carom: gama",
+    ]
+
+
+EVIL = "\x1b[31m\u202e\n\x07\x9b\u2028"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("orbits", f"{EVIL}.toml"),
+        ("orbits", "MACHINE", "--set", f"{EVIL}=1"),
+        ("orbits", "MACHINE", "--set", f"gamma={EVIL}"),
+        ("orbits", "MACHINE", "--longest-period", EVIL),
+        ("orbits", "MACHINE", f"--{EVIL}"),
+        (f"{EVIL}",),
+        ("study", "MACHINE", "--out", f"none/{EVIL}\0"),
+        ("simulate", "MACHINE", "--kick", EVIL),
+        ("simulate", "MACHINE", "--start", EVIL),
+        ("simulate", "MACHINE", "--kick", "1", "--csv", f"none/{EVIL}"),
+        ("basins", "MACHINE", "--disturbance", EVIL),
+        ("basins", "MACHINE", "--grid", EVIL),
+        ("basins", "MACHINE", "--gains", "2x2", "--plane", EVIL),
+        ("basins", "MACHINE", "--starts", EVIL),
+        ("bifurcations", "MACHINE", "--along", EVIL, "--from", "1", "--to", "2"),
+        ("regions", "MACHINE", "--x", EVIL),
+        ("sweep", f"{EVIL}.toml", "--out", EVIL),
+    ],
+)
+def test_no_control_character_of_an_option_is_told(carom, machine, arguments):
+    code, out, err = carom(*(machine if word == "MACHINE" else word for word in arguments))
+
+    assert (code, out) == (BAD_INPUT, "")
+    assert err.endswith("\n")
+    assert err[:-1].isprintable()
+
+
+def test_no_control_character_of_an_error_nobody_thought_of_is_told(monkeypatch, carom, machine):
+    monkeypatch.setattr("carom.parameters.load_case", _raise(ZeroDivisionError(EVIL)))
+
+    assert carom("study", machine)[2][:-1].isprintable()
 
 
 @pytest.mark.parametrize("option", ["--csv", "--netcdf"])

@@ -11,7 +11,6 @@ from carom.sweeps import Tally, open_sweep
 
 SWEEP = """
 machine = "{machine}"
-seed = 2
 chunk = 3
 
 [axes.damping]
@@ -118,6 +117,10 @@ def test_settings_belong_to_the_plan(carom, sweep_file, store):
         (["FILE", "--out", "FILE"], "this is a file"),
         (["FILE", "--out", "x.zarr", "--workers", "0"], "--workers"),
         (["FILE", "--out", "x.zarr", "--set", "damping=1"], "axes.damping = varied: is set too"),
+        (
+            ["FILE", "--out", "x.zarr", "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"],
+            "--workers = 2: goes without",
+        ),
         (["FILE", "--out", "x.zarr", "--threads", "--scheduler", "tcp://127.0.0.1:1"], "--threads = given"),
     ],
 )

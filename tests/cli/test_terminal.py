@@ -1,12 +1,16 @@
-"""The progress bar on narrow terminals."""
+"""The progress bar on narrow terminals, and no control character of a text on any."""
 
 import io
+import json
 import re
 
 import pytest
 from rich.console import Console
+from rich.table import Table
+from rich.text import Text
 
-from carom.cli.terminal import _bar
+from carom.cli.screen import Screen
+from carom.cli.terminal import _bar, print_document
 
 
 @pytest.mark.parametrize(
@@ -27,3 +31,46 @@ def test_clock_and_words_stay_whole(words, width):
     assert len(line.rstrip()) <= width
     assert re.search(r"[0-9-]:[0-9-]{2}:[0-9-]{2} ", line)
     assert line.rstrip().endswith(words)
+
+
+EVIL = "a\x1b[2J\u202e\x9b\x7fb"
+SHOWN = "a\\x1b[2J\\u202e\\x9b\\x7fb"
+
+
+def test_a_printed_text_is_one_printable_line():
+    screen = Screen(file=io.StringIO(), width=80)
+    screen.print(f"Written to {EVIL}\n\u2028x")
+
+    assert screen.file.getvalue() == f"Written to {SHOWN}\\n\\u2028x\n"
+
+
+def test_texts_in_tables_and_bars_are_printable():
+    screen = Screen(file=io.StringIO(), width=80)
+    table = Table(title=EVIL)
+    table.add_column(EVIL)
+    table.add_row(EVIL)
+    table.add_row(Text(EVIL, style="bold"))
+    bar = _bar()
+    bar.update(bar.add_task(EVIL, total=1.0), completed=0.4)
+    screen.print(table)
+    screen.print(bar.make_tasks_table(bar.tasks))
+    text = screen.file.getvalue()
+
+    assert text.replace("\n", "").isprintable()
+    assert text.count("a\\x1b") == 5
+
+
+def test_colours_of_a_terminal_stay():
+    screen = Screen(file=io.StringIO(), width=80, force_terminal=True, color_system="standard")
+    screen.print(Text(EVIL, style="bold"))
+
+    assert screen.file.getvalue() == f"\x1b[1m{SHOWN}\x1b[0m\n"
+
+
+def test_json_is_printable_and_holds_what_was_given(capsys):
+    print_document({EVIL: [f"{EVIL}\n\ud800\U000e0001", "γ"]})
+    text = capsys.readouterr().out
+
+    assert text.replace("\n", "").isprintable()
+    assert "γ" in text
+    assert json.loads(text) == {EVIL: [f"{EVIL}\n\ud800\U000e0001", "γ"]}

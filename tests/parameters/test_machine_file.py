@@ -293,7 +293,6 @@ def test_a_path_that_leads_nowhere(tmp_path):
         ("[zones]\nlimits = [0.1, 0.2, 0.3]\n", "holds neither"),
         (text_of("machine", ENTRIES) + text_of("dimensionless", NUMBERS), "holds both"),
         ("[machine\nmass = 3\n", "line 1"),
-        ("[machine]\nmass = 50 kg\n", "line 2"),
         ("[machine]\n\nmass = \n", "line 3"),
         ("[machine]\nmass = 50\nmass = 51\n", "line 3"),
         ("[machine]\nmass = 50\nmass = 51\n", "the same key is given twice"),
@@ -302,7 +301,7 @@ def test_a_path_that_leads_nowhere(tmp_path):
         (text_of("machine", ENTRIES).encode("utf-16"), "UTF-8; line 1 is not"),
         (b"\x00\x01\x02", "valid TOML"),
         ("x = " + "[" * 5000, "valid TOML"),
-        ("[machine]\nmass = " + "1" * 5000, "valid TOML"),
+        ("[machine]\nmass = " + "1" * 5000, "a number in it has thousands of digits"),
         (b"# " + b"x" * 2_000_000, "in less than 1000000 bytes"),
     ],
 )

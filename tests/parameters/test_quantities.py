@@ -197,11 +197,12 @@ def test_no_combination_of_units_brings_anything_but_a_number_or_an_input_error(
     assert all(named == field for field, named in fields_of_errors("0.5 " + "".join(parts)))
 
 
-def test_a_number_in_quotes_needs_its_unit_except_on_the_command_line():
-    error = error_of(lambda: read_quantity(MACHINE_FIELDS["mass"], "50"))
+def test_a_number_without_a_unit_is_in_the_si_unit_in_quotes_or_not():
+    for value in (50, "50", " 5e1 ", "50 kg"):
+        assert read_quantity(MACHINE_FIELDS["mass"], value) == 50.0
+    error = error_of(lambda: read_quantity(MACHINE_FIELDS["mass"], "50 m"))
 
-    assert "in quotes needs its unit" in error.allowed
-    assert read_quantity(MACHINE_FIELDS["mass"], "50", bare=True) == 50.0
+    assert "(a number without a unit is in kg)" in error.allowed
 
 
 def test_pint_is_loaded_by_the_first_unit_only():

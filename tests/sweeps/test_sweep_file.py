@@ -122,7 +122,7 @@ def test_description_changes_with_everything_but_the_texts(write):
         {"top": GOOD["top"] + '\nset = ["friction=0.2"]'},
         {"speed": '[axes.speed]\nvalues = ["1500 rpm", 184.3]'},
         {"do": GOOD["do"].replace("10", "11")},
-        {"do": "[study]"},
+        {"do": "[study]\ndisturbances = 9"},
     ):
         digests.add(load_sweep(write(**change)).digest)
     assert len(digests) == 7
@@ -131,7 +131,7 @@ def test_description_changes_with_everything_but_the_texts(write):
 @pytest.mark.parametrize(
     ("change", "field", "words"),
     [
-        ({"top": ""}, "machine", "nothing given: must be the path of a machine file"),
+        ({"top": ""}, "machine", "nothing given: missing; must be the path of a machine file"),
         ({"top": 'machine = "none.toml"'}, "machine file", "there is no such file"),
         ({"top": 'machine = "machine.toml"\nsede = 3'}, "sede", "did you mean seed?"),
         ({"top": 'machine = "machine.toml"\nseed = -1'}, "seed", "-1: must be a whole number from 0"),
@@ -163,7 +163,15 @@ def test_description_changes_with_everything_but_the_texts(write):
         ({"do": ""}, "sweep file", "must hold a [study] or a [basins] table"),
         ({"do": GOOD["do"] + "\n[study]"}, "sweep file", "one of them alone"),
         ({"do": "[study]\ndisturbances = -1"}, "study.disturbances", "-1: must be a whole number"),
-        ({"do": "[study]\nleast_damping = true"}, "study.disturbances", "above 0 where least_damping is wanted"),
+        (
+            {"top": 'machine = "machine.toml"', "do": "[study]\nleast_damping = true"},
+            "study.disturbances",
+            "above 0 where least_damping is wanted",
+        ),
+        ({"do": "[study]"}, "seed", "3: goes with simulated disturbances"),
+        ({"top": GOOD["top"] + '\ncolor = "red"'}, "color", "allowed: machine, set, seed, chunk, axes, study, basins"),
+        ({"top": GOOD["top"] + "\n[axes.color]\nvalues = [1]"}, "color", "unknown name"),
+        ({"speed": "[axes]\nspeed = 3"}, "axes.speed", "3: must be a table [axes.speed]"),
         ({"do": "[study]\nleast_dampin = true"}, "least_dampin", "did you mean least_damping?"),
         ({"do": "[basins]\nstarts = 4"}, "basins.disturbance", "must be a table such as"),
         ({"do": GOOD["do"].replace("kick", "kik")}, "basins.disturbance.kind", "did you mean kick?"),
@@ -185,6 +193,54 @@ def test_error_is_one_line_that_helps(write, change, field, words):
     assert caught.value.field == field
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_all_errors_are_told_at_once(write):
+    path = write(
+        top='machine = "machine.toml"\nseed = -1\nset = ["restitution=2", "gama=1"]',
+        damping='[axes.damping]\nform = 1\nto = "2 kg"\ncount = 4',
+        speed='[axes.speed]\nvalues = ["1 m", 3, true]',
+        do='[basins]\nstarts = 0\ndisturbance = {kind = "kick", fastest = "1 kg", peak = 3}',
+    )
+    with pytest.raises(InputError) as caught:
+        load_sweep(path)
+
+    fields = [error.field for error in caught.value.errors]
+    axes = ["form", "axes.speed.values", "axes.speed.values"]
+    assert fields == ["seed", *axes, "basins.starts", "peak", "basins.disturbance.fastest"]
+    assert str(caught.value).split("\n") == [str(error) for error in caught.value.errors]
+
+
+def test_errors_of_the_machine_file_and_of_settings_are_among_them(write):
+    path = write(top='machine = "machine.toml"\nset = ["restitution=2", "gama=1"]', damping="", do="")
+    machine = path.with_name("machine.toml")
+    machine.write_text(machine.read_text(encoding="utf-8").replace('"50 kg"', '"50 m"'), encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        load_sweep(path)
+
+    assert [error.field for error in caught.value.errors] == ["mass", "gama", "restitution", "sweep file"]
+
+
+def test_a_number_without_a_unit_means_the_same_in_quotes_and_without(write):
+    """A parameter of the machine in SI units, a size in units of the equations."""
+    do = '[basins]\nstarts = 10\ndisturbance = {{kind = "kick", fastest = {}}}'
+    speed = "[axes.speed]\nvalues = [{}]"
+    quoted = load_sweep(write(do=do.format('"0.5"'), speed=speed.format('"150"')))
+    plain = load_sweep(write(do=do.format("0.5"), speed=speed.format("150")))
+
+    assert quoted.describe() == plain.describe()
+    assert quoted.axes[1].given == (150.0,)
+    assert quoted.task.model(quoted.case.parameters.scales).fastest == 0.5
+    with pytest.raises(InputError, match=r"axes\.speed\.values = 1 m: .* \(a number without a unit is in rad/s\)"):
+        load_sweep(write(speed=speed.format('"1 m"')))
+    with pytest.raises(InputError, match=r"fastest = 1 m: .* \(a number without a unit is in c_r Omega\)"):
+        load_sweep(write(do=do.format('"1 m"')))
+
+
+def test_an_axis_may_be_followed_downwards(write):
+    plan = load_sweep(write(damping='[axes.damping]\nfrom = "4000 N s/m"\nto = 1000\ncount = 4'))
+
+    np.testing.assert_array_equal(plan.axes[0].values, [4000.0, 3000.0, 2000.0, 1000.0])
 
 
 @pytest.mark.parametrize(
@@ -232,7 +288,10 @@ def test_sweeps_are_planned_and_laid_out_before_kernels_are_loaded(write, tmp_pa
     }
     assert sizes.keys() == MODELS.keys()
     tasks = [f'[basins]\nstarts = 10\n[basins.disturbance]\nkind = "{kind}"\n{size}' for kind, size in sizes.items()]
-    files = [write(do=task).rename(tmp_path / f"{number}.toml") for number, task in enumerate(["[study]", *tasks])]
+    files = [
+        write(do=task).rename(tmp_path / f"{number}.toml")
+        for number, task in enumerate(["[study]\ndisturbances = 9", *tasks])
+    ]
     code = """if True:
         import sys
         import carom.sweeps.local

@@ -177,13 +177,12 @@ def _read_settings(texts: Mapping[str, str], fields: Mapping[str, Field], proble
 
 def _refuse_physical(physical: Mapping[str, str]) -> None:
     partners = {partner: name for name, partner in PHYSICAL_PARTNER.items()}
+    problems = Problems()
     for name, text in physical.items():
         advice = f"set {partners[name]} instead" if name in partners else "use a file with a [machine] table"
-        raise InputError(
-            name,
-            shown(text),
-            f"cannot be set: the file is dimensionless and has no mass, clearance and speed; {advice}",
-        )
+        allowed = f"cannot be set: the file is dimensionless and has no mass, clearance and speed; {advice}"
+        problems.errors.append(InputError(name, shown(text), allowed))
+    problems.tell()
 
 
 def _read_dimensionless(tables: MachineTables) -> Parameters:

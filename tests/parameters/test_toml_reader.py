@@ -1,0 +1,137 @@
+"""The text of a file: depth, quotes, and nothing of it that reaches a terminal."""
+
+from pathlib import Path
+
+import pytest
+
+from carom.outcome import InputError, MultipleInputError
+from carom.parameters import load_case
+from carom.parameters.toml_reader import _PARTS, _first_deep_line
+
+REAL = (Path(__file__).parents[2] / "examples" / "keogh-cole.toml").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def error_of(tmp_path):
+    """The input error of a machine file with this content, and of settings; every line of it is printable."""
+
+    def load(content, *settings, name="rotor.toml"):
+        path = tmp_path / name
+        path.write_text(content, encoding="utf-8")
+        with pytest.raises(InputError) as caught:
+            load_case(path, settings)
+        assert all(line.isprintable() for line in str(caught.value).split("\n"))
+        return caught.value
+
+    return load
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        ("x = " + "[" * 5000, 1),
+        ("[machine]\n" + "a." * 5000 + "a = 1", 2),
+        ("[" + "a." * 5000 + "a]", 1),
+        ("[" + "'a' . " * 5000 + "a]", 1),
+        ("x = " + "{a=" * 5000, 1),
+        ("x = '''\n" + "[" * 50 + "'''\ny = " + "[" * 17 + "1" + "]" * 17, 3),
+    ],
+)
+def test_deep_nesting_is_refused(error_of, content, line):
+    error = error_of(content)
+
+    assert error.field == "machine file"
+    assert error.allowed == f"must be valid TOML of at most 16 levels; line {line} is nested too deeply"
+
+
+@pytest.mark.parametrize("quotes", ['"', "'", '"""', "'''"])
+def test_what_looks_deep_in_strings_and_comments_is_not(error_of, quotes):
+    error = error_of("# " + "a." * 90 + "[" * 90 + f"\nx = {quotes}" + "." * 90 + "{" * 90 + f"{quotes}\n{REAL}")
+
+    assert error.field == "x"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[" + "a." * 15 + "a]\n" + "b=1\n" * 50_000,
+        '\\"""\n' * 50_000,
+        "'''" + '"' * 500_000,
+        '"\\' * 200_000,
+        "a = 1" + " " * 500_000 + '"',
+    ],
+)
+def test_looking_for_deep_nesting_is_linear(text, monkeypatch):
+    """Every sign is looked at once: the parts that are found do not overlap, and none is looked for twice."""
+    ends = [0]
+
+    class Parts:
+        def finditer(self, given):
+            for part in _PARTS.finditer(given):
+                assert part.start() >= ends[-1]
+                ends.append(part.end())
+                yield part
+
+    monkeypatch.setattr("carom.parameters.toml_reader._PARTS", Parts())
+    assert _first_deep_line(text) is None
+    assert len(ends) <= len(text) + 1
+
+
+def test_text_without_quotes_is_named_all_of_it(error_of):
+    content = REAL.replace('"50 kg"', "50 kg").replace('"184.2 rad/s"', "1759 rpm").replace("0.15", "…")
+    error = error_of(content)
+
+    assert isinstance(error, MultipleInputError)
+    assert [(one.field, one.value) for one in error.errors] == [
+        ("mass", "50 kg"),
+        ("speed", "1759 rpm"),
+        ("friction", "…"),
+    ]
+    line = content.split("\n").index(next(line for line in content.split("\n") if line.startswith("mass"))) + 1
+    assert f'must stand in quotes if it is text or has a unit: mass = "50 kg" (line {line} of' in str(error)
+
+
+def test_all_errors_are_told_at_once(error_of):
+    content = REAL.replace("0.15", "-1").replace("speed =", "spede =").replace('"50 kg"', '"50 m"')
+    content = content.replace("[0.3, 0.4, 0.5]", "3")
+    content = 'title = "mine"\n' + content.replace("\nclearance", '\ncolor = "red" #') + "\nlimit = 4\n"
+    error = error_of(content, "gama=1", "restitution=2", "mass=1 s", "x")
+
+    file = ["title", "limit", "limits", "color", "spede", "clearance", "mass", "friction"]
+    assert sorted(one.field for one in error.errors) == sorted([*file, "--set", "gama", "restitution", "mass"])
+    assert (error.field, error.value) == ("title", "mine")
+    assert str(error).split("\n") == [str(one) for one in error.errors]
+
+
+def test_all_errors_of_a_dimensionless_file_are_told_at_once(error_of):
+    error = error_of('[dimensionless]\ngamma = 1\nomga = 1\nmu = 11\nd = "1 kg"\nphi = 0\n', "mass=1", "damping=2")
+
+    assert [one.field for one in error.errors] == ["omga", "rho", "radius_ratio", "mu", "d", "mass", "damping"]
+
+
+def test_very_many_errors_are_counted(error_of):
+    lines = str(error_of("[machine]\n" + "".join(f"x{number} = 1\n" for number in range(20_000)))).split("\n")
+
+    assert len(lines) == 21
+    assert lines[-1] == "19990 more errors of this kind or others"
+
+
+@pytest.mark.parametrize(
+    "text", ["\x1b[31m", "a\nb", "\u202egnp", "\x07", "\x9b1m", "\u2028", "\x00", "\ud800", "\x7f"]
+)
+def test_no_control_character_of_an_input_is_in_its_error(error_of, text, tmp_path):
+    error_of(REAL, f"{text}=3", f"gamma={text}", f"mass=3 k{text}g", text)
+    with pytest.raises(InputError) as caught:
+        load_case(tmp_path / f"{text}.toml")
+    assert str(caught.value).isprintable()
+    if text != "\ud800":  # which TOML refuses itself
+        quoted = '"' + "".join(sign if sign.isprintable() else f"\\u{ord(sign):04x}" for sign in text) + '"'
+        for content in (f"{REAL}\n{quoted} = {quoted}", f"[{quoted}]\n{REAL}", REAL.replace('"50 kg"', quoted)):
+            error_of(content)
+
+
+def test_the_name_of_a_case_is_printable(tmp_path):
+    path = tmp_path / "\x1b[2J\nro\u202etor.toml"
+    path.write_text(REAL, encoding="utf-8")
+
+    assert load_case(path).name == "\\x1b[2J\\nro\\u202etor"
