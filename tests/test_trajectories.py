@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import dataclasses
 import math
 
 import numpy as np
@@ -11,7 +10,6 @@ import pytest
 from machines import PAPER, fly, strike
 
 from carom import trajectories
-from carom.core.layout import rotor_record
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import jeffcott
 from carom.trajectories import Kick, State, kick, simulate
@@ -161,21 +159,6 @@ class TestStarts:
     def test_times_that_cannot_be_reached(self, rotor, until):
         with pytest.raises(InputError, match=r"^until = "):
             simulate(rotor, START, until)
-
-    def test_several_contact_planes(self, rotor):
-        """Sliding at one plane would not notice the others reach their walls."""
-        arrays = rotor.arrays
-        two = rotor_record(
-            **{name: arrays[name] for name in ("exponents", "driven")},
-            **{
-                name: np.repeat(arrays[name], 2, axis=0)
-                for name in ("offsets", "rows", "friction", "restitution", "drive")
-            },
-            columns=np.repeat(arrays.columns, 2, axis=1),
-        )
-        with pytest.raises(InputError, match=r"^contact planes = 2: 1") as caught:
-            simulate(dataclasses.replace(rotor, arrays=two), START, 1.0)
-        assert "\n" not in str(caught.value)
 
     def test_no_events_allowed(self, rotor):
         with pytest.raises(InputError, match=r"^max_events = 0"):

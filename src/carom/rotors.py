@@ -13,6 +13,7 @@ from carom.core.flow import fly_all
 from carom.core.layout import rotor_record
 from carom.core.planar import planar_exponents
 from carom.core.table import flight_table
+from carom.outcome import InputError
 from carom.parameters import Parameters, Scales
 
 if TYPE_CHECKING:
@@ -35,9 +36,10 @@ class LinearRotor(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Rotor:
-    """A linear rotor inside a circular clearance, ready for the kernels.
+    """The planar rotor inside a circular clearance, ready for the kernels: two modes that are a pair, one contact plane.
 
-    Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.
+    Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.  The kernels take any number of
+    modes and planes; what is found out about a rotor in Python holds for this one, so there is no other.
 
     Attributes
     ----------
@@ -45,10 +47,26 @@ class Rotor:
         Modes, contact plane and contact law (:func:`~carom.core.layout.rotor_record`).
     parameters : Parameters
         The dimensionless parameters it was made from.
+
+    Raises
+    ------
+    InputError
+        The arrays are those of another rotor.
     """
 
     arrays: np.record
     parameters: Parameters
+
+    def __post_init__(self) -> None:
+        arrays = self.arrays
+        planes, modes = arrays.rows.shape
+        pair = (modes, planes) == (2, 1) and tuple(arrays.driven) == (0, 1)
+        if not pair or tuple(arrays.rows[0]) != (0.0, 1.0) or tuple(arrays.columns[:, 0]) != (1.0, 0.0):
+            given = f"{modes} modes and {planes} contact planes"
+            given += ", not as of a planar rotor" if (modes, planes) == (2, 1) else ""
+            raise InputError(
+                "rotor", given, "2 modes that are a pair and 1 contact plane are handled, as carom.jeffcott makes them"
+            )
 
     @cached_property
     def table(self) -> np.record:

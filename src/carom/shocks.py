@@ -22,11 +22,11 @@ import math
 import numpy as np
 
 from carom.core.advance import INSIDE_ALL, advance
-from carom.core.fate import forget
+from carom.core.fate import forget, memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
+from carom.core.table import flight_table
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
-from carom.settling import fresh_memory
 from carom.trajectories import EventLog
 
 __all__ = ["shaken", "states_after_shocks"]
@@ -39,8 +39,8 @@ LEAST_DISTANCE = 1e-6
 """Of the pulse from undamped resonance, ``|D|/ω²``: below it too many digits cancel."""
 
 
-def shaken(rotor: Rotor, duration: float) -> Rotor:
-    """Rotor of four modes: free flight, and the two exponentials of a half-sine pulse of this duration in ``1/Ω``.
+def shaken(rotor: Rotor, duration: float) -> np.record:
+    """Arrays of a rotor of four modes: free flight, and the two exponentials of a half-sine pulse of this duration in ``1/Ω``.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def shaken(rotor: Rotor, duration: float) -> Rotor:
     nearest = min(abs((s - free[0]) * (s - free[1])) for s in pulse)
     if nearest < LEAST_DISTANCE * abs(free[0] + 1j) * abs(free[1] + 1j):
         raise InputError("duration", duration, "not half a natural period of undamped levitation, in 1/Omega")
-    record = rotor_record(
+    return rotor_record(
         exponents=np.array([*free, *pulse], np.complex128),
         driven=np.array([False, True, False, False]),
         offsets=arrays.offsets,
@@ -64,7 +64,6 @@ def shaken(rotor: Rotor, duration: float) -> Rotor:
         restitution=arrays.restitution,
         drive=arrays.drive,
     )
-    return Rotor(record, rotor.parameters)
 
 
 def states_after_shocks(
@@ -90,12 +89,12 @@ def states_after_shocks(
     touched : ndarray of bool
         The rotor met the wall during the pulse.
     """
-    during = shaken(rotor, duration)
-    arrays, table = during.arrays, during.table
-    rest, exponents = during.equilibrium, arrays.exponents.tolist()
+    arrays = shaken(rotor, duration)
+    table = flight_table(arrays.exponents, arrays.driven)
+    rest, exponents = rotor.equilibrium, arrays.exponents.tolist()
     rows, rate_rows = arrays.rows[0].tolist(), arrays.rate_rows[0].tolist()
     log, work, rub = EventLog.empty(LOGGED, MODES), workspace(MODES), rub_workspace(MODES)
-    recollection = fresh_memory(during, 0)
+    recollection = memory(MODES)
     positions, velocities = np.empty((2, *peaks.shape), complex)
     undecided, touched = np.zeros((2, *peaks.shape), bool)
     for place in np.ndindex(peaks.shape):

@@ -285,13 +285,8 @@ def simulate(
     Raises
     ------
     InputError
-        The start lies outside the wall, a number is not finite, or the rotor has more than one contact plane.
+        The start lies outside the wall, or a number is not finite.
     """
-    planes = len(rotor.arrays.rows)
-    if planes != 1:
-        raise InputError(
-            "contact planes", planes, "1: lasting contact is followed at one plane, the others not watched"
-        )
     state = start.state(rotor) if isinstance(start, Kick) else start
     amplitudes, plane = _checked_start(rotor, state)
     if not (np.isfinite(until) and until > 0):
