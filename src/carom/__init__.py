@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from carom.outcome import CaromError as CaromError
     from carom.outcome import CaromWarning as CaromWarning
     from carom.outcome import InputError as InputError
+    from carom.outcome import MultipleInputError as MultipleInputError
     from carom.outcome import Outcome as Outcome
     from carom.outcome import Phase as Phase
     from carom.parameters import Case as Case
@@ -120,6 +121,7 @@ _HOMES = {
     "InputError": "outcome",
     "KickPlane": "disturbances",
     "Machine": "parameters",
+    "MultipleInputError": "outcome",
     "Orbit": "orbits",
     "OrbitBranch": "bifurcations",
     "OrbitSet": "orbits",

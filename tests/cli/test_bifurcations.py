@@ -127,9 +127,9 @@ def test_plane_as_tables_around_the_machine(capsys, tmp_path):
     ("words", "complaint"),
     [
         (["--along", "gama", "--from", "0.1", "--to", "0.2"], "did you mean gamma"),
-        (["--along", "gamma", "--from", "0.2", "--to", "0.1"], "two growing finite values"),
+        (["--along", "gamma", "--from", "0.2", "--to", "0.2"], "must be another value than --from"),
         (["--along", "gamma", "--from", "x", "--to", "0.1"], "does not start with a number"),
-        (["--along", "d", "--from", "0.5", "--to", "1.5"], "coefficient of restitution|d = 1.5"),
+        (["--along", "d", "--from", "0.5", "--to", "1.5"], "--to = 1.5: d must be a number, 0 to 1"),
         (["--along", "speed", "--from", "100", "--to", "200"], "mass, clearance and speed"),
         (["--along", "gamma", "--from", "0.1", "--to", "0.2", "--out", "\0"], "directory"),
     ],
@@ -143,7 +143,7 @@ def test_inputs_that_cannot_be_used(capsys, words, complaint):
 
 
 @pytest.mark.parametrize(
-    "words", [["--plane", "gamma"], ["--plane", "gamma,gamma"], ["--x", "0.1"], ["--x", "0.2,0.1"], ["--plane", "a,b"]]
+    "words", [["--plane", "gamma"], ["--plane", "gamma,gamma"], ["--x", "0.1"], ["--x", "0.1,0.1"], ["--plane", "a,b"]]
 )
 def test_planes_that_cannot_be_used(capsys, words):
     assert main(["regions", PAPER, *words]) == 2

@@ -4,9 +4,11 @@ import math
 
 import pytest
 
-from carom.cli.starts import read_kick, read_start, read_time
+from carom.bifurcations import axis
+from carom.cli import main
+from carom.cli.starts import read_kick, read_range, read_start, read_time
 from carom.outcome import InputError
-from carom.parameters import Scales
+from carom.parameters import Parameters, Scales
 from carom.trajectories import Kick, State
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
@@ -49,3 +51,27 @@ def test_error_names_the_option(option):
     with pytest.raises(InputError) as caught:
         read_time("soon", SCALES, option)
     assert caught.value.field == option
+
+
+def test_a_range_may_be_given_in_either_order():
+    parameters = Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0, SCALES)
+    damping = axis(parameters, "damping")
+
+    assert read_range("--x", "4000 N s/m, 500", damping) == (500.0, 4000.0)
+    assert read_range("--x", "500,4 kN s/m", damping) == (500.0, 4000.0)
+    with pytest.raises(InputError, match=r"--x = 1 m: damping must be a damping in N s/m, .* is in N s/m\)"):
+        read_range("--x", "1 m,2", damping)
+
+
+@pytest.mark.parametrize("ends", [("0.1", "0.4"), ("0.4", "0.1")])
+def test_from_may_be_above_to(monkeypatch, dimensionless, ends):
+    given = []
+
+    def stop(parameters, name, interval, **_):
+        given.append((name, interval))
+        raise InputError("stop", None, "here")
+
+    monkeypatch.setattr("carom.bifurcations.bifurcation_diagram", stop)
+    main(["bifurcations", dimensionless, "--along", "gamma", "--from", ends[0], "--to", ends[1]])
+
+    assert given == [("gamma", (0.1, 0.4))]
