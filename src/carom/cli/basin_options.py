@@ -42,7 +42,6 @@ RELEASES = 360
 STARTS = 10_000
 MOST_STARTS = 5_000_000
 """More would not fit into the memory of a common machine; larger sets are the business of sweeps."""
-WANTED = 0.99
 _OPTIONS = {
     "kick": ("fastest",),
     "kick-plane": ("fastest",),
@@ -125,6 +124,8 @@ def read_gains(
             if value is not None:
                 raise InputError(option, value, "goes with --gains NxM alone")
         return None
+    from carom.basins.changes import WANTED
+
     shape = _cells("--gains", cells, 2)
     share = WANTED if wanted is None else wanted
     if not 0.0 < share <= 1.0:

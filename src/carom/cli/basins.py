@@ -79,7 +79,7 @@ def basins(
         from carom.report.directory import check_directory
 
         check_directory(out, "--out")
-    question = _Question(case, plan, asked, wanted, threads, _source(machine, settings))
+    question = _Question(case, plan, asked, threads, _source(machine, settings))
     with progress("following starts (the kernels are compiled on first use)") as tell:
         answer = _follow(question, tell)
         if out is not None:
@@ -98,7 +98,6 @@ class _Question:
     case: Case
     plan: Plan
     gains: Gains | None
-    wanted: float
     threads: int | None
     source: dict[str, str]
 
@@ -110,14 +109,15 @@ class _Answer:
     harmless: float
     gains: GainMap | None
     change: GainChange | None
-    wanted: float
+    asked: Gains | None
 
     @cached_property
     def document(self) -> dict[str, Any]:
         """All of it as JSON knows it."""
         from carom.basins.document import basin_document
 
-        return basin_document(self.basin, self.smallest, self.harmless, self.gains, self.change, self.wanted)
+        wanted = {} if self.asked is None else {"wanted": self.asked.wanted}
+        return basin_document(self.basin, self.smallest, self.harmless, self.gains, self.change, **wanted)
 
 
 def _follow(question: _Question, tell: Tell) -> _Answer:
@@ -141,8 +141,8 @@ def _follow(question: _Question, tell: Tell) -> _Answer:
         tell(share, "looking for the smallest that is lost")
         smallest = smallest_loss(rotor, plan.model, threads=question.threads)
     if question.gains is None:
-        return _Answer(basin, smallest, harmless, None, None, question.wanted)
-    return _Answer(basin, smallest, harmless, *_map(question, question.gains, tell), question.wanted)
+        return _Answer(basin, smallest, harmless, None, None, None)
+    return _Answer(basin, smallest, harmless, *_map(question, question.gains, tell), question.gains)
 
 
 def _map(question: _Question, asked: Gains, tell: Tell) -> tuple[GainMap, GainChange | None]:
@@ -177,8 +177,8 @@ def _print(answer: _Answer) -> None:
     from carom.cli.basin_tables import print_basin, print_gains
 
     print_basin(console(), answer.basin, answer.smallest, answer.harmless)
-    if answer.gains is not None:
-        print_gains(console(), answer.gains, answer.change, answer.wanted)
+    if answer.gains is not None and answer.asked is not None:
+        print_gains(console(), answer.gains, answer.change, answer.asked.wanted)
 
 
 def _write(out: str, answer: _Answer) -> None:
