@@ -373,4 +373,5 @@ def test_few_that_came_back_do_not_hide_what_many_others_do():
     assert f"but of 10,000 others of the same kinds {result.fresh.lost} did not" in finding(
         result, "Disturbances tried"
     )
+    assert all(advice.value > result.safe_damping.simulated.gamma for advice in result.advice if advice.gain == "gamma")
     assert "All fresh disturbances came back above 0.507" in finding(result, "What would change it")

@@ -66,7 +66,10 @@ class Advice:
 
 
 def advise(
-    parameters: Parameters, alone: tuple[LevitationAlone, ...], ranges: tuple[MotionRange, ...]
+    parameters: Parameters,
+    alone: tuple[LevitationAlone, ...],
+    ranges: tuple[MotionRange, ...],
+    lost_up_to: float = 0.0,
 ) -> tuple[Advice, ...]:
     """Advise a value of each gain, the least change first.
 
@@ -76,6 +79,8 @@ def advise(
     alone : tuple of LevitationAlone
     ranges : tuple of MotionRange
         Of the contact-free motion and of orbits, which tell where to look if no value leaves levitation alone.
+    lost_up_to : float
+        ``γ`` at which a disturbance is known to be lost: none up to it is said to leave levitation alone.
 
     Returns
     -------
@@ -84,7 +89,7 @@ def advise(
     """
     if any(_own(parameters, found.gain) in span for found in alone for span in found.calm):
         return ()
-    found = [_leaving_alone(parameters, entry) for entry in alone]
+    found = [_leaving_alone(parameters, entry, lost_up_to) for entry in alone]
     if not any(found):
         searched = {entry.gain: entry.searched for entry in ranges if entry.motion == "single-impact"}
         found = [_bringing_back(parameters, gain, span) for gain, span in searched.items() if span is not None]
@@ -101,10 +106,12 @@ def _power(gain: Gain) -> int:
     return 1 if gain == "gamma" else 2
 
 
-def _leaving_alone(parameters: Parameters, found: LevitationAlone) -> Advice | None:
+def _leaving_alone(parameters: Parameters, found: LevitationAlone, lost_up_to: float) -> Advice | None:
     """Beyond the nearest end at which all disturbances of the check come back; else the best there is, if good enough."""
     best: Advice | None = None
     for value, margin in _beyond_ends(parameters, found):
+        if found.gain == "gamma" and value <= lost_up_to:
+            continue
         advice = _checked(parameters, found.gain, value, margin)
         if advice.returned.count == advice.returned.total:
             return advice

@@ -160,13 +160,13 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     tell(0.45, "disturbances where levitation is alone")
     looked_at = [levitation_alone(parameters, gain, ranges) for gain in _gains(parameters)]
     alone = tuple(entry for entry in looked_at if entry is not None)
-    advice = advise(parameters, alone, ranges)
     tell(0.53, "loss of levitation")
     boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
     fresh = try_disturbances(rotor, DisturbanceSet(FRESH, seed=1)) if found.recovered == 1.0 else None
     safe = least_safe_damping(
         parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
     )
+    advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
     return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe, fresh)
 
 

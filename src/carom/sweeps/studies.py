@@ -38,7 +38,9 @@ _SIMULATED = (
     Variable("smallest_unrecovered_kick", "smallest simulated kick that did not come back", scale="velocity"),
 )
 _DAMPING = (
-    Variable("least_damping", "damping above which all simulated disturbances came back", scale="damping"),
+    Variable(
+        "least_damping", "damping above which simulated disturbances of up to 2 c_r Omega came back", scale="damping"
+    ),
     Variable("least_damping_rolling", "the same with rolling, however fast the start", scale="damping"),
 )
 _COST = 0.01
