@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from carom.absorbing import rub_neighbourhood as rub_neighbourhood
     from carom.attractors import Attractor as Attractor
     from carom.attractors import AttractorSet as AttractorSet
+    from carom.attractors import Survival as Survival
     from carom.attractors import find_attractors as find_attractors
     from carom.basins import Basin as Basin
     from carom.basins import GainMap as GainMap
@@ -105,6 +106,7 @@ _HOMES = {
     "AnyState": "disturbances",
     "Attractor": "attractors",
     "AttractorSet": "attractors",
+    "Survival": "attractors",
     "BaseShock": "disturbances",
     "Basin": "basins",
     "BoundaryEquilibrium": "boundary",

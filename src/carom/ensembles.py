@@ -19,13 +19,11 @@ from carom.core.layout import rub_workspace, workspace
 from carom.outcome import InputError, Outcome
 from carom.processors import available_cores
 from carom.rotors import Rotor
-from carom.settling import PATIENCE, fresh_memory
+from carom.settling import PATIENCE, fresh_memory, longest_time
 from carom.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
 
 __all__ = ["Endings", "settle_all"]
 
-LONGEST = 2e5
-"""Time after which a motion that has not settled is given up, in ``1/Ω``."""
 MOST_EVENTS = 1_000_000
 PORTION = 16_384
 """Starts of one machine that threads share at a time: some milliseconds to a second of work."""
@@ -76,7 +74,7 @@ def settle_all(
     velocities: np.ndarray,
     *,
     which: np.ndarray | None = None,
-    until: float = LONGEST,
+    until: float | None = None,
     settle: bool = True,
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
@@ -100,7 +98,8 @@ def settle_all(
     which : array_like of int, optional
         With a sequence: the machine of each start, of the same shape.
     until : float
-        Time after which a motion that has not settled is given up, in ``1/Ω``.
+        Time after which a motion that has not settled is given up, in ``1/Ω``; by default
+        :func:`~carom.settling.longest_time` of its machine.
     settle : bool
         End each motion as soon as it is known where it ends (criteria in :mod:`carom.core.fate`); otherwise at ``until``.
     patience : int
@@ -126,7 +125,7 @@ def settle_all(
         np.asarray(positions, complex), np.asarray(velocities, complex), which
     )
     _check_starts(positions, velocities)
-    if not (np.isfinite(until) and until > 0):
+    if until is not None and not (np.isfinite(until) and until > 0):
         raise InputError("until", until, "a finite time above 0, in 1/Omega")
     for name, number in (("patience", patience), ("max_events", max_events), ("threads", threads)):
         if number is not None and not (isinstance(number, Integral) and number >= 1):
@@ -149,7 +148,7 @@ def settle_all(
 
 @dataclass(frozen=True)
 class _Limits:
-    until: float
+    until: float | None
     settle: bool
     patience: int
     max_events: int
@@ -221,7 +220,8 @@ def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator
 
 
 def _settle_part(part: _Part, limits: _Limits) -> int:
-    task = Task(part.rotor.arrays, part.rotor.table, limits.until, limits.max_events)
+    until = longest_time(part.rotor) if limits.until is None else limits.until
+    task = Task(part.rotor.arrays, part.rotor.table, until, limits.max_events)
     memory = fresh_memory(part.rotor, limits.patience if limits.settle else 0, absorb=True)
     # Uncompiled, a lane that has nothing to divide warns.
     with np.errstate(all="ignore"):

@@ -18,7 +18,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
-from carom.settling import PATIENCE, fresh_memory
+from carom.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
 
 __all__ = [
     "LARGEST_SPEED",
@@ -36,6 +36,7 @@ LARGEST_SPEED = 1e100
 """Largest speed of a start: far beyond, the bounds that prove a flight free overflow."""
 WALL_TOLERANCE = 1e-12
 """A start this near to ``|U| = 1`` lies on the wall."""
+REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""
 
@@ -250,7 +251,7 @@ class Trajectory:
 def simulate(
     rotor: Rotor,
     start: State | Kick,
-    until: float,
+    until: float | None = None,
     *,
     settle: bool = False,
     stop_at_chatter: bool = False,
@@ -265,8 +266,8 @@ def simulate(
     rotor : Rotor
     start : State or Kick
         On the wall (``|U| = 1`` to within 1e-12) or inside it.
-    until : float
-        Time to follow it, in ``1/Ω``.
+    until : float, optional
+        Time to follow it, in ``1/Ω``; with ``settle`` by default :func:`~carom.settling.longest_time`.
     settle : bool
         End earlier, as soon as it is known where the motion ends (criteria in :mod:`carom.core.fate`).
     stop_at_chatter : bool
@@ -289,7 +290,9 @@ def simulate(
     """
     state = start.state(rotor) if isinstance(start, Kick) else start
     amplitudes, plane = _checked_start(rotor, state)
-    if not (np.isfinite(until) and until > 0):
+    if until is None and settle:
+        until = longest_time(rotor)
+    if until is None or not (np.isfinite(until) and until > 0):
         raise InputError("until", until, "a finite time above 0, in 1/Omega")
     if max_events < 1:
         raise InputError("max_events", max_events, "a whole number of at least 1")
@@ -312,7 +315,7 @@ def simulate(
         outcome=outcome,
         time=until if outcome is Outcome.TIME_REACHED else reached,
         final=State(complex(position), complex(velocity)),
-        multiplicity=int(recollection.period),
+        multiplicity=multiplicity_of(rotor, amplitudes, int(recollection.period)) if outcome in REPEATING else 0,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
         segment_phases=np.concatenate([np.zeros(1, np.int64), *(log.phases for log in logs)]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),

@@ -45,14 +45,6 @@ def test_bouncing_repeats_its_orbit(bouncing):
     assert orbit_of(cycle, [orbits["B1,c"]]) is None
 
 
-def test_a_period_counted_twice_is_counted_once(bouncing):
-    twice = cycle_of(dataclasses.replace(bouncing, multiplicity=6))
-
-    assert twice.multiplicity == 1
-    assert twice.period == pytest.approx(cycle_of(bouncing).period, rel=1e-6)
-    assert same_cycle(twice, cycle_of(bouncing))
-
-
 @pytest.mark.jit_only
 def test_two_impacts_a_period_are_the_same_from_either_impact(doubled):
     cycles = [cycle_of(motion) for motion in doubled]

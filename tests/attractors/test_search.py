@@ -5,6 +5,7 @@ import pytest
 
 from carom.attractors import find_attractors, following
 from carom.attractors.starts import Start
+from carom.attractors.survival import Survival
 from carom.equilibria import equilibria
 from carom.orbits import single_impact_orbits
 from carom.outcome import InputError, Outcome
@@ -95,8 +96,25 @@ def test_irregular_bouncing_at_gamma_0_082_lasts():
     assert irregular.share > 0.8
     assert (irregular.multiplicity, irregular.period) == (0, None)
     # A look ends just before its last impact.
-    assert sum(impacts >= 0.999 * found.patience for impacts in followed) >= following.FOLLOWED
-    assert min(followed) >= 1.99 * following.FIRST_PATIENCE
+    assert min(followed) >= 0.999 * found.patience
+    assert irregular.survival is not None
+    assert irregular.survival.died == 0
+    assert irregular.settled
+    assert "none of 200 died in 20,000 impacts" in irregular.words
+    assert found.transient is None
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(("gamma", "mean_life"), [(0.079, 1100.0), (0.080, 2300.0)])
+def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience(gamma, mean_life):
+    found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000)
+
+    assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling"}
+    transient = found.transient
+    assert transient is not None
+    low, high = transient.interval
+    assert low < transient.half_life < high
+    assert low < mean_life * np.log(2.0) < high
 
 
 @pytest.mark.jit_only
@@ -174,7 +192,7 @@ def test_given_starts_replace_the_sample():
 
 
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
-    monkeypatch.setattr(following, "LONGEST", 5.0)
+    monkeypatch.setattr(following, "longest_time", lambda rotor: 5.0)
     found = find_attractors(jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
     last = found.members[-1]
 
@@ -218,6 +236,10 @@ def test_argument_says_what_it_rests_on(found):
 # ------------------------------------------------------------------------------------------------ growing patience
 
 
+LASTS = Survival(100, 20_000, 0, None, (4e5, np.inf))
+DIES = Survival(100, 20_000, 100, 2000.0, (1600.0, 2500.0))
+
+
 class Fake:
     """Stands in for a motion that stays irregular for so many impacts."""
 
@@ -235,14 +257,18 @@ class Fake:
         return type("Motion", (), {**fields, "contacts": log})
 
 
-def fates(monkeypatch, lives, patience=20_000):
+def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
     fake = Fake(lives)
     monkeypatch.setattr(following, "simulate", fake)
+    monkeypatch.setattr(following, "longest_time", lambda rotor: 2e5)
+    monkeypatch.setattr(following, "measure_survival", lambda *states, impacts: survival)
     starts = [Start("start", State(complex(place)), "") for place in range(len(lives))]
     names = {0: "irregular", 1: "periodic"}
     progress = []
     endings = following.endings_of(None, starts, patience, lambda motion: names[motion.multiplicity], progress.append)
     assert progress == sorted(progress)
+    assert [ending.irregular for ending in endings] == [ending.attractor == "irregular" for ending in endings]
+    assert [ending.survival is survival for ending in endings] == [life > min(1000, patience) for life in lives]
     return [ending.attractor for ending in endings], [ending.impacts for ending in endings]
 
 
@@ -256,18 +282,27 @@ def test_few_irregular_motions_are_all_followed_to_the_end(monkeypatch):
     assert impacts == [20_000] * 3 + [500]
 
 
-def test_of_many_that_last_only_some_are_followed_to_the_end(monkeypatch):
-    names, impacts = fates(monkeypatch, [FOREVER] * 30)
+def test_none_is_taken_for_another(monkeypatch):
+    names, impacts = fates(monkeypatch, [9000] + [FOREVER] * 20 + [5000] * 10)
 
-    assert names == ["irregular"] * 30
-    assert impacts == [20_000] * 10 + [2000] * 20
+    assert names == ["periodic"] + ["irregular"] * 20 + ["periodic"] * 10
+    assert impacts == [9000] + [20_000] * 20 + [5000] * 10
 
 
-def test_one_that_settles_late_makes_the_others_catch_up(monkeypatch):
-    names, impacts = fates(monkeypatch, [9000] + [FOREVER] * 10 + [5000] * 10)
+def test_where_irregular_motion_ends_all_are_followed_to_their_end(monkeypatch):
+    lives = [900, 3000, 25_000, 70_000]
+    names, impacts = fates(monkeypatch, lives, survival=DIES)
 
-    assert names == ["periodic"] + ["irregular"] * 10 + ["periodic"] * 10
-    assert impacts == [9000] + [20_000] * 10 + [5000] * 10
+    assert names == ["periodic"] * 4
+    assert impacts == lives
+
+
+def test_what_would_take_too_long_is_not_followed_to_its_end(monkeypatch):
+    monkeypatch.setattr(following, "AFFORDABLE", 3999)
+    names, impacts = fates(monkeypatch, [FOREVER] * 2, survival=DIES)
+
+    assert names == ["irregular"] * 2
+    assert impacts == [20_000] * 2
 
 
 def test_all_that_settle_late_are_followed_there(monkeypatch):

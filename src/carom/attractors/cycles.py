@@ -12,6 +12,7 @@ import numpy as np
 
 from carom.orbits import Orbit
 from carom.outcome import Outcome, Phase
+from carom.settling import closed_orbit
 from carom.trajectories import Trajectory
 from carom.whirl import rolling
 
@@ -20,11 +21,7 @@ __all__ = ["Cycle", "Whirl", "cycle_of", "forces_on", "orbit_of", "same_cycle", 
 Whirl = Literal["forward", "backward", "none"]
 
 SAME = 1e-6
-"""Distance, relative to one plus the size, below which two impacts are the same.
-
-A motion counts as periodic when it recurs to within 1e-9; how far it is then from its attractor is that over the loss of
-distance in a period.
-"""
+"""Distance, relative to one plus the size, below which two impacts are the same: far above what closed orbits differ by."""
 SAMPLES = 1000
 TURNS = 10.0
 """Turns of the shaft over which a motion without a period is judged."""
@@ -65,8 +62,8 @@ class Cycle:
 def cycle_of(motion: Trajectory) -> Cycle:
     """Read from the end of a motion what it repeats.
 
-    Near a period doubling a motion that still approaches its orbit may recur after two periods first; impacts that
-    are the same to ``SAME`` are then counted once.
+    Periodic bouncing is closed to rounding where it can be (:func:`~carom.settling.closed_orbit`): motions that end on one
+    orbit then repeat the same, however far from it each was when it was found to be periodic.
     """
     outcome = motion.outcome
     none = np.empty(0, complex)
@@ -79,14 +76,13 @@ def cycle_of(motion: Trajectory) -> Cycle:
     count = motion.multiplicity
     if count == 0:
         return Cycle(outcome, False, None, none, none)
+    closed = closed_orbit(motion.rotor, motion.final.position, motion.final.velocity, count)
+    if closed is not None:
+        return Cycle(outcome, False, closed.period, closed.positions, closed.velocities)
     log = motion.contacts
     positions = np.exp(1j * log.angle[-count:])
     velocities = (log.radial_speed + 1j * log.angular_speed)[-count:] * positions
-    period = motion.time - float(log.time[-count])
-    for part in range(1, count):
-        if count % part == 0 and _distance(positions, velocities, *_turned(positions, velocities, part)) < SAME:
-            return Cycle(outcome, False, period * part / count, positions[:part], velocities[:part])
-    return Cycle(outcome, False, period, positions, velocities)
+    return Cycle(outcome, False, motion.time - float(log.time[-count]), positions, velocities)
 
 
 def _turn_time(motion: Trajectory) -> float | None:

@@ -6,19 +6,21 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from carom.attractors.starts import Start
+from carom.attractors.survival import HALF_LIVES, Survival, measure_survival
 from carom.outcome import Outcome
 from carom.rotors import Rotor
-from carom.trajectories import Trajectory, simulate
+from carom.settling import longest_time
+from carom.trajectories import State, Trajectory, simulate
 
 __all__ = ["Ending", "endings_of"]
 
 FIRST_PATIENCE = 1000
 """Impacts of a first look at a motion."""
-FOLLOWED = 10
-"""Irregular motions followed to the end of the patience before the others are taken for alike."""
-LONGEST = 2e5
-"""Time after which a look that has not settled is given up, in ``1/Ω``."""
+AFFORDABLE = 2_000_000
+"""Impacts of all irregular motions together in one half-life, up to which they are followed so: half a second."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,10 @@ class Ending:
         Until then.
     hardest_impulse : float
         Largest normal impulse until then, in ``m c_r Ω``.
+    irregular : bool
+        Whether it still bounces irregularly.
+    survival : Survival or None
+        How long the irregular bouncing lasts that it is on, or was on after 1000 impacts; ``None`` if it never was.
     """
 
     start: Start
@@ -45,6 +51,8 @@ class Ending:
     time: float
     impacts: int
     hardest_impulse: float
+    irregular: bool = False
+    survival: Survival | None = None
 
 
 def endings_of(
@@ -55,6 +63,8 @@ def endings_of(
     progress: Callable[[float], None],
 ) -> list[Ending]:
     """Follow all starts: a first look at each, and longer ones at those that are irregular so far.
+
+    How long irregular motion lasts is measured, and where it ends all motions are followed to their end if that is affordable.
 
     Parameters
     ----------
@@ -77,22 +87,25 @@ def endings_of(
     for place in range(len(starts)):
         irregular += [place] if looks.look(place, min(FIRST_PATIENCE, patience)) else []
         progress(0.9 * (place + 1) / len(starts))
-    parked: list[int] = []
-    while irregular and looks.seen[irregular[0]] < patience:
-        span = min(looks.seen[irregular[0]], patience - looks.seen[irregular[0]])
-        lasting = [place for place in irregular if looks.look(place, span)]
-        if len(lasting) < len(irregular):
-            # Something has settled after so long: those taken for alike have to catch up.
-            reached = looks.seen[irregular[0]]
-            lasting += [place for place in parked if looks.look(place, reached - looks.seen[place])]
-            parked = []
-        elif len(lasting) > FOLLOWED:
-            parked += lasting[FOLLOWED:]
-        irregular = [place for place in lasting if place not in parked]
-        progress(0.9 + 0.1 * looks.seen[irregular[0]] / patience if irregular else 1.0)
-    looks.take_for_alike(irregular + parked)
+    seen, met = FIRST_PATIENCE, looks.states_of(irregular)
+    while irregular and seen < patience:
+        span = min(seen, patience - seen)
+        irregular = [place for place in irregular if looks.look(place, span)]
+        seen += span
+        progress(0.9 + 0.05 * min(seen / patience, 1.0))
+    if met:
+        survival = _survival(rotor, looks.states_of(irregular) or met, patience)
+        if irregular and survival.half_life is not None:
+            irregular = looks.follow_out(irregular, survival.half_life)
+        looks.note(irregular, survival)
     progress(1.0)
     return [ending for ending in looks.endings if ending]
+
+
+def _survival(rotor: Rotor, states: Sequence[State], patience: int) -> Survival:
+    positions = np.array([state.position for state in states])
+    velocities = np.array([state.velocity for state in states])
+    return measure_survival(rotor, positions, velocities, impacts=patience)
 
 
 class _Looks:
@@ -102,33 +115,49 @@ class _Looks:
         self.rotor, self.name_of, self.starts = rotor, name_of, starts
         self.states = [start.state for start in starts]
         self.endings: list[Ending | None] = [None] * len(starts)
-        self.seen = [0] * len(starts)
-        self.last: Trajectory | None = None
+        self.was_irregular = [False] * len(starts)
+        self.last: dict[Outcome, Trajectory] = {}
+        self.limit = longest_time(rotor)
 
     def look(self, place: int, impacts: int) -> bool:
         """Follow a motion for so many impacts more; whether it is still irregular."""
-        motion = simulate(self.rotor, self.states[place], LONGEST, settle=True, patience=impacts)
+        motion = simulate(self.rotor, self.states[place], self.limit, settle=True, patience=impacts)
         irregular = motion.outcome in (Outcome.BOUNCING, Outcome.MIXED) and motion.multiplicity == 0
         self.states[place] = motion.final
-        self.seen[place] += impacts
+        self.was_irregular[place] |= irregular
         impulses = motion.contacts.normal_impulse
         hardest = float(impulses.max()) if len(impulses) else 0.0
         name = "" if irregular else self.name_of(motion)
         ending = Ending(self.starts[place], name, motion.outcome, motion.time, len(impulses), hardest)
         before = self.endings[place]
         self.endings[place] = _joined(before, ending) if before else ending
-        self.last = motion if irregular else self.last
+        if irregular:
+            self.last[motion.outcome] = motion
         return irregular
 
-    def take_for_alike(self, places: Sequence[int]) -> None:
-        """Give the irregular motions their name, after the last one looked at."""
-        if not places or self.last is None:
-            return
-        name = self.name_of(self.last)
-        for place in places:
+    def states_of(self, places: Sequence[int]) -> list[State]:
+        """States that motions have come to."""
+        return [self.states[place] for place in places]
+
+    def follow_out(self, irregular: list[int], half_life: float) -> list[int]:
+        """Follow irregular motions that will leave until they have, where that is affordable; those that have not."""
+        span = max(FIRST_PATIENCE, int(half_life))
+        for _ in range(HALF_LIVES):
+            if not irregular or len(irregular) * span > AFFORDABLE:
+                break
+            irregular = [place for place in irregular if self.look(place, span)]
+        return irregular
+
+    def note(self, irregular: Sequence[int], survival: Survival) -> None:
+        """Note of every motion that was irregular at the first look how long such motion lasts; name those that still are."""
+        for place, ending in enumerate(self.endings):
+            if ending and self.was_irregular[place]:
+                self.endings[place] = dataclasses.replace(ending, survival=survival)
+        for place in irregular:
             ending = self.endings[place]
             if ending:
-                self.endings[place] = dataclasses.replace(ending, attractor=name, outcome=self.last.outcome)
+                name = self.name_of(self.last[ending.outcome])
+                self.endings[place] = dataclasses.replace(ending, attractor=name, irregular=True)
 
 
 def _joined(before: Ending, after: Ending) -> Ending:

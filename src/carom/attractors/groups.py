@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, orbit_of, same_cycle, whirl_of
 from carom.attractors.following import Ending
 from carom.attractors.starts import Start
+from carom.attractors.survival import Survival
 from carom.orbits import Orbit
 from carom.outcome import Outcome
 from carom.trajectories import State, Trajectory
@@ -48,6 +49,8 @@ class Attractor:
         Of the impacts on it, in ``m c_r Ω``.
     largest_force : float
         Normal force of lasting contact on it, in ``m c_r Ω²``.
+    survival : Survival or None
+        Of irregular bouncing: how long it lasts.
     """
 
     name: str
@@ -63,11 +66,17 @@ class Attractor:
     state: State
     largest_impulse: float
     largest_force: float
+    survival: Survival | None = None
 
     @property
     def settled(self) -> bool:
-        """Whether it is an end, not a motion given up."""
-        return self.outcome.settled
+        """Whether it is an end, not a motion given up nor one that is known to end."""
+        return self.outcome.settled and not self.transient
+
+    @property
+    def transient(self) -> bool:
+        """Whether it is irregular bouncing that ends: no attractor, but where motions were when they were given up."""
+        return self.survival is not None and self.survival.transient
 
     @property
     def touches(self) -> bool:
@@ -117,17 +126,25 @@ class Groups:
     def attractor(self, name: str, endings: Sequence[Ending]) -> Attractor:
         """Return the attractor of a group with its starts counted."""
         _, member = self.names[name]
-        here = [ending.start for ending in endings if ending.attractor == name]
+        group = [ending for ending in endings if ending.attractor == name]
+        here = [ending.start for ending in group]
         hit = [start for start in here if start.disturbance]
         total = sum(ending.start.disturbance for ending in endings)
+        survival = next((ending.survival for ending in group if ending.irregular), None)
         gentlest = min(hit, key=lambda start: (start.kind != "kick", start.speed), default=None)
         return dataclasses.replace(
             member,
+            words=f"{member.words} {_sentence(survival.words)}" if survival else member.words,
+            survival=survival,
             count=len(hit),
             share=len(hit) / total if total else 0.0,
             known=len(here) - len(hit),
             representative=gentlest or next(iter(here), member.representative),
         )
+
+
+def _sentence(words: str) -> str:
+    return f"{words[0].upper()}{words[1:]}."
 
 
 def motion_name(outcome: Outcome, multiplicity: int) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from carom.attractors.following import Ending, endings_of
 from carom.attractors.groups import Attractor, Groups
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, Start, disturbances, known_starts
+from carom.attractors.survival import Survival
 from carom.disturbances import FASTEST
 from carom.orbits import orbits_within_reach
 from carom.outcome import InputError, Outcome
@@ -64,6 +65,12 @@ class AttractorSet:
     def ending_on(self, name: str) -> tuple[Ending, ...]:
         """Disturbances and other starts that ended on an attractor."""
         return tuple(ending for ending in self.endings if ending.attractor == name)
+
+    @property
+    def transient(self) -> Survival | None:
+        """How long the irregular bouncing lasts that some of the starts went through; ``None`` if it was not seen to end."""
+        seen = (ending.survival for ending in self.endings)
+        return next((survival for survival in seen if survival and survival.transient), None)
 
     @property
     def touching(self) -> tuple[Attractor, ...]:
@@ -131,9 +138,9 @@ def find_attractors(
     known : bool
         Whether to add starts next to the motions known in closed form; see :func:`~carom.attractors.known_starts`.
     patience : int
-        Impacts without recurrence after which bouncing counts as irregular.  Motions are followed for 1000 impacts, then
-        for twice as many, and so on.  Where twice as many have settled none, only the first 10 are followed on, and if
-        they last to the end the others are counted with them.
+        Impacts without recurrence after which bouncing counts as irregular.  How long it lasts is then measured
+        (:class:`~carom.attractors.Survival`); if it ends, motions are followed beyond the patience to where they end, unless
+        that would take too long.
     progress : callable, optional
         Called with the share done, 0 to 1.
 

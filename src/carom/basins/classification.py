@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.attractors import document_of, follow_out
 from carom.basins.motions import name_motions
 from carom.basins.shares import Share
 from carom.disturbances import (
@@ -22,11 +23,11 @@ from carom.disturbances import (
     Starts,
     StateSlice,
 )
-from carom.ensembles import LONGEST, MOST_EVENTS, Endings, settle_all
+from carom.ensembles import MOST_EVENTS, Endings, settle_all
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
 from carom.rotors import Rotor, jeffcott
-from carom.settling import PATIENCE
+from carom.settling import PATIENCE, longest_time
 
 if TYPE_CHECKING:
     import os
@@ -44,7 +45,7 @@ CRITERIA = (
     "rolling: whirls backward faster than the speed from which it surely goes over to rolling (proof), or by the next "
     "criterion. backward_whirl: after a turn along the wall without flight the state has changed by less than 1e-9. "
     "bouncing, mixed: the state at an impact recurs to within 1e-9 twice in a row (multiplicity: impacts a period), or "
-    "has not recurred in {patience} impacts (multiplicity 0: irregular). "
+    "has not recurred in {patience} impacts (multiplicity 0: irregular; where such motion was seen to end, it was followed on). "
     "grazing: double precision cannot decide. time_reached, event_limit: not settled by {until:g}/Omega or {events} "
     "events. Criteria not called a proof are evidence."
 )
@@ -126,6 +127,12 @@ class Basin:
         return resolved
 
     @property
+    def irregular(self) -> dict[str, Any] | None:
+        """How long irregular bouncing lasts that was met, as in JSON; ``None`` if none of the starts came to any."""
+        found: dict[str, Any] | None = json.loads(self.dataset.attrs["irregular"])
+        return found
+
+    @property
     def starts(self) -> int:
         """How many starts were followed."""
         return int(self.exists.sum())
@@ -190,7 +197,7 @@ def basins(
     rotor: Rotor,
     disturbances: Plan,
     *,
-    until: float = LONGEST,
+    until: float | None = None,
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
@@ -205,7 +212,8 @@ def basins(
     disturbances : Grid or Sample
         Of a model of :mod:`carom.disturbances`.
     until : float
-        Time after which a motion that has not settled is given up, in ``1/Ω``.
+        Time after which a motion that has not settled is given up, in ``1/Ω``; by default
+        :func:`~carom.settling.longest_time`.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
     max_events : int
@@ -228,6 +236,7 @@ def basins(
         None of the disturbances is possible: a rotor that cannot levitate cannot be kicked out of levitation.
     """
     starts = disturbances.starts(rotor)
+    until = longest_time(rotor) if until is None else until
     endings = follow(
         rotor,
         starts,
@@ -237,12 +246,14 @@ def basins(
         threads=threads,
         progress=progress,
     )
+    endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads)
     outcomes = np.where(starts.undecided, Outcome.GRAZING, endings.outcomes)
     outcomes = np.where(starts.exists, outcomes, NO_START).astype(np.int8)
     motions, names = name_motions(rotor, outcomes, endings)
     attributes = {
         **(source or {}),
         **provenance(rotor, disturbances),
+        "irregular": json.dumps(document_of(survival) if survival else None),
         "criteria": CRITERIA.format(patience=patience, until=until, events=max_events),
     }
     return Basin(_dataset(rotor, disturbances, starts, endings, outcomes, motions, names, attributes))

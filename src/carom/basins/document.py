@@ -54,6 +54,7 @@ def basin_document(
         "starts": basin.starts,
         "fractions": basin.fractions,
         "unresolved": basin.unresolved,
+        "irregular": basin.irregular,
         **_loss(smallest, basin, "kick"),
         "harmless_kick": harmless,
         "recovered": _share(basin.share_recovered),

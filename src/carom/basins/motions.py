@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.absorbing import rub_neighbourhood
 from carom.attractors.groups import Groups
-from carom.ensembles import LONGEST, Endings
+from carom.ensembles import Endings
 from carom.orbits import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
 from carom.rotors import Rotor
@@ -103,7 +103,7 @@ def _periodic(rotor: Rotor, outcomes: np.ndarray, endings: Endings, places: np.n
         chosen[places[kinds == kind]] = True
         if kind < LOOKED_AT:
             state = State(complex(positions[place]), complex(velocities[place]))
-            name = groups.name_of(simulate(rotor, state, LONGEST, settle=True))
+            name = groups.name_of(simulate(rotor, state, settle=True))
         else:
             name = f"{counts[place]}-impact {_NOUNS[Outcome(codes[place])]}"
         found.append((chosen.reshape(outcomes.shape), name))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from carom.attractors import DisturbanceSet
+from carom.attractors import DisturbanceSet, document_of
 from carom.bifurcations.axes import Axis
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
@@ -169,4 +169,5 @@ def _attractor(sample: AttractorSample) -> dict[str, Any]:
         "share": sample.share,
         "known_starts": sample.known,
         "radial_speeds": sample.radial_speeds.tolist(),
+        **document_of(sample.survival),
     }

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.attractors import Attractor, DisturbanceSet, find_attractors
+from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.bifurcations.axes import vary
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -20,6 +20,7 @@ VALUES = 31
 """Values of the parameter at which disturbances are followed."""
 SHOWN_IMPACTS = 60
 LONGEST = 400.0
+TRANSIENT = "irregular transient"
 BOUNCES = (Outcome.BOUNCING, Outcome.MIXED)
 
 
@@ -45,6 +46,8 @@ class AttractorSample:
         Starts next to a motion known in closed form that end on it; they are no disturbances.
     radial_speeds : ndarray
         Of its impacts (at most 60), in ``c_r Ω``; empty without impacts.
+    survival : Survival or None
+        Of irregular bouncing: how long it lasts.
     """
 
     value: float
@@ -55,6 +58,12 @@ class AttractorSample:
     share: float
     known: int
     radial_speeds: np.ndarray
+    survival: Survival | None = None
+
+    @property
+    def transient(self) -> bool:
+        """Whether it is no attractor but irregular bouncing that ends."""
+        return self.survival is not None and self.survival.transient
 
     @property
     def met(self) -> bool:
@@ -87,7 +96,8 @@ def sample_attractors(
     Returns
     -------
     tuple of AttractorSample
-        In growing order of the parameter.  Motions that were given up are left out.
+        In growing order of the parameter.  Motions that were given up are left out; irregular bouncing that ends is an
+        ``"irregular transient"``, with the share of the disturbances that went through it for 1000 impacts and more.
     """
     tell = progress or (lambda _: None)
     found: list[AttractorSample] = []
@@ -97,6 +107,7 @@ def sample_attractors(
             rotor, seed=disturbances.seed, count=disturbances.count, fastest=disturbances.fastest
         )
         found += [_sample(value, rotor, each) for each in attractors if each.settled]
+        found += _transient(value, attractors)
         tell((done + 1) / values)
     return tuple(found)
 
@@ -111,7 +122,19 @@ def _sample(value: float, rotor: Rotor, found: Attractor) -> AttractorSample:
         found.share,
         found.known,
         _impacts(rotor, found),
+        found.survival,
     )
+
+
+def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
+    """Irregular bouncing that was seen to end."""
+    if found.transient is None:
+        return []
+    through = sum(ending.survival is not None for ending in found.disturbances)
+    known = sum(ending.survival is not None for ending in found.endings) - through
+    share = through / len(found.disturbances) if found.disturbances else 0.0
+    label = Outcome.BOUNCING.label
+    return [AttractorSample(value, TRANSIENT, label, "none", through, share, known, np.empty(0), found.transient)]
 
 
 def _impacts(rotor: Rotor, attractor: Attractor) -> np.ndarray:

@@ -51,6 +51,8 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         "it need not be there yet. The median of the starts that end so."
     )
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
+    if basin.irregular:
+        screen.print(f"Irregular bouncing: {basin.irregular['survival']}.")
     screen.print(_touching(basin))
     if basin.unresolved:
         screen.print(f"Given up before it was known where they end: {basin.unresolved} starts; they count as lost.")

@@ -265,6 +265,13 @@ def _print_attractors(diagram: Diagram) -> None:
     screen.print(
         f"At each of {values} values {tried.general_words}; and starts next to the motions known in closed form."
     )
+    lasting: dict[str, list[str]] = {}
+    for sample in diagram.attractors:
+        if sample.survival:
+            words = f"{sample.name}: {sample.survival.words}"
+            lasting.setdefault(words, []).append(_shown(diagram.axis, sample.value))
+    for words, places in lasting.items():
+        screen.print(f"{words}; at {diagram.axis.name} = {', '.join(places)}")
 
 
 def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:

@@ -64,7 +64,7 @@ def simulate(
             check_file(option, path)
     with progress("simulating (the kernels are compiled on first use)") as tell:
         given, end = _read(case, start, kick, until)
-        motion = _follow(case, given, kick, end, until is None, tell)
+        motion = _follow(case, given, kick, end, tell)
         if targets:
             from carom.cli.logs import write_csv, write_netcdf
 
@@ -81,7 +81,7 @@ def simulate(
     print_motion(console(), case, motion)
 
 
-def _read(case: Case, start: str | None, kick: str | None, until: str | None) -> tuple[State | Kick, float]:
+def _read(case: Case, start: str | None, kick: str | None, until: str | None) -> tuple[State | Kick, float | None]:
     """Read the start and the end: what is wrong is refused before the kernels are loaded."""
     from carom.cli.starts import read_kick, read_start, read_time
 
@@ -89,25 +89,27 @@ def _read(case: Case, start: str | None, kick: str | None, until: str | None) ->
     if (start is None) == (kick is None):
         given = None if start is None else f"{start} with --kick {kick}"
         raise InputError("--start", given, "give either --start RE,IM,VRE,VIM or --kick SPEED[,ANGLE]")
-    end = LONGEST if until is None else read_time(until, scales)
+    end = None if until is None else read_time(until, scales)
     return read_kick(str(kick), scales) if start is None else read_start(start, scales), end
 
 
-def _follow(case: Case, start: State | Kick, kick: str | None, end: float, settle: bool, tell) -> Trajectory:  # type: ignore[no-untyped-def]
+def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None, tell) -> Trajectory:  # type: ignore[no-untyped-def]
     from carom.rotors import jeffcott
+    from carom.settling import longest_time
     from carom.trajectories import Kick
     from carom.trajectories import simulate as follow
 
     rotor = jeffcott(case.parameters)
     if isinstance(start, Kick):
         _check_levitation(rotor, kick)
+    limit = longest_time(rotor) if end is None else end
     return follow(
         rotor,
         start,
         end,
-        settle=settle,
+        settle=end is None,
         max_events=MOST_EVENTS,
-        progress=lambda time: tell(time / end, "simulating"),
+        progress=lambda time: tell(time / limit, "simulating"),
     )
 
 

@@ -5,7 +5,17 @@ from __future__ import annotations
 import math
 
 from carom.core.events import INSIDE, LEAVING, search
-from carom.core.fate import NEAR, absorbed, approaches_turn, forget_rub, levitates, near_rub, recurs, same_state
+from carom.core.fate import (
+    NEAR,
+    absorbed,
+    approaches_turn,
+    forget_rub,
+    levitates,
+    near_rub,
+    recurs,
+    same_state,
+    stays_inside,
+)
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
 from carom.core.layout import kernel, passage
@@ -126,7 +136,7 @@ def _fly(rotor, table, horizon, plane, memory, work, rub):
         if reaction != CLEAR:
             copy(state, work.arrival)
             break
-        if settle and levitates(rotor, state, work):
+        if settle and (levitates(rotor, state, work) or (elapsed > 0.0 and stays_inside(rotor, state))):
             return LEVITATED, elapsed, FLIGHT, plane
         leap = min(horizon - elapsed, memory.recheck) if settle else horizon - elapsed
         reaction, duration, plane = _leap(rotor, table, leap, plane, at_rest, work, rub)

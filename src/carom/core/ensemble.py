@@ -13,8 +13,9 @@ import numpy as np
 
 from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
 from carom.core.block import move_to
+from carom.core.closing import least_period
 from carom.core.counter import next_number
-from carom.core.fate import NEAR, forget, impacts_until_noted, levitates, recurs
+from carom.core.fate import NEAR, forget, impacts_until_noted, levitates, recurs, stays_inside
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
@@ -34,6 +35,8 @@ EVERY_LANE = (1 << LANES) - 1
 LONG_AGO = -1e300
 RUN = 64
 """Motions dealt out at a time: neighbours lie in the same cache lines."""
+CALM = 10_000
+"""Free blocks of flight of a motion after which to ask for the proof that is long."""
 NEARBY = 1.5 * NEAR
 """The distance of :func:`carom.core.fate.same_state`, with room."""
 
@@ -59,7 +62,8 @@ MOTION = np.dtype(
     ]
 )
 """A motion: position and velocity of its start, and the plane whose wall that lies on or −1; on return those of its end, and
-outcome, time, number of impacts and multiplicity as :func:`~carom.core.advance.advance` and its memory state them."""
+outcome, time and number of impacts as :func:`~carom.core.advance.advance` states them, and the multiplicity of
+:func:`~carom.core.closing.least_period`."""
 
 
 class Tools(NamedTuple):
@@ -111,7 +115,7 @@ def follow_each(task, motions, counter, tools):
                     outcome = _follow_singly(task, tools, lane)
                     continue
                 if outcome != NONE_YET:
-                    _note_end(task.rotor, motions[lanes.motion[lane]], lanes, memory, work, lane, outcome)
+                    _note_end(task, tools, motions[lanes.motion[lane]], lane, outcome)
                 if number == stop:
                     number = min(next_number(counter.numbers) * RUN, count)
                     stop = min(number + RUN, count)
@@ -137,7 +141,7 @@ def _begin(task, start, lanes, memory, work, lane):
     forget(memory)
     _put_memory_by(lanes, memory, lane)
     lanes.plane[lane] = plane
-    lanes.struck[lane], lanes.events[lane], lanes.stalled[lane] = 0, 0, 0
+    lanes.struck[lane], lanes.events[lane], lanes.stalled[lane], lanes.calm[lane] = 0, 0, 0, 0
     lanes.clock[lane], lanes.quiet[lane] = 0.0, 0.0
     if plane >= 0 and not surely_flies(task.rotor, work.current):
         return SINGLY
@@ -156,7 +160,11 @@ def _look_at(task, lanes, memory, work, lane):
         return NONE_YET
     _copy_state(lanes, lane, work.current)
     if verdict == CLEARED:
-        return LEVITATED if memory.patience > 0 and levitates(task.rotor, work.current, work) else GOES_ON
+        lanes.calm[lane] += 1
+        if memory.patience <= 0:
+            return GOES_ON
+        longs = lanes.calm[lane] % CALM == 0 and stays_inside(task.rotor, work.current)
+        return LEVITATED if longs or levitates(task.rotor, work.current, work) else GOES_ON
     if verdict == LATE:
         if memory.patience > 0 and levitates(task.rotor, work.current, work):
             return LEVITATED
@@ -275,13 +283,22 @@ def _put_memory_by(lanes, memory, lane):
     lanes.reach[lane] = reach
 
 
-@part
-def _note_end(rotor, motion, lanes, memory, work, lane, outcome):
+@passage
+def _note_end(task, tools, motion, lane, outcome):
     """Note where the motion of a lane has ended, in ``work.current``."""
+    lanes, memory, work = tools.lanes, tools.memory, tools.work
     motion.outcome, motion.time = outcome, lanes.clock[lane]
     motion.impacts = lanes.struck[lane] + int(lanes.quiet[lane])
-    motion.multiplicity = memory.period if outcome in (BOUNCING, MIXED) else 0
-    motion.position, motion.velocity = displacement(rotor, 0, work.current), velocity(rotor, 0, work.current)
+    motion.position, motion.velocity = (
+        displacement(task.rotor, 0, work.current),
+        velocity(task.rotor, 0, work.current),
+    )
+    motion.multiplicity = 0
+    if outcome in (BOUNCING, MIXED):
+        log = (tools.times, tools.phases, tools.planes, tools.before, tools.after)
+        motion.multiplicity = least_period(
+            task.rotor, task.table, work.current, memory.period, log, memory, work, tools.rub
+        )
 
 
 @part

@@ -1,7 +1,9 @@
 """Where a motion ends: criteria that settle it, and the memory they need.
 
 - *Levitated*: the sum of the moduli of the modes at every contact plane, a bound for all later time, is smaller than
-  the room between the contact-free equilibrium and the wall.  This is a proof.
+  the room between the contact-free equilibrium and the wall.  Where damping is so weak that this takes long: the flight
+  without damping stays inside the wall for one turn of its modes against each other, and the turns that follow until
+  then differ too little from it.  Either is a proof.
 - *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding; or, where the memory holds
   one, it lies in a neighbourhood of that rub which sliding never leaves.  This is a proof too (:mod:`carom.absorbing`).
 - *Rolling*: where the memory holds the speed of a certain runaway, backward whirl slides faster.  A proof
@@ -36,10 +38,16 @@ __all__ = [
     "recurs",
     "rub_potentials",
     "same_state",
+    "stays_inside",
 ]
 
 NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
+
+TURNS = 32
+"""Turns of the faster mode that are tried for one after which the other mode is back too."""
+SLACK = 2e-4
+"""Distance, in clearances, by which the path between two samples of a turn may bulge."""
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
 
@@ -125,6 +133,72 @@ def levitates(rotor, amplitudes, work):
         if reach >= 1.0 - NEAR:
             return False
     return True
+
+
+@kernel
+def stays_inside(rotor, amplitudes):
+    """Whether a weakly damped flight surely stays inside the wall, though its modes are large enough to reach it together.
+
+    For a rotor with one plane and a pair of modes that decay alike, ``y = K + s (c₊e^{iω₊t} + c₋e^{iω₋t})`` with
+    ``s = e^{−δt}``.  As ``s ≤ 1``, ``|y|`` is at most the greater of ``|K|`` and the modulus without damping.  That one is bounded
+    over one time ``P`` in which the faster mode turns a whole number of times, by samples and by the second derivative
+    in between; over the next, the slower mode lags by ``ω P`` mod 2π more, which moves ``y`` by no more than that times its
+    amplitude.  This has to stay inside until the sum of the moduli does by itself.
+    """
+    if rotor.exponents.shape[0] != 2 or rotor.rows.shape[0] != 1 or not rotor.driven[1]:
+        return False
+    decay = -rotor.exponents[1].real
+    if decay <= 0.0 or rotor.gaps[1] == 0.0 or abs(decay + rotor.exponents[0].real) > 1e-15 * decay:
+        return False
+    share = amplitudes[0] * rotor.inverse_gaps[1]
+    slow, fast = amplitudes[1] + share, -share
+    slow_rate, fast_rate = rotor.exponents[1].imag, rotor.exponents[0].imag
+    if abs(slow_rate) > abs(fast_rate):
+        slow, fast, slow_rate, fast_rate = fast, slow, fast_rate, slow_rate
+    centre = rotor.offsets[0]
+    room = 1.0 - NEAR - math.sqrt(squared_modulus(centre))
+    reach = math.sqrt(squared_modulus(slow)) + math.sqrt(squared_modulus(fast))
+    if room <= 0.0 or reach <= 0.0:
+        return False
+    lasts = max(math.log(reach / room), 0.0) / decay
+    rounding = 4e-16 * TURNS * (abs(slow_rate) + abs(fast_rate)) * lasts * reach
+    bend = slow_rate * slow_rate * math.sqrt(squared_modulus(slow)) + fast_rate * fast_rate * math.sqrt(
+        squared_modulus(fast)
+    )
+    least = room
+    for turns in range(1, TURNS + 1):
+        span = 2.0 * math.pi * turns / abs(fast_rate)
+        lag = abs(_wrapped(slow_rate * span))
+        drift = math.sqrt(squared_modulus(slow)) * lag * lasts / span
+        if drift + rounding < least:
+            least = drift + rounding
+            farthest = _farthest(centre, slow, fast, slow_rate, fast_rate, span, math.sqrt(8.0 * SLACK / bend))
+            if farthest + SLACK + drift + rounding < 1.0 - NEAR:
+                return True
+    return False
+
+
+@kernel
+def _wrapped(angle):
+    """The angle less the nearest whole number of turns."""
+    return angle - 2.0 * math.pi * math.floor(angle / (2.0 * math.pi) + 0.5)
+
+
+@kernel
+def _farthest(centre, slow, fast, slow_rate, fast_rate, span, step):
+    """Largest of samples of ``|K + c₊e^{iω₊t} + c₋e^{iω₋t}|`` over a time, not more than a step apart."""
+    count = int(span / step) + 1
+    largest = 0.0
+    for i in range(count + 1):
+        time = span * i / count
+        first, second = slow_rate * time, fast_rate * time
+        place = (
+            centre
+            + slow * complex(math.cos(first), math.sin(first))
+            + fast * complex(math.cos(second), math.sin(second))
+        )
+        largest = max(largest, squared_modulus(place))
+    return math.sqrt(largest)
 
 
 @kernel

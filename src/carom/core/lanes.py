@@ -43,7 +43,7 @@ _FATE = (
     "reference_lower_re", "reference_lower_im", "reference_upper_re", "reference_upper_im", "reach",
 )  # fmt: skip
 _ANSWER = ("verdict", "arrival_lower_re", "arrival_lower_im", "arrival_upper_re", "arrival_upper_im")
-_BOOKS = ("motion", "plane", "events", "struck", "stalled", "seen", "since", "renewal", "candidate", "rubbed")
+_BOOKS = ("motion", "plane", "events", "struck", "stalled", "calm", "seen", "since", "renewal", "candidate", "rubbed")
 
 
 def lanes_record() -> np.record:
@@ -54,8 +54,8 @@ def lanes_record() -> np.record:
     none is left.  A plain impact adds to ``quiet``; it is to be NOTED when ``due`` is reached or the state is within
     ``reach`` of the ``reference``.  The end of a free block is to be looked at in a lane that is ``watched``.  ``verdict`` says
     what has happened last, ``arrival`` is the state before an impact.  The whole numbers are books of
-    :mod:`carom.core.ensemble`: the motion held, its events, impacts, events without progress, and, with the ``reference``,
-    what :func:`carom.core.fate.memory` holds of it.
+    :mod:`carom.core.ensemble`: the motion held, its events, impacts, events without progress, free blocks, and, with the
+    ``reference``, what :func:`carom.core.fate.memory` holds of it.
     """
     return record(
         **{name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ANSWER)},

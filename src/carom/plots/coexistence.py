@@ -165,7 +165,14 @@ def _row_of_sample(sample: AttractorSample) -> str:
 
 
 def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:
-    """Area in proportion to the share of disturbances; a motion that none of them reached is a small empty ring."""
+    """Area in proportion to the share of disturbances; a motion that none of them reached is a small empty ring.
+
+    Irregular bouncing that ends is a cross.
+    """
+    if sample.transient:
+        size = _LARGEST * max(sample.share, 0.1)
+        axes.scatter([sample.value / unit], [height], s=size, marker="x", color="#1a1a1a", linewidth=0.8, zorder=4)
+        return
     axes.scatter(
         [sample.value / unit],
         [height],

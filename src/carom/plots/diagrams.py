@@ -308,6 +308,12 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
         entries.append(Line2D([], [], mfc="#ffffff", ms=4.0, **ring, label=words))
     if any(not sample.met for sample in diagram.attractors):
         entries.append(Line2D([], [], mfc="none", ms=2.0, **ring, label="met by none, only from a start next to it"))
+    if any(sample.transient for sample in diagram.attractors):
+        entries.append(
+            Line2D(
+                [], [], ls="none", marker="x", ms=4.0, color="#1a1a1a", mew=0.8, label="irregular bouncing that ends"
+            )
+        )
     return entries
 
 

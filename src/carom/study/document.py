@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.attractors import Attractor, AttractorSet, Ending
+from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.basins.shares import CONFIDENCE
 from carom.boundary import BoundaryEquilibrium
 from carom.equilibria import Equilibrium
@@ -273,6 +273,7 @@ def _attractor(entry: Attractor, scales: Scales | None) -> dict[str, Any]:
         "known_starts": entry.known,
         "largest_impulse": entry.largest_impulse,
         "largest_force": entry.largest_force,
+        **document_of(entry.survival),
     }
     if scales is not None:
         document["largest_impulse_si"] = entry.largest_impulse * scales.impulse
@@ -292,6 +293,7 @@ def _disturbances(found: AttractorSet, scales: Scales | None) -> dict[str, Any]:
         "touching": len(touched),
         "touching_recovered": _recovered(touched),
         "smallest_unrecovered_kick": smallest,
+        "irregular_transient": document_of(found.transient) if found.transient else None,
         "starts": [_ending(ending) for ending in found.endings],
     }
     if scales is not None:

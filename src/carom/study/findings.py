@@ -14,6 +14,7 @@ from carom.study.wording import counted, listed, number
 from carom.whirl import Rolling, Runaway, rolling, runaway_speed
 
 if TYPE_CHECKING:
+    from carom.attractors import AttractorSet
     from carom.equilibria import Equilibrium
     from carom.orbits import Orbit
     from carom.study.assembly import Study
@@ -177,12 +178,20 @@ def _endings(study: Study) -> str:
     if list(counts) == ["levitation"]:
         return f"All of them came back to contact-free levitation{_fresh_words(study)}."
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
-    text = f"They ended: {listed(parts)}."
+    text = f"They ended: {listed(parts)}.{_irregular(found)}"
     touched = touching(found)
     back = sum(ending.outcome is Outcome.LEVITATED for ending in touched)
     if study.levitates and touched:
         text += f" Of the {len(touched)} that touched the wall {back or 'none'} came back to levitation."
     return text
+
+
+def _irregular(found: AttractorSet) -> str:
+    """How long irregular bouncing lasts, where it was met."""
+    if found.transient is not None:
+        return f" On the way some bounced irregularly for long: {found.transient.words}."
+    lasting = next((member for member in found if member.survival is not None), None)
+    return f" Of such irregular motions {lasting.survival.words}." if lasting and lasting.survival else ""
 
 
 def _fresh_words(study: Study) -> str:

@@ -48,7 +48,8 @@ class MotionRow:
     ----------
     name : str
     state : str
-        ``"stable"``, ``"unstable"``, ``"not possible"`` or ``"seen"``: met by disturbances, its stability not computed.
+        ``"stable"``, ``"unstable"``, ``"not possible"``, ``"seen"`` (met by disturbances, its stability not computed),
+        ``"transient"`` (it ends) or ``"undecided"`` (given up).
     period : str
     size : str
         Radius of a steady motion, or radial speed of the impacts.
@@ -200,14 +201,15 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
 
 def _seen(say: Wording, member: Attractor, found: AttractorSet) -> MotionRow:
     impulse, force = member.largest_impulse, member.largest_force
+    lasts = member.survival.words if member.survival else ""
     return MotionRow(
         ending_words(member.name),
-        "seen" if member.settled else "undecided",
+        "transient" if member.transient else "seen" if member.settled else "undecided",
         period=say.time(member.period) if member.period else "",
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
         force=say.force(force) if force > 0 else "",
         trials=_share(found, member.name),
-        remark="" if member.count else "from a start next to it",
+        remark="; ".join(part for part in (lasts, "" if member.count else "from a start next to it") if part),
     )
 
 

@@ -1,0 +1,213 @@
+"""How long irregular motion lasts: many such motions followed side by side, and how many of them leave it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from carom.ensembles import Endings, settle_all
+from carom.outcome import Outcome
+from carom.rotors import Rotor
+
+__all__ = ["Survival", "document_of", "follow_out", "measure_survival", "still_irregular"]
+
+MOTIONS = 200
+"""Irregular motions that are followed."""
+LOOK = 1000
+"""Impacts after which it is looked who has left; the first look forgets where the motions began and is not counted."""
+APART = 1e-6
+"""Change of velocity, relative, that makes several motions of one: irregular ones lose each other within a look."""
+CONFIDENCE = 0.95
+SEED = 0
+HALF_LIVES = 40
+"""For how many half-lives motions that are known to end are followed: one in 10¹² lasts longer."""
+AFFORDABLE = 20_000_000
+"""Impacts of all irregular motions together in one half-life, up to which they are followed so: seconds."""
+
+
+@dataclass(frozen=True)
+class Survival:
+    """What became of many irregular motions of one machine.
+
+    Attributes
+    ----------
+    motions : int
+        That were followed.
+    impacts : int
+        For which each was followed, unless it left before.
+    died : int
+        That left for another motion.
+    half_life : float or None
+        Impacts in which half of those that are left leave; ``None`` if none died.
+    interval : tuple of float
+        Interval of the half-life with a confidence of 95 %; if none died, its lower limit and infinity.
+    """
+
+    motions: int
+    impacts: int
+    died: int
+    half_life: float | None
+    interval: tuple[float, float]
+
+    @classmethod
+    def of(cls, motions: int, impacts: int, died: int, looks: int, left: int) -> Survival:
+        """From the number of looks at motions that had not left before, and how many had left at them.
+
+        A motion that has forgotten where it came from leaves within a look with one probability ``h``, whatever its age; of
+        ``h`` the interval is that of Clopper and Pearson (1934), and the half-life is ``−LOOK ln 2/ln(1 − h)``.
+        """
+        if left == 0:
+            longest = math.inf if looks == 0 else 1.0 - (1.0 - CONFIDENCE) ** (1.0 / looks)
+            return cls(motions, impacts, died, None, (_half_life(longest) if looks else 0.0, math.inf))
+        tail = 0.5 * (1.0 - CONFIDENCE)
+        low = _share_with(left, looks, 1.0 - tail)
+        high = _share_with(left + 1, looks, tail) if left < looks else 1.0
+        share = left / looks if left < looks else 1.0 - 0.5 / looks
+        return cls(motions, impacts, died, _half_life(share), (_half_life(high), _half_life(low)))
+
+    @property
+    def transient(self) -> bool:
+        """Whether the irregular motion ends: it is no attractor."""
+        return self.died > 0
+
+    @property
+    def words(self) -> str:
+        """The same in words: ``transient, half-life 1,600 impacts (1,300 to 2,000)``."""
+        low, high = self.interval
+        if self.half_life is None:
+            died = f"{self.died or 'none'} of {self.motions} died in {self.impacts:,} impacts"
+            return f"{died} (half-life above {_rounded(low)} impacts at {100.0 * CONFIDENCE:.0f} %)"
+        return f"transient, half-life {_rounded(self.half_life)} impacts ({_rounded(low)} to {_rounded(high)})"
+
+
+def _share_with(left: int, looks: int, chance: float) -> float:
+    """Chance of one event to which fewer than so many events in so many looks have this chance, by bisection."""
+    low, high = 0.0, 1.0
+    ways = [math.lgamma(looks + 1) - math.lgamma(k + 1) - math.lgamma(looks - k + 1) for k in range(left)]
+    for _ in range(60):
+        share = 0.5 * (low + high)
+        rare, often = math.log(share), math.log1p(-share)
+        fewer = sum(math.exp(way + k * rare + (looks - k) * often) for k, way in enumerate(ways))
+        low, high = (share, high) if fewer > chance else (low, share)
+    return 0.5 * (low + high)
+
+
+def _half_life(share: float) -> float:
+    """Impacts in which half of them leave, if this share does in a look."""
+    return 0.0 if share >= 1.0 else -LOOK * math.log(2.0) / math.log1p(-share)
+
+
+def _rounded(number: float) -> str:
+    """Two digits, with commas between thousands."""
+    if not 0.0 < number < math.inf:
+        return f"{number:g}"
+    unit = 10.0 ** (math.floor(math.log10(number)) - 1)
+    return f"{round(number / unit) * unit:,.0f}"
+
+
+def still_irregular(endings: Endings) -> np.ndarray:
+    """Which motions keep bouncing and have not repeated themselves."""
+    bouncing: np.ndarray = np.isin(endings.outcomes, (Outcome.BOUNCING, Outcome.MIXED))
+    return bouncing & (endings.multiplicities == 0)
+
+
+def measure_survival(
+    rotor: Rotor,
+    positions: np.ndarray,
+    velocities: np.ndarray,
+    *,
+    impacts: int,
+    threads: int | None = None,
+) -> Survival:
+    """Follow irregular motions on and count those that leave.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    positions, velocities : ndarray of complex, shape (M,)
+        States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a part is taken; fewer
+        are made 200 by small changes of their velocity.
+    impacts : int
+        For which to follow each of them.
+    threads : int, optional
+        By default as many as there are cores at hand; the result does not depend on it.
+
+    Returns
+    -------
+    Survival
+    """
+    random = np.random.default_rng(SEED)
+    places = np.resize(random.permutation(len(positions)), MOTIONS)
+    change = APART * np.exp(2j * np.pi * random.random(MOTIONS))
+    positions, velocities = positions[places], velocities[places] * (1.0 + change)
+    looks, left = [], []
+    for _ in range(1 + max(1, impacts // LOOK)):
+        ends = settle_all(rotor, positions, velocities, patience=LOOK, threads=threads)
+        alive = still_irregular(ends)
+        # A motion that was given up has not left, nor can it be followed on.
+        lost = int(np.count_nonzero(ends.outcomes < Outcome.LEVITATED))
+        looks.append(len(positions) - lost)
+        left.append(len(positions) - lost - int(alive.sum()))
+        positions, velocities = ends.positions[alive], ends.velocities[alive]
+        if not len(positions):
+            break
+    if len(looks) == 1:
+        return Survival.of(looks[0], LOOK, left[0], looks[0], left[0])
+    return Survival.of(looks[1], LOOK * (len(looks) - 1), sum(left[1:]), sum(looks[1:]), sum(left[1:]))
+
+
+def follow_out(
+    rotor: Rotor, endings: Endings, *, impacts: int, threads: int | None = None
+) -> tuple[Endings, Survival | None]:
+    """Follow irregular motions of an ensemble to where they end, if they do.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    endings : Endings
+    impacts : int
+        For which irregular motions are followed to see how long they last.
+    threads : int, optional
+        By default as many as there are cores at hand; the result does not depend on it.
+
+    Returns
+    -------
+    Endings
+        With the motions that have left; those that have not, or would take too long to follow, are as they were.
+    Survival or None
+        ``None`` if none of the motions is irregular.
+    """
+    irregular = np.flatnonzero(still_irregular(endings))
+    if not len(irregular):
+        return endings, None
+    positions, velocities = endings.positions.ravel(), endings.velocities.ravel()
+    survival = measure_survival(rotor, positions[irregular], velocities[irregular], impacts=impacts, threads=threads)
+    if survival.half_life is None:
+        return endings, survival
+    whole = {name: values.ravel().copy() for name, values in vars(endings).items()}
+    span = max(LOOK, int(survival.half_life))
+    for _ in range(HALF_LIVES):
+        if not len(irregular) or len(irregular) * span > AFFORDABLE:
+            break
+        there = whole["positions"][irregular], whole["velocities"][irregular]
+        further = settle_all(rotor, *there, patience=span, threads=threads)
+        for name, values in vars(further).items():
+            whole[name][irregular] = values + (whole[name][irregular] if name in ("times", "impacts") else 0)
+        irregular = irregular[still_irregular(further)]
+    shape = endings.outcomes.shape
+    return replace(endings, **{name: values.reshape(shape) for name, values in whole.items()}), survival
+
+
+def document_of(survival: Survival | None) -> dict[str, Any]:
+    """What is known of how long a motion lasts, for JSON; of a motion that is not irregular there is nothing to tell."""
+    if survival is None:
+        return {"transient": False, "half_life_impacts": None}
+    return {
+        "transient": survival.transient,
+        "half_life_impacts": survival.half_life,
+        "half_life_interval_impacts": list(survival.interval),
+        "survival": survival.words,
+    }

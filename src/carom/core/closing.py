@@ -1,0 +1,303 @@
+"""Close a periodic motion: the orbit that a motion approaches, and the number of impacts in its least period.
+
+A motion that still spirals slowly towards its orbit recurs to within :data:`~carom.core.fate.NEAR` first after a multiple
+of the period, where its turns about the orbit happen to close.  :func:`least_period` therefore asks, for every divisor
+of the number of impacts after which the motion has recurred, whether that many impacts have a fixed point close by that
+attracts.  Without lasting contact in the period the fixed point is found by Newton's method with the exact derivative of
+the impacts (:mod:`carom.core.variation`) and judged by its multipliers; with it, by Aitken's extrapolation of the
+motion itself, for what is left of a difference after a lift-off is one number.
+
+A motion that has not recurred at all may still draw near an orbit, however slowly: next to a period doubling, say.  It is
+told from one that never repeats in the same way, and by its distance from that orbit, which has to shrink.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from carom.core.advance import advance
+from carom.core.fate import same_state
+from carom.core.flow import copy, displacement, squared_modulus, velocity
+from carom.core.impact import unit
+from carom.core.layout import kernel, part
+from carom.core.variation import carry_through_impact, carry_to_wall
+from carom.outcome import Outcome, Phase
+
+__all__ = ["ATTRACTS", "CLOSES", "OPEN", "close", "least_period"]
+
+EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
+FLIGHT = int(Phase.FLIGHT)
+OPEN, CLOSES, ATTRACTS = 0, 1, 2
+"""No orbit was found; one that closes but does not attract, or so weakly that rounding hides it; one that attracts."""
+AROUND = 1e-3
+"""Distance, relative to one plus the size of the state, within which the orbit of a motion that has recurred is looked for."""
+CLOSED = 1e-11
+"""The same, within which an orbit closes."""
+ALIKE = 1e-8
+"""The same, within which two impacts of a closed orbit are one."""
+STEPS = 12
+"""Steps of either method: each about squares the distance."""
+SHORT, WATCHED = 64, 256
+"""Impacts of the longest orbit that a motion is asked about which has not recurred, and how far it is watched for that."""
+LONGEST = 1e6
+"""Time in which a motion has to come to its next event."""
+SLOW_EVENTS = 1000
+"""Events that one impact may take, with the lasting contact before it."""
+ALIGNED = 0.1
+"""Share of a difference that may point elsewhere than the one before, where differences are taken for a geometric series."""
+
+
+@kernel
+def least_period(rotor, table, state, count, log, memory, work, rub):
+    """Number of impacts in the period of the orbit that a motion approaches.
+
+    Parameters
+    ----------
+    rotor : record of :func:`~carom.rotors.second_order_record`
+    table : record of :func:`~carom.core.layout.table_record`
+    state : complex array, shape (2,)
+        Amplitudes just before an impact, to which the motion has recurred.
+    count : int
+        Number of impacts after which it has; zero if it has not recurred.
+    log : tuple of arrays
+        Room for one event, as :func:`~carom.core.advance.advance` takes it.
+    memory : record of :func:`~carom.core.fate.memory`
+    work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
+
+    Returns
+    -------
+    int
+        The least divisor of ``count`` after whose number of impacts an attracting orbit next to the state closes; else
+        ``count``.  Of a motion that has not recurred the impacts, up to SHORT, of such an orbit that it approaches; else 0.
+    """
+    if count == 1:
+        return count
+    ahead = count if count > 0 else WATCHED
+    states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
+    copy(state, states[0])
+    followed, _ = _follow_impacts(rotor, table, states, durations, log, memory, work, rub)
+    if not followed:
+        return count
+    longest = count if count > 0 else SHORT
+    orbit = np.empty((longest + 1, 2), np.complex128)
+    for impacts in range(1, longest + 1):
+        if count % impacts == 0 and same_state(states[0], states[impacts], AROUND):
+            copy(states[0], orbit[0])
+            found = close(rotor, table, orbit[: impacts + 1], durations[:impacts], log, memory, work, rub)
+            if found == ATTRACTS and (count > 0 or _draws_near(states, orbit[0], impacts)):
+                return _distinct(orbit, impacts)
+    return count
+
+
+@kernel
+def _distinct(orbit, impacts):
+    """How many impacts of an orbit that closes differ from one another: a motion far off may close first after two periods."""
+    for fewer in range(1, impacts):
+        if impacts % fewer == 0 and same_state(orbit[0], orbit[fewer], ALIKE):
+            return fewer
+    return impacts
+
+
+@kernel
+def _draws_near(states, goal, impacts):
+    """Whether every so many impacts a motion is nearer to a goal than before: in the later half than in the first."""
+    early, late = 0.0, 0.0
+    last = states.shape[0] - 1
+    for i in range(0, last + 1, impacts):
+        apart = math.sqrt(squared_modulus(states[i, 0] - goal[0])) + math.sqrt(squared_modulus(states[i, 1] - goal[1]))
+        if 2 * i <= last:
+            early = max(early, apart)
+        else:
+            late = max(late, apart)
+    return late < early
+
+
+@kernel
+def close(rotor, table, orbit, durations, log, memory, work, rub):
+    """Find the periodic orbit next to a state.
+
+    Parameters
+    ----------
+    rotor, table, log, memory, work, rub
+        As in :func:`least_period`.
+    orbit : complex array, shape (P + 1, 2)
+        First the amplitudes just before an impact; on return those of the orbit before each of its ``P`` impacts, and the
+        first once more.
+    durations : array, shape (P,)
+        On return the times between its impacts, in ``1/Ω``.
+
+    Returns
+    -------
+    int
+        OPEN, CLOSES or ATTRACTS.
+    """
+    start = orbit[0].copy()
+    found = OPEN
+    for _ in range(STEPS):
+        followed, bounces = _follow_impacts(rotor, table, orbit, durations, log, memory, work, rub)
+        if not (followed and same_state(orbit[0], orbit[-1], 10.0 * AROUND)):
+            return OPEN
+        if bounces:
+            found, done = _newton_step(rotor, orbit, durations, work)
+        else:
+            found, done = _aitken_step(rotor, table, orbit, durations, log, memory, work, rub)
+        if not same_state(orbit[0], start, AROUND):
+            return OPEN
+        if done:
+            return found
+    return OPEN
+
+
+@kernel
+def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
+    """Follow a motion from just before one impact through the next ones.
+
+    Fills ``states`` after the first and ``durations``; returns whether all of them came, and whether there was no lasting
+    contact on the way.
+    """
+    patience = memory.patience
+    memory.patience, memory.lifting = 0, 0
+    amplitudes = states[0].copy()
+    phase, plane = FLIGHT, 0
+    count = durations.shape[0]
+    met, clock, bounces, quiet = -1, 0.0, True, 0
+    while met < count and quiet < SLOW_EVENTS:
+        departed = phase
+        outcome, time, events, phase, plane = advance(
+            rotor, table, amplitudes, LONGEST, phase, plane, log[0], log[1], log[2], log[3], log[4], memory, work, rub
+        )
+        if outcome != EVENT_LIMIT or events == 0:
+            break
+        clock += time
+        quiet += 1
+        if departed == FLIGHT and phase == FLIGHT and _changed(log[3][0], log[4][0]):
+            met += 1
+            if met > 0:
+                copy(log[3][0], states[met])
+                durations[met - 1] = clock
+            clock, quiet = 0.0, 0
+        else:
+            bounces = False
+    memory.patience = patience
+    return met == count, bounces
+
+
+@part
+def _changed(before, after):
+    return before[0] != after[0] or before[1] != after[1]
+
+
+@kernel
+def _newton_step(rotor, orbit, durations, work):
+    """Newton step of an orbit without lasting contact, in ``orbit[0]``; what was found, and whether it closes."""
+    count = durations.shape[0]
+    directions, delays = np.empty((3, 2), np.complex128), np.empty(3)
+    position, speed = displacement(rotor, 0, orbit[0]), velocity(rotor, 0, orbit[0])
+    _set_change(rotor, 1j * position, 1j * speed, directions[0])
+    _set_change(rotor, 0j, position, directions[1])
+    _set_change(rotor, 0j, 1j * position, directions[2])
+    for i in range(count):
+        carry_through_impact(rotor, 0, orbit[i], directions)
+        carry_to_wall(rotor, 0, durations[i], orbit[i + 1], directions, delays, work)
+    end, end_speed = displacement(rotor, 0, orbit[count]), velocity(rotor, 0, orbit[count])
+    normal = unit(end)
+    local = normal.conjugate() * end_speed
+    before = unit(position).conjugate() * speed
+    jacobian = np.empty((3, 3))
+    for i in range(3):
+        turn = (normal.conjugate() * (displacement(rotor, 0, directions[i]) - rotor.offsets[0])).imag
+        swing = normal.conjugate() * velocity(rotor, 0, directions[i])
+        jacobian[0, i] = turn
+        jacobian[1, i] = swing.real + turn * local.imag
+        jacobian[2, i] = swing.imag - turn * local.real
+    turned = (unit(position).conjugate() * normal).imag
+    apart = local - before
+    size = 1.0 + math.sqrt(squared_modulus(before))
+    done = abs(turned) + math.sqrt(squared_modulus(apart)) <= CLOSED * size
+    found = ATTRACTS if _contracts(jacobian) else CLOSES
+    for i in range(3):
+        jacobian[i, i] -= 1.0
+    whole = _determinant(jacobian)
+    if whole == 0.0:
+        return found, done
+    ahead = _solved(jacobian, 0, -turned, -apart.real, -apart.imag) / whole
+    faster = complex(
+        _solved(jacobian, 1, -turned, -apart.real, -apart.imag) / whole,
+        _solved(jacobian, 2, -turned, -apart.real, -apart.imag) / whole,
+    )
+    normal = unit(position) * complex(math.cos(ahead), math.sin(ahead))
+    _set_change(rotor, normal - rotor.offsets[0], normal * (before + faster), orbit[0])
+    return found, done
+
+
+@part
+def _set_change(rotor, position_change, velocity_change, amplitudes):
+    amplitudes[0], amplitudes[1] = velocity_change - rotor.exponents[1] * position_change, position_change
+
+
+@kernel
+def _contracts(matrix):
+    """Whether all eigenvalues of a matrix (3, 3) lie within the unit circle (Jury 1962)."""
+    trace = matrix[0, 0] + matrix[1, 1] + matrix[2, 2]
+    minors = 0.0
+    for i in range(3):
+        j = (i + 1) % 3
+        minors += matrix[i, i] * matrix[j, j] - matrix[i, j] * matrix[j, i]
+    determinant = _determinant(matrix)
+    return (
+        1.0 - trace + minors - determinant > 0.0
+        and 1.0 + trace + minors + determinant > 0.0
+        and 1.0 - determinant * determinant > abs(minors - determinant * trace)
+    )
+
+
+@kernel
+def _determinant(matrix):
+    total = 0.0
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        total += matrix[0, i] * (matrix[1, j] * matrix[2, k] - matrix[1, k] * matrix[2, j])
+    return total
+
+
+@kernel
+def _solved(matrix, place, first, second, third):
+    """Determinant of a matrix (3, 3) with one of its columns replaced: Cramer's rule, but for the division."""
+    j, k = (place + 1) % 3, (place + 2) % 3
+    return (
+        first * (matrix[1, j] * matrix[2, k] - matrix[1, k] * matrix[2, j])
+        + second * (matrix[2, j] * matrix[0, k] - matrix[2, k] * matrix[0, j])
+        + third * (matrix[0, j] * matrix[1, k] - matrix[0, k] * matrix[1, j])
+    )
+
+
+@kernel
+def _aitken_step(rotor, table, orbit, durations, log, memory, work, rub):
+    """Extrapolate an orbit with lasting contact to its limit, in ``orbit[0]``; what was found, and whether it closes."""
+    count = durations.shape[0]
+    ahead = np.empty((count + 1, 2), np.complex128)
+    copy(orbit[count], ahead[0])
+    followed, _ = _follow_impacts(rotor, table, ahead, durations, log, memory, work, rub)
+    if not followed:
+        return OPEN, True
+    size, length, later, product = 1.0, 0.0, 0.0, 0.0
+    for k in range(2):
+        first, second = orbit[count, k] - orbit[0, k], ahead[count, k] - ahead[0, k]
+        size += math.sqrt(squared_modulus(orbit[0, k]))
+        length += squared_modulus(first)
+        later += squared_modulus(second)
+        product += (first.conjugate() * second).real
+    if math.sqrt(length) <= CLOSED * size:
+        return ATTRACTS, True
+    ratio = product / length
+    # What of the later difference points elsewhere than the first.
+    rest = max(later - ratio * product, 0.0)
+    if not (abs(ratio) < 1.0 and rest <= ALIGNED * ALIGNED * length):
+        return OPEN, True
+    # From the last state on, so that the place stays among those that a lift-off leads to.
+    share = ratio / (1.0 - ratio)
+    for k in range(2):
+        orbit[0, k] = ahead[count, k] + (ahead[count, k] - ahead[0, k]) * share
+    return ATTRACTS, False

@@ -1,0 +1,112 @@
+"""How long irregular motion lasts: the numbers, their words, and motions whose life is known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom.attractors import survival as module
+from carom.attractors.survival import LOOK, Survival, document_of, follow_out, measure_survival, still_irregular
+from carom.ensembles import Endings, settle_all
+from carom.outcome import Outcome
+from carom.rotors import jeffcott
+
+
+def ensemble(multiplicities, outcomes, impacts=0):
+    count = len(multiplicities)
+    ones = np.ones(count)
+    return Endings(
+        outcomes=np.array(outcomes, np.int8),
+        times=ones,
+        impacts=np.full(count, impacts),
+        multiplicities=np.array(multiplicities),
+        positions=ones.astype(complex),
+        velocities=ones.astype(complex),
+    )
+
+
+def mortal(half_life, seed):
+    """Stands in for ``settle_all``: irregular motions that die by chance, each impact with one probability."""
+    random = np.random.default_rng(seed)
+
+    def settle(rotor, positions, velocities, *, patience, threads=None):
+        dies = random.random(len(positions)) > 0.5 ** (patience / half_life)
+        return ensemble(np.zeros(len(positions), int), np.where(dies, Outcome.ROLLING, Outcome.BOUNCING), patience)
+
+    return settle
+
+
+@pytest.mark.parametrize("half_life", [500.0, 1600.0, 20_000.0])
+def test_the_interval_holds_the_half_life_as_often_as_it_says(monkeypatch, half_life):
+    inside = 0
+    for seed in range(100):
+        monkeypatch.setattr(module, "settle_all", mortal(half_life, seed))
+        found = measure_survival(None, np.ones(7, complex), np.ones(7, complex), impacts=20_000)
+        assert found.transient
+        low, high = found.interval
+        assert low < found.half_life < high
+        inside += low < half_life < high
+    assert inside >= 90  # of 95 to be expected
+
+
+def test_what_never_dies_is_told_with_how_many_were_followed_for_how_long(monkeypatch):
+    monkeypatch.setattr(module, "settle_all", mortal(math.inf, 0))
+    found = measure_survival(None, np.ones(300, complex), np.ones(300, complex), impacts=20_000)
+    assert (found.motions, found.impacts, found.died, found.transient) == (200, 20_000, 0, False)
+    # 4000 looks without a death: with twenty deaths in that time one would be missed once in e^20, with three once in 20.
+    assert found.interval[0] == pytest.approx(4000 * LOOK * math.log(2.0) / math.log(20.0), rel=1e-3)
+    assert found.words == "none of 200 died in 20,000 impacts (half-life above 930,000 impacts at 95 %)"
+    assert document_of(found)["half_life_impacts"] is None
+    assert document_of(None) == {"transient": False, "half_life_impacts": None}
+
+
+def test_half_life_is_told_with_two_digits():
+    found = Survival(100, 20_000, 98, 1624.3, (1333.0, 1987.0))
+    assert found.words == "transient, half-life 1,600 impacts (1,300 to 2,000)"
+    assert document_of(found) == {
+        "transient": True,
+        "half_life_impacts": 1624.3,
+        "half_life_interval_impacts": [1333.0, 1987.0],
+        "survival": found.words,
+    }
+
+
+def test_motions_that_all_die_at_once_have_a_short_life(monkeypatch):
+    monkeypatch.setattr(module, "settle_all", mortal(1.0, 0))
+    found = measure_survival(None, np.ones(1, complex), np.ones(1, complex), impacts=20_000)
+    assert (found.died, found.transient) == (200, True)
+    assert found.interval[0] <= found.half_life <= found.interval[1] < LOOK
+
+
+def test_motions_given_up_have_neither_died_nor_lasted(monkeypatch):
+    def settle(rotor, positions, velocities, *, patience, threads=None):
+        count = len(positions)
+        return ensemble(np.zeros(count, int), np.full(count, Outcome.GRAZING))
+
+    monkeypatch.setattr(module, "settle_all", settle)
+    found = measure_survival(None, np.ones(1, complex), np.ones(1, complex), impacts=20_000)
+    assert (found.motions, found.died, found.half_life) == (0, 0, None)
+    assert found.interval == (0.0, math.inf)
+
+
+@pytest.mark.jit_only
+def test_motions_of_an_ensemble_are_followed_to_where_they_end():
+    rotor = jeffcott(PAPER.replace(gamma=0.08))
+    random = np.random.default_rng(0)
+    points = np.sqrt(random.random((2, 80))) * np.exp(2j * np.pi * random.random((2, 80)))
+    early = settle_all(rotor, points[0], 0.5 * points[1], patience=1500)
+    going = still_irregular(early)
+    assert going.sum() > 20
+    late, found = follow_out(rotor, early, impacts=20_000)
+    assert not still_irregular(late).any()
+    assert found is not None
+    assert found.transient
+    np.testing.assert_array_equal(late.outcomes[~going], early.outcomes[~going])
+    assert (late.impacts[going] > early.impacts[going]).all()
+    # Half of those that last longer than the patience have gone after the half-life.
+    lives = late.impacts[going] - early.impacts[going]
+    assert 0.2 < (lives > found.half_life).mean() < 0.85
+    assert follow_out(rotor, late, impacts=20_000) == (late, None)

@@ -1,0 +1,149 @@
+"""The impacts of a period: by the orbit that closes, however slowly a motion draws near, by both ways to follow one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from compilation import sized
+from machines import PAPER
+
+from carom.attractors import find_attractors
+from carom.ensembles import settle_all
+from carom.orbits import single_impact_orbits
+from carom.outcome import Outcome
+from carom.parameters import Parameters
+from carom.rotors import jeffcott
+from carom.settling import closed_orbit
+from carom.trajectories import State, simulate
+
+SPIRALLING = Parameters(
+    gamma=0.03689825909891265,
+    omega=1.4589520528119624,
+    rho=0.7571463310809883,
+    phi=0.7817202056358399,
+    mu=0.22251753962804233,
+    d=0.8837279243562883,
+    radius_ratio=1.866004796662468,
+)
+"""Its one bouncing motion has 3 impacts a period; motions turn about it by nearly a seventh of a turn a period."""
+DOUBLING = 0.083381417512481
+"""Damping at which a multiplier of B1,d of the source paper's machine passes −1."""
+REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
+
+
+def drawn_starts(random, count):
+    points = np.sqrt(random.random((2, count))) * np.exp(2j * np.pi * random.random((2, count)))
+    return points[0], 2.0 * points[1]
+
+
+def assert_closes(rotor, position, velocity, impacts):
+    """An orbit with that many impacts, and no fewer, goes on as simulation says; the orbit."""
+    orbit = closed_orbit(rotor, position, velocity, impacts)
+    assert orbit is not None
+    assert orbit.attracts
+    start = State(complex(orbit.positions[0]), complex(orbit.velocities[0]))
+    log = simulate(rotor, start, 1.5 * orbit.period + 1.0).contacts
+    states = np.stack([np.exp(1j * log.angle), log.radial_speed, log.angular_speed])
+    size = 1.0 + np.abs(states[:, 0]).max()
+    assert np.abs(states[:, impacts] - states[:, 0]).max() < 1e-9 * size
+    assert log.time[impacts] - log.time[0] == pytest.approx(orbit.period, rel=1e-9)
+    for fewer in range(1, impacts):
+        assert np.abs(states[:, fewer] - states[:, 0]).max() > 1e-7
+    return orbit
+
+
+@pytest.mark.jit_only
+def test_an_orbit_with_three_impacts_is_told_so_however_it_is_reached():
+    rotor = jeffcott(SPIRALLING)
+    positions, velocities = drawn_starts(np.random.default_rng(1), 60)
+    ends = settle_all(rotor, positions, velocities)
+    bouncing = np.flatnonzero(ends.outcomes == Outcome.BOUNCING)
+    assert len(bouncing) > 30
+    assert set(ends.multiplicities[bouncing]) == {3}
+    orbits = [assert_closes(rotor, ends.positions[i], ends.velocities[i], 3) for i in bouncing[:10]]
+    assert np.ptp([orbit.period for orbit in orbits]) < 1e-9
+    for place in bouncing[:8]:
+        alone = simulate(rotor, State(positions[place], velocities[place]), 2e5, settle=True)
+        assert alone.multiplicity == (3 if alone.outcome is Outcome.BOUNCING else 0)
+    names = {member.name for member in find_attractors(rotor, count=40)}
+    assert {name for name in names if "impact" in name} == {"3-impact bouncing"}
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("away", [-1e-5, -1e-9, 1e-9, 1e-7, 1e-5])
+def test_next_to_a_period_doubling_one_impact_is_told_from_two(away):
+    rotor = jeffcott(PAPER.replace(gamma=DOUBLING + away))
+    leaving = single_impact_orbits(rotor)["B1,d"].departure
+    faster = leaving.velocity * np.array([0.9999, 1.0001])
+    ends = settle_all(rotor, np.full(2, leaving.position), faster)
+    assert ends.multiplicities.tolist() == [1 if away > 0.0 else 2] * 2
+    alone = [simulate(rotor, State(leaving.position, complex(speed)), 2e5, settle=True) for speed in faster]
+    assert [motion.multiplicity for motion in alone] == [1 if away > 0.0 else 2] * 2
+
+
+def test_an_orbit_that_is_not_closed_yet_is_found_next_to_a_state():
+    rotor = jeffcott(PAPER)
+    known = single_impact_orbits(rotor)["B1,d"]
+    before = known.section.state
+    near = closed_orbit(rotor, before.position, before.velocity * (1.0 + 1e-5j), 1)
+    assert near is not None
+    assert near.attracts
+    assert near.period == pytest.approx(known.period, rel=1e-11)
+    assert near.positions[0] == pytest.approx(before.position, abs=1e-10)
+    assert near.velocities[0] == pytest.approx(before.velocity, abs=1e-10)
+    assert closed_orbit(rotor, before.position, 1.05 * before.velocity, 1) is None
+
+
+def test_an_orbit_that_repels_closes_but_does_not_attract():
+    rotor = jeffcott(PAPER.replace(gamma=0.08))
+    before = single_impact_orbits(rotor)["B1,d"].section.state
+    found = closed_orbit(rotor, before.position, before.velocity * (1.0 + 1e-6), 1)
+    assert found is not None
+    assert not found.attracts
+
+
+@pytest.mark.jit_only
+def test_an_orbit_with_rub_closes_too():
+    parameters = PAPER.replace(gamma=0.0431456484, omega=1.25902546543, rho=1.31671186334, phi=0.0)
+    rotor = jeffcott(parameters.replace(mu=0.427612705, d=0.43781982, radius_ratio=2.0))
+    motion = simulate(rotor, State(0.3, 0.5 + 1.0j), 1e5, settle=True)
+    assert motion.outcome is Outcome.MIXED
+    assert_closes(rotor, motion.final.position, motion.final.velocity, motion.multiplicity)
+
+
+@pytest.mark.deep
+@pytest.mark.jit_only
+@pytest.mark.parametrize("seed", range(4))
+def test_all_that_end_on_an_orbit_agree_how_many_impacts_it_has(seed):
+    random = np.random.default_rng(seed)
+    machines = 0
+    while machines < sized(50, 1):
+        rotor = jeffcott(_drawn_machine(random))
+        positions, velocities = drawn_starts(random, 24)
+        ends = settle_all(rotor, positions, velocities)
+        several = np.flatnonzero(np.isin(ends.outcomes, REPEATING) & (ends.multiplicities > 1))
+        if not len(several):
+            continue
+        machines += 1
+        told = [(ends.multiplicities[i], ends.positions[i], ends.velocities[i]) for i in several]
+        for i in several[:6]:
+            alone = simulate(rotor, State(positions[i], velocities[i]), 2e5, settle=True)
+            if alone.outcome in REPEATING and alone.multiplicity > 1:
+                told.append((alone.multiplicity, alone.final.position, alone.final.velocity))
+        orbits = [assert_closes(rotor, position, velocity, impacts) for impacts, position, velocity in told]
+        for first in orbits:
+            for second in orbits:
+                apart = np.abs(first.positions[0] - second.positions) + np.abs(first.velocities[0] - second.velocities)
+                assert apart.min() > 1e-6 or len(first.positions) == len(second.positions)
+
+
+def _drawn_machine(random):
+    return Parameters(
+        gamma=float(10 ** random.uniform(-2.0, 0.0)),
+        omega=float(random.uniform(0.3, 3.0)),
+        rho=float(random.uniform(0.05, 1.2)),
+        phi=float(random.uniform(-3.0, 3.0)),
+        mu=float(random.choice([0.0, random.uniform(0.0, 0.5)])),
+        d=float(random.uniform(0.3, 0.99)),
+        radius_ratio=float(10 ** random.uniform(0.2, 2.0)),
+    )
