@@ -100,13 +100,14 @@ def test_irregular_bouncing_at_gamma_0_082_lasts():
     assert irregular.survival is not None
     assert irregular.survival.died == 0
     assert irregular.settled
-    assert "none of 200 died in 20,000 impacts" in irregular.words
+    assert "None of 200 died in 20,000 impacts" in irregular.words
     assert found.transient is None
 
 
 @pytest.mark.jit_only
-@pytest.mark.parametrize(("gamma", "mean_life"), [(0.079, 1100.0), (0.080, 2300.0)])
-def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience(gamma, mean_life):
+@pytest.mark.parametrize(("gamma", "half_life"), [(0.079, 640.0), (0.080, 1880.0)])
+def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience(gamma, half_life):
+    """Half-lives counted over 1500 fresh starts every 250 impacts, to 4 %."""
     found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000)
 
     assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling"}
@@ -114,7 +115,7 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
     assert transient is not None
     low, high = transient.interval
     assert low < transient.half_life < high
-    assert low < mean_life * np.log(2.0) < high
+    assert low < half_life < high
 
 
 @pytest.mark.jit_only
