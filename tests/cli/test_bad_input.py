@@ -2,6 +2,7 @@
 
 import sys
 import time
+import warnings
 import weakref
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 
 from carom.cli import main
 from carom.cli.app import BAD_INPUT, FAILURE, INTERRUPTED
+from carom.outcome import CaromWarning, InputError
 
 FIELDS = {
     "mass": ("50 kg", "1 s"),
@@ -333,6 +335,28 @@ def test_unexpected_error_is_one_line(monkeypatch, carom, machine):
 
     assert (code, out) == (FAILURE, "")
     assert err == "carom: unexpected ZeroDivisionError, please report it (CAROM_DEBUG=1 shows more): first second\n"
+
+
+def test_end_of_data_is_no_interruption(monkeypatch, carom, machine):
+    monkeypatch.setattr("carom.parameters.load_case", _raise(EOFError("Ran out of input")))
+
+    code, out, err = carom("study", machine)
+
+    assert (code, out) == (FAILURE, "")
+    assert err.strip() == "carom: unexpected EOFError, please report it (CAROM_DEBUG=1 shows more): Ran out of input"
+
+
+def test_warning_is_one_line_and_no_error(monkeypatch, carom, machine):
+    def warn(*_, **__):
+        warnings.warn("the disk\nis full", CaromWarning, stacklevel=1)
+        raise InputError("machine file", "m.toml", "must be another one")
+
+    monkeypatch.setattr("carom.parameters.load_case", warn)
+    with warnings.catch_warnings():
+        warnings.simplefilter("default")
+        _, _, err = carom("study", machine)
+
+    assert err == "carom: the disk is full\ncarom: machine file = m.toml: must be another one\n"
 
 
 def test_unexpected_error_shows_more_on_demand(monkeypatch, machine):

@@ -156,7 +156,8 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
         screen.print("Nothing was left to compute.")
     if tally.damaged:
         chunks = ", ".join(map(str, tally.damaged[:_SHOWN])) + (", ..." if len(tally.damaged) > _SHOWN else "")
-        words = f"Computed again, as files of theirs were damaged or missing: {len(tally.damaged):,} chunks ({chunks})"
+        noun = "chunk" if len(tally.damaged) == 1 else "chunks"
+        words = f"Files of {len(tally.damaged):,} {noun} ({chunks}) were damaged or missing: computed again"
         screen.print(words, soft_wrap=True)
     for failure in failures[:_SHOWN]:
         screen.print(f"Failed at {_place(failure)}: {failure['error']}", soft_wrap=True)

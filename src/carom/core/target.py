@@ -6,8 +6,6 @@ import os
 import platform
 from functools import cache
 
-from llvmlite.binding import get_host_cpu_features
-
 __all__ = ["processor"]
 
 _VECTORS = ("sse", "ssse", "avx", "fma", "f16c", "neon", "fullfp16", "sve", "altivec", "vsx", "lsx", "lasx")
@@ -21,6 +19,8 @@ def processor() -> str:
 
     Where the environment makes Numba compile for another processor, that is told too.
     """
+    from llvmlite.binding import get_host_cpu_features  # here: whoever only stores results does without the compiler
+
     able = sorted(name for name, there in get_host_cpu_features().items() if there and name.startswith(_VECTORS))
     chosen = [f"{name}={os.environ[name]}" for name in _CHOSEN if name in os.environ]
     return " ".join([platform.machine(), *able, *chosen])
