@@ -88,6 +88,16 @@ def test_no_slip_no_friction():
     assert change == complex(-0.9, 0.0)
 
 
+def test_friction_that_just_stops_the_slip_stops_it():
+    """At the corner of the law, where all numbers are exact: the flag and the derivative are those of stopped slip."""
+    position, velocity, law = 1.0 + 0j, 1.0 - 1.0j, (0.5, 1.0, 2.0)
+    change, sticks = strike(position, velocity, *law)
+    assert sticks
+    assert change == -2.0 - 1.0j
+    # Whatever the velocity along the wall, none is left after the impact; slipping on, it would stay as large.
+    assert strike_variation(position, velocity, *law, 0j, 1j) == -1j
+
+
 def test_without_friction_the_tangential_speed_stays():
     change, sticks = strike(1j, 0.5j + 2.0, 0.0, 0.6, 50.0)
     assert not sticks
