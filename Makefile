@@ -14,7 +14,7 @@ PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8 --dist loadfile
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-deep check lint types layers format coverage bench docs lock clean distclean
+.PHONY: help demo test test-deep check lint types layers format coverage mutants bench docs lock clean distclean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/\1	\2/p' Makefile | awk -F '\t' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -49,6 +49,9 @@ format: $(TEST) ## format the code and mend what can be mended
 coverage: $(TEST) ## run the tests and report what they cover
 	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not jit_only" --cov --cov-report= --cov-fail-under=0 tests/core
 	@$(MAKE) --no-print-directory test ARGS="--cov --cov-append --cov-report=term-missing:skip-covered $(ARGS)"
+
+mutants: $(TEST) ## change the core in small ways and see whether its tests notice; needs cosmic-ray
+	$(BIN)/python tools/mutants $(ARGS)
 
 bench: $(TEST) ## time carom beside its peers
 	$(BIN)/pytest -p benchmark --benchmark-only -o pythonpath=benchmarks benchmarks $(ARGS)
