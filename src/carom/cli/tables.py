@@ -15,6 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.cli.fitting import fitted
+from carom.parameters.indentation import indentation_of_hit
 from carom.study import Study, Wording
 from carom.study.summaries import (
     MotionRow,
@@ -24,7 +25,7 @@ from carom.study.summaries import (
     simple_motion_rows,
     threshold_rows,
 )
-from carom.study.wording import counted, number
+from carom.study.wording import counted, no_rigid_wall, number
 from carom.trajectories import Trajectory
 
 if TYPE_CHECKING:
@@ -109,7 +110,9 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     followed = f"Followed for {say.time(motion.time)} ({turns} turns of the shaft)" if motion.time else "Known at once"
     console.print(f"{followed}: {counted(len(log), 'impact')}, {counted(len(contacts), 'lasting contact')}.")
     if len(log):
-        console.print(f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}.")
+        soft = no_rigid_wall(indentation_of_hit(case.parameters, float(log.radial_speed.max())))
+        hardest = f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
+        console.print(f"{hardest}{'; ' if soft else ''}{soft}.")
     if len(log) or contacts:
         console.print()
         console.print(fitted(console, _events(say, motion)))

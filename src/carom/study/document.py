@@ -20,14 +20,16 @@ from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
+from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.study.advice import Advice
 from carom.study.alone import LevitationAlone
-from carom.study.endings import hardest_impulse, touching
+from carom.study.endings import hardest_impulse, kick_sizes, touching
 from carom.study.ranges import MotionRange, Span, Threshold
 from carom.study.verdict import NOT_COVERED
 from carom.study.wording import Wording
 from carom.trajectories import State, Trajectory
+from carom.whirl import rolling
 
 if TYPE_CHECKING:
     from carom.study.assembly import Study
@@ -54,7 +56,7 @@ def orbits_document(
     return {
         "parameters": parameters.as_dict(),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
-        "equilibria": [_equilibrium(entry, scales) for entry in equilibria],
+        "equilibria": [_equilibrium(entry, parameters) for entry in equilibria],
         "orbits": [_orbit(entry, scales) for entry in orbits],
         "complete": orbits.complete,
         "longest_period": orbits.longest_period,
@@ -108,15 +110,17 @@ def study_document(study: Study) -> dict[str, Any]:
         "levitation_alone": {gain: _free(study, gain) for gain in study.gains},
         "levitation_alone_checks": [_alone(entry) for entry in study.alone],
         "advice": [_advice(entry, say) for entry in study.advice],
-        "attractors": [_attractor(entry, case.parameters.scales) for entry in study.attractors],
-        "disturbances": _disturbances(study.attractors, case.parameters.scales)
+        "attractors": [_attractor(entry, case.parameters) for entry in study.attractors],
+        "rolling": _rolling(study),
+        "disturbances": _disturbances(study.attractors, case.parameters)
         | {"fresh": _check(study.fresh) if study.fresh else None},
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
         "not_covered": list(NOT_COVERED),
     }
 
 
-def _equilibrium(entry: Equilibrium, scales: Scales | None) -> dict[str, Any]:
+def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
+    scales = parameters.scales
     document = {
         "kind": entry.kind,
         "U": entry.position,
@@ -129,7 +133,14 @@ def _equilibrium(entry: Equilibrium, scales: Scales | None) -> dict[str, Any]:
     if scales is not None:
         document["radius_si"] = entry.radius * scales.length
         document["normal_force_si"] = entry.normal_force * scales.force
+        if entry.kind == "rub":
+            document |= _wall(indentation_of_force(parameters, entry.normal_force))
     return document
+
+
+def _wall(indentation: float) -> dict[str, Any]:
+    """Least indentation of a wall of solid steel, in clearances, and whether a rigid wall is a model there."""
+    return {"indentation": indentation, "rigid_wall": not gives_way(indentation)}
 
 
 def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
@@ -150,6 +161,7 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
         document["period_si"] = entry.period * scales.time
         document["radial_speed_si"] = entry.radial_speed * scales.velocity
         document["normal_impulse_si"] = impulse * scales.impulse
+        document |= _wall(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
     return document
 
 
@@ -260,7 +272,8 @@ def _advice(entry: Advice, say: Wording) -> dict[str, Any]:
     return document
 
 
-def _attractor(entry: Attractor, scales: Scales | None) -> dict[str, Any]:
+def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
+    scales = parameters.scales
     document: dict[str, Any] = {
         "name": entry.name,
         "outcome": entry.outcome.label,
@@ -278,10 +291,23 @@ def _attractor(entry: Attractor, scales: Scales | None) -> dict[str, Any]:
     if scales is not None:
         document["largest_impulse_si"] = entry.largest_impulse * scales.impulse
         document["largest_force_si"] = entry.largest_force * scales.force
+        hit = indentation_of_hit(parameters, entry.largest_impulse / (1.0 + parameters.d))
+        document |= _wall(max(hit, indentation_of_force(parameters, entry.largest_force)))
     return document
 
 
-def _disturbances(found: AttractorSet, scales: Scales | None) -> dict[str, Any]:
+def _rolling(study: Study) -> dict[str, Any]:
+    """Rolling backward whirl: whether it goes on once it is there, and its force."""
+    roll, scales = rolling(study.rotor), study.rotor.scales
+    document: dict[str, Any] = {"holds": roll.holds, "speed": roll.speed, "largest_force": roll.largest_force}
+    if scales is not None:
+        document["largest_force_si"] = roll.largest_force * scales.force
+        document |= _wall(indentation_of_force(study.case.parameters, roll.largest_force))
+    return document
+
+
+def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]:
+    scales = parameters.scales
     touched, smallest = touching(found), found.smallest_unrecovered_kick
     document = {
         "seed": found.sample.seed if found.sample else None,
@@ -293,13 +319,25 @@ def _disturbances(found: AttractorSet, scales: Scales | None) -> dict[str, Any]:
         "touching": len(touched),
         "touching_recovered": _recovered(touched),
         "smallest_unrecovered_kick": smallest,
+        "smallest_unrecovered_kick_bracket": [_all_back(found), smallest],
         "irregular_transient": document_of(found.transient) if found.transient else None,
         "starts": [_ending(ending) for ending in found.endings],
     }
     if scales is not None:
         document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
         document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
+        document |= _wall(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
     return document
+
+
+def _all_back(found: AttractorSet) -> float | None:
+    """Largest of the sizes tried up to which kicks in all directions tried came back."""
+    back = None
+    for size in kick_sizes(found):
+        if size.lost:
+            break
+        back = size.speed
+    return back
 
 
 def _recovered(endings: tuple[Ending, ...]) -> int:

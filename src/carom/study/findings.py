@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from carom.basins.shares import CONFIDENCE
 from carom.outcome import Outcome
+from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.safety.limits import DampingLimit, rounded_up, share_words, unsettled_words
-from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
+from carom.study.endings import KickSize, ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
 from carom.study.ranges import Gain, Motion
 from carom.study.remedies import advice_lines, alone_sentences
-from carom.study.wording import counted, listed, number
+from carom.study.wording import counted, listed, no_rigid_wall, number
 from carom.whirl import Rolling, Runaway, rolling, runaway_speed
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def _rub(study: Study) -> str:
     if stable is None:
         return (
             "A synchronous rub exists. It is not stable in every direction, but it marks a way to stay in contact "
-            f"(bearing force {study.wording.force(rubs[0].normal_force)})."
+            f"(bearing force {study.wording.force(rubs[0].normal_force)}{_of_force(study, rubs[0].normal_force)})."
         )
     start = "A synchronous rub exists and is stable"
     if study.levitates:
@@ -102,7 +103,20 @@ def _rub_load(study: Study, rub: Equilibrium) -> str:
             f", and friction of {say.force(friction)} at a slip of {say.velocity(slip)} would heat the contact with "
             f"{say.power(friction * slip)}"
         )
-    return text
+    return text + _of_force(study, rub.normal_force)
+
+
+def _of_force(study: Study, force: float) -> str:
+    """What a force says about the wall, as a part of a sentence."""
+    text = no_rigid_wall(indentation_of_force(study.case.parameters, force))
+    return f"; {text}" if text else ""
+
+
+def _of_hit(study: Study, impulse: float) -> str:
+    """What the normal impulse of a hit says about the wall."""
+    parameters = study.case.parameters
+    text = no_rigid_wall(indentation_of_hit(parameters, impulse / (1.0 + parameters.d)))
+    return f"; {text}" if text else ""
 
 
 def _bouncing(study: Study) -> str:
@@ -146,7 +160,7 @@ def _stable_orbit(study: Study, orbit: Orbit) -> str:
         f"The rotor can bounce for ever on the stable orbit {orbit.name}: one impact every {say.time(orbit.period)} "
         f"({say.per_second(orbit.period)}) at {say.velocity(orbit.radial_speed)} towards the wall, each with a normal "
         f"impulse of {say.impulse(impulse)}, a mean force of {say.force(impulse / orbit.period)}, "
-        f"in {whirl} whirl."
+        f"in {whirl} whirl{_of_hit(study, impulse)}."
     )
 
 
@@ -161,15 +175,26 @@ def _disturbances(study: Study) -> str:
     say, found = study.wording, study.attractors
     sizes = kick_sizes(found)
     text = f"Simulated to where they settle: {found.words(say.velocity)}. {_endings(study)}"
-    lost = next((size for size in sizes if size.lost), None)
-    if lost is not None:
-        text += (
-            f" The smallest kick tried that did not come back was {say.velocity(lost.speed)} "
-            f"({lost.directions - lost.recovered} of {lost.directions} directions)."
-        )
+    text += _smallest_kick(study, sizes)
     if hardest_impulse(found) > 0:
-        text += f" The hardest hit had a normal impulse of {say.impulse(hardest_impulse(found))}."
+        text += f" The hardest hit had a normal impulse of {say.impulse(hardest_impulse(found))}{_of_hit(study, hardest_impulse(found))}."
     return text
+
+
+def _smallest_kick(study: Study, sizes: tuple[KickSize, ...]) -> str:
+    """Between which of the sizes tried kicks begin to be lost."""
+    say = study.wording
+    place = next((place for place, size in enumerate(sizes) if size.lost), None)
+    if place is None:
+        return ""
+    lost = sizes[place]
+    gone = f"{lost.directions - lost.recovered} of {lost.directions} directions"
+    if place == 0:
+        return f" Kicks of {say.velocity(lost.speed)}, the smallest tried, did not come back in {gone}."
+    return (
+        f" Kicks up to {say.velocity(sizes[place - 1].speed)} came back in all directions tried; of {say.velocity(lost.speed)} they did "
+        f"not in {gone}. `carom basins` looks for the smallest that is lost."
+    )
 
 
 def _endings(study: Study) -> str:
@@ -223,7 +248,7 @@ def _backward_whirl(study: Study) -> str:
         )
     return (
         f"Dry friction can drive the rotor backward round the bearing until it rolls there with "
-        f"{_with_weight(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
+        f"{_with_weight(study, roll.largest_force)}{_of_force(study, roll.largest_force)}. Once it rolls, it goes on rolling; only {say.gain_name('gamma')} above "
         f"{bound} rules that out{_interrupted(study, roll)}. It surely gets there if, in lasting contact, its centre moves backward faster than "
         f"{say.velocity(runaway.certain)} (whirl at {number(runaway.certain, 3)} times the speed of the shaft)"
         f"{_perhaps(study, runaway)}."

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
+from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.study.endings import ending_words, kick_sizes
 from carom.study.ranges import Edge, Motion
 from carom.study.remedies import check_words
-from carom.study.wording import Wording, number
+from carom.study.wording import Wording, no_rigid_wall, number
 
 if TYPE_CHECKING:
     from carom.attractors import Attractor, AttractorSet
@@ -139,7 +140,7 @@ def motion_rows(study: Study, most_virtual: int = 8) -> list[MotionRow]:
     rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors, most_virtual)
     simple = {"levitation", "synchronous rub", *(orbit.name for orbit in study.orbits)}
     others = [member for member in study.attractors if member.name not in simple]
-    return rows + [_seen(study.wording, member, study.attractors) for member in others]
+    return rows + [_seen(study.wording, member, study.attractors, study.rotor.parameters) for member in others]
 
 
 def simple_motion_rows(
@@ -153,7 +154,7 @@ def simple_motion_rows(
     rows = []
     for entry in equilibria:
         name = "levitation" if entry.kind == "contact-free" else "synchronous rub" if entry.stable else ""
-        rows.append(_steady(entry, say, _share(found, name)))
+        rows.append(_steady(entry, say, _share(found, name), orbits.rotor.parameters))
     virtual = [orbit for orbit in orbits if not orbit.admissible]
     shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]
     return rows + [_bounce(orbit, say, _share(found, orbit.name)) for orbit in shown]
@@ -165,20 +166,21 @@ def _share(found: AttractorSet | None, name: str) -> str:
     return f"{found[name].count} of {len(found.disturbances)}"
 
 
-def _steady(entry: Equilibrium, say: Wording, share: str) -> MotionRow:
+def _steady(entry: Equilibrium, say: Wording, share: str, parameters: Parameters) -> MotionRow:
     contact_free = entry.kind == "contact-free"
     name = MOTIONS[entry.kind]
     size = f"r = {say.radius(entry.radius)}" if contact_free else ""
     if entry.status == "virtual":
         remark = "would lie outside the wall" if contact_free else "the wall would have to pull"
         return MotionRow(name, "not possible", size=size, trials=share, remark=remark)
+    touches = "touches the wall without force" if entry.status == "boundary" else ""
     return MotionRow(
         name,
         "stable" if entry.stable else "unstable",
         size=size,
         force="" if contact_free else say.force(entry.normal_force),
         trials=share,
-        remark="touches the wall without force" if entry.status == "boundary" else "",
+        remark=touches or no_rigid_wall(indentation_of_force(parameters, entry.normal_force)),
     )
 
 
@@ -187,6 +189,7 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
     if not orbit.admissible:
         return MotionRow(name, "not possible", period, size, remark=orbit.reason)
     impulse = (1.0 + orbit.rotor.parameters.d) * orbit.radial_speed
+    grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
     return MotionRow(
         name,
         "stable" if orbit.stable else "unstable",
@@ -195,13 +198,17 @@ def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
         say.impulse(impulse),
         f"{say.force(impulse / orbit.period)} mean",
         share,
-        "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}",
+        "; ".join(filter(None, (grows, no_rigid_wall(indentation_of_hit(orbit.rotor.parameters, orbit.radial_speed))))),
     )
 
 
-def _seen(say: Wording, member: Attractor, found: AttractorSet) -> MotionRow:
+def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Parameters) -> MotionRow:
     impulse, force = member.largest_impulse, member.largest_force
     lasts = member.survival.words if member.survival else ""
+    indentation = max(
+        indentation_of_force(parameters, force), indentation_of_hit(parameters, impulse / (1.0 + parameters.d))
+    )
+    known = "" if member.count else "from a start next to it"
     return MotionRow(
         ending_words(member.name),
         "transient" if member.transient else "seen" if member.settled else "undecided",
@@ -209,7 +216,7 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet) -> MotionRow:
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
         force=say.force(force) if force > 0 else "",
         trials=_share(found, member.name),
-        remark="; ".join(part for part in (lasts, "" if member.count else "from a start next to it") if part),
+        remark="; ".join(filter(None, (lasts, known, no_rigid_wall(indentation)))),
     )
 
 

@@ -6,9 +6,10 @@ import math
 from dataclasses import dataclass
 
 from carom.parameters import Scales
+from carom.parameters.indentation import gives_way
 from carom.study.ranges import Gain, Span
 
-__all__ = ["Wording", "counted", "listed", "number"]
+__all__ = ["Wording", "counted", "listed", "no_rigid_wall", "number"]
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 _GAIN_WORDS: dict[Gain, str] = {"gamma": "damping", "omega": "stiffness"}
@@ -37,6 +38,15 @@ def counted(count: int, noun: str) -> str:
 def listed(items: list[str]) -> str:
     """``a``, ``a and b``, ``a, b and c``."""
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
+
+
+def no_rigid_wall(indentation: float) -> str:
+    """Say that a rigid wall is no model, for a load under which solid steel gives way by this many clearances; else nothing."""
+    if not gives_way(indentation):
+        return ""
+    share = f"{number(100.0 * indentation, 2)} %" if indentation < 10.0 else f"{number(indentation, 2)} times"
+    what = "of the clearance" if indentation < 10.0 else "the clearance"
+    return f"a rigid wall is no model there: even solid steel gives way by at least {share} {what}"
 
 
 @dataclass(frozen=True)
