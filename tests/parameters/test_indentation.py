@@ -32,7 +32,7 @@ def test_a_shaft_pressed_into_a_bore_gives_way_by_more(clearance):
         ratios.append(approach / (indentation_of_force(machine, force / scales.force) * clearance))
     assert len(ratios) > 10
     assert min(ratios) >= 1.0
-    assert max(ratios) < 8.0
+    assert max(ratios) < 8.5
 
 
 def test_a_hit_is_a_mass_on_a_spring():
