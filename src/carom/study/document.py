@@ -20,16 +20,16 @@ from carom.equilibria import Equilibrium
 from carom.orbits import Orbit, OrbitSet
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
-from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
+from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.study.advice import Advice
 from carom.study.alone import LevitationAlone
-from carom.study.endings import hardest_impulse, kick_sizes, touching
+from carom.study.endings import hardest_impulse, largest_all_back, touching
+from carom.study.loads import rolling_document, wall_document
 from carom.study.ranges import MotionRange, Span, Threshold
 from carom.study.verdict import NOT_COVERED
 from carom.study.wording import Wording
 from carom.trajectories import State, Trajectory
-from carom.whirl import rolling
 
 if TYPE_CHECKING:
     from carom.study.assembly import Study
@@ -111,7 +111,7 @@ def study_document(study: Study) -> dict[str, Any]:
         "levitation_alone_checks": [_alone(entry) for entry in study.alone],
         "advice": [_advice(entry, say) for entry in study.advice],
         "attractors": [_attractor(entry, case.parameters) for entry in study.attractors],
-        "rolling": _rolling(study),
+        "rolling": rolling_document(study.rotor),
         "disturbances": _disturbances(study.attractors, case.parameters)
         | {"fresh": _check(study.fresh) if study.fresh else None},
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
@@ -134,13 +134,8 @@ def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
         document["radius_si"] = entry.radius * scales.length
         document["normal_force_si"] = entry.normal_force * scales.force
         if entry.kind == "rub":
-            document |= _wall(indentation_of_force(parameters, entry.normal_force))
+            document |= wall_document(indentation_of_force(parameters, entry.normal_force))
     return document
-
-
-def _wall(indentation: float) -> dict[str, Any]:
-    """Least indentation of a wall of solid steel, in clearances, and whether a rigid wall is a model there."""
-    return {"indentation": indentation, "rigid_wall": not gives_way(indentation)}
 
 
 def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
@@ -161,7 +156,7 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
         document["period_si"] = entry.period * scales.time
         document["radial_speed_si"] = entry.radial_speed * scales.velocity
         document["normal_impulse_si"] = impulse * scales.impulse
-        document |= _wall(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
+        document |= wall_document(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
     return document
 
 
@@ -292,17 +287,7 @@ def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
         document["largest_impulse_si"] = entry.largest_impulse * scales.impulse
         document["largest_force_si"] = entry.largest_force * scales.force
         hit = indentation_of_hit(parameters, entry.largest_impulse / (1.0 + parameters.d))
-        document |= _wall(max(hit, indentation_of_force(parameters, entry.largest_force)))
-    return document
-
-
-def _rolling(study: Study) -> dict[str, Any]:
-    """Rolling backward whirl: whether it goes on once it is there, and its force."""
-    roll, scales = rolling(study.rotor), study.rotor.scales
-    document: dict[str, Any] = {"holds": roll.holds, "speed": roll.speed, "largest_force": roll.largest_force}
-    if scales is not None:
-        document["largest_force_si"] = roll.largest_force * scales.force
-        document |= _wall(indentation_of_force(study.case.parameters, roll.largest_force))
+        document |= wall_document(max(hit, indentation_of_force(parameters, entry.largest_force)))
     return document
 
 
@@ -319,25 +304,15 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
         "touching": len(touched),
         "touching_recovered": _recovered(touched),
         "smallest_unrecovered_kick": smallest,
-        "smallest_unrecovered_kick_bracket": [_all_back(found), smallest],
+        "smallest_unrecovered_kick_bracket": [largest_all_back(found), smallest],
         "irregular_transient": document_of(found.transient) if found.transient else None,
         "starts": [_ending(ending) for ending in found.endings],
     }
     if scales is not None:
         document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
         document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
-        document |= _wall(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
+        document |= wall_document(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
     return document
-
-
-def _all_back(found: AttractorSet) -> float | None:
-    """Largest of the sizes tried up to which kicks in all directions tried came back."""
-    back = None
-    for size in kick_sizes(found):
-        if size.lost:
-            break
-        back = size.speed
-    return back
 
 
 def _recovered(endings: tuple[Ending, ...]) -> int:

@@ -8,7 +8,16 @@ from dataclasses import dataclass
 from carom.attractors import Attractor, AttractorSet, Ending
 from carom.outcome import Outcome
 
-__all__ = ["KickSize", "ending_phrase", "ending_words", "hardest_impulse", "kick_sizes", "shown_example", "touching"]
+__all__ = [
+    "KickSize",
+    "ending_phrase",
+    "ending_words",
+    "hardest_impulse",
+    "kick_sizes",
+    "largest_all_back",
+    "shown_example",
+    "touching",
+]
 
 _WORDS = {
     "levitation": "contact-free levitation",
@@ -76,6 +85,16 @@ def kick_sizes(found: AttractorSet) -> tuple[KickSize, ...]:
             sizes.append([])
         sizes[-1].append(ending)
     return tuple(_size(alike) for alike in sizes)
+
+
+def largest_all_back(found: AttractorSet) -> float | None:
+    """Largest of the sizes tried up to which kicks in all directions tried came back, in ``c_r Ω``."""
+    back = None
+    for size in kick_sizes(found):
+        if size.lost:
+            break
+        back = size.speed
+    return back
 
 
 def _size(alike: list[Ending]) -> KickSize:
