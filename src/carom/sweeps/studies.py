@@ -44,7 +44,8 @@ _DAMPING = (
     Variable("least_damping_rolling", "the same with rolling, however fast the start", scale="damping"),
 )
 _COST = 0.01
-_COST_OF_DISTURBANCE, _COST_OF_DAMPING = 0.001, 0.01
+_COST_OF_DISTURBANCE = 0.001
+_COST_OF_SEARCH, _COST_OF_CHECK = 0.6, 0.0002
 
 
 @dataclass(frozen=True)
@@ -56,7 +57,7 @@ class StudyTask:
     disturbances : int
         Simulated at each point, as :func:`~carom.find_attractors` does; zero for closed forms only.
     least_damping : bool
-        Whether to search the least safe damping too, with as many disturbances at each damping.
+        Whether to search the least safe damping too, with as many fresh disturbances at each damping that is checked.
     zone_limits : tuple of float
         Limits of the amplitude zones.
     has_scales : bool
@@ -84,7 +85,8 @@ class StudyTask:
     @property
     def seconds(self) -> float:
         """Rough time a point takes."""
-        return _COST + self.disturbances * (_COST_OF_DISTURBANCE + self.least_damping * _COST_OF_DAMPING)
+        search = _COST_OF_SEARCH + self.disturbances * _COST_OF_CHECK if self.least_damping else 0.0
+        return _COST + self.disturbances * _COST_OF_DISTURBANCE + search
 
     @property
     def starts(self) -> int:
