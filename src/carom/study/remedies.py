@@ -27,7 +27,7 @@ def alone_sentences(study: Study, gain: Gain) -> list[str]:
         return [f"No {name} in the range searched leaves levitation alone{met}."]
     where = say.where(gain, found.spans, orbits.searched)
     aside = ", backward whirl aside," if _rolls(study, gain) else ""
-    tried = counted(found.disturbances + found.rim, "disturbance")
+    tried = f"{found.disturbances + found.rim:,} disturbances"
     rests = f"no rub and no orbit with one impact a period exists there{met}"
     simulated = f"simulated at each of {counted(len(found.values), 'value')} of {name} there"
     return [
