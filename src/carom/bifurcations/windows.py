@@ -17,7 +17,7 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers, vary
 from carom.bifurcations.branches import OrbitBranch, continue_orbit
-from carom.bifurcations.conditions import corrected, is_admissible, jacobian_at, margins_of, orbit_of
+from carom.bifurcations.conditions import corrected, grazing_equations, is_admissible, jacobian_at, margins_of, orbit_of
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.orbits import longest_within_reach, slip_stays_forward
 from carom.outcome import CaromError
@@ -169,11 +169,25 @@ def _members(parameters: Parameters) -> list[_Member]:
 
 def _member(solution: Solution) -> _Member:
     at = solution.numbers, solution.period, solution.radial_speed
+    if _is_far_outside(*at):
+        return _Member(solution, FAR, FAR)
     possible = min(margins_of(*at).values())
     if possible <= 0.0:
         return _Member(solution, possible, possible)
     radius = float(np.abs(np.linalg.eigvals(jacobian_at(*at))).max())
     return _Member(solution, possible, min(possible, 1.0 - radius))
+
+
+def _is_far_outside(numbers: Numbers, period: float, speed: float) -> bool:
+    """Whether some samples show the radius far beyond the wall: most orbits of long period are, soon after the impact.
+
+    All extrema of their radius would take long to find.
+    """
+    step = 0.5 / (1.0 + numbers.omega + numbers.gamma)
+    return any(
+        grazing_equations(numbers, period, speed, time)[1] > -FAR
+        for time in np.arange(step, min(period, 60.0 * step), step)
+    )
 
 
 def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
@@ -205,7 +219,7 @@ def _near_zero(columns: list[list[_Member]], partners: list[dict[int, int]], lev
     """For each cell, the solutions on its left that may pass zero and come back within it or the next.
 
     Of three values of one sign the middle one is nearest to zero, and the parabola through them bends by more than
-    that: it may reach zero between them.
+    that: it may reach zero between them.  Those far from zero are left out.
     """
     near: list[set[int]] = [set() for _ in partners]
     for place, (first, second) in enumerate(pairwise(partners)):
@@ -216,7 +230,7 @@ def _near_zero(columns: list[list[_Member]], partners: list[dict[int, int]], lev
             low, middle, high = (getattr(member, level) for member in ends)
             sizes = abs(low), abs(middle), abs(high)
             alike = (low > 0.0) == (middle > 0.0) == (high > 0.0)
-            if alike and sizes[1] == min(sizes) and sizes[1] < sizes[0] + sizes[2] - 2.0 * sizes[1]:
+            if alike and middle > FAR and sizes[1] == min(sizes) and sizes[1] < sizes[0] + sizes[2] - 2.0 * sizes[1]:
                 near[place].add(before)
                 near[place + 1].add(here)
     return near

@@ -289,7 +289,7 @@ def _remedies_along(study: Study, gain: Gain) -> list[str]:
     parts = []
     for motion, words in _POSSIBLE.items():
         entry = study.range_of(motion, gain)
-        if entry is not None:
+        if entry is not None and (entry.spans or motion != "stable-single-impact"):
             parts.append(f"{words} {say.where(gain, entry.spans, entry.searched)}")
     sentences = [f"{name[0].upper()}{name[1:]} (this machine: {own}): {'; '.join(parts)}."]
     return [*sentences, *alone_sentences(study, gain)]
