@@ -109,7 +109,7 @@ def test_advice_names_the_change_and_how_it_was_checked(real):
     first, second = real.to_dict()["advice"]
     assert (first["quantity"], second["quantity"]) == ("stiffness", "damping")
     assert first["recovered"] == first["disturbances"] == 2000
-    assert first["seed"] != real.attractors.seed
+    assert first["seed"] not in (0, real.safe_damping.sample.seed)  # nor that of any other sample of the study
 
 
 def test_progress_never_goes_back():
