@@ -14,8 +14,9 @@ for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 import pkgutil  # noqa: E402
 
 import pytest  # noqa: E402
-from compilation import COMPILED, DEEP, compile_kernels  # noqa: E402
+from compilation import COMPILED, DEEP, compile_kernels, sized  # noqa: E402
 from hypothesis import settings  # noqa: E402
+from machines import PAPER  # noqa: E402
 
 import carom.core  # noqa: E402
 
@@ -36,6 +37,13 @@ def pytest_sessionstart(session):
     """Compile kernels before the workers of a parallel run start: else each of them would compile the same."""
     if session.config.getoption("numprocesses", None) and not hasattr(session.config, "workerinput"):
         compile_kernels()
+
+
+@pytest.fixture(scope="session")
+def corner():
+    """Map of a part of the source paper's plane: most of its curves pass no line through the machine."""
+    plane = carom.Plane("gamma", "omega", (0.025, 0.1), (0.19, 0.765))
+    return carom.region_map(PAPER, plane, grid=sized(8, 6))
 
 
 def pytest_collection_modifyitems(config, items):

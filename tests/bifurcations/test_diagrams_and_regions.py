@@ -103,6 +103,20 @@ def test_motions_agree_with_certified_orbits():
         assert motions.unstable_names == tuple(sorted(orbit.name for orbit in orbits if not orbit.stable))
 
 
+def test_steady_motions_are_those_of_the_equilibria():
+    """The limit of the rub in closed form, against the equilibria with their eigenvalues."""
+    random = np.random.default_rng(31)
+    rubs = 0
+    for _ in range(sized(150, 5)):
+        parameters = random_parameters(random, gamma=float(10 ** random.uniform(-1.3, 0.5)))
+        contact_free, *others = equilibria(jeffcott(parameters))
+        motions = motions_at(parameters)
+        assert motions.contact_free is (contact_free.status == "admissible")
+        assert motions.rub is any(rub.stable and rub.status == "admissible" for rub in others)
+        rubs += motions.rub
+    assert rubs > sized(20, 0)
+
+
 def test_map_of_the_source_papers_plane():
     found = region_map(PAPER, Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.0)), grid=10)
     assert found.lost == ()
@@ -135,8 +149,8 @@ PAIRS = (
 REASONS = {
     "edge of the plane",
     "closed loop",
-    "resonance 1:1",
-    "resonance 1:2",
+    "resonance-1:1",
+    "resonance-1:2",
     "grazing meets the impact",
     "period vanishes",
     "radial speed without bound",

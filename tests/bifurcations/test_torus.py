@@ -86,7 +86,7 @@ def test_curve_by_the_multipliers_of_the_orbits(curve):
 
 
 def test_curve_ends_in_a_resonance_or_at_the_edge(curve):
-    assert set(curve.stops) <= {"edge of the plane", "resonance 1:2"}
+    assert set(curve.stops) <= {"edge of the plane", "resonance-1:2"}
     for kind, angle in (("1:3", 120.0), ("1:4", 90.0), ("1:2", 180.0)):
         for point in curve.codimension2:
             if point.kind.endswith(kind):

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from drawn_legends import fits, legend_words
 from machines import PAPER
 
 from carom import Machine, bifurcations
 from carom.parameters import Scales
 from carom.plots import diagrams
 from carom.plots.style import LOOKS
-
-
-def legend_words(figure):
-    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
 
 
 def test_looks_change_at_the_special_points():
@@ -54,20 +51,6 @@ def test_run_up_is_drawn_over_revolutions_per_minute():
     assert figure.axes[0].get_xlim() == pytest.approx((100.0 * 30 / np.pi, 330.0 * 30 / np.pi))
 
 
-def test_map_of_a_plane():
-    plane = bifurcations.Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.0))
-    found = bifurcations.region_map(PAPER, plane, grid=6)
-    figure = diagrams.region_map(found, plane.axes(PAPER))
-    (axes,) = figure.axes
-    words = legend_words(figure)
-    for expected in ("grazing", "period doubling", "levitation meets the wall", "two at once"):
-        assert expected in words
-    assert any("stable rub" in word for word in words)
-    assert axes.get_xlim() == pytest.approx(plane.first_range)
-    drawn = np.concatenate([line.get_xdata() for line in axes.lines])
-    assert np.abs(drawn - 0.1779723).min() < 1e-7
-
-
 SOFT = PAPER.replace(gamma=0.1, omega=0.34, rho=0.2, mu=0.2, d=0.6)
 
 
@@ -95,22 +78,7 @@ def test_bars_say_what_exists_where():
     assert len(dots) == len(found.attractors)
 
 
-def fits(figure) -> bool:
-    """Whether no legend reaches beyond the figure or over its axes."""
-    figure.draw_without_rendering()
-    page = figure.bbox
-    for legend in figure.legends:
-        box = legend.get_window_extent()
-        inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
-        if not inside or any(box.overlaps(axes.get_tightbbox()) for axes in figure.axes):
-            return False
-    return True
-
-
 @pytest.mark.parametrize("parameters", [PAPER, SOFT])
 def test_legends_fit(parameters):
     found = bifurcations.bifurcation_diagram(parameters, "gamma", (0.02, 0.4))
     assert fits(diagrams.bifurcation_diagram(found))
-    plane = bifurcations.Plane("gamma", "omega", (0.02, 0.4), (0.3, 1.0))
-    regions = bifurcations.region_map(parameters, plane, grid=16)
-    assert fits(diagrams.region_map(regions, plane.axes(parameters)))

@@ -2,11 +2,14 @@
 
 from carom.bifurcations.axes import Axis, Numbers, axis, value_of, vary
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
-from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, Plane, continue_curve
+from carom.bifurcations.cells import Region
+from carom.bifurcations.changes import UnexplainedChange
+from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
 from carom.bifurcations.diagrams import Diagram, bifurcation_diagram
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.onsets import ONSETS, continue_onset
-from carom.bifurcations.regions import Region, RegionMap, region_map
+from carom.bifurcations.planes import Plane
+from carom.bifurcations.regions import RegionMap, region_map
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch, SpecialValue
@@ -33,6 +36,7 @@ __all__ = [
     "RubbingBranch",
     "RubbingOrbit",
     "SpecialValue",
+    "UnexplainedChange",
     "Window",
     "WindowEnd",
     "axis",

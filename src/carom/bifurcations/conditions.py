@@ -193,10 +193,10 @@ TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "boundary-equilibrium": lambda n, period, speed: n.rho**2 / ((n.omega**2 - 1.0) ** 2 + n.gamma**2) - 1.0,
     "rub-fold": lambda n, period, speed: rub_fold(n),
     "rolling-limit": lambda n, period, speed: rolling_limit(n),
-    "resonance 1:1": lambda n, period, speed: 2.0 - conditions_at(n, period, speed).pair_sum,
-    "resonance 1:2": lambda n, period, speed: 2.0 + conditions_at(n, period, speed).pair_sum,
-    "resonance 1:3": lambda n, period, speed: 1.0 + conditions_at(n, period, speed).pair_sum,
-    "resonance 1:4": lambda n, period, speed: conditions_at(n, period, speed).pair_sum,
+    "resonance-1:1": lambda n, period, speed: 2.0 - conditions_at(n, period, speed).pair_sum,
+    "resonance-1:2": lambda n, period, speed: 2.0 + conditions_at(n, period, speed).pair_sum,
+    "resonance-1:3": lambda n, period, speed: 1.0 + conditions_at(n, period, speed).pair_sum,
+    "resonance-1:4": lambda n, period, speed: conditions_at(n, period, speed).pair_sum,
     "contact-onset": lambda n, period, speed: pressed_on(n, period, speed) if n.d == 0.0 else math.nan,
 }
 """Functions of the numbers, the period and the radial speed that vanish at each kind of special point."""

@@ -9,71 +9,25 @@ from typing import Literal
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import TESTS, conditions_at, grazing_equations, profile_at
-from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.bifurcations.naming import listed, orbits_on_curve
+from carom.bifurcations.planes import Plane
+from carom.bifurcations.steady import happens_to_rubs
+from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.outcome import InputError
 from carom.parameters import Parameters
 
-__all__ = ["KINDS", "Codimension2Point", "Curve", "Plane", "continue_curve"]
+__all__ = ["KINDS", "Codimension2Point", "Curve", "continue_curve"]
 
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 EDGE = "edge of the plane"
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, at which a curve is not followed any further: it goes where ``a₁₂`` vanishes."""
-ROUNDING = 1e-9
-"""Of places on the edge, in widths of the plane."""
+BEND = 5e-5
+"""Distance of a curve from the straight lines between its points, in widths of the plane."""
 VANISHING = 1e-2
 """Period, or part of a period, that has shrunk to nothing where the equations end."""
-
-
-@dataclass(frozen=True)
-class Plane:
-    """Two parameters and their ranges.
-
-    Attributes
-    ----------
-    first, second : str
-        Names, dimensionless or physical.
-    first_range, second_range : tuple of float
-        Physical ones in SI units.
-
-    Raises
-    ------
-    InputError
-        The names are the same, or a range is empty or not finite.
-    """
-
-    first: str
-    second: str
-    first_range: tuple[float, float]
-    second_range: tuple[float, float]
-
-    def __post_init__(self) -> None:
-        if self.first == self.second:
-            raise InputError("plane", f"{self.first},{self.second}", "two different parameters")
-        for name, limits in ((self.first, self.first_range), (self.second, self.second_range)):
-            if not (np.isfinite(limits).all() and limits[0] < limits[1]):
-                raise InputError(name, f"{limits[0]:g} to {limits[1]:g}", "a range of two growing finite values")
-
-    def holds(self, x: float, y: float) -> bool:
-        """Whether a point lies in it, but for rounding."""
-        return all(
-            low - ROUNDING * (high - low) <= value <= high + ROUNDING * (high - low)
-            for value, (low, high) in ((x, self.first_range), (y, self.second_range))
-        )
-
-    def axes(self, base: Parameters) -> tuple[Axis, Axis]:
-        """Both parameters, checked against what is known of the machine and its ranges."""
-        found = axis(base, self.first), axis(base, self.second)
-        for end in (0, 1):
-            self.at(base, self.first_range[end], self.second_range[end])
-        return found
-
-    def at(self, base: Parameters, x: float, y: float) -> Parameters:
-        """Parameters at a point of the plane."""
-        first, second = axis(base, self.first), axis(base, self.second)
-        return second.set(first.set(Numbers.of(base), x), y).parameters
 
 
 @dataclass(frozen=True)
@@ -83,7 +37,8 @@ class Codimension2Point:
     Attributes
     ----------
     kind : str
-        For example ``"fold + boundary-equilibrium"``.
+        For example ``"fold + boundary-equilibrium"``; ``"resonance-1:3"`` where a multiplier on a Neimark–Sacker curve is a
+        third root of one, and so on; two multipliers are 1 at ``"resonance-1:1"``, −1 at ``"resonance-1:2"``.
     value : tuple of float
         In the plane.
     period, radial_speed : float
@@ -114,10 +69,13 @@ class Curve:
         ``ṙ`` of the orbit; ``nan`` for equilibria.
     admissible : ndarray of bool, shape (m,)
         Where it is a bifurcation of motions of the machine.
+    orbits : tuple of str
+        Orbits it happens to, by name, where it happens to motions of the machine; of a fold those that meet.  Empty for
+        equilibria and rolling.
     codimension2 : tuple of Codimension2Point
     stops : tuple of two str
         Why it ends at either end: ``"edge of the plane"``, ``"closed loop"``, the codimension-2 point where the bifurcation
-        ceases (``"resonance 1:1"`` or ``"1:2"`` of a Neimark–Sacker curve), ``"grazing meets the impact"`` (the time of
+        ceases (``"resonance-1:1"`` or ``"resonance-1:2"`` of a Neimark–Sacker curve), ``"grazing meets the impact"`` (the time of
         grazing reaches an end of the period), ``"period vanishes"``, ``"radial speed without bound"``, or why the continuation gave up
         (:class:`~carom.continuation.Branch`).
     """
@@ -128,14 +86,19 @@ class Curve:
     periods: np.ndarray
     radial_speeds: np.ndarray
     admissible: np.ndarray
+    orbits: tuple[str, ...]
     codimension2: tuple[Codimension2Point, ...]
     stops: tuple[str, str]
 
     @cached_property
     def steps(self) -> np.ndarray:
         """Distances of neighbouring points in widths of the plane, shape (m − 1,)."""
-        widths = np.ptp([self.plane.first_range, self.plane.second_range], axis=1)
-        return np.linalg.norm(np.diff(self.points, axis=0) / widths, axis=1)
+        return np.linalg.norm(np.diff(self.points, axis=0) / self.plane.widths, axis=1)
+
+    @property
+    def subject(self) -> str:
+        """What it happens to: ``"B1,c/d"``, ``"levitation"``, ``"rub"`` or ``"rolling"``."""
+        return listed(self.orbits) if self.orbits else _SUBJECTS.get(self.kind, "")
 
 
 @dataclass(frozen=True)
@@ -152,13 +115,17 @@ class _Kind:
 
 
 KINDS: dict[str, _Kind] = {
-    "fold": _Kind(2, ("boundary-equilibrium", "period-doubling", "grazing", "speed-fold", "slip-stop")),
-    "speed-fold": _Kind(2, ("fold", "grazing", "period-doubling")),
-    "period-doubling": _Kind(2, ("grazing", "fold", "speed-fold", "slip-stop", "boundary-equilibrium")),
+    "fold": _Kind(
+        2, ("boundary-equilibrium", "period-doubling", "grazing", "speed-fold", "slip-stop", "resonance-1:1")
+    ),
+    "speed-fold": _Kind(2, ("fold", "grazing", "period-doubling", "resonance-1:1")),
+    "period-doubling": _Kind(
+        2, ("grazing", "fold", "speed-fold", "slip-stop", "boundary-equilibrium", "resonance-1:2")
+    ),
     "neimark-sacker": _Kind(
         2,
-        ("grazing", "boundary-equilibrium", "slip-stop", "resonance 1:3", "resonance 1:4"),
-        ("resonance 1:1", "resonance 1:2"),
+        ("grazing", "boundary-equilibrium", "slip-stop", "resonance-1:3", "resonance-1:4"),
+        ("resonance-1:1", "resonance-1:2"),
     ),
     "grazing": _Kind(3, ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop")),
     "slip-stop": _Kind(2, ("fold", "period-doubling", "grazing")),
@@ -169,6 +136,7 @@ KINDS: dict[str, _Kind] = {
     "rolling-limit": _Kind(0, ("boundary-equilibrium", "rub-fold")),
 }
 """Bifurcations that can be followed in two parameters."""
+_SUBJECTS = {"boundary-equilibrium": "levitation", "rub-fold": "rub", "rolling-limit": "rolling"}
 
 
 def continue_curve(
@@ -230,18 +198,21 @@ def continue_curve(
     edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
     bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), ends_branch=True)] if definition.unknowns else []
     sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
+    equations, scales = _equations(kind, numbers), np.array([*np.ones(definition.unknowns), *sizes])
     branch = continue_branch(
-        _equations(kind, numbers),
+        equations,
         np.array([*guess, start[0]]),
         float(start[1]),
         plane.second_range,
         watches=[edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
-        scales=np.array([*np.ones(definition.unknowns), *sizes]),
+        scales=scales,
         # Where the second parameter turns back nothing happens but that.
         folds="turning point",
     )
-    return _curve(kind, plane, branch, numbers)
+    shown = np.array([*np.full(definition.unknowns, np.inf), *plane.widths])
+    rows = refined_points(equations, branch, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS)
+    return _curve(kind, plane, branch, rows, numbers)
 
 
 def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:
@@ -270,29 +241,36 @@ def _equations(kind: str, numbers: Callable[[np.ndarray, float], Numbers]) -> Ca
     return {0: equilibrium, 2: orbit, 3: grazing}[KINDS[kind].unknowns]
 
 
-def _curve(kind: str, plane: Plane, branch: Branch, numbers: Callable[[np.ndarray, float], Numbers]) -> Curve:
+def _curve(
+    kind: str, plane: Plane, branch: Branch, rows: np.ndarray, numbers: Callable[[np.ndarray, float], Numbers]
+) -> Curve:
+    """The curve through the rows of unknowns and second parameter."""
     of_orbits = KINDS[kind].unknowns > 0
 
     def happens(u: np.ndarray, p: float, slack: float) -> bool:
-        if not of_orbits:
-            return True
         at, (period, speed) = numbers(u, p), _orbit(kind, u)
+        if not of_orbits:
+            return kind != "rub-fold" or happens_to_rubs(at)
         slips = at.mu == 0.0 or conditions_at(at, period, speed).slip_stop > -slack
         return speed > -slack and slips and not profile_at(at, period, max(speed, 1e-4)).height >= slack
 
-    absent = np.full(len(branch), np.nan)
+    absent = np.full(len(rows), np.nan)
     slack = 1e-9 if kind in ("grazing", "slip-stop", "contact-onset", "non-smooth-hopf") else 0.0
-    rows = list(zip(branch.unknowns, branch.parameters.tolist(), strict=True))
+    admissible = np.array([happens(row[:-1], float(row[-1]), slack) for row in rows])
+    named = [
+        (numbers(row[:-1], float(row[-1])), *_orbit(kind, row)) for row in rows[admissible if admissible.any() else ...]
+    ]
     return Curve(
         kind=kind,
         plane=plane,
-        points=np.stack([branch.unknowns[:, -1], branch.parameters], axis=1),
-        periods=branch.unknowns[:, 0] if of_orbits else absent,
-        radial_speeds=branch.unknowns[:, 1] if of_orbits else absent,
-        admissible=np.array([happens(u, p, slack) for u, p in rows]),
+        points=rows[:, -2:],
+        periods=rows[:, 0] if of_orbits else absent,
+        radial_speeds=rows[:, 1] if of_orbits else absent,
+        admissible=admissible,
+        orbits=orbits_on_curve(kind, named) if of_orbits else (),
         codimension2=tuple(
             Codimension2Point(
-                f"{kind} + {point.kind}",
+                point.kind if point.kind.startswith("resonance") else f"{kind} + {point.kind}",
                 (float(point.unknowns[-1]), point.parameter),
                 *(_orbit(kind, point.unknowns) if of_orbits else (np.nan, np.nan)),
                 happens(point.unknowns, point.parameter, 1e-6),

@@ -55,7 +55,10 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
 
 
 def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]:
-    """Curves, points where two bifurcations meet, and regions of a plane of two parameters."""
+    """Curves, points where two bifurcations meet, and regions of a plane of two parameters.
+
+    Regions are numbered as in the figure and the table.
+    """
     plane = found.plane
     first, second = plane.axes(parameters)
     return {
@@ -67,6 +70,7 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
         "curves": [
             {
                 "kind": curve.kind,
+                "orbits": list(curve.orbits),
                 "points": curve.points.tolist(),
                 "periods": curve.periods.tolist(),
                 "radial_speeds": curve.radial_speeds.tolist(),
@@ -87,6 +91,7 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
         ],
         "regions": [
             {
+                "number": number,
                 "name": region.motions.region,
                 "words": region.motions.words,
                 "contact_free": region.motions.contact_free,
@@ -100,7 +105,21 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
                 "point": list(region.point),
                 "share": region.share,
             }
-            for region in found.regions
+            for number, region in enumerate(found.regions, start=1)
+        ],
+        "present": {
+            "point": list(plane.place_of(parameters)),
+            "region": found.present_region,
+            "words": found.present_motions.words,
+        },
+        "unexplained": [
+            {
+                "point": list(change.point),
+                "before": change.before.words,
+                "after": change.after.words,
+                "reason": change.reason,
+            }
+            for change in found.unexplained
         ],
         "everywhere": list(found.everywhere),
         "lost": list(found.lost),

@@ -8,13 +8,14 @@ import numpy as np
 
 from carom.bifurcations.conditions import is_admissible, jacobian_at
 from carom.bifurcations.diagrams import LONGEST_PERIOD
-from carom.bifurcations.solutions import orbit_solutions
-from carom.equilibria import equilibria
+from carom.bifurcations.naming import listed
+from carom.bifurcations.solutions import Solution, orbit_solutions
+from carom.equilibria import BOUNDARY
 from carom.parameters import Parameters
 from carom.rotors import jeffcott
-from carom.whirl import rolling
+from carom.whirl import rolling, rub_limit
 
-__all__ = ["Motions", "motions_at"]
+__all__ = ["Motions", "forward_orbits", "motions_at"]
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Motions:
     def parts(self) -> tuple[str, ...]:
         """The motions in words, one entry for each kind."""
         orbits = [
-            f"{_listed(names)} {words}"
+            f"{listed(names)} {words}"
             for names, words in ((self.stable_names, "stable"), (self.unstable_names, "unstable"))
             if names
         ]
@@ -78,15 +79,6 @@ class Motions:
         return ", ".join(self.parts)
 
 
-def _listed(names: tuple[str, ...]) -> str:
-    """``B1,a/b/c, B2,d``: letters of a pair together."""
-    pairs: dict[str, list[str]] = {}
-    for name in names:
-        pair, letter = name.split(",")
-        pairs.setdefault(pair, []).append(letter)
-    return ", ".join(f"{pair},{'/'.join(letters)}" for pair, letters in pairs.items())
-
-
 def motions_at(parameters: Parameters) -> Motions:
     """Count the simple motions at some parameters.
 
@@ -94,16 +86,19 @@ def motions_at(parameters: Parameters) -> Motions:
     pairs, those with periods up to 60/Ω.
     """
     rotor = jeffcott(parameters)
-    contact_free, *rubs = equilibria(rotor)
-    solutions = orbit_solutions(parameters, LONGEST_PERIOD if parameters.gamma < 0.05 else None)
-    orbits = [solution for solution in solutions if is_admissible(*solution[1:])]
+    orbits = [orbit for orbit in forward_orbits(parameters) if is_admissible(*orbit[1:])]
     radii = [float(np.abs(np.linalg.eigvals(jacobian_at(*orbit[1:]))).max()) for orbit in orbits]
     return Motions(
-        contact_free=contact_free.status == "admissible",
+        contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY),
         orbits=len(orbits),
         stable_orbits=sum(radius < 1.0 for radius in radii),
-        rub=any(rub.stable and rub.status == "admissible" for rub in rubs),
+        rub=bool(0.0 < parameters.gamma < rub_limit(rotor)) and parameters.d < 1.0,
         rolling=rolling(rotor).holds,
         stable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius < 1.0)),
         unstable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius >= 1.0)),
     )
+
+
+def forward_orbits(parameters: Parameters) -> list[Solution]:
+    """All single-impact orbits with forward slip that :func:`motions_at` looks at, virtual ones included."""
+    return orbit_solutions(parameters, LONGEST_PERIOD if parameters.gamma < 0.05 else None)

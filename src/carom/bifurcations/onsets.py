@@ -9,8 +9,9 @@ from typing import Literal
 import numpy as np
 
 from carom.bifurcations.axes import Numbers
-from carom.bifurcations.curves import EDGE, Curve, Plane
+from carom.bifurcations.curves import EDGE, Curve
 from carom.bifurcations.lift_offs import LiftOff, next_lift_off
+from carom.bifurcations.planes import Plane
 from carom.bifurcations.rubbing import RubbingBranch, RubbingPoint, end_of_motions
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.outcome import CaromError, InputError
@@ -106,6 +107,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
         periods=points[:, 2],
         radial_speeds=np.full(len(points), math.nan),
         admissible=np.ones(len(points), bool),
+        orbits=(),
         codimension2=(),
         stops=(_stop(beside, 0), _stop(beside, -1)),
     )

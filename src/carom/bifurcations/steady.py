@@ -19,6 +19,7 @@ __all__ = [
     "RollingBranch",
     "SpecialValue",
     "equilibrium_branches",
+    "happens_to_rubs",
     "rolling_branch",
     "steady_points",
 ]
@@ -121,7 +122,7 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
         for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
             root = bracketed_root(function, grid[i], grid[i + 1])
             at = along.set(base, root)
-            real = {"rub-fold": _rub_presses, "rolling-limit": _rolling_presses}.get(kind, lambda _: True)(at)
+            real = {"rub-fold": happens_to_rubs, "rolling-limit": _rolling_presses}.get(kind, lambda _: True)(at)
             detail = _what_becomes_of_levitation(at) if kind == "boundary-equilibrium" else ""
             points.append(SpecialValue(kind, branch, along.name, root, None, None, real, detail))
     return points
@@ -137,8 +138,8 @@ def _rolling_presses(numbers: Numbers) -> bool:
     return numbers.radius_ratio**2 - numbers.omega**2 > numbers.rho
 
 
-def _rub_presses(numbers: Numbers) -> bool:
-    """Whether the rubs that meet are pressed on the wall: ``N = ρ cos x + 1 − ω²`` with ``tan x = −1/μ`` there."""
+def happens_to_rubs(numbers: Numbers) -> bool:
+    """Whether, at a fold of rubs, the rubs that meet are pressed on the wall: ``N = ρ cos x + 1 − ω²`` with ``tan x = −1/μ`` there."""
     cosine = -numbers.mu / np.hypot(1.0, numbers.mu)
     return bool(numbers.rho * cosine + 1.0 - numbers.omega**2 > 0.0)
 

@@ -123,7 +123,8 @@ def regions(
 ) -> None:
     """Map the plane of two parameters: curves of bifurcations, where they meet, and the regions between.
 
-    The curves are those that pass the bifurcations met on the two lines through the machine as it is.
+    Curves are followed from the bifurcations met on the two lines through the machine as it is, and from every change of
+    motions between neighbouring points of the grid.  Changes that no curve explains are listed.
     """
     from carom.bifurcations import Plane, axis, region_map
     from carom.bifurcations.documents import regions_document
@@ -146,11 +147,11 @@ def regions(
             grid=grid,
             virtual=virtual,
             lasting=lasting,
-            progress=lambda share: tell(share, "counting motions"),
+            progress=lambda share: tell(share, "counting motions, following curves"),
         )
     document = regions_document(parameters, found)
     if directory is not None:
-        from carom.plots.diagrams import region_map as draw
+        from carom.plots.regions import region_map as draw
 
         _write(directory, f"regions-{axes[0].name}-{axes[1].name}", draw(found, axes), document)
     if as_json:
@@ -275,39 +276,27 @@ def _print_attractors(diagram: Diagram) -> None:
 
 
 def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
-    from rich import box
-    from rich.table import Table
-
     from carom.cli.fitting import fitted
+    from carom.cli.region_tables import curve_table, meeting_table, present_words, region_table, unexplained_table
 
     screen = console()
-    curves = Table(box=box.SIMPLE_HEAD, title="Curves", title_justify="left")
-    for heading in ("bifurcation", "points", "from", "to", "ends"):
-        curves.add_column(heading)
-    for curve in found.curves:
-        first, last = (", ".join(f"{value:.6g}" for value in curve.points[end]) for end in (0, -1))
-        curves.add_row(_named(curve.kind), str(len(curve.points)), first, last, ", ".join(curve.stops))
-    screen.print(f"Plane of {axes[0].field.words} ({axes[0].name}) and {axes[1].field.words} ({axes[1].name})")
-    screen.print(fitted(screen, curves))
+    first, second = (f"{axis.field.words} {_quantity(axis)}" for axis in axes)
+    screen.print(f"Plane of {first} and {second}")
+    names = _quantity(axes[0]), _quantity(axes[1])
+    kinds = {curve.kind for curve in found.curves}
+    screen.print(fitted(screen, curve_table(found, names, _named)) if kinds else "No bifurcation in this plane.")
     if found.codimension2:
-        meetings = Table(box=box.SIMPLE_HEAD, title="Where two happen at once", title_justify="left")
-        for heading in ("kinds", axes[0].name, axes[1].name, ""):
-            meetings.add_column(heading)
-        for point in found.codimension2:
-            at = (f"{value:.8g}" for value in point.value)
-            meetings.add_row(
-                " + ".join(_named(kind) for kind in point.kind.split(" + ")), *at, "" if point.admissible else "virtual"
-            )
-        screen.print(fitted(screen, meetings))
-    listed = Table(box=box.SIMPLE_HEAD, title="Regions", title_justify="left")
-    for heading in ("share", "for example at", "region", "motions"):
-        listed.add_column(heading, no_wrap=heading == "share")
-    for region in found.regions:
-        place = ", ".join(f"{value:.6g}" for value in region.point)
-        words = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
-        listed.add_row(f"{100 * region.share:.1f} %", place, region.motions.region, words)
-    screen.print(fitted(screen, listed))
+        screen.print(fitted(screen, meeting_table(found, names, _named)))
+    screen.print(fitted(screen, region_table(found, names)))
     if found.everywhere:
         screen.print(f"In every region: {', '.join(found.everywhere)}")
+    screen.print(present_words(found, axes))
+    if found.unexplained:
+        screen.print(fitted(screen, unexplained_table(found, names)))
     for words in found.lost:
         screen.print(f"Not followed: {words}")
+
+
+def _quantity(varied: Axis) -> str:
+    """Name of a parameter with its unit."""
+    return f"{varied.name} ({varied.field.unit})" if varied.field.unit else varied.name

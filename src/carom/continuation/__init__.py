@@ -7,6 +7,6 @@
 """
 
 from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
-from carom.continuation.tracer import continue_branch
+from carom.continuation.tracer import continue_branch, refined_points
 
-__all__ = ["Branch", "SpecialPoint", "Steps", "Watch", "continue_branch"]
+__all__ = ["Branch", "SpecialPoint", "Steps", "Watch", "continue_branch", "refined_points"]

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from carom.continuation.branch import Branch, SpecialPoint, Steps, StopReason, W
 from carom.outcome import CaromError, InputError
 from carom.roots import bracketed_root
 
-__all__ = ["continue_branch"]
+__all__ = ["continue_branch", "refined_points"]
 
 Residual = Callable[[np.ndarray, float], np.ndarray]
 
@@ -32,6 +33,8 @@ STRAY = 0.3
 JUMP = 1e-4
 """What is left of a watched function where it vanishes, relative to its values at the ends of the step; a jump leaves
 more."""
+HALVINGS = 6
+"""Most times a step is halved where points are put between."""
 
 
 def continue_branch(
@@ -86,6 +89,61 @@ def continue_branch(
     if ahead.stop != "closed loop":
         behind = tracer.walk(first, -tangent)
     return tracer.joined(behind, ahead)
+
+
+def refined_points(
+    residual: Residual,
+    branch: Branch,
+    *,
+    scales: np.ndarray,
+    widths: np.ndarray,
+    bend: float,
+    steps: Steps | None = None,
+) -> np.ndarray:
+    """Points of a branch, its special points, and as many between as it takes to draw it with straight lines.
+
+    Parameters
+    ----------
+    residual : callable
+        As for :func:`continue_branch`.
+    branch : Branch
+    scales : ndarray, shape (n + 1,)
+        Typical sizes of the unknowns and the parameter.
+    widths : ndarray, shape (n + 1,)
+        Of the picture, ``inf`` for what it does not show.
+    bend : float
+        Half way between neighbouring points the branch keeps within this of the straight line, in widths.
+
+    Returns
+    -------
+    ndarray, shape (m, n + 1)
+        Unknowns and parameter, in the order of the branch.
+    """
+    tracer = _Tracer(residual, scales, (-np.inf, np.inf), (), steps or Steps(), "")
+    places = np.concatenate([np.arange(len(branch.parameters)), [point.place for point in branch.special]])
+    own = np.column_stack([branch.unknowns, branch.parameters])
+    special = np.array([[*point.unknowns, point.parameter] for point in branch.special]).reshape(-1, own.shape[1])
+    points = np.concatenate([own, special])[np.argsort(places, kind="stable")] / scales
+
+    def between(first: np.ndarray, last: np.ndarray, halvings: int) -> list[np.ndarray]:
+        chord, middle = last - first, 0.5 * (first + last)
+        length = float(np.linalg.norm(chord))
+        if halvings == 0:
+            return []
+        found = tracer.correct(middle, chord / length, tracer.jacobian(middle))
+        if found is None or np.linalg.norm(found - middle) > 0.5 * length:
+            return []
+        if np.linalg.norm((found - middle) * scales / widths) <= bend:
+            return []
+        return [*between(first, found, halvings - 1), found, *between(found, last, halvings - 1)]
+
+    # A special point that ends the branch is listed twice.
+    apart = np.linalg.norm(np.diff(points, axis=0), axis=1) > tracer.steps.smallest
+    points = points[np.append(True, apart)]
+    rows = [points[0]]
+    for first, last in pairwise(points):
+        rows += [*between(first, last, HALVINGS), last]
+    return np.array(rows) * scales
 
 
 @dataclass(eq=False)

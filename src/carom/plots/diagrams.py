@@ -1,4 +1,4 @@
-"""Bifurcation diagrams along one parameter, and maps of the plane of two.
+"""Bifurcation diagrams along one parameter, and the looks of their points and of the curves in two.
 
 Conventions of the field: stable solid, unstable dashed, virtual faint; every kind of special point has its own marker.
 """
@@ -14,23 +14,22 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
-from carom.plots.numerals import number_regions
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Axis, Curve, Diagram, EquilibriumBranch, OrbitBranch, Region, RegionMap, SpecialValue
+    from carom.bifurcations import Curve, Diagram, EquilibriumBranch, OrbitBranch, SpecialValue
 
 __all__ = [
     "BOUNDARIES",
     "CURVES",
+    "FAINT",
     "POINTS",
     "bifurcation_diagram",
     "branch_line",
     "curve_line",
     "mark_point",
     "point_key",
-    "region_map",
 ]
 
 POINTS = MappingProxyType(
@@ -78,10 +77,8 @@ BOUNDARIES = MappingProxyType(
 )
 """Markers of boundary equilibria of which it is known what becomes of levitation (read-only)."""
 
-_FAINT = 0.3
+FAINT = 0.3
 """Opacity of curves that only virtual orbits have."""
-_SHOWN = 0.004
-"""Share of the plane above which a region is numbered."""
 _MET: dict[str, Any] = {"marker": ".", "ms": 3.2, "mew": 0.0, "color": "#1a1a1a"}
 _UNMET: dict[str, Any] = {"marker": "o", "ms": 2.2, "mew": 0.4, "mfc": "none", "mec": "#1a1a1a"}
 """Impacts of motions that disturbances met, and of those that only a start next to them did."""
@@ -322,67 +319,10 @@ def point_key(look: Look) -> Line2D:
     return Line2D([], [], ls="none", marker=look.marker, ms=5.0, color=look.colour, label=look.words)
 
 
-@styled
-def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
-    """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
-
-    Parameters
-    ----------
-    found : carom.bifurcations.RegionMap
-    axes : tuple of carom.bifurcations.Axis
-        The two parameters, for their names and units.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        180 mm wide; curves of virtual orbits are faint.  A region too thin for its numeral has it beside, with a leader.
-    """
-    figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS), layout="constrained")
-    drawn = figure.subplots()
-    units = np.array([parameter_unit(axis) for axis in axes])
-    # The broad line of non-smooth Hopf bifurcations lies below that of the boundary equilibria.
-    for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
-        curve_line(drawn, curve, units)
-    for point in found.codimension2:
-        x, y = np.array(point.value) / units
-        face = "#1a1a1a" if point.admissible else "none"
-        drawn.plot([x], [y], ls="none", marker="o", ms=4.5, mfc=face, mec="#1a1a1a", zorder=6)
-    drawn.set_xlabel(parameter_label(axes[0]))
-    drawn.set_ylabel(parameter_label(axes[1]))
-    drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
-    drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
-    present = {curve.kind for curve in found.curves}
-    lines = [
-        Line2D([], [], color=look.colour, ls=look.line, lw=look.width, label=look.words)
-        for kind, look in CURVES.items()
-        if kind in present
-    ]
-    if found.codimension2:
-        lines.append(Line2D([], [], ls="none", marker="o", ms=4.5, color="#1a1a1a", label="two at once"))
-    if not all(np.all(curve.admissible) for curve in found.curves):
-        lines.append(Line2D([], [], color="#1a1a1a", lw=1.1, alpha=_FAINT, label="faint: virtual orbits only"))
-    numbered = [entry for entry in enumerate(found.regions, start=1) if entry[1].share > _SHOWN]
-    listed = [
-        Line2D([], [], ls="none", label=f"{number}: {region.motions.source_region}: {_words(found, region)}")
-        for number, region in numbered
-    ]
-    if found.everywhere:
-        listed.append(Line2D([], [], ls="none", label=f"everywhere: {', '.join(found.everywhere)}"))
-    figure.legend(handles=lines, loc="outside upper center", ncols=3)
-    figure.legend(handles=listed, loc="outside lower center", ncols=2, handlelength=0.0, fontsize=6.5)
-    number_regions(drawn, found, units, numbered)
-    return figure
-
-
-def _words(found: RegionMap, region: Region) -> str:
-    """Motions of a region but for those of all regions."""
-    return ", ".join(part for part in region.motions.parts if part not in found.everywhere)
-
-
 def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:
     """Draw a curve in the plane of two parameters, faint where it is one of virtual motions only."""
     look = CURVES[curve.kind]
     x, y = (curve.points / units).T
     for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):
-        alpha = 1.0 if real == "real" else _FAINT
+        alpha = 1.0 if real == "real" else FAINT
         axes.plot(x[first : last + 1], y[first : last + 1], color=look.colour, ls=look.line, lw=look.width, alpha=alpha)

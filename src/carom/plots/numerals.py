@@ -11,9 +11,7 @@ from matplotlib.patheffects import Normal, Stroke
 from carom.plots.plane import Floats
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from carom.bifurcations import Region, RegionMap
+    from carom.bifurcations import RegionMap
 
 __all__ = ["number_regions"]
 
@@ -32,17 +30,16 @@ _LEADER, _APART = 12.0, 2.0
 """Length of a leader at least; how far from a curve one is that does not cross it [pt]."""
 
 
-def number_regions(axes: Axes, found: RegionMap, units: Floats, numbered: Sequence[tuple[int, Region]]) -> None:
-    """Write the numerals of regions into axes that already hold all else, with their limits.
+def number_regions(axes: Axes, found: RegionMap, units: Floats) -> None:
+    """Write the numerals of all regions into axes that already hold all else, with their limits.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     found : carom.bifurcations.RegionMap
-        Its curves and codimension-2 points are what numerals keep clear of.
+        Its curves and marked points are what numerals keep clear of.
     units : numpy.ndarray, shape (2,)
         What the two parameters are divided by.
-    numbered : sequence of tuple of int and carom.bifurcations.Region
     """
     figure = axes.get_figure(root=True)
     if figure is None:
@@ -53,7 +50,7 @@ def number_regions(axes: Axes, found: RegionMap, units: Floats, numbered: Sequen
     frame = np.reshape(axes.bbox.extents, (2, 2)) / point
     curves = taken
     slivers = []
-    for number, region in numbered:
+    for number, region in enumerate(found.regions, start=1):
         candidates = np.vstack([region.point, region.places]) / units
         places = axes.transData.transform(candidates) / point
         room = _room(places, taken, frame, _half(number))
@@ -79,7 +76,9 @@ def _drawn(axes: Axes, found: RegionMap, units: Floats) -> Floats:
         along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1)))
         steps = np.linspace(0.0, along[-1], int(along[-1]) + 2)
         lines.append(np.transpose([np.interp(steps, along, part) for part in places.T]))
-    lines += [axes.transData.transform([np.array(point.value) / units]) for point in found.codimension2]
+    marked = [point.value for point in found.codimension2] + [change.point for change in found.unexplained]
+    marked += [] if found.present is None else [found.present]
+    lines += [axes.transData.transform([np.array(place) / units]) for place in marked]
     return np.concatenate(lines)
 
 

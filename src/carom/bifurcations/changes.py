@@ -1,0 +1,154 @@
+"""Where the motions of a machine change between two points of a plane, and which bifurcation changes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.bifurcations.axes import Numbers
+from carom.bifurcations.conditions import TESTS, conditions_at, is_admissible
+from carom.bifurcations.motions import Motions, forward_orbits, motions_at
+from carom.bifurcations.passing import Cause
+from carom.bifurcations.planes import Plane
+from carom.parameters import Parameters
+
+__all__ = ["Stand", "UnexplainedChange", "accounts_for", "causes_between", "change_between"]
+
+NARROW = 1e-9
+"""Width of the bracket around a change, in widths of the plane."""
+ALIKE = 1e-3
+"""Difference of period and radial speed between the same orbit on both sides of a bracket."""
+SHRUNK = 1e-3
+"""Radial speed, in ``c_r Ω``, of orbits that vanish in the boundary equilibrium within a bracket."""
+_OF_ORBITS = {"fold", "speed-fold", "grazing", "slip-stop", "contact-onset", "non-smooth-hopf"}
+_CHANGED_BY = {
+    "contact_free": {"boundary-equilibrium"},
+    "rub": {"rub-fold", "boundary-equilibrium"},
+    "rolling": {"rolling-limit"},
+    "orbits": _OF_ORBITS,
+    "stable_orbits": _OF_ORBITS | {"period-doubling", "neimark-sacker"},
+}
+"""Bifurcations that can change each count of :class:`~carom.bifurcations.motions.Motions`."""
+
+
+class Stand(NamedTuple):
+    """A point of the plane and the motions there."""
+
+    place: np.ndarray
+    motions: Motions
+
+
+@dataclass(frozen=True)
+class UnexplainedChange:
+    """A change of motions that lies on no curve that was found.
+
+    Attributes
+    ----------
+    point : tuple of float
+        In the plane.
+    before, after : Motions
+        On the side of smaller and of larger values.
+    reason : str
+        Why no curve passes.
+    """
+
+    point: tuple[float, float]
+    before: Motions
+    after: Motions
+    reason: str
+
+    @property
+    def words(self) -> str:
+        """What changes, in words."""
+        pairs = zip(self.before.parts, self.after.parts, strict=True)
+        return "; ".join(f"{before} -> {after}" for before, after in pairs if before != after)
+
+
+def change_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> tuple[Stand, Stand]:
+    """Narrow bracket around a change of motions between two points that differ; the one found need not be the only one."""
+    while np.linalg.norm((high.place - low.place) / plane.widths) > NARROW:
+        place = 0.5 * (low.place + high.place)
+        middle = Stand(place, motions_at(plane.at(parameters, *place.tolist())))
+        if middle.motions == low.motions:
+            low = middle
+        else:
+            high = middle
+    return low, high
+
+
+def accounts_for(kinds: set[str], before: Motions, after: Motions) -> bool:
+    """Whether bifurcations of these kinds can change one set of motions into the other."""
+    return all(
+        getattr(before, name) == getattr(after, name) or bool(kinds & able) for name, able in _CHANGED_BY.items()
+    )
+
+
+def causes_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> list[Cause]:
+    """Bifurcations of motions of the machine in a narrow bracket, by the test functions that change sign there."""
+    sides = [Numbers.of(plane.at(parameters, *stand.place.tolist())) for stand in (low, high)]
+    return [*_of_steady_motions(*sides), *_of_orbits(*sides)]
+
+
+def _of_steady_motions(low: Numbers, high: Numbers) -> list[Cause]:
+    kinds = ("boundary-equilibrium", "rub-fold", "rolling-limit")
+    return [Cause(kind) for kind in kinds if _turns(kind, low, high)]
+
+
+def _turns(kind: str, low: Numbers, high: Numbers) -> bool:
+    """Whether the test function of a steady motion changes sign."""
+    return (TESTS[kind](low, 1.0, 0.0) < 0.0) != (TESTS[kind](high, 1.0, 0.0) < 0.0)
+
+
+Known = tuple[Numbers, float, float]
+
+
+def _of_orbits(low: Numbers, high: Numbers) -> list[Cause]:
+    """Matches the orbits of both sides: the test functions of the same orbit, and what became of the others."""
+    here, there = ([orbit[1:] for orbit in forward_orbits(numbers.parameters)] for numbers in (low, high))
+    causes, missing = [], []
+    for orbit in here:
+        match = min(there, key=lambda other: _apart(orbit, other), default=None)
+        if match is not None and _apart(orbit, match) < ALIKE:
+            there.remove(match)
+            causes += _of_one_orbit(orbit, match)
+        else:
+            missing.append(orbit)
+    shrinks = _turns("boundary-equilibrium", low, high)
+    return causes + _of_vanishing_orbits(missing, shrinks) + _of_vanishing_orbits(there, shrinks)
+
+
+def _apart(first: Known, second: Known) -> float:
+    return abs(first[1] - second[1]) + abs(first[2] - second[2])
+
+
+def _of_one_orbit(low: Known, high: Known) -> list[Cause]:
+    """What happens to an orbit between two sides, if it is a motion of the machine on one of them."""
+    if not (is_admissible(*low) or is_admissible(*high)):
+        return []
+    causes = []
+    for kind in ("grazing", "slip-stop", "contact-onset", "period-doubling", "neimark-sacker"):
+        before, after = TESTS[kind](*low), TESTS[kind](*high)
+        # Without a maximum between the impacts the height is not a number: the orbit is inside.
+        changes = (before >= 0.0) != (after >= 0.0)
+        complex_pair = kind != "neimark-sacker" or abs(conditions_at(*low).pair_sum) < 2.0
+        if changes and complex_pair:
+            causes.append(Cause(kind, low[1], low[2]))
+    return causes
+
+
+def _of_vanishing_orbits(orbits: list[Known], shrinks: bool) -> list[Cause]:
+    """What becomes of orbits that are on one side only: they meet another one, or shrink to nothing where they can."""
+    causes = []
+    for orbit in orbits:
+        others = [other for other in orbits if other is not orbit]
+        partner = min(others, key=lambda other: _apart(orbit, other), default=None)
+        if shrinks and orbit[2] < SHRUNK:
+            causes.append(Cause("non-smooth-hopf", orbit[1], 0.0))
+        elif partner is not None:
+            kind = "speed-fold" if partner[1] == orbit[1] else "fold"
+            meeting = Cause(kind, 0.5 * (orbit[1] + partner[1]), 0.5 * (orbit[2] + partner[2]))
+            if meeting not in causes:
+                causes.append(meeting)
+    return causes

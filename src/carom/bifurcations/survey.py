@@ -1,0 +1,151 @@
+"""Curves seeded where the motions of neighbouring points of a plane differ, until each difference is explained."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from carom.bifurcations.changes import Stand, UnexplainedChange, accounts_for, causes_between, change_between
+from carom.bifurcations.curves import Curve, continue_curve
+from carom.bifurcations.motions import Motions, motions_at
+from carom.bifurcations.passing import Cause, Place, crossings, passes, with_curve
+from carom.bifurcations.planes import Plane
+from carom.bifurcations.resonances import TURNS, beside_resonance
+from carom.outcome import CaromError
+from carom.parameters import Parameters
+
+__all__ = ["Survey"]
+
+INSET = 1e-3
+"""Distance from its edges, in widths of the plane, of the outermost points that are looked at."""
+BESIDE = 0.01
+"""Distance from a curve, in lengths of the line that it crosses, at which the motions on both sides are looked at."""
+MOST_CHANGES = 30
+"""Changes looked for between two neighbouring points."""
+
+
+@dataclass(eq=False)
+class Survey:
+    """Motions on a grid of cells of a plane and along its edges, and the curves between them.
+
+    Attributes
+    ----------
+    parameters : Parameters
+    plane : Plane
+    curves : list of Curve
+        Those known before; what is found is added.
+    unexplained : list of UnexplainedChange
+    seen : dict
+        A point for each set of motions met between the points of the grid.
+    """
+
+    parameters: Parameters
+    plane: Plane
+    curves: list[Curve]
+    unexplained: list[UnexplainedChange] = field(default_factory=list)
+    seen: dict[Motions, tuple[float, float]] = field(default_factory=dict)
+
+    def grid(self, cells: int) -> tuple[np.ndarray, np.ndarray]:
+        """Values of both parameters at the edges of the plane and in the middle of each cell, shape (cells + 2,) each."""
+        shares = np.concatenate([[INSET], (np.arange(cells) + 0.5) / cells, [1.0 - INSET]])
+        low = np.array([self.plane.first_range[0], self.plane.second_range[0]])
+        xs, ys = low[:, None] + np.outer(self.plane.widths, shares)
+        return xs, ys
+
+    def stand(self, place: np.ndarray) -> Stand:
+        """The motions at a point."""
+        motions = motions_at(self.plane.at(self.parameters, *place.tolist()))
+        self.seen.setdefault(motions, (float(place[0]), float(place[1])))
+        return Stand(place, motions)
+
+    def explain_all(self, stands: Sequence[Sequence[Stand]], progress: Callable[[float], None]) -> None:
+        """Look at each line between neighbouring points of a grid whose motions differ."""
+        for i, column in enumerate(stands):
+            for j, here in enumerate(column):
+                for other in [*(next_column[j] for next_column in stands[i + 1 : i + 2]), *column[j + 1 : j + 2]]:
+                    if other.motions != here.motions:
+                        self.explain(here, other)
+            progress((i + 1) / len(stands))
+
+    def leave_resonances(self) -> None:
+        """Follow the Neimark–Sacker curves that begin at resonances 1:1 and 1:2 of curves known so far."""
+        for point in [point for curve in self.curves for point in curve.codimension2 if point.kind in TURNS]:
+            cause = Cause("neimark-sacker", point.period, point.radial_speed)
+            if point.admissible and not self._known(point.value, cause):
+                near = beside_resonance(self.parameters, self.plane, point)
+                if near is not None:
+                    self._follow(*near)
+
+    def explain(self, first: Stand, last: Stand) -> None:
+        """Find the cause of every change of motions on the straight line between two points.
+
+        Where known curves cross the line, the motions on both sides of the crossing are compared; what these curves do not
+        account for is looked for by bisection.
+        """
+        line, here = last.place - first.place, first
+        for start, end, kinds in self._crossed(first, last):
+            near = self.stand(first.place + max(start - BESIDE, 0.0) * line)
+            far = self.stand(first.place + min(end + BESIDE, 1.0) * line)
+            self._settle(here, near)
+            if not accounts_for(kinds, near.motions, far.motions):
+                self._settle(near, far)
+            here = far
+        self._settle(here, last)
+
+    def _crossed(self, first: Stand, last: Stand) -> list[tuple[float, float, set[str]]]:
+        """Crossings of the line by known curves, those next to each other together: first and last share, and kinds."""
+        found = sorted(
+            (share, curve.kind) for curve in self.curves for share in crossings(curve, first.place, last.place)
+        )
+        groups: list[tuple[float, float, set[str]]] = []
+        for share, kind in found:
+            if groups and share - groups[-1][1] < 2.0 * BESIDE:
+                groups[-1] = (groups[-1][0], share, groups[-1][2] | {kind})
+            else:
+                groups.append((share, share, {kind}))
+        return groups
+
+    def _settle(self, low: Stand, high: Stand) -> None:
+        """Explain or record the changes between two points one by one."""
+        for _ in range(MOST_CHANGES):
+            if low.motions == high.motions:
+                return
+            nearer, further = change_between(self.parameters, self.plane, low, high)
+            self._account_for(nearer, further)
+            low = further
+        self._record(low, high, f"more than {MOST_CHANGES} changes between two neighbouring points")
+
+    def _account_for(self, low: Stand, high: Stand) -> None:
+        """Find or continue the curves that pass a narrow bracket."""
+        known, reasons = set(), []
+        for cause in causes_between(self.parameters, self.plane, low, high):
+            reason = "" if self._known(low.place, cause) else self._follow(low.place, cause)
+            if reason:
+                reasons.append(f"{cause.kind}: {reason}")
+            else:
+                known.add(cause.kind)
+        if not accounts_for(known, low.motions, high.motions):
+            self._record(low, high, "; ".join(reasons) or "no test function changes sign")
+
+    def _known(self, place: Place, cause: Cause) -> bool:
+        return any(passes(curve, place, cause) for curve in self.curves)
+
+    def _follow(self, place: Place, cause: Cause) -> str:
+        """Continue a curve; why it failed, or nothing."""
+        at = self.plane.at(self.parameters, float(place[0]), float(place[1]))
+        try:
+            curve = continue_curve(cause.kind, at, self.plane, cause.unknowns)
+        except CaromError as problem:
+            return str(problem)
+        if not passes(curve, place, cause):
+            return "the curve that was found passes elsewhere"
+        self.curves = with_curve(self.curves, curve)
+        return ""
+
+    def _record(self, low: Stand, high: Stand, reason: str) -> None:
+        point = 0.5 * (low.place + high.place)
+        self.unexplained.append(
+            UnexplainedChange((float(point[0]), float(point[1])), low.motions, high.motions, reason)
+        )

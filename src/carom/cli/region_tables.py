@@ -1,0 +1,81 @@
+"""What ``carom regions`` prints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from carom.bifurcations import Axis, RegionMap
+
+__all__ = ["curve_table", "meeting_table", "present_words", "region_table", "unexplained_table"]
+
+Names = tuple[str, str]
+"""Both parameters with their units."""
+
+
+def _table(title: str, *headings: str) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left")
+    for heading in headings:
+        table.add_column(heading, no_wrap=heading in ("share", "#"))
+    return table
+
+
+def _place(point: tuple[float, float]) -> str:
+    return ", ".join(f"{value:.6g}" for value in point)
+
+
+def curve_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> Table:
+    """Curves with the orbits they belong to; those of virtual orbits only are dim."""
+    table = _table("Curves", "bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "")
+    for curve in found.curves:
+        first, last = (_place(tuple(curve.points[end])) for end in (0, -1))
+        virtual = "" if curve.admissible.all() else "in part virtual" if curve.admissible.any() else "virtual"
+        ends = ", ".join(dict.fromkeys(named(stop) for stop in curve.stops))
+        table.add_row(
+            named(curve.kind), curve.subject, first, last, ends, virtual, style="dim" if virtual == "virtual" else ""
+        )
+    return table
+
+
+def meeting_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> Table:
+    """Codimension-2 points."""
+    table = _table("Where two happen at once, and resonances", "kinds", *names, "period (1/Ω)", "")
+    for point in found.codimension2:
+        kinds = " + ".join(named(kind) for kind in point.kind.split(" + "))
+        period = "" if point.period != point.period else f"{point.period:.6g}"
+        table.add_row(kinds, *(f"{value:.8g}" for value in point.value), period, "" if point.admissible else "virtual")
+    return table
+
+
+def region_table(found: RegionMap, names: Names) -> Table:
+    """Regions by their numbers in figure and JSON."""
+    table = _table("Regions", "#", "share", f"for example at {', '.join(names)}", "region", "motions")
+    for number, region in enumerate(found.regions, start=1):
+        words = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
+        share = f"{100 * region.share:.1f} %" if region.share else "thin"
+        table.add_row(str(number), share, _place(region.point), region.motions.region, words)
+    return table
+
+
+def unexplained_table(found: RegionMap, names: Names) -> Table:
+    """Changes of motions on no curve."""
+    table = _table("Changes of motions on no curve found", f"at {', '.join(names)}", "what changes", "why no curve")
+    for change in found.unexplained:
+        table.add_row(_place(change.point), change.words, change.reason)
+    return table
+
+
+def present_words(found: RegionMap, axes: tuple[Axis, Axis]) -> str:
+    """Where the machine is, in one sentence."""
+    words = ", ".join(part for part in found.present_motions.parts if part not in found.everywhere)
+    if found.present is None:
+        return f"The machine as it is lies outside this plane: {found.present_motions.words}"
+    place = ", ".join(
+        f"{axis.name} = {value:.6g}" + (f" {axis.field.unit}" if axis.field.unit else "")
+        for axis, value in zip(axes, found.present, strict=True)
+    )
+    return f"The machine as it is, {place}: region {found.present_region} ({words})"

@@ -1,0 +1,128 @@
+"""Maps of the plane of two parameters: curves of bifurcations, where they meet, and the regions between."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import Normal, Stroke
+
+from carom.plots.diagrams import CURVES, FAINT, curve_line
+from carom.plots.numerals import number_regions
+from carom.plots.style import TWO_COLUMNS, styled
+from carom.plots.words import parameter_label, parameter_unit
+
+if TYPE_CHECKING:
+    from carom.bifurcations import Axis, Region, RegionMap
+
+__all__ = ["region_map"]
+
+_BLACK, _MACHINE, _UNEXPLAINED = "#1a1a1a", "#f0e442", "#cc0000"
+_LONGEST_HALF = 92
+"""Letters of a region's words that fit in half of the width."""
+_LINE, _ROOM = 0.135, 9
+"""Height of a line of the list of regions [inch], and lines for which the figure has room."""
+
+
+@styled
+def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
+    """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
+
+    Parameters
+    ----------
+    found : carom.bifurcations.RegionMap
+    axes : tuple of carom.bifurcations.Axis
+        The two parameters, for their names and units.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        180 mm wide; curves of virtual orbits are faint.  Regions have the numbers of the JSON document.  One too thin for
+        its numeral has it beside, with a leader.
+    """
+    listed = [
+        f"{number}: {region.motions.source_region}: {_words(found, region)}"
+        for number, region in enumerate(found.regions, start=1)
+    ]
+    if found.everywhere:
+        listed.append(f"everywhere: {', '.join(found.everywhere)}")
+    columns = 2 if max(map(len, listed), default=0) <= _LONGEST_HALF else 1
+    rows = -(-len(listed) // columns)
+    figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)), layout="constrained")
+    drawn = figure.subplots()
+    units = np.array([parameter_unit(axis) for axis in axes])
+    # The broad line of non-smooth Hopf bifurcations lies below that of the boundary equilibria.
+    for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
+        curve_line(drawn, curve, units)
+    drawn.set_xlabel(parameter_label(axes[0]))
+    drawn.set_ylabel(parameter_label(axes[1]))
+    drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
+    drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
+    lines = [*_curve_key(found), *_mark_points(drawn, found, units)]
+    figure.legend(handles=lines, loc="outside upper center", ncols=3)
+    handles = [Line2D([], [], ls="none", label=words) for words in listed]
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
+    number_regions(drawn, found, units)
+    return figure
+
+
+def _words(found: RegionMap, region: Region) -> str:
+    """Motions of a region but for those of all regions."""
+    return ", ".join(part for part in region.motions.parts if part not in found.everywhere)
+
+
+def _curve_key(found: RegionMap) -> list[Line2D]:
+    """Entries of the curves, with the orbits they belong to."""
+    lines = []
+    for kind, look in CURVES.items():
+        if any(curve.kind == kind for curve in found.curves):
+            orbits = found.orbits_of(kind)
+            words = f"{look.words}: {orbits}" if orbits else look.words
+            lines.append(Line2D([], [], color=look.colour, ls=look.line, lw=look.width, label=words))
+    if not all(np.all(curve.admissible) for curve in found.curves):
+        lines.append(Line2D([], [], color=_BLACK, lw=1.1, alpha=FAINT, label="faint: virtual motions only"))
+    return lines
+
+
+def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D]:
+    """Mark where curves meet, resonances, changes without a curve and the machine; their entries for the legend."""
+    entries: dict[str, Line2D] = {}
+
+    def mark(place: tuple[float, float], words: str, marker: str, size: float, face: str, edge: str = _BLACK) -> None:
+        x, y = np.array(place) / units
+        axes.plot([x], [y], ls="none", marker=marker, ms=size, mfc=face, mec=edge, zorder=6, gid=words)
+        filled = _BLACK if face == "none" else face
+        entries.setdefault(words, Line2D([], [], ls="none", marker=marker, ms=size, mfc=filled, mec=edge, label=words))
+
+    for point in found.codimension2:
+        resonance = point.kind.startswith("resonance")
+        words = "resonance of the multipliers" if resonance else "two at once"
+        mark(
+            point.value,
+            words,
+            "D" if resonance else "o",
+            4.0 if resonance else 4.5,
+            _BLACK if point.admissible else "none",
+        )
+        if resonance:
+            ratio, place = point.kind.partition("-")[2], np.array(point.value) / units
+            axes.annotate(
+                ratio,
+                place,
+                (-4.0, -4.0),
+                textcoords="offset points",
+                fontsize=6.5,
+                ha="right",
+                va="top",
+                zorder=8,
+                gid="resonance",
+                path_effects=[Stroke(linewidth=2.0, foreground="#ffffff"), Normal()],
+            )
+    for change in found.unexplained:
+        mark(change.point, "change of motions on no curve found", "x", 4.0, _UNEXPLAINED, _UNEXPLAINED)
+    if found.present is not None:
+        mark(found.present, f"the machine as it is: region {found.present_region}", "*", 9.0, _MACHINE)
+    return list(entries.values())
