@@ -246,3 +246,56 @@ def test_short_horizons(horizon):
         task.arrays, task.table, 0, task.amplitudes, horizon, events.INSIDE, workspace(2)
     )
     assert (outcome, time) == (Outcome.CLEAR, horizon)
+
+
+# ------------------------------------------------------------------------------------------------ its parts
+
+
+def smallest_positive_root(*coefficients):
+    """Of a polynomial, highest power first."""
+    roots = np.roots(coefficients)
+    real = roots[np.abs(roots.imag) < 1e-9 * (1.0 + np.abs(roots.real))].real
+    return min(real[real > 0.0], default=math.inf)
+
+
+def test_bounds_of_steps_are_first_roots():
+    rng = np.random.default_rng(41)
+    for _ in range(200):
+        value, slope, bend, jerk = -(10.0 ** rng.uniform(-2, 1)), *rng.normal(size=2), 10.0 ** rng.uniform(-1, 1)
+        expected = smallest_positive_root(0.5 * bend, slope, value)
+        assert events._first_root(value, slope, bend) == pytest.approx(expected, rel=1e-7)
+        expected = smallest_positive_root(jerk / 6.0, 0.5 * bend, -abs(slope))
+        assert events._departure(-abs(slope), bend, jerk) == pytest.approx(expected, rel=1e-9)
+    assert events._first_root(-1.0, 2.0, 0.0) == 0.5
+    assert events._first_root(-1.0, 0.0, 2.0) == 1.0
+    assert events._first_root(-1.0, 0.0, 0.0) == events._first_root(-1.0, -1.0, 0.0) == math.inf
+    # Double root, and just none.
+    assert events._first_root(-1.0, 2.0, -2.0) == 1.0
+    assert events._first_root(-1.0, 2.0, -2.1) == math.inf
+    # Along the wall: pulled off it stays off for a while, pressed on or free nothing can be said.
+    assert events._departure(0.0, -2.0, 3.0) == 2.0
+    assert events._departure(0.0, 0.0, 3.0) == events._departure(0.0, 1.0, 3.0) == 0.0
+
+
+def test_a_householder_step_errs_by_the_fourth_power():
+    """On ``e^t + t²/2 − 1``, which vanishes at zero, and on its negative."""
+    for side in (1.0, -1.0):
+        errors = []
+        for distance in (1e-1, 1e-2):
+            power = math.exp(distance)
+            derivatives = (power + 0.5 * distance**2 - 1.0, power + distance, power + 1.0, power)
+            errors.append(abs(distance + events.householder_step(*(side * value for value in derivatives))))
+        assert math.log10(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.3)
+
+
+def test_sizes_of_terms_bound_rounding_and_derivatives():
+    for rotor, rng in rotors(950, 5):
+        task, work = inside_task(rotor, rng), workspace(2)
+        terms = np.append(task.arrays.rows[0] * task.amplitudes, task.arrays.offsets[0])
+        sizes = np.abs(terms.real).sum() + np.abs(terms.imag).sum()
+        assert events._spread(task.arrays, 0, task.amplitudes) == pytest.approx(sizes, rel=1e-14)
+        work.amplitudes[:] = rng.normal(size=2) + 1j * rng.normal(size=2)
+        speed, second, third = task.table.bounds @ np.abs(work.amplitudes)
+        # f'' = 2(|ẏ|² + Re ȳÿ) and f''' = 2 Re(3 conj(ẏ) ÿ + ȳ y⃛), with |y| at most one.
+        expected = 2.0 * (speed**2 + second), 2.0 * (3.0 * speed * second + third), speed
+        np.testing.assert_allclose(events._bounds(task.table, work), expected, rtol=1e-14)
