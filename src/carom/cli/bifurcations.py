@@ -269,10 +269,9 @@ def _print_attractors(diagram: Diagram) -> None:
     lasting: dict[str, list[str]] = {}
     for sample in diagram.attractors:
         if sample.survival:
-            words = f"{sample.name}: {sample.survival.words}"
-            lasting.setdefault(words, []).append(_shown(diagram.axis, sample.value))
+            lasting.setdefault(sample.survival.words, []).append(_shown(diagram.axis, sample.value))
     for words, places in lasting.items():
-        screen.print(f"{words}; at {diagram.axis.name} = {', '.join(places)}")
+        screen.print(f"Irregular bouncing: {words}; at {diagram.axis.name} = {', '.join(places)}")
 
 
 def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
