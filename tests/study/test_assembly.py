@@ -369,7 +369,7 @@ def test_few_that_came_back_do_not_hide_what_many_others_do():
     assert all(ending.outcome is Outcome.LEVITATED for ending in result.attractors.disturbances)
     assert result.fresh.lost > 5
     assert result.verdict.level == "may-not-come-back"
-    assert f"{result.fresh.lost} of 10,000 disturbances tried" in result.verdict.headline
+    assert f"{result.fresh.lost} of 10,000 disturbances of up to 2 c_r Ω" in result.verdict.headline
     assert f"but of 10,000 others of the same kinds {result.fresh.lost} did not" in finding(
         result, "Disturbances tried"
     )

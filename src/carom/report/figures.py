@@ -130,7 +130,8 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
             f"disturbance-{_file_name(member.name)}",
             "disturbances",
             f"After {what} at {study.wording.velocity(example.start.speed)} the rotor ends {ending_phrase(member.name)}, "
-            f"as {'does' if member.count == 1 else 'do'} {member.count} of {len(study.attractors.disturbances)} disturbances."
+            f"as {'does' if member.count == 1 else 'do'} {member.count} of {len(study.attractors.disturbances)} disturbances of "
+            f"up to {study.wording.velocity(study.attractors.fastest)}."
             f"{PANELS if example.impacts else ''}",
             lambda example=example: _history(study, example),  # type: ignore[misc]
         )

@@ -87,10 +87,15 @@ def _headline(study: Study) -> tuple[Level, str]:
             "may-not-come-back",
             f"It levitates without contact, but after a touch it may not come back: {listed(holds)}.",
         )
-    text = "It levitates without contact and came back from every disturbance tried."
+    text = f"It levitates without contact and came back from every disturbance tried, of up to {_fastest(study)}."
     if rolling(study.rotor).holds:
         text = f"{text[:-1]}; only backward whirl is known to be able to hold it."
     return "all-tried-came-back", f"{text} That is no guarantee: see what is not covered."
+
+
+def _fastest(study: Study) -> str:
+    """Largest speed of the disturbances tried."""
+    return study.wording.velocity(study.attractors.fastest)
 
 
 def _what_may_hold(study: Study) -> list[str]:
@@ -103,9 +108,11 @@ def _what_may_hold(study: Study) -> list[str]:
     lost = sum(ending.outcome is not Outcome.LEVITATED for ending in tried)
     if lost:
         share = f"{lost} of {len(tried)}" if lost < len(tried) else f"any of the {lost}"
-        holds.append(f"it did not come back from {share} disturbances tried")
+        holds.append(f"it did not come back from {share} disturbances of up to {_fastest(study)}")
     elif study.fresh is not None and study.fresh.lost:
-        holds.append(f"it did not come back from {study.fresh.lost} of {study.fresh.sample.count:,} disturbances tried")
+        holds.append(
+            f"it did not come back from {study.fresh.lost} of {study.fresh.sample.count:,} disturbances of up to {_fastest(study)}"
+        )
     if not study.orbits.complete and not study.stable_orbits:
         holds.append("not all of its periodic motions could be searched")
     return holds
