@@ -20,7 +20,7 @@ from carom.core import cache_directory
 from carom.core.cache import KernelCache
 from carom.outcome import CaromWarning
 
-pytestmark = pytest.mark.skipif(not COMPILED, reason="the compiler is off")
+pytestmark = [pytest.mark.jit_only, pytest.mark.skipif(not COMPILED, reason="the compiler is off")]
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "source-paper.toml"
 ONE_NUMBER = (types.float64,)

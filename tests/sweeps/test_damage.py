@@ -87,9 +87,9 @@ def test_chunk_of_a_variable_with_a_dimension_is_named(tmp_path):
         open_sweep(store).counts.load()
 
 
-def test_four_zeros_are_no_chunk(whole, store):
-    """They are the checksum of nothing at all."""
-    (store / "value/c/1").write_bytes(bytes(4))
+@pytest.mark.parametrize("data", [bytes(4), b"\xff" * 8])
+def test_what_agrees_with_its_end_but_is_too_short_is_no_chunk(whole, store, data):
+    (store / "value/c/1").write_bytes(data)
     with pytest.raises(InputError, match="its file value/c/1 is damaged"):
         open_sweep(store).load()
     assert run(store).damaged == (1,)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
+import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
+import numpy as np
 from zarr.storage import LocalStore, WrapperStore
 
 from carom.outcome import InputError
 from carom.sweeps.integrity import is_whole
+from carom.sweeps.layout import ROOT
 from carom.sweeps.variables import STATUS
 
 if TYPE_CHECKING:
@@ -20,7 +24,12 @@ __all__ = ["CheckedStore"]
 
 
 class CheckedStore(WrapperStore[LocalStore]):
-    """A store that is read only."""
+    """A store that is read only, and whose metadata have been checked."""
+
+    def __init__(self, store: LocalStore) -> None:
+        super().__init__(store)
+        arrays = json.loads((store.root / ROOT).read_bytes())["consolidated_metadata"]["metadata"]
+        self._sizes = {name: _size(array) for name, array in arrays.items()}
 
     @classmethod
     def at(cls, path: Path) -> Self:
@@ -36,12 +45,12 @@ class CheckedStore(WrapperStore[LocalStore]):
             It belongs to a finished chunk and is damaged or missing.
         """
         found = await self._store.get(key, prototype, byte_range)
-        _, _, place = key.partition("/c/")
+        name, _, place = key.partition("/c/")
         if place and found is None and self._finished(place):
             found = await self._store.get(key, prototype, byte_range)  # it may have come since
             if found is None:
                 raise self._damage(key, "missing")
-        if place and found is not None and not is_whole(found.to_bytes()):
+        if place and found is not None and not is_whole(found.to_bytes(), self._sizes[name]):
             raise self._damage(key, "damaged")
         return found
 
@@ -53,3 +62,8 @@ class CheckedStore(WrapperStore[LocalStore]):
     def _damage(self, key: str, words: str) -> InputError:
         remedy = "the carom sweep that wrote it computes this chunk again"
         return InputError("store", self._store.root, f"its file {key} is {words}; {remedy}")
+
+
+def _size(array: dict[str, Any]) -> int:
+    """Bytes of a chunk of an array."""
+    return math.prod(array["chunk_grid"]["configuration"]["chunk_shape"]) * np.dtype(array["data_type"]).itemsize

@@ -29,9 +29,12 @@ def seal(data: bytes) -> bytes:
     return data + crc32c(data).to_bytes(_SEAL, "little")
 
 
-def is_whole(sealed: bytes) -> bool:
-    """Whether data agree with the checksum at their end; four zeros alone would, being the checksum of nothing."""
-    return len(sealed) > _SEAL and seal(unseal(sealed)) == sealed
+def is_whole(sealed: bytes, size: int) -> bool:
+    """Whether data are as long as they should be and agree with the checksum at their end.
+
+    The length matters: eight bytes of ones, say, agree with their end, and so does the checksum of nothing.
+    """
+    return len(sealed) == size + _SEAL and seal(unseal(sealed)) == sealed
 
 
 def unseal(sealed: bytes) -> bytes:

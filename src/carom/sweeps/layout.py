@@ -21,7 +21,7 @@ from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status, flag_attributes
 from carom.sweeps.versions import other_version, versions
 
-__all__ = ["FAILURES", "OPTION", "PARTS", "attributes_of", "check_same", "create", "is_new"]
+__all__ = ["FAILURES", "OPTION", "PARTS", "ROOT", "attributes_of", "check_same", "create", "is_new"]
 
 OPTION, ROOT = "--out", "zarr.json"
 """Name of the place in errors, and of the file that says what a store holds."""

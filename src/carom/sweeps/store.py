@@ -9,6 +9,7 @@ damaged or missing is waiting again.
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
 from collections.abc import Iterator
@@ -67,6 +68,9 @@ class SweepStore:
         self._finished = np.zeros(plan.chunks, bool)
         self._failed: dict[int, int] = {}
         self._processors: list[str] = []
+        points = math.prod(plan.chunk_shape)
+        self._sizes = [points * math.prod(one.shape) * one.dtype.itemsize for one in plan.task.variables]
+        self._sizes.append(points * STATUS.dtype.itemsize)
         try:
             if is_new(self.path):
                 create(self.path, plan)
@@ -97,7 +101,7 @@ class SweepStore:
         """Failed points of a finished chunk, or None if a file of it is damaged or missing."""
         try:
             data = [file.read_bytes() for file in self._files(number).values()]
-            if not all(map(is_whole, data)):
+            if not all(map(is_whole, data, self._sizes)):
                 return None
             failed = unseal(data[-1]).count(Status.FAILED)
             if failed:
