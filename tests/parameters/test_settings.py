@@ -25,12 +25,12 @@ PARTNERS = {
 
 
 def error_of(path, *settings):
-    """The input error of loading; its message is one line and names its parts."""
+    """The input error of loading; each line of its message names its parts."""
     with pytest.raises(InputError) as caught:
         load_case(path, settings)
     error = caught.value
-    assert "\n" not in str(error)
-    assert str(error).startswith(f"{error.field} = ")
+    for line, one in zip(str(error).split("\n"), error.errors, strict=True):
+        assert line.startswith(f"{one.field} = ")
     return error
 
 

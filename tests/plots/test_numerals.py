@@ -26,7 +26,7 @@ def numbered(found):
     axes.set(xlim=(0, 1), ylim=(0, 1))
     for curve in found.curves:
         axes.plot(*curve.points.T)
-    number_regions(axes, found, np.ones(2), list(enumerate(found.regions, start=1)))
+    number_regions(axes, found, np.ones(2))
     figure.draw_without_rendering()
     return axes
 
@@ -42,9 +42,9 @@ def feet(axes):
     return [tuple(mark.get_xydata()[0]) for mark in axes.lines if mark.get_gid() == "foot"]
 
 
-def plane(*regions, curves=(), meetings=()):
+def plane(*regions, curves=(), meetings=(), present=None):
     points = tuple(SimpleNamespace(value=value) for value in meetings)
-    return SimpleNamespace(curves=tuple(curves), codimension2=points, regions=regions)
+    return SimpleNamespace(curves=tuple(curves), codimension2=points, regions=regions, unexplained=(), present=present)
 
 
 def test_a_region_with_room_has_its_numeral_at_its_point():
@@ -81,7 +81,8 @@ def test_a_sliver_has_its_numeral_beside_with_a_leader(middle):
     assert (high < first[0]).any() or (first[1] < low).any()
 
 
-def test_numerals_keep_clear_of_points_where_curves_meet():
-    axes = numbered(plane(region((0.5, 0.5)), meetings=[(0.5, 0.5)]))
+@pytest.mark.parametrize("marked", [{"meetings": [(0.5, 0.5)]}, {"present": (0.5, 0.5)}])
+def test_numerals_keep_clear_of_points_where_curves_meet_and_of_the_machine(marked):
+    axes = numbered(plane(region((0.5, 0.5)), **marked))
     low, high = boxes(axes)["1"]
     assert not ((low <= 0.5) & (high >= 0.5)).all()

@@ -43,7 +43,7 @@ class Advice:
     gain : {"gamma", "omega"}
     value : float
     change : float
-        Ratio of the damping or stiffness to the machine's own.
+        Ratio of the damping or stiffness to the machine's own; infinite where it has none.
     alone : bool
         Whether it lies where levitation is the only motion found.
     margin : float

@@ -73,6 +73,7 @@ def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
         highest = 8.0 * max(1.0, parameters.omega, parameters.gamma)
         while lowest < 0.1 * highest and not _can_search(parameters.replace(gamma=lowest)):
             lowest *= 2.0
+        highest = min(highest, DIMENSIONLESS_FIELDS[gain].highest)
         # A soft rotor is so far overdamped there that one of its exponents hardly decays.
         while highest > 4.0 * max(lowest, parameters.gamma) and not _can_search(parameters.replace(gamma=highest)):
             highest *= 0.5

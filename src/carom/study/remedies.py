@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from carom.study.endings import ending_words
@@ -71,6 +72,8 @@ def _advised(study: Study, advice: Advice, *, first: bool) -> str:
     name, value = say.gain_name(advice.gain), say.gain(advice.gain, advice.value)
     what = f"{name} = {value}" if say.scales is None else f"a {name} of {value}"
     own = f"{number(advice.change, 3)} times this machine's"
+    if math.isinf(advice.change):
+        own = "this machine has none"
     if advice.alone:
         start = "The least change found that leaves levitation alone is" if first else "The other gain would do it with"
         own += f", {number(100.0 * advice.margin, 2)} % beyond the end of the range"
