@@ -114,6 +114,6 @@ def test_impacts_of_random_machines_come_as_heyoka_says():
         tally = compare(parameters, position, velocity, 40.0, HeyokaFlights(parameters))
         for kind in total:
             total[kind] += tally[kind]
-    assert total["decided"] > 3.3 * count, total
-    assert total["stopped"] > 0.33 * count, total
+    assert 3 * total["decided"] > 10 * count, total
+    assert 3 * total["stopped"] > count, total
     assert total["backward"] > 0.1 * count, total
