@@ -12,6 +12,9 @@ ARGS :=
 # All tests of a file run in one worker, which computes what they share once.
 PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8 --dist loadfile
 
+# Tests start many processes: each would compile every module it imports anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help demo test test-deep check lint types layers format coverage mutants bench docs lock clean distclean

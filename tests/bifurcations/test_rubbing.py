@@ -56,7 +56,7 @@ def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
     assert sorted(answers) == [(False, False), (True, True)]
 
 
-@pytest.mark.jit_only
+@pytest.mark.deep
 def test_without_rebound_the_motions_with_lasting_contact_end_at_the_same_value(onset):
     """A second route: not one formula of the orbits, but a simulated map from lift-off to lift-off."""
     ends = []
@@ -199,7 +199,7 @@ def test_curves_of_both_onsets(chatter, names):
         curve = continue_onset(chatter, point, CHATTERING, plane)
         assert curve.kind == point.kind
         assert set(curve.stops) == {"edge of the plane"}
-        for x, y in curve.points[1 : -1 : sized(21, 21, 7)]:
+        for x, y in curve.points[1 : -1 : sized(41, 41, 7)]:
             at = CHATTERING.replace(**{names[0]: x, names[1]: y})
             if point.kind == "permanent-contact":
                 assert abs(least_force_of_steady_whirl(at.gamma, at.mu)) < 1e-7

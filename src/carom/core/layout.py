@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import TypeVar
 
 import numba
@@ -238,14 +239,20 @@ def record(**fields: np.ndarray) -> np.record:
 
     It begins at a multiple of 64 bytes, so that arrays of a multiple of that length never straddle cache lines.
     """
-    layout = np.dtype([(name, values.dtype, values.shape) for name, values in fields.items()], align=True)
+    layout = _layout(tuple((name, values.dtype, values.shape) for name, values in fields.items()))
     room = np.zeros(layout.itemsize + CACHE_LINE, np.uint8)
     first = -room.ctypes.data % CACHE_LINE
-    table = room[first : first + layout.itemsize].view(layout).view(np.recarray)
+    table = room[first : first + layout.itemsize].view(layout)
     for name, values in fields.items():
         table[name][0] = values
-    packed: np.record = table[0]
+    packed: np.record = table.view((np.record, layout))[0]
     return packed
+
+
+@cache
+def _layout(fields: tuple[tuple[str, np.dtype, tuple[int, ...]], ...]) -> np.dtype:
+    """Type of a record with fields of these names, types and shapes."""
+    return np.dtype(list(fields), align=True)
 
 
 def kernel(function: Kernel) -> Kernel:

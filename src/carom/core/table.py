@@ -63,8 +63,7 @@ def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
         min(LONGEST_BLOCK, LARGEST_PHASE / fastest) / NODES if fastest > 0 else LONGEST_BLOCK / NODES
     )
     durations = spacing * NODES / SHORTENING ** np.arange(LEVELS)
-    polynomials = [_polynomials(exponents, driven, duration) for duration in durations]
-    coefficients, errors = (np.array(values) for values in zip(*polynomials, strict=True))
+    coefficients, errors = _polynomials(exponents, driven, durations)
     times = spacing * np.arange(NODES + 1)
     lane_spacing = _short_number(durations[0] / (LANE_NODES - 1))
     lane_times = lane_spacing * np.arange(LANE_NODES)
@@ -98,15 +97,18 @@ def _short_number(value: float) -> float:
     return math.ldexp(math.floor(math.ldexp(fraction, 24)), exponent - 24)
 
 
-def _polynomials(exponents: np.ndarray, driven: np.ndarray, duration: float) -> tuple[np.ndarray, np.ndarray]:
-    """Bernstein coefficients of the products on a block, shape (Q, DEGREE), and the bounds of their error, shape (Q,)."""
-    coarse = _chebyshev_points(DEGREE)
-    fine = _chebyshev_points(SAMPLES)
-    at_nodes = _rows(exponents, driven, coarse * duration) * duration
-    coefficients = at_nodes @ _bernstein_from_nodes().T * (np.arange(1, DEGREE + 1) / DEGREE)
-    series = np.abs(_rows(exponents, driven, fine * duration) @ _chebyshev_transform().T) * duration
+def _polynomials(exponents: np.ndarray, driven: np.ndarray, durations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Bernstein coefficients of the products on each block and the bounds of their error.
+
+    Their shapes are (LEVELS, Q, DEGREE) and (LEVELS, Q).
+    """
+    points = np.concatenate([_chebyshev_points(DEGREE), _chebyshev_points(SAMPLES)])
+    rows = _rows(exponents, driven, np.outer(durations, points).ravel()).reshape(-1, *durations.shape, len(points))
+    at_points = rows.transpose(1, 0, 2) * durations[:, None, None]
+    coefficients = at_points[..., :DEGREE] @ _bernstein_from_nodes().T * (np.arange(1, DEGREE + 1) / DEGREE)
+    series = np.abs(at_points[..., DEGREE:] @ _chebyshev_transform().T)
     # Interpolation in DEGREE Chebyshev points errs by at most twice the tail of the series.
-    errors = 2.0 * series[:, DEGREE:].sum(axis=1) + ROUNDED * series.sum(axis=1)
+    errors = 2.0 * series[..., DEGREE:].sum(axis=-1) + ROUNDED * series.sum(axis=-1)
     return coefficients, errors
 
 
@@ -129,16 +131,21 @@ def _errors_of_moduli(errors: np.ndarray, modes: int) -> np.ndarray:
 
 def _rows(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> np.ndarray:
     """Real factors of the products in ``(|y|² − |y₀|²)/τ``, shape (2N + N², len(times))."""
-    basis = _basis(exponents, driven, times)
-    rows = []
-    for values in basis:
-        rows += [2.0 * values.real / times, -2.0 * values.imag / times]
+    basis = np.array(_basis(exponents, driven, times))
+    modes = len(basis)
+    rows = np.empty((2 * modes + modes**2, len(times)))
+    rows[0 : 2 * modes : 2], rows[1 : 2 * modes : 2] = 2.0 * basis.real, -2.0 * basis.imag
+    row = 2 * modes
     for j, values in enumerate(basis):
-        rows.append(np.abs(values) ** 2 / times)
-        for other in basis[j + 1 :]:
-            product = values * other.conj()
-            rows += [2.0 * product.real / times, -2.0 * product.imag / times]
-    return np.array(rows)
+        products = 2.0 * values * basis[j + 1 :].conj()
+        after = row + 1 + 2 * len(products)
+        rows[row], rows[row + 1 : after : 2], rows[row + 2 : after : 2] = (
+            np.abs(values) ** 2,
+            products.real,
+            -products.imag,
+        )
+        row = after
+    return rows / times
 
 
 def _basis(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -> list[np.ndarray]:
@@ -176,8 +183,10 @@ def _power_series(exponents: np.ndarray, driven: np.ndarray) -> tuple[np.ndarray
     growth = exponents ** orders[:, None] / factorials
     basis = growth.copy()
     for k in np.flatnonzero(driven):
-        pair = [sum(exponents[k] ** i * exponents[k - 1] ** (n - 1 - i) for i in range(n)) for n in orders]
-        basis[:, k - 1] = pair / factorials[:, 0]
+        pair = 0.0
+        for n in orders:
+            pair = exponents[k] * pair + exponents[k - 1] ** (n - 1)
+            basis[n - 1, k - 1] = pair / factorials[n - 1, 0]
     return growth, basis
 
 
