@@ -151,6 +151,7 @@ def test_own_damping_and_threads_do_not_matter(safe):
     )
 
 
+@pytest.mark.deep
 def test_faster_disturbances_reach_rolling():
     safe = least_safe_damping(SOURCE, count=600, highest=4.0, fastest=5.0)
 

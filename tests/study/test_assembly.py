@@ -15,19 +15,18 @@ from carom.study.summaries import kick_rows, machine_rows, motion_rows, range_ro
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 QUIET = SOURCE.replace(gamma=0.5, mu=0.0)
 """Damped enough that no rub and no bounce is left, with too little friction to roll."""
-MACHINE = {
-    "mass": "50 kg",
-    "damping": "1400 N s/m",
-    "stiffness": "9.8e5 N/m",
-    "eccentricity": "0.3 mm",
-    "clearance": "0.7 mm",
-    "rotor_radius": "40 mm",
-    "speed": "184.2 rad/s",
-    "unbalance_phase": "0.21 rad",
-    "friction": 0.15,
-    "restitution": 0.95,
-}
-REAL = Machine(**MACHINE)
+REAL = Machine(
+    mass="50 kg",
+    damping="1400 N s/m",
+    stiffness="9.8e5 N/m",
+    eccentricity="0.3 mm",
+    clearance="0.7 mm",
+    rotor_radius="40 mm",
+    speed="184.2 rad/s",
+    unbalance_phase="0.21 rad",
+    friction=0.15,
+    restitution=0.95,
+)
 
 pytestmark = pytest.mark.jit_only
 
@@ -63,7 +62,7 @@ def test_real_machine(real):
 
 
 def test_subjects_of_any_kind_give_the_same():
-    machine = Machine(**MACHINE | {"damping": "6000 N s/m", "friction": 0.0})
+    machine = REAL.replace(damping="6000 N s/m", friction=0.0)
     results = [study(subject).to_dict() for subject in (machine, Case("real", machine.parameters, machine, Zones()))]
 
     assert results[0] | {"name": "real"} == results[1]
