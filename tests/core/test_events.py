@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from compilation import sized
 from flights import (
+    EPSILON,
     Tally,
     Task,
     compare,
+    flight_of,
     inside_task,
     near_grazing_task,
     parameters,
@@ -19,11 +21,14 @@ from flights import (
     task_from_state,
     wall_task,
 )
-from reference import plane_flight
+from flint import acb, arb
+from reference import first_crossing, plane_flight, unit
 
 from carom.core import events
-from carom.core.layout import rotor_record, workspace
-from carom.core.table import flight_table
+from carom.core.block import load_products
+from carom.core.flow import displacement, squared_modulus, velocity
+from carom.core.layout import LEVELS, rotor_record, workspace
+from carom.core.table import SHORTENING, flight_table
 from carom.outcome import Outcome
 from carom.rotors import jeffcott
 
@@ -248,6 +253,64 @@ def test_short_horizons(horizon):
     assert (outcome, time) == (Outcome.CLEAR, horizon)
 
 
+def run(task, horizon):
+    work = workspace(len(task.amplitudes))
+    return events.first_crossing(task.arrays, task.table, task.plane, task.amplitudes, horizon, task.start, work)
+
+
+def test_a_crossing_counts_if_it_is_not_later_than_the_horizon():
+    """On the first block and on later ones."""
+    blocks, exact = set(), 0
+    for rotor, rng in rotors(910, 30):
+        for task in (inside_task(rotor, rng), random_wall_task(rotor, rng, 0)):
+            crossing = first_crossing(task.flight, HORIZON, task.radial_speed)
+            if crossing is None or crossing.slope < 1e-3:
+                continue
+            blocks.add(min(int(crossing.time / longest_block(task)), 2))
+            early, late = crossing.time * (1.0 - 1e-7), crossing.time * (1.0 + 1e-7)
+            assert run(task, early) == (Outcome.CLEAR, early)
+            outcome, time = run(task, late)
+            assert outcome == Outcome.CONTACT
+            assert time == pytest.approx(crossing.time, abs=4 * task.noise(time) / crossing.slope)
+            if time < longest_block(task) / SHORTENING ** (LEVELS - 1):
+                assert run(task, time) == (outcome, time)
+                exact += 1
+    assert blocks == {0, 1, 2}
+    assert exact > 0
+
+
+def touching_task(rotor, rng):
+    """A flight whose distance has a maximum on the wall, but for the rounding of its start; and that time."""
+    normal = unit(rng.uniform(0.0, 6.0))
+    flight = flight_of(rotor.parameters, normal, acb(0, rng.normal()) * normal)
+    back = rng.uniform(0.05, 1.0)
+    if not flight.level(0.0)[2] < -1e-2 or not all(flight.level(-share * back)[0] < 0 for share in (0.1, 0.5, 1.0)):
+        return None
+    start = flight.state(-back)
+    return task_from_state(rotor, complex(start[0]), complex(start[1])), back
+
+
+@pytest.mark.parametrize("steps", [False, True], ids=["search", "steps"])
+def test_a_flight_that_touches_the_wall_is_never_clear(steps):
+    tried = 0
+    for rotor, rng in rotors(920, 30):
+        task, time = touching_task(rotor, rng) or (None, None)
+        if task is None or time > 0.9 * longest_block(task):
+            continue
+        search = by_steps if steps else run
+        assert search(task, longest_block(task))[0] != Outcome.CLEAR
+        before = time - 1e-2 * min(time, 1.0)
+        assert search(task, before) == (Outcome.CLEAR, before)
+        tried += 1
+    assert tried >= 10
+
+
+def test_nothing_happens_in_no_time_even_within_rounding_of_the_wall():
+    rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
+    task = task_from_state(rotor, 1.0 - 1e-15, -0.5j * (1.0 - 1e-15))
+    assert run(task, 0.0) == (Outcome.CLEAR, 0.0)
+
+
 # ------------------------------------------------------------------------------------------------ its parts
 
 
@@ -277,6 +340,36 @@ def test_bounds_of_steps_are_first_roots():
     assert events._departure(0.0, 0.0, 3.0) == events._departure(0.0, 1.0, 3.0) == 0.0
 
 
+def random_bounds(count):
+    """Values, slopes, second derivatives and bounds of the third, of all sizes."""
+    rng = np.random.default_rng(43)
+    for _ in range(count):
+        value, jerk = -(10.0 ** rng.uniform(-6, 1)), 10.0 ** rng.uniform(-2, 2)
+        slope, bend = rng.choice([-1.0, 1.0], 2) * 10.0 ** rng.uniform(-4, 1, 2)
+        yield value, slope, bend, jerk
+
+
+def test_no_motion_within_the_bounds_crosses_during_a_safe_step():
+    """The cubics whose third derivative is the bound all along; where the bound of the step is met it ends there."""
+    ends = 0
+    for value, slope, bend, jerk in random_bounds(800):
+        step = events._safe_step(value, slope, bend, 1e9, jerk)
+        crossing = smallest_positive_root(jerk / 6.0, 0.5 * bend, slope, value)
+        assert 0.0 < step <= crossing * (1.0 + 1e-6)
+        ends += step > 0.999 * crossing
+        # The longer of the two steps is taken: with a small bound of f'' that of the parabola.
+        curvature = abs(bend) + 1e-3 * jerk
+        parabola = smallest_positive_root(0.5 * curvature, slope, value)
+        assert events._safe_step(value, slope, bend, curvature, jerk) == pytest.approx(max(step, parabola), rel=1e-6)
+    assert ends > 80
+
+
+def test_a_rise_lasts_as_long_as_the_third_derivative_allows():
+    for _, slope, bend, jerk in random_bounds(300):
+        expected = smallest_positive_root(-0.5 * jerk, bend, abs(slope))
+        assert events._rising_time(abs(slope), bend, jerk) == pytest.approx(expected, rel=1e-6)
+
+
 def test_a_householder_step_errs_by_the_fourth_power():
     """On ``e^t + t²/2 − 1``, which vanishes at zero, and on its negative."""
     for side in (1.0, -1.0):
@@ -299,3 +392,196 @@ def test_sizes_of_terms_bound_rounding_and_derivatives():
         # f'' = 2(|ẏ|² + Re ȳÿ) and f''' = 2 Re(3 conj(ẏ) ÿ + ȳ y⃛), with |y| at most one.
         expected = 2.0 * (speed**2 + second), 2.0 * (3.0 * speed * second + third), speed
         np.testing.assert_allclose(events._bounds(task.table, work), expected, rtol=1e-14)
+
+
+def at_start(task):
+    """A flight as the parts of the search get it: workspace, displacement, ``f``, size of the terms and bounds."""
+    work = workspace(len(task.amplitudes))
+    work.current[:] = task.amplitudes
+    origin = displacement(task.arrays, task.plane, task.amplitudes)
+    load_products(task.arrays, task.plane, origin, work)
+    level = squared_modulus(origin) - 1.0 if task.start == events.INSIDE else 0.0
+    spread = events._spread(task.arrays, task.plane, task.amplitudes)
+    return work, origin, level, spread, events._bounds(task.table, work)
+
+
+def by_steps(task, horizon):
+    """Outcome and time of the first crossing on the longest block by certified steps alone; checks the state there."""
+    work, origin, level, spread, bounds = at_start(task)
+    outcome, time = events._step_safely(
+        task.arrays, task.table, task.plane, origin, level, task.start, spread, horizon, bounds, work
+    )
+    if outcome == Outcome.CONTACT:
+        position, speed, _ = (complex(value) for value in task.flight.state(time))
+        noise = 16 * EPSILON * task.flight.spread(time) * (1.0 + task.flight.fastest * time)
+        assert abs(displacement(task.arrays, task.plane, work.arrival) - position) <= noise
+        assert abs(velocity(task.arrays, task.plane, work.arrival) - speed) <= noise * (1.0 + task.flight.fastest)
+    return outcome, time
+
+
+def test_the_level_and_its_derivatives_at_a_time():
+    """Against derivatives of the reference; the third one is that of the second, by differences."""
+    for rotor, rng in rotors(1010, 10):
+        for task in (inside_task(rotor, rng), random_wall_task(rotor, rng, 0)):
+            work, origin, level, _, _ = at_start(task)
+            time = rng.uniform(0.0, 1.0) * longest_block(task)
+            found = events._measure(task.arrays, task.table, task.plane, origin, level, time, work)
+            step = arb(1e-12)
+            before, after = task.flight.level(time - step)[2], task.flight.level(time + step)[2]
+            expected = [float(value) for value in (*task.flight.level(time), (after - before) / (2 * step))]
+            size = task.noise(time, 1.0) * (1.0 + task.flight.fastest) ** np.arange(4)
+            assert np.all(np.abs(np.array(found) - expected) <= 64 * EPSILON * size)
+
+
+def longest_block(task):
+    return float(task.table.durations[0])
+
+
+@pytest.mark.parametrize("kind", ["inside", "near-grazing", "fast", "late-chatter", "slow", "along-the-wall"])
+def test_certified_steps_alone_find_the_first_crossing(kind):
+    tally = Tally("steps")
+    kinds = ["fast", "late-chatter", "slow", "along-the-wall"]
+    for rotor, rng in rotors(1000 + len(kind), sized(10, 5, 200)):
+        for _ in range(6):
+            if kind == "inside":
+                task = inside_task(rotor, rng)
+            elif kind == "near-grazing":
+                task, _ = near_grazing_task(rotor, rng) or (None, None)
+            else:
+                task = random_wall_task(rotor, rng, kinds.index(kind))
+            if task is not None:
+                compare(task, longest_block(task), tally, by_steps)
+    tally.check()
+    assert tally.tried >= 10
+    assert tally.grazing == 0
+
+
+# ---------------------------------------------------------------------------------------------- certified roots
+
+
+def polish(task, guess, floor, doubt, curvature=None):
+    """Whether the root near a time is certified to be the first, and the root."""
+    work, origin, level, _, bounds = at_start(task)
+    most = bounds[0] if curvature is None else curvature
+    return events._polish(task.arrays, task.table, task.plane, origin, level, guess, most, floor, doubt, work), bounds[
+        0
+    ]
+
+
+def flights_that_cross(seed, count):
+    """Flights from inside that cross the wall on the longest block, and their crossings."""
+    for rotor, rng in rotors(seed, count):
+        for _ in range(20):
+            task = inside_task(rotor, rng)
+            crossing = first_crossing(task.flight, longest_block(task))
+            if crossing is not None and crossing.slope > 1e-2:
+                yield rotor, rng, task, crossing
+                break
+
+
+def test_a_root_is_certified_where_its_slope_proves_it_the_first_and_only_there():
+    """Nothing is certified where ``f'² ≤ 4 R M₂``; where it is ``5 R M₂`` the root is, to rounding."""
+    tried = 0
+    for _, rng, task, crossing in flights_that_cross(1100, 20):
+        guess = crossing.time + rng.uniform(-1.0, 1.0) * task.table.spacing
+        (certified, time), curvature = polish(task, guess, 0.0, 0.0)
+        assert certified
+        assert time == pytest.approx(crossing.time, abs=4 * task.noise(time) / crossing.slope)
+        for share in (0.0, 0.5, 1.0):
+            for factor, expected in ((4.0, False), (4.2, False), (5.0, True), (100.0, True)):
+                error = crossing.slope**2 / (factor * curvature)
+                floor, doubt = share * error, (1.0 - share) * error / crossing.time
+                assert polish(task, guess, floor, doubt)[0][0] == expected
+        tried += 1
+    assert tried >= 15
+
+
+def test_no_root_is_certified_where_nothing_bounds_the_second_derivative():
+    for _, _, task, crossing in flights_that_cross(1110, 3):
+        with np.errstate(invalid="ignore"):
+            assert not polish(task, crossing.time, 0.0, 0.0, math.inf)[0][0]
+
+
+def test_no_root_is_certified_beyond_the_tables():
+    """Flights that cross the wall just after the longest block ends, and just before."""
+    for rotor, _, task, crossing in flights_that_cross(1120, 10):
+        block, spacing = longest_block(task), task.table.spacing
+        for late, certified in ((0.2, False), (1e-3, False), (-1e-3, True), (-0.2, True)):
+            start = task.flight.state(crossing.time - block - late * spacing)
+            moved = task_from_state(rotor, complex(start[0]), complex(start[1]))
+            (found, _), curvature = polish(moved, block, 0.0, 0.0)
+            assert found == certified or (certified and curvature > 1e3)
+
+
+def test_neither_the_start_on_the_wall_nor_a_way_in_is_certified():
+    for rotor, rng in rotors(1130, 10):
+        task = wall_task(rotor, rng.uniform(0.0, 6.0), -(10.0 ** rng.uniform(-3.0, 0.0)), rng.normal())
+        direction = complex(np.exp(1j * rng.uniform(0.0, 6.0)))
+        coming_in = task_from_state(rotor, 1.001 * direction, -0.5 * direction)
+        for node in range(4):
+            assert_way_out(task, node * float(task.table.spacing))
+            assert_way_out(coming_in, node * 1e-3)
+
+
+def assert_way_out(task, guess):
+    """If anything is certified from this guess on, it is a crossing from inside some time after the start."""
+    (certified, time), _ = polish(task, guess, 0.0, 0.0)
+    if certified:
+        value, slope, _ = (float(number) for number in task.flight.level(time))
+        assert abs(value) <= task.noise(time)
+        assert slope > 0.0
+        assert time > 0.0
+
+
+# -------------------------------------------------------------------------------- what comes within its rounding
+
+
+def decide(task, time, block, rounding):
+    work, origin, level, _, bounds = at_start(task)
+    outcome, end = events._decide(
+        task.arrays, task.table, task.plane, origin, level, time, block, bounds, rounding, work
+    )
+    position = complex(task.flight.state(end)[0])
+    assert abs(displacement(task.arrays, task.plane, work.arrival) - position) <= task.noise(end)
+    return outcome, end
+
+
+def test_what_rises_beyond_its_rounding_crosses_where_it_is_zero():
+    """A rounding error much larger than that of doubles, to see how it is followed."""
+    for _, rng, task, crossing in flights_that_cross(1200, 20):
+        curvature = at_start(task)[-1][0]
+        rounding = crossing.slope**2 / curvature * 10.0 ** rng.uniform(-9.0, -3.0)
+        before = crossing.time - 0.9 * rounding / crossing.slope
+        outcome, time = decide(task, before, longest_block(task), rounding)
+        assert outcome == Outcome.CONTACT
+        assert time == pytest.approx(crossing.time, abs=4 * task.noise(time) / crossing.slope)
+        # A block that ends before the rise is beyond doubt is free of a crossing, so far as can be said.
+        end = crossing.time + 0.5 * rounding / crossing.slope
+        assert decide(task, before, end, rounding) == (Outcome.CLEAR, end)
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_what_turns_back_within_its_rounding_grazes_at_its_peak(side):
+    tried = 0
+    for rotor, rng in rotors(1210, 20):
+        height = 10.0 ** rng.uniform(-8.0, -5.0)
+        direction = complex(np.exp(1j * rng.uniform(0.0, 6.0)))
+        peak = math.sqrt(1.0 + side * height) * direction
+        spin = 1j * rng.normal() * direction
+        at_peak = task_from_state(rotor, peak, spin)
+        bend = float(at_peak.flight.level(0.0)[2])
+        if bend > -1e-2:
+            continue
+        # A start below the wall, and within its rounding.
+        back = math.sqrt(2.0 * height / -bend) * (1.3 if side > 0 else 0.5)
+        start = at_peak.flight.state(-back)
+        task = task_from_state(rotor, complex(start[0]), complex(start[1]))
+        outcome, time = decide(task, 0.0, longest_block(task), 2.0 * height)
+        assert outcome == Outcome.GRAZING
+        assert time == pytest.approx(back, abs=1e-3 * back)
+        # Of a rounding error a little smaller than its height it is seen to rise.
+        outcome, time = decide(task, 0.0, longest_block(task), 0.99 * height)
+        assert outcome == (Outcome.CONTACT if side > 0 else Outcome.GRAZING)
+        assert time == pytest.approx(back - (math.sqrt(2.0 * height / -bend) if side > 0 else 0.0), rel=1e-2)
+        tried += 1
+    assert tried >= 5

@@ -103,7 +103,6 @@ def _search_block(rotor, table, plane, horizon, start, work):
     floor = ROUNDING * spread
     load_products(rotor, plane, origin, work)
     bounds = _bounds(table, work)
-    duration = table.durations[0]
     for depth in range(LEVELS):
         duration = table.durations[depth]
         remainder = load_polynomial(table, depth, level, work)
@@ -178,7 +177,7 @@ def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, w
         time += step
         if abs(step) * curvature < POLISHED * slope:
             nudge(rotor, work.arrival, step)
-            return time > 0.0, time
+            return True, time
     return False, time
 
 
@@ -210,16 +209,23 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
             step = -value / slope
             nudge(rotor, work.arrival, step)
             return CONTACT, time + step
-        # A bound of f'' that holds for steps up to `reach` takes longer ones along a wall that is nearly followed.
         # Steps end where half the rounding is left to zero: none can pass a crossing that rounding hides.
-        top = value + 0.5 * rounding
-        reach = (-top / jerk) ** (1.0 / 3.0)
-        nearby = min(reach, _first_root(top, slope, bend + jerk * reach / 3.0))
-        step = max(nearby, _first_root(top, slope, curvature))
+        step = _safe_step(value + 0.5 * rounding, slope, bend, curvature, jerk)
         if time + step == time:
             return (CONTACT if slope > 0.0 else GRAZING), time
         time += step
     return CLEAR, block
+
+
+@part
+def _safe_step(value, slope, bend, curvature, jerk):
+    """Time up to which ``f < 0`` stays negative whatever ``f'' ≤ M₂`` and ``f''' ≤ M₃`` do.
+
+    A bound of ``f''`` that holds for steps up to `reach` takes longer ones along a wall that is nearly followed.
+    """
+    reach = (-value / jerk) ** (1.0 / 3.0)
+    nearby = min(reach, _first_root(value, slope, bend + jerk * reach / 3.0))
+    return max(nearby, _first_root(value, slope, curvature))
 
 
 @part
@@ -246,16 +252,15 @@ def _first_root(value, slope, bend):
 def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, work):
     """Whether ``f``, zero to rounding at a time up to which nothing crosses, goes on to rise above its rounding.
 
-    It is followed over stretches on which ``f' + f''τ − M₃τ²/2 > 0`` proves it rising, until the rise is beyond
-    doubt; the root is then bisected, for a derivative as small as this one may be does not lead to it.
+    It is followed over stretches on which it is proven to rise, until the rise is beyond doubt; the root is then
+    bisected, for a derivative as small as this one may be does not lead to it.
     """
     first = time
     value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
     while value <= rounding:
         if slope <= 0.0:
             return GRAZING, time
-        rise = 2.0 * slope / (math.sqrt(bend * bend + 2.0 * bounds[1] * slope) - bend)
-        later = min(time + rise, block)
+        later = min(time + _rising_time(slope, bend, bounds[1]), block)
         if later == time:
             return (CLEAR if time == block else GRAZING), time
         time = later
@@ -270,6 +275,12 @@ def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, w
         middle = 0.5 * (first + time)
     _probe(rotor, table, plane, origin, level, time, work)
     return CONTACT, time
+
+
+@part
+def _rising_time(slope, bend, jerk):
+    """Time up to which ``f`` rises, if ``f' > 0`` now: the root of ``f' + f''τ − M₃τ²/2``, which bounds it from below."""
+    return 2.0 * slope / (math.sqrt(bend * bend + 2.0 * jerk * slope) - bend)
 
 
 @part
