@@ -166,14 +166,14 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
         lines.append("It is lost already without any speed.")
     elif smallest.fresh:
         said = (
-            "lies between them"
+            "lies between these two sizes"
             if smallest.size is not None
             else f"is larger than the largest tried, {shown(smallest.largest)}"
         )
         beyond = " beyond the proven size and" if smallest.harmless > 0.0 else ""
         lines.append(
             f"Up to {shown(smallest.all_back)} all that were tried came back, {smallest.fresh} of them fresh: with 95 % confidence "
-            f"less than {100.0 * smallest.share_below:.2g} % of those{beyond} up to there are lost. As far as {smallest.tried} trials "
+            f"fewer than {100.0 * smallest.share_below:.2g} % of those{beyond} up to that size are lost. As far as {smallest.tried} trials "
             f"tell, the smallest that is lost {said}."
         )
     elif smallest.size is not None:
