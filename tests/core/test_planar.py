@@ -102,7 +102,7 @@ def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
 
 def test_radial_profile_agrees_with_dense_sampling():
     seen = 0
-    for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(sized(30, 3), 8)]:
+    for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(sized(30, 0), 8)]:
         for orbit in single_impact_orbits(jeffcott(parameters), 15.0):
             if orbit.slip < 0 or not 1e-3 < abs(orbit.radial_speed) < 30.0 or orbit.period < 1e-2:
                 continue
@@ -110,7 +110,7 @@ def test_radial_profile_agrees_with_dense_sampling():
             numbers = (parameters.gamma, parameters.omega, parameters.mu, parameters.d, orbit.period, speed)
             height, top, _ = radial_profile(*numbers)
             outward, excess = radial_course(*numbers, 0.4 * orbit.period)
-            times = np.linspace(0.0, orbit.period, 20001)[1:-1]
+            times = np.linspace(0.0, orbit.period, sized(20_001, 5_001))[1:-1]
             square = np.abs(orbit.path(times)) ** 2
             assert excess == pytest.approx(np.interp(0.4 * orbit.period, times, square) - 1.0, abs=1e-5 * square.max())
             h = times[1] - times[0]
