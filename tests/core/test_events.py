@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -27,7 +28,7 @@ from reference import first_crossing, plane_flight, unit
 from carom.core import events
 from carom.core.block import load_products
 from carom.core.flow import displacement, squared_modulus, velocity
-from carom.core.layout import LEVELS, rotor_record, workspace
+from carom.core.layout import DEGREE, LEVELS, record, rotor_record, workspace
 from carom.core.table import SHORTENING, flight_table
 from carom.outcome import Outcome
 from carom.rotors import jeffcott
@@ -309,6 +310,34 @@ def test_nothing_happens_in_no_time_even_within_rounding_of_the_wall():
     rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
     task = task_from_state(rotor, 1.0 - 1e-15, -0.5j * (1.0 - 1e-15))
     assert run(task, 0.0) == (Outcome.CLEAR, 0.0)
+
+
+def with_errors(task, size, signs):
+    """The same flight with a table whose polynomials err by up to ``size`` at the end of a block, as their bound says.
+
+    On the first block they err as the signs say: −1 where the distance from the wall is to seem as large as it may be.
+    """
+    products = at_start(task)[0].products
+    error = size / np.abs(products).sum()
+    table = record(**{name: np.array(task.table[name]) for name in task.table.dtype.names})
+    sides = signs * np.sign(products)
+    table.coefficients += error * sides[None, :, None] * np.arange(1, DEGREE + 1) / DEGREE
+    table.errors += error
+    return replace(task, table=table)
+
+
+@pytest.mark.parametrize("kind", ["seems-far", "seems-near", "mixed"])
+def test_whatever_polynomial_its_error_bound_allows_the_first_crossing_is_found(kind):
+    """Not only the polynomials of the tables, which are far closer: what is proven needs no more than their bound."""
+    tally = Tally("errors of polynomials")
+    for rotor, rng in rotors(930, sized(15, 8, 600)):
+        tasks = [inside_task(rotor, rng), random_wall_task(rotor, rng, 0)]
+        tasks += [drawn[0] for drawn in (near_grazing_task(rotor, rng) for _ in range(4)) if drawn is not None]
+        for task in tasks:
+            signs = {"seems-far": -1.0, "seems-near": 1.0}.get(kind, rng.choice([-1.0, 1.0], 8))
+            compare(with_errors(task, 10.0 ** rng.uniform(-6.0, 0.0), signs), 5.0, tally)
+    tally.check()
+    assert tally.grazing == 0
 
 
 # ------------------------------------------------------------------------------------------------ its parts

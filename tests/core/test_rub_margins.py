@@ -1,0 +1,230 @@
+"""The parts of lasting contact that decide how long it lasts, each alone, on series written down for it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from flights import EPSILON
+from machines import PAPER, random_parameters
+
+from carom import jeffcott
+from carom.core import rub
+from carom.core.layout import ORDER, rub_workspace
+from carom.outcome import Phase
+
+FLIGHT, FORWARD, BACKWARD, ROLLING = (int(phase) for phase in Phase)
+FRICTION = 0.25
+ARRAYS = jeffcott(PAPER.replace(mu=FRICTION)).arrays
+
+
+def falling(time, height=1.0):
+    """Coefficients of a margin that falls in a line from a height to zero at a time."""
+    margin = np.zeros(ORDER + 1)
+    margin[:2] = height, -height / time
+    return margin
+
+
+def transition(phase, step, *, push, slip=None, grip=None):
+    """What comes first of margins that are given."""
+    work = rub_workspace(2)
+    work.push[:] = push
+    if slip is not None:
+        work.slip[:] = slip
+    if grip is not None:
+        work.grip[:] = grip
+    return rub.first_transition(ARRAYS, 0, int(phase), step, work)
+
+
+# ---------------------------------------------------------------------------------------------------- transitions
+
+
+@pytest.mark.parametrize(("phase", "sign"), [(FORWARD, 1.0), (BACKWARD, -1.0)])
+def test_sliding_ends_with_the_first_of_push_and_slip(phase, sign):
+    lasts = np.full(ORDER + 1, 0.0)
+    lasts[0] = 1.0
+    assert transition(phase, 0.5, push=lasts, slip=sign * lasts) == (0.5, phase, False)
+    assert transition(phase, 0.5, push=falling(0.3), slip=sign * lasts) == (pytest.approx(0.3), FLIGHT, False)
+    assert transition(phase, 0.5, push=lasts, slip=sign * falling(0.3)) == (pytest.approx(0.3), phase, True)
+    assert transition(phase, 0.5, push=falling(0.3), slip=sign * falling(0.2)) == (pytest.approx(0.2), phase, True)
+    assert transition(phase, 0.5, push=falling(0.2), slip=sign * falling(0.3)) == (pytest.approx(0.2), FLIGHT, False)
+    assert transition(phase, 0.5, push=falling(0.6), slip=sign * falling(0.7)) == (0.5, phase, False)
+    # Slip of the other sign has ended.
+    assert transition(phase, 0.5, push=lasts, slip=-sign * lasts) == (0.0, phase, True)
+
+
+def test_rolling_ends_with_the_first_of_push_and_the_sides_of_the_cone():
+    def rolls(push, forward, backward, step=0.5):
+        """The friction it needs leaves the cone on each side at a given time, or never."""
+        work = rub_workspace(2)
+        work.push[:] = push
+        sides = {1.0: forward, -1.0: backward}
+        for side, time in sides.items():
+            if time is not None:
+                # The margin μN + side·G falls where G does as much more than μN.
+                work.grip[:] = side * (falling(time) - FRICTION * push)
+        return rub.first_transition(ARRAYS, 0, ROLLING, step, work)
+
+    lasts = np.zeros(ORDER + 1)
+    lasts[0] = 8.0
+    assert rolls(lasts, None, None) == (0.5, ROLLING, False)
+    assert rolls(falling(0.3, 8.0), None, None) == (pytest.approx(0.3), FLIGHT, False)
+    assert rolls(lasts, 0.3, None) == (pytest.approx(0.3), FORWARD, False)
+    assert rolls(lasts, None, 0.3) == (pytest.approx(0.3), BACKWARD, False)
+    assert rolls(falling(0.4, 8.0), 0.3, None) == (pytest.approx(0.3), FORWARD, False)
+    assert rolls(falling(0.4, 8.0), None, 0.3) == (pytest.approx(0.3), BACKWARD, False)
+    assert rolls(lasts, 0.6, None) == rolls(lasts, None, 0.6) == (0.5, ROLLING, False)
+
+
+def test_margins_within_their_rounding_do_not_end_a_phase():
+    """The push may fall below zero by its rounding error, the room in the cone by that of both its terms."""
+    amplitudes = np.array([0.3 + 0.1j, -0.2j])
+    rounding = rub.push_rounding(ARRAYS, 0, amplitudes)
+    lasts = np.zeros(ORDER + 1)
+    lasts[0] = 1.0
+    for share, ends in ((0.9, False), (1.1, True)):
+        work = rub_workspace(2)
+        work.series[0] = amplitudes
+        work.slip[:], work.push[0] = lasts, -share * rounding
+        assert rub.first_transition(ARRAYS, 0, FORWARD, 0.5, work) == (
+            (0.0, FLIGHT, False) if ends else (0.5, FORWARD, False)
+        )
+        for side, phase in ((1.0, BACKWARD), (-1.0, FORWARD)):
+            work.push[0] = 1.0
+            work.grip[0] = side * (FRICTION + share * (1.0 + FRICTION) * rounding)
+            expected = (0.0, phase, False) if ends else (0.5, ROLLING, False)
+            assert rub.first_transition(ARRAYS, 0, ROLLING, 0.5, work) == expected
+
+
+# ----------------------------------------------------------------------------------------------- length of a step
+
+
+def geometric(work, mode, start, radius):
+    """Coefficients of ``start/(1 − t/radius)``."""
+    work.series[:, mode] = start / radius ** np.arange(ORDER + 1.0)
+
+
+def test_a_step_is_the_same_share_of_the_radius_of_convergence_at_any_scale():
+    for start, radius in ((1.0, 0.5), (40.0, 0.02), (40.0, 3.0)):
+        work = rub_workspace(2)
+        geometric(work, 0, start, radius)
+        assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION * radius, rel=1e-12)
+        geometric(work, 1, 0.5j * start, 0.5 * radius)
+        assert rub.rub_step(work) < rub.STEP_FRACTION * radius
+        # What is left out, summed up, is below the rounding of the sum.
+        left_out = start * rub.STEP_FRACTION ** (ORDER + 1) / (1.0 - rub.STEP_FRACTION)
+        assert left_out < EPSILON * start
+    # Amplitudes below one are measured by one.
+    geometric(work, 0, 1e-3, 0.5)
+    geometric(work, 1, 0.0, 1.0)
+    assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION * 0.5 * 1e3 ** (1.0 / ORDER), rel=1e-12)
+
+
+def test_either_of_the_last_two_coefficients_decides_where_the_other_is_zero():
+    for order in (ORDER, ORDER - 1):
+        work = rub_workspace(2)
+        work.series[0, 0], work.series[order, 1] = 2.0, 2.0j * 5.0**order
+        assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 5.0, rel=1e-12)
+    work.series[ORDER, 0] = 2.0 * 4.0**ORDER
+    assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 5.0, rel=1e-12)
+    work.series[ORDER, 0] = 2.0 * 6.0**ORDER
+    assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 6.0, rel=1e-12)
+
+
+def test_a_step_of_a_rotor_at_rest_ends_at_one():
+    assert rub.rub_step(rub_workspace(2)) == 1.0
+    work = rub_workspace(2)
+    geometric(work, 0, 1.0, 100.0)
+    assert rub.rub_step(work) == 1.0
+
+
+def test_a_sum_is_that_of_the_series():
+    random = np.random.default_rng(5)
+    work, moved = rub_workspace(3), np.empty(3, complex)
+    work.series[:] = random.normal(size=(ORDER + 1, 3)) + 1j * random.normal(size=(ORDER + 1, 3))
+    for time in (0.0, 0.3, 1.1):
+        rub.sum_series(work, time, moved)
+        assert moved == pytest.approx(time ** np.arange(ORDER + 1.0) @ work.series, rel=1e-14)
+
+
+# ---------------------------------------------------------------------------------------------------------- rounding
+
+
+def sizes(terms):
+    return np.abs(terms.real) + np.abs(terms.imag)
+
+
+def test_rounding_errors_are_the_sums_of_the_sizes_of_their_terms():
+    random = np.random.default_rng(6)
+    for _ in range(20):
+        arrays = jeffcott(random_parameters(random)).arrays
+        amplitudes = random.normal(size=2) + 1j * random.normal(size=2)
+        spread = sizes(arrays.offsets)[0] + sizes(arrays.rows[0] * amplitudes).sum()
+        speed = 1.0 + sizes(arrays.rate_rows[0] * amplitudes).sum()
+        assert rub.speed_rounding(arrays, 0, amplitudes) == pytest.approx(64 * EPSILON * spread * speed, rel=1e-12)
+        row = arrays.acceleration_rows[0]
+        force = abs(arrays.rate_rows[0] @ amplitudes) ** 2 + sizes(row * amplitudes).sum()
+        force += sizes(row * arrays.rows[0]).sum() / (np.abs(arrays.rows[0]) ** 2).sum()
+        assert rub.push_rounding(arrays, 0, amplitudes) == pytest.approx(64 * EPSILON * spread * force, rel=1e-12)
+
+
+# ------------------------------------------------------------------------------------------------------- first falls
+
+
+def polynomial(*roots, lead=1.0):
+    """Coefficients of a margin with these zeros, from the lowest power on."""
+    margin = np.zeros(ORDER + 1)
+    coefficients = lead * np.poly(roots)[::-1]
+    margin[: len(coefficients)] = coefficients
+    return margin
+
+
+def test_the_first_fall_of_polynomials_with_known_zeros():
+    """A fall at each zero that is passed downward; double zeros are no falls; nothing beyond the step."""
+    for first, second in ((0.2, 0.7), (1e-3, 0.9), (0.45, 0.46)):
+        assert rub._first_fall(polynomial(first, second), 1.0, 1e-14) == pytest.approx(first, abs=1e-12)
+        assert rub._first_fall(polynomial(-first, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
+        assert rub._first_fall(polynomial(-first, second, lead=-1.0), 0.999 * second, 1e-14) == 0.999 * second
+        # It rises from a negative start: that is a fall at the start.
+        assert rub._first_fall(polynomial(first, second, lead=-1.0), 1.0, 1e-14) == 0.0
+        # From zero up, and down again.
+        assert rub._first_fall(polynomial(0.0, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
+    assert rub._first_fall(polynomial(0.4, 0.4, 0.8, lead=-1.0), 1.0, 1e-14) == pytest.approx(0.8, abs=1e-12)
+    assert rub._first_fall(polynomial(0.4, 0.4), 1.0, 1e-14) == 1.0
+
+
+def test_the_value_and_slope_of_a_margin():
+    margin = np.random.default_rng(7).normal(size=ORDER + 1)
+    derivative = margin[1:] * np.arange(1, ORDER + 1)
+    for time in (0.0, 0.4, 1.3):
+        value, slope = rub._value_and_slope(margin, time)
+        assert value == pytest.approx(np.polynomial.polynomial.polyval(time, margin), rel=1e-12)
+        assert slope == pytest.approx(np.polynomial.polynomial.polyval(time, derivative), rel=1e-12)
+
+
+def test_a_zero_is_looked_for_from_later_times_on_and_never_left_of_the_start():
+    margin = polynomial(0.3, lead=-1.0) + polynomial(0.3, 0.3, lead=-5.0)
+    for time in (0.30001, 0.31, 0.5, 1.0):
+        assert rub._zero_before(margin, time) == pytest.approx(0.3, abs=1e-14)
+    below = falling(1.0)
+    below[0] = -1.0
+    assert rub._zero_before(below, 0.5) == 0.0
+    # Where it does not fall there is no zero to look for.
+    assert rub._zero_before(-below, 0.5) == 0.5
+
+
+def test_a_turn_is_passed_in_its_direction_only():
+    """A rotation at unit rate either way past a reference half a radian ahead, or behind."""
+    for direction in (1.0, -1.0):
+        work = rub_workspace(2)
+        orders = np.array([math.factorial(k) for k in range(ORDER + 1)], float)
+        work.position[:] = (1j * direction) ** np.arange(ORDER + 1) / orders
+        for reference in (1.0, 1j, np.exp(0.2j)):
+            turned = work.position * 1.0
+            ahead = complex(np.exp(0.5j * direction))
+            assert rub.turn_ahead(ahead, direction, 0.9, work) == pytest.approx(0.5, abs=1e-14)
+            assert rub.turn_ahead(ahead, direction, 0.4, work) == 0.4
+            work.position[:] = turned * reference
+            assert rub.turn_ahead(ahead * reference, direction, 0.9, work) == pytest.approx(0.5, abs=1e-14)
+            work.position[:] = turned
