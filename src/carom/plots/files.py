@@ -10,7 +10,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from carom.outcome import InputError
-from carom.plots.style import applied
+from carom.plots.arrangement import without_layout
+from carom.plots.style import drawing
 
 __all__ = ["save"]
 
@@ -66,7 +67,7 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
 
 def _rendered(figure: Figure, name: str) -> bytes:
     buffer = BytesIO()
-    with applied():
+    with drawing(), without_layout(figure):
         figure.savefig(buffer, format=name, metadata=_UNDATED[name])
     return buffer.getvalue()
 

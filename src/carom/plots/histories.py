@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from carom.parameters import Scales, Zones
     from carom.trajectories import Trajectory
 
-__all__ = ["radius"]
+__all__ = ["draw_radius", "radius"]
 
 _PERIODS = 3
 _Conversion = Callable[[ArrayLike], ArrayLike]
@@ -68,23 +68,10 @@ def radius(
         axes tells mm and ms.
     """
     if hasattr(motion, "path"):
-        history = _of_orbit(cast("Orbit", motion), periods)
         title = title or orbit_title(cast("Orbit", motion))
-    else:
-        history = _of_trajectory(motion)
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
-    scales = motion.rotor.scales
-    _set_range(drawn, history, zones)
-    _wall_line(drawn)
-    _curve(drawn, history)
-    if history.trajectory is not None:
-        bands_over_time(drawn, history.trajectory)
-    _marks(drawn, history)
-    drawn.set_xlabel(axis_time(scales))
-    drawn.set_ylabel(axis_length("radius", "$r$", scales))
-    if zones is not None:
-        _bands(drawn, zones)
-    _second_axes(drawn, scales)
+    draw_radius(drawn, motion, zones, periods)
+    _second_axes(drawn, motion.rotor.scales)
     if axes is not None:
         drawn.set_title(title or "")
         legend_below(drawn)
@@ -93,6 +80,22 @@ def radius(
         figure.suptitle(title)
     key(figure, [drawn], columns=5)
     return figure
+
+
+def draw_radius(axes: Axes, motion: Trajectory | Orbit, zones: Zones | None = None, periods: int = _PERIODS) -> None:
+    """The same without title, legend and second axes."""
+    history = _of_orbit(cast("Orbit", motion), periods) if hasattr(motion, "path") else _of_trajectory(motion)
+    scales = motion.rotor.scales
+    _set_range(axes, history, zones)
+    _wall_line(axes)
+    _curve(axes, history)
+    if history.trajectory is not None:
+        bands_over_time(axes, history.trajectory)
+    _marks(axes, history)
+    axes.set_xlabel(axis_time(scales))
+    axes.set_ylabel(axis_length("radius", "$r$", scales))
+    if zones is not None:
+        _bands(axes, zones)
 
 
 @dataclass(frozen=True)

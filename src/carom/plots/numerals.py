@@ -31,7 +31,7 @@ _LEADER, _APART = 12.0, 2.0
 
 
 def number_regions(axes: Axes, found: RegionMap, units: Floats) -> None:
-    """Write the numerals of all regions into axes that already hold all else, with their limits.
+    """Write the numerals of all regions into axes that already hold all else, with their limits and their place.
 
     Parameters
     ----------
@@ -44,7 +44,6 @@ def number_regions(axes: Axes, found: RegionMap, units: Floats) -> None:
     figure = axes.get_figure(root=True)
     if figure is None:
         return
-    figure.draw_without_rendering()
     point = figure.dpi / 72.0
     taken = _drawn(axes, found, units) / point
     frame = np.reshape(axes.bbox.extents, (2, 2)) / point
@@ -114,8 +113,11 @@ def _aside(place: Floats, curves: Floats, taken: Floats, frame: Floats, half: Fl
 
 def _apart(first: Floats, second: Floats, curves: Floats) -> bool:
     """Whether the straight line between two places keeps clear of all curves."""
+    # Only what lies in the box of the line can be near it: few of the thousands of points of the curves.
+    low, high = np.minimum(first, second) - _APART, np.maximum(first, second) + _APART
+    near = curves[((curves >= low) & (curves <= high)).all(axis=1)]
     path = first + np.linspace(0.0, 1.0, 40)[:, None] * (second - first)
-    return bool((np.abs(path[:, None] - curves).max(axis=2) > _APART).all()) if len(curves) else True
+    return bool((np.abs(path[:, None] - near).max(axis=2) > _APART).all())
 
 
 def _outline(number: int, place: Floats) -> Floats:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
 
+from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.numerals import number_regions
 from carom.plots.style import TWO_COLUMNS, styled
@@ -65,6 +66,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     figure.legend(handles=lines, loc="outside upper center", ncols=3)
     handles = [Line2D([], [], ls="none", label=words) for words in listed]
     figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
+    arrange(figure)
     number_regions(drawn, found, units)
     return figure
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from carom.plots.histories import radius
+from carom.plots.histories import draw_radius
 from carom.plots.plane import Floats, key, one_axes
 from carom.plots.style import LOOKS, REGIMES, TWO_COLUMNS, WORKS, styled
 from carom.plots.words import axis_time
@@ -46,16 +46,11 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
     """
     figure = Figure(figsize=(TWO_COLUMNS, 1.16 * TWO_COLUMNS))
     panels = figure.subplots(4, 1, sharex=True, height_ratios=[1.0, 0.32, 1.0, 1.0])
-    radius(trajectory, axes=panels[0])
-    for extra in (panels[0].get_legend(), *panels[0].child_axes):
-        if extra is not None:
-            extra.remove()
+    draw_radius(panels[0], trajectory)
     regimes(trajectory, axes=panels[1])
     forces(trajectory, axes=panels[2])
     energies(ledger, trajectory.rotor.scales, axes=panels[3])
     for panel, letter in zip(panels, "abcd", strict=True):
-        if panel.get_legend() is not None:
-            panel.get_legend().remove()
         panel.set_title(f"({letter})", loc="left")
         panel.set_xlabel("")
     panels[-1].set_xlabel(axis_time(trajectory.rotor.scales))
