@@ -8,9 +8,15 @@ from carom import plots
 from carom.outcome import InputError
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def figure(damped):
+    """To be left as it is."""
     return plots.orbit(damped.orbits["B1,b"])
+
+
+@pytest.fixture
+def changing(damped):
+    return plots.multipliers(damped.orbits)
 
 
 def test_name_may_hold_dots_and_folders_are_made(figure, tmp_path):
@@ -47,20 +53,20 @@ def test_unknown_format_writes_nothing(figure, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_figure_that_cannot_be_drawn_leaves_the_old_file(figure, tmp_path):
-    (old,) = plots.save(figure, tmp_path / "a", ("png",))
+def test_a_figure_that_cannot_be_drawn_leaves_the_old_file(changing, tmp_path):
+    (old,) = plots.save(changing, tmp_path / "a", ("png",))
     before = old.read_bytes()
-    figure.axes[0].set_xlabel("$\\broken{$")
+    changing.axes[0].set_xlabel("$\\broken{$")
     with pytest.raises(ValueError, match="broken"):
-        plots.save(figure, tmp_path / "a", ("png",))
+        plots.save(changing, tmp_path / "a", ("png",))
     assert old.read_bytes() == before
     assert list(tmp_path.iterdir()) == [old]
 
 
-def test_a_write_that_fails_leaves_the_old_file_and_no_part(figure, tmp_path, monkeypatch):
-    (old,) = plots.save(figure, tmp_path / "a", ("png",))
+def test_a_write_that_fails_leaves_the_old_file_and_no_part(changing, tmp_path, monkeypatch):
+    (old,) = plots.save(changing, tmp_path / "a", ("png",))
     before = old.read_bytes()
-    figure.suptitle("another title")
+    changing.suptitle("another title")
 
     def fail(*_):
         raise OSError("disk full")
@@ -68,6 +74,6 @@ def test_a_write_that_fails_leaves_the_old_file_and_no_part(figure, tmp_path, mo
     monkeypatch.setattr(os, "replace", fail)
     monkeypatch.setattr("pathlib.Path.replace", fail)
     with pytest.raises(OSError, match="disk full"):
-        plots.save(figure, tmp_path / "a", ("png",))
+        plots.save(changing, tmp_path / "a", ("png",))
     assert old.read_bytes() == before
     assert list(tmp_path.iterdir()) == [old]

@@ -12,8 +12,13 @@ from carom.bifurcations.documents import regions_document
 from carom.plots import regions
 
 
-def test_words_of_the_legend(corner):
-    words = legend_words(regions.region_map(corner, corner.plane.axes(PAPER)))
+@pytest.fixture(scope="module")
+def figure(corner):
+    return regions.region_map(corner, corner.plane.axes(PAPER))
+
+
+def test_words_of_the_legend(corner, figure):
+    words = legend_words(figure)
     for expected in (
         "grazing: B1,b/d, B2,b, B3,b",
         "period doubling: B1,d",
@@ -25,8 +30,7 @@ def test_words_of_the_legend(corner):
         assert expected in words
 
 
-def test_figure_and_document_number_the_same_regions(corner):
-    figure = regions.region_map(corner, corner.plane.axes(PAPER))
+def test_figure_and_document_number_the_same_regions(corner, figure):
     (axes,) = figure.axes
     document = regions_document(PAPER, corner)
     listed = [word.split(": ")[0] for word in legend_words(figure) if word[0].isdigit()]
@@ -55,5 +59,5 @@ def test_resonances_the_machine_and_changes_without_a_curve_are_marked(corner):
     assert regions_document(PAPER, marked)["unexplained"][0]["point"] == [0.05, 0.5]
 
 
-def test_legends_fit(corner):
-    assert fits(regions.region_map(corner, corner.plane.axes(PAPER)))
+def test_legends_fit(figure):
+    assert fits(figure)
