@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from flights import inside_task, rotors
 
-from carom.core import block
-from carom.core.layout import DEGREE, NODES, workspace
+from carom.core import block, table
+from carom.core.flow import fly_all
+from carom.core.layout import DEGREE, LEVELS, NODES, rotor_record, workspace
 
 
 def loaded(seed):
@@ -54,6 +55,90 @@ def test_the_nearest_node_is_within_half_a_spacing():
         assert abs(block.nearest_node(task.table, time) - nearest) <= (abs(time / spacing % 1.0 - 0.5) < 1e-9)
 
 
+def four_modes(seed):
+    """A rotor with a pair between two free-standing modes, its table, and a flight loaded into a workspace."""
+    random = np.random.default_rng(seed)
+    exponents = random.uniform(-1.0, 0.3, 4) + 1j * random.uniform(-3.0, 3.0, 4)
+    exponents[1:3] = sorted(exponents[1:3], key=lambda value: value.real)
+    driven = np.array([False, False, True, False])
+    arrays = rotor_record(
+        exponents=exponents,
+        driven=driven,
+        offsets=np.array([0.1 - 0.2j]),
+        rows=random.normal(size=(1, 4)) + 1j * random.normal(size=(1, 4)),
+        columns=np.ones((4, 1), complex),
+        friction=np.zeros(1),
+        restitution=np.ones(1),
+        drive=np.ones(1),
+    )
+    work = workspace(4)
+    work.current[:] = random.normal(size=4) + 1j * random.normal(size=4)
+    origin = complex(arrays.offsets[0] + arrays.rows[0] @ work.current)
+    block.load_products(arrays, 0, origin, work)
+    return arrays, table.flight_table(exponents, driven), work, origin
+
+
+def levels_of(arrays, amplitudes, times):
+    """``|y|² − 1`` along a flight."""
+    flown = fly_all(arrays, np.tile(amplitudes, (len(times), 1)), times)
+    return np.abs(arrays.offsets[0] + flown @ arrays.rows[0]) ** 2 - 1.0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_level_is_linear_in_the_products(seed):
+    """The factors of the table times the products of the amplitudes add up to the change of ``|y|²``."""
+    arrays, tables, work, origin = four_modes(seed)
+    times = np.linspace(0.05, 1.0, 9) * tables.durations[0]
+    factors = table._rows(arrays.exponents, arrays.driven.astype(bool), times) * times
+    expected = levels_of(arrays, work.current, times) - (abs(origin) ** 2 - 1.0)
+    np.testing.assert_allclose(work.products @ factors, expected, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("depth", range(LEVELS))
+def test_the_polynomial_that_is_loaded_is_near_the_flight(depth):
+    for seed in range(3):
+        arrays, tables, work, origin = four_modes(seed)
+        level = abs(origin) ** 2 - 1.0
+        remainder = block.load_polynomial(tables, depth, level, work)
+        assert remainder == pytest.approx(np.abs(work.products) @ tables.errors[depth], rel=1e-12)
+        np.testing.assert_allclose(
+            work.polynomial, level + work.products @ tables.coefficients[depth], rtol=0.0, atol=1e-12
+        )
+        shares = np.linspace(0.0, 1.0, 33)
+        values = [bernstein(np.append(level, work.polynomial), share) for share in shares]
+        found = levels_of(arrays, work.current, shares * tables.durations[depth])
+        assert np.all(np.abs(values - found) <= remainder * shares + 1e-12)
+
+
+def bernstein(coefficients, share):
+    """Value of a polynomial, by de Casteljau's scheme."""
+    while len(coefficients) > 1:
+        coefficients = (1.0 - share) * coefficients[:-1] + share * coefficients[1:]
+    return coefficients[0]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_many_modes_are_moved_to_any_time(seed):
+    arrays, tables, work, origin = four_modes(seed)
+    level = abs(origin) ** 2 - 1.0
+    for share in (0.0, 0.004, 0.5, 0.993, 1.0):
+        time = share * float(tables.durations[0])
+        flown = fly_all(arrays, work.current[None], np.array([time]))[0]
+        block.move_to(arrays, tables, time, work)
+        np.testing.assert_allclose(work.arrival, flown, rtol=0.0, atol=1e-13 * np.abs(flown).max())
+        np.testing.assert_allclose(work.increments, flown - work.current, rtol=0.0, atol=1e-13 * np.abs(flown).max())
+    for node in (0, 1, NODES // 3, NODES):
+        flown = fly_all(arrays, work.current[None], np.array([node * float(tables.spacing)]))[0]
+        y, v, a, j = (
+            arrays.offsets[0] + arrays.rows[0] @ flown,
+            *(rows[0] @ flown for rows in (arrays.rate_rows, arrays.acceleration_rows, arrays.jerk_rows)),
+        )
+        expected = [abs(y) ** 2 - 1.0, 2 * y * np.conj(v), 2 * (y * np.conj(a) + v * np.conj(v))]
+        expected.append(2 * (y * np.conj(j) + 3 * v * np.conj(a)))
+        found = block.look_at_node(tables, node, origin, level, work)
+        np.testing.assert_allclose(found, np.real(expected), rtol=1e-11, atol=1e-10)
+
+
 def bernstein_of_line(start, slope):
     """Coefficients ``b₁ … b_n`` of ``start + slope t``; ``b₀`` is the start."""
     return start + slope * np.arange(1, DEGREE + 1) / DEGREE
@@ -98,3 +183,34 @@ def test_sign_changes_are_counted_with_the_error_of_the_polynomial():
     assert block.sign_changes(leaving, 0.0, 0.1, 0.0)[0] == 0
     leaving[0] = 1.0
     assert block.sign_changes(leaving, 0.0, 0.1, 0.0) == (2, 0)
+    # A start inside may be all above with its error, and then falls or not; one above the wall is not to be decided.
+    above = np.full(DEGREE, 1.0)
+    assert block.sign_changes(above, -1.0, 0.0, 0.0) == (1, 0)
+    assert block.sign_changes(above, 1e-9, 0.0, 0.0) == (2, 0)
+    assert block.sign_changes(above, 0.0, 0.0, 0.0) == (2, 0)
+    assert block.sign_changes(inside, 1e-9, 0.0, 0.0)[0] == 2
+    # A coefficient that is zero with its error counts as above; so does the last alone.
+    touching = inside.copy()
+    touching[-1] = 0.0
+    assert block.sign_changes(touching, -1.0, 0.0, 0.0) == (1, DEGREE - 1)
+    apart = inside.copy()
+    apart[[0, -1]] = 1.0
+    assert block.sign_changes(apart, -1.0, 0.0, 0.0) == (2, 0)
+
+
+def test_a_rough_root_lies_between_the_coefficients_that_change_sign():
+    n = DEGREE
+    steps = np.where(np.arange(1, n + 1) <= 3, -1.0, 3.0)
+    # Between b₃ = −1 and b₄ = 3, a quarter of the way; from the start, between b₀ and b₁.
+    assert block.rough_root(steps, -1.0, 3) == pytest.approx(3.25 / n)
+    assert block.rough_root(np.full(n, 3.0), -1.0, 0) == pytest.approx(0.25 / n)
+    # From the wall, between b₃n/3 and b₄n/4 of the polynomial that is left, of one degree less.
+    assert block.rough_root(steps, 0.0, 3) == pytest.approx((2.0 + 4.0 / 13.0) / (n - 1))
+    # In the second half of a block the root at the start is far.
+    late = np.where(np.arange(1, n + 1) <= 6, -1.0, 3.0)
+    assert block.rough_root(late, 0.0, 6) == pytest.approx(6.25 / n)
+    # A coefficient that is above with its error alone: at the end of the interval, or where there is no rise midway.
+    barely = np.full(n, -1.0)
+    barely[3] = -0.5
+    assert block.rough_root(barely, -1.0, 3) == pytest.approx(4.0 / n)
+    assert block.rough_root(np.full(n, -1.0), -1.0, 3) == pytest.approx(3.5 / n)
