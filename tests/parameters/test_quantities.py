@@ -1,5 +1,6 @@
 """Text with units becomes SI numbers; names that do not exist get a suggestion."""
 
+import decimal
 import subprocess
 import sys
 from fractions import Fraction
@@ -11,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carom.outcome import InputError
-from carom.parameters import MACHINE_FIELDS, read_quantity, unknown_name
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, quantities, read_quantity, unknown_name
+from carom.parameters.common_units import COMMON_UNITS
 
 ALLOWED = {
     "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
@@ -205,7 +207,20 @@ def test_a_number_without_a_unit_is_in_the_si_unit_in_quotes_or_not():
     assert "(a number without a unit is in kg)" in error.allowed
 
 
-def test_pint_is_loaded_by_the_first_unit_only():
+def test_common_units_are_converted_as_pint_converts_them():
+    with decimal.localcontext(quantities._DIGITS):
+        by_pint = {unit: quantities._roots_by_pint(unit) for unit in COMMON_UNITS}
+
+    assert by_pint == COMMON_UNITS
+
+
+def test_units_of_all_fields_are_common():
+    fields = [*MACHINE_FIELDS.values(), *DIMENSIONLESS_FIELDS.values()]
+
+    assert {field.unit for field in fields} <= COMMON_UNITS.keys()
+
+
+def test_pint_is_loaded_by_the_first_uncommon_unit_only():
     code = """if True:
         import sys
         from carom.parameters import Machine
@@ -214,11 +229,12 @@ def test_pint_is_loaded_by_the_first_unit_only():
         machine = Machine(**values)
         machine.replace(gamma=0.1)
         print("pint" in sys.modules, "numpy" in sys.modules, "numba" in sys.modules)
-        print(Machine(**{**values, "mass": "50 kg"}) == machine, "pint" in sys.modules)
+        print(Machine(**{**values, "mass": "50 kg", "clearance": "0.7 mm"}) == machine, "pint" in sys.modules)
+        print(Machine(**{**values, "mass": "50 kilogram"}) == machine, "pint" in sys.modules)
     """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
-    assert done.stdout.split() == ["False", "False", "False", "True", "True"]
+    assert done.stdout.split() == ["False", "False", "False", "True", "False", "True", "True"]
 
 
 # ------------------------------------------------------------------------------------------ names

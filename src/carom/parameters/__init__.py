@@ -2,6 +2,7 @@
 
 ========================  =================================================================
 ``fields``                names, symbols, units and ranges of all numbers
+``common_units``          units of machine files as pint converts them
 ``quantities``            text with units -> float in SI units
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           file -> raw tables

@@ -11,6 +11,7 @@ from numbers import Real
 from tokenize import TokenError
 from typing import Any
 
+from carom.parameters.common_units import COMMON_UNITS, Roots
 from carom.parameters.fields import Field
 
 __all__ = ["read_quantity"]
@@ -105,23 +106,27 @@ def _factor(field: Field, unit: str, text: str) -> Decimal:
     raise field.error(text, f"{unit!r} is not a unit of {kind}" if field.unit else f"this number has no unit {unit!r}")
 
 
-@cache
-def _roots(unit: str) -> tuple[Decimal, Any]:
-    """Factor and root unit (of pint, where radians are kept apart from pure numbers) of a unit.
+def _roots(unit: str) -> tuple[Decimal, Roots]:
+    """Factor and root units of a unit.
 
     Raises one of `_PARSER_ERRORS` for text that is no unit, or a unit with an offset or a logarithm.
     """
+    return COMMON_UNITS.get(unit) or _roots_by_pint(unit)
+
+
+@cache
+def _roots_by_pint(unit: str) -> tuple[Decimal, Roots]:
     registry = _registry()
     units = registry.parse_units(unit)
     if registry.Quantity(Decimal(0), units).to_root_units().magnitude != 0:
         raise ValueError(unit)
     scale, roots = registry.get_root_units(units)
-    return Decimal(scale), roots
+    return Decimal(scale), frozenset(registry.Quantity(Decimal(1), roots).unit_items())
 
 
 @cache
 def _registry() -> Any:
-    import pint  # loaded only when a value carries a unit: it takes longer than all the rest of this layer
+    import pint  # loaded only when a value carries a unit that is not common: it takes longer than all the rest
 
     registry: Any = pint.UnitRegistry(non_int_type=Decimal)
     # What engineers write and pint does not know.
