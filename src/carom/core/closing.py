@@ -29,6 +29,7 @@ __all__ = ["ATTRACTS", "CLOSES", "OPEN", "close", "least_period"]
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 FLIGHT = int(Phase.FLIGHT)
+ONLY_PLANE = 0
 OPEN, CLOSES, ATTRACTS = 0, 1, 2
 """No orbit was found; one that closes but does not attract, or so weakly that rounding hides it; one that attracts."""
 AROUND = 1e-3
@@ -160,7 +161,7 @@ def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
     patience = memory.patience
     memory.patience, memory.lifting = 0, 0
     amplitudes = states[0].copy()
-    phase, plane = FLIGHT, 0
+    phase, plane = int(FLIGHT), int(ONLY_PLANE)
     count = durations.shape[0]
     met, clock, bounces, quiet = -1, 0.0, True, 0
     while met < count and quiet < SLOW_EVENTS:

@@ -197,7 +197,7 @@ def _look_at(task, lanes, memory, work, lane):
 def _follow_singly(task, tools, lane):
     """Follow the motion of ``work.current`` event by event until it flies freely and may board its lane again."""
     lanes, memory, amplitudes, work = tools.lanes, tools.memory, tools.amplitudes, tools.work
-    phase, plane = FLIGHT, lanes.plane[lane]
+    phase, plane = int(FLIGHT), lanes.plane[lane]
     _fetch_memory(lanes, memory, lane)
     outcome, follows = EVENT_LIMIT, True
     while follows:

@@ -11,6 +11,7 @@ import numpy as np
 from numba.core.registry import cpu_target
 
 from carom.core.cache import keep
+from carom.core.intermediate import serve_kernels
 
 __all__ = [
     "DEGREE",
@@ -277,7 +278,8 @@ def passage(function: Kernel) -> Kernel:
 
 def _compile(function: Kernel, **more: bool | str) -> Kernel:
     options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
-    compiled = numba.jit(**options)(function)
+    compiled = numba.jit(**options, no_cfunc_wrapper=True)(function)
     if compiled is not function:  # as it is where the compiler is off
         keep(compiled)
+        serve_kernels(compiled)
     return compiled
