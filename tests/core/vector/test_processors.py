@@ -28,7 +28,7 @@ SCRIPT = f"""
 import sys
 import numpy as np
 from carom import jeffcott, settle_all
-from carom.core.lanes import fly_lanes
+from carom.core.ensemble import follow_each
 from carom.core.layout import LANES, WIDTH
 from lane_programs import program
 from machines import PAPER
@@ -48,7 +48,7 @@ for place in range(len(given["places"])):
         arguments = given["places"][place], given["levels"][place], found["looked_up"][place]
         look_up(given["row"], given["few"], *arguments, first)
 np.savez(sys.argv[2], **found)
-(code,) = fly_lanes.inspect_asm().values()
+(code,) = follow_each.inspect_asm().values()
 print(*(word for word in ("xmm", "ymm", "zmm", "vfmadd", "mulpd") if word in code))
 """
 
