@@ -525,6 +525,62 @@ def test_a_root_is_certified_where_its_slope_proves_it_the_first_and_only_there(
     assert tried >= 15
 
 
+def test_a_root_on_a_block_is_certified_by_the_error_at_its_time():
+    """The error grows in proportion to time, to its bound at the end of the block; nothing is certified past that."""
+    for _, _, task, crossing in flights_that_cross(1105, 10):
+        work, origin, level, _, bounds = at_start(task)
+        error = crossing.slope**2 / bounds[0]
+
+        def certified(factor, share, task=task, crossing=crossing, start=(work, origin, level, bounds), error=error):
+            work, origin, level, bounds = start
+            duration = crossing.time / share
+            remainder = error / (factor * share)
+            flight = task.arrays, task.table, task.plane, origin, level
+            return events._root_on_block(*flight, crossing.time, bounds[0], 0.0, remainder, duration, work)[0]
+
+        for share in (0.1, 0.5, 0.999):
+            assert [certified(factor, share) for factor in (4.0, 5.0, 100.0)] == [False, True, True]
+        assert not certified(100.0, 1.001)
+        assert not certified(1e9, 2.0)
+
+
+def flights_that_cross_twice(seed, count):
+    """Flights that leave the disc at once, come back were there no wall, and leave it again at about a given time."""
+    rng, found = np.random.default_rng(seed), 0
+    while found < count:
+        arrays = general_rotor(rng, "free-standing")
+        table = flight_table(arrays.exponents, arrays.driven.astype(bool))
+        times = float(table.durations[0]) * np.linspace(0.0, 0.75, 49)
+        turns = np.exp(np.outer(times, arrays.exponents))
+        for amplitudes in 0.7 * complex_normal(rng, 50, 4):
+            outside = np.abs(arrays.offsets[0] + turns @ (arrays.rows[0] * amplitudes)) > 1.0
+            ways_out = np.flatnonzero(outside[1:] & ~outside[:-1])
+            if len(ways_out) > 1:
+                start = amplitudes * turns[ways_out[0]]
+                flight = plane_flight(arrays.offsets[0], arrays.rows[0], arrays.exponents, arrays.driven, start)
+                yield Task(flight, arrays, table, start), times[ways_out[1]] - times[ways_out[0]]
+                found += 1
+
+
+def test_a_polynomial_that_leaves_it_open_is_not_used():
+    """It is made to point at a later crossing, which would be certified if it were taken for the first."""
+    tally = Tally("open polynomials")
+    for task, second in flights_that_cross_twice(1107, 10):
+        if not polish(task, second, 0.0, 0.0)[0][0]:
+            continue
+        work, _, level, _, _ = at_start(task)
+        place = int(second / longest_block(task) * DEGREE)
+        polynomial = np.full(DEGREE, -1.0)
+        polynomial[[place, place + 2]] = 1.0
+        largest = np.abs(work.products).argmax()
+        table = record(**{name: np.array(task.table[name]) for name in task.table.dtype.names})
+        table.errors[:], table.coefficients[:] = 0.0, 0.0
+        table.coefficients[:, largest] = (polynomial - level) / work.products[largest]
+        compare(replace(task, table=table), longest_block(task), tally)
+    tally.check()
+    assert tally.contact >= 3
+
+
 def test_no_root_is_certified_where_nothing_bounds_the_second_derivative():
     for _, _, task, crossing in flights_that_cross(1110, 3):
         with np.errstate(invalid="ignore"):

@@ -111,10 +111,10 @@ def _search_block(rotor, table, plane, horizon, start, work):
             return CLEAR, min(duration, horizon)
         if changes == 1:
             guess = rough_root(work.polynomial, level, first) * duration
-            doubt = remainder / duration
-            certified, time = _polish(rotor, table, plane, origin, level, guess, bounds[0], floor, doubt, work)
-            # Past the end of the block the polynomial says nothing: a root there does not prove the block free.
-            if certified and time <= duration:
+            certified, time = _root_on_block(
+                rotor, table, plane, origin, level, guess, bounds[0], floor, remainder, duration, work
+            )
+            if certified:
                 return (CONTACT, time) if time <= horizon else (CLEAR, horizon)
     return _step_safely(rotor, table, plane, origin, level, start, spread, min(duration, horizon), bounds, work)
 
@@ -155,6 +155,15 @@ def householder_step(value, slope, bend, third):
     """Step towards a root, of fourth order."""
     square, skew = slope * slope, value * bend
     return -value * (square - 0.5 * skew) / (slope * (square - skew) + SIXTH * value * value * third)
+
+
+@part
+def _root_on_block(rotor, table, plane, origin, level, guess, curvature, floor, remainder, duration, work):
+    """Root next to a guess, and whether it is certified to be the first on a block of this duration."""
+    doubt = remainder / duration
+    certified, time = _polish(rotor, table, plane, origin, level, guess, curvature, floor, doubt, work)
+    # Past the end of the block the polynomial says nothing: a root there does not prove the block free.
+    return certified and time <= duration, time
 
 
 @part
