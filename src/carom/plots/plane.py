@@ -78,7 +78,9 @@ def _wall(axes: Axes, angle: Floats) -> None:
 def label_frame(axes: Axes, frame: Frame, scales: Scales | None, note: str = "") -> None:
     """Title and axis labels of a picture in the frame ``"rotating"`` or ``"fixed"``."""
     words, symbol = _FRAMES[frame]
-    axes.set_title(f"{words}{', ' if note else ''}{note}")
+    # With its height given, matplotlib need not look for the labels that a title must keep clear of.
+    free = axes.xaxis.get_ticks_position() in ("bottom", "default")
+    axes.set_title(f"{words}{', ' if note else ''}{note}", y=1.0 if free else None)
     axes.set_xlabel(axis_length("position", rf"Re ${symbol}$", scales))
     axes.set_ylabel(axis_length("position", rf"Im ${symbol}$", scales))
 
