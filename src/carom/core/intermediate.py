@@ -34,7 +34,26 @@ class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
 
 
 class _IntermediateLibrary(JITCodeLibrary):  # type: ignore[misc]
-    """Code that is made ready for its callers, not for the processor."""
+    """Code that is made ready for its callers, not for the processor.
+
+    A kernel that is not compiled into its callers is brought in by the last of them alone, which Python calls: each caller
+    on the way would take a copy along and optimise it again.
+    """
+
+    apart = False
+    """Whether it is the code of such a kernel."""
+
+    def finalize(self) -> None:
+        """Bring in what is called and not apart, and optimise."""
+        self._left_out = self.left_out()
+        self._linking_libraries[:] = [library for library in self._linking_libraries if library not in self._left_out]
+        super().finalize()
+
+    def left_out(self) -> list[Any]:
+        """Code that is called, and left to the last caller to bring in."""
+        if self._finalized:
+            return self._left_out
+        return [library for library in self._linking_libraries if getattr(library, "apart", False)]
 
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()
@@ -61,5 +80,7 @@ class _IntermediateCompiler(_FunctionCompiler):  # type: ignore[misc]
         """Compile a version for types of arguments."""
         result = super().compile(args, return_type)
         result = result._replace(entry_point=object())  # by which Numba knows a version; there is nothing to enter
-        result.target_context.insert_user_function(result.entry_point, result.fndesc, [result.library])
+        result.library.apart = not self.targetoptions.get("forceinline", False)
+        libraries = [result.library, *result.library.left_out()]
+        result.target_context.insert_user_function(result.entry_point, result.fndesc, libraries)
         return result
