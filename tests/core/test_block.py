@@ -8,7 +8,7 @@ from flights import inside_task, rotors
 
 from carom.core import block, table
 from carom.core.flow import fly_all
-from carom.core.layout import DEGREE, LEVELS, NODES, rotor_record, workspace
+from carom.core.layout import DEGREE, LEVELS, NODES, TERMS, rotor_record, workspace
 
 
 def loaded(seed):
@@ -50,7 +50,7 @@ def test_look_at_a_node_and_move_to_any_time_agree_with_the_flight(seed):
 def test_the_nearest_node_is_within_half_a_spacing():
     _, task, _, _ = loaded(60)
     spacing = task.table.spacing
-    for time in np.linspace(-1.0, NODES + 1.0, 997) * spacing:
+    for time in np.linspace(-3.0, NODES + 3.0, 997) * spacing:
         nearest = int(np.argmin(np.abs(np.arange(NODES + 1) * spacing - time)))
         assert abs(block.nearest_node(task.table, time) - nearest) <= (abs(time / spacing % 1.0 - 0.5) < 1e-9)
 
@@ -139,6 +139,15 @@ def test_many_modes_are_moved_to_any_time(seed):
         np.testing.assert_allclose(found, np.real(expected), rtol=1e-11, atol=1e-10)
 
 
+def test_a_power_series_is_the_sum_of_its_terms():
+    random = np.random.default_rng(9)
+    series = random.normal(size=(TERMS + 2, 3)) + 1j * random.normal(size=(TERMS + 2, 3))
+    for time in (0.0, 0.2, -0.7, 1.5):
+        expected = time ** np.arange(1.0, TERMS + 1) @ series[:TERMS]
+        found = [block._power_series(series, column, time) for column in range(3)]
+        np.testing.assert_allclose(found, expected, rtol=1e-13)
+
+
 def bernstein_of_line(start, slope):
     """Coefficients ``b₁ … b_n`` of ``start + slope t``; ``b₀`` is the start."""
     return start + slope * np.arange(1, DEGREE + 1) / DEGREE
@@ -214,3 +223,5 @@ def test_a_rough_root_lies_between_the_coefficients_that_change_sign():
     barely[3] = -0.5
     assert block.rough_root(barely, -1.0, 3) == pytest.approx(4.0 / n)
     assert block.rough_root(np.full(n, -1.0), -1.0, 3) == pytest.approx(3.5 / n)
+    barely[3] = -1.5
+    assert block.rough_root(barely, -1.0, 3) == pytest.approx(3.5 / n)

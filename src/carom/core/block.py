@@ -83,7 +83,7 @@ def sign_changes(polynomial, level, floor, remainder):
             first = min(first, j)
             last = j
             number += 1
-    if -floor <= level != 0.0 or (first == 0 and level >= 0.0) or last - first + 1 > number > 0:
+    if -floor <= level != 0.0 or (first == 0 and level == 0.0) or last - first + 1 > number:
         return 2, first
     return (1 if number > 0 else 0), first
 
