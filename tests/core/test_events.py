@@ -306,6 +306,20 @@ def test_a_flight_that_touches_the_wall_is_never_clear(steps):
     assert tried >= 10
 
 
+@pytest.mark.parametrize("damping", [1.0, 1e-3, 1e-5])
+def test_a_start_within_its_rounding_of_the_wall_is_not_called_clear(damping):
+    """The rounding of a start is that of the terms of its displacement: the larger, the nearer to resonance."""
+    rotor = jeffcott(parameters(damping, 1.0))
+    for direction in np.exp(1j * np.arange(0.0, 6.0, 0.5)):
+        for inward in (1e-3, 0.5):
+            spread = at_start(task_from_state(rotor, complex(direction), complex(-inward * direction)))[3]
+            for share, expected in ((0.5, Outcome.GRAZING), (2.0, Outcome.CLEAR)):
+                depth = 0.5 * share * 16 * EPSILON * spread
+                start = (1.0 - depth) * direction
+                task = task_from_state(rotor, complex(start), complex(-inward * direction))
+                assert run(task, 1e-3 * inward)[0] == expected
+
+
 def test_nothing_happens_in_no_time_even_within_rounding_of_the_wall():
     rotor = jeffcott(parameters(0.0, 0.5, rho=0.0))
     task = task_from_state(rotor, 1.0 - 1e-15, -0.5j * (1.0 - 1e-15))
@@ -360,6 +374,8 @@ def test_bounds_of_steps_are_first_roots():
         assert events._departure(-abs(slope), bend, jerk) == pytest.approx(expected, rel=1e-9)
     assert events._first_root(-1.0, 2.0, 0.0) == 0.5
     assert events._first_root(-1.0, 0.0, 2.0) == 1.0
+    # The larger root of a parabola that falls first, without cancellation.
+    assert events._first_root(-1e-9, -1.0, 1.0) == pytest.approx(1.0 + math.sqrt(1.0 + 2e-9), rel=1e-15)
     assert events._first_root(-1.0, 0.0, 0.0) == events._first_root(-1.0, -1.0, 0.0) == math.inf
     # Double root, and just none.
     assert events._first_root(-1.0, 2.0, -2.0) == 1.0
@@ -400,12 +416,12 @@ def test_a_rise_lasts_as_long_as_the_third_derivative_allows():
 
 
 def test_a_householder_step_errs_by_the_fourth_power():
-    """On ``e^t + t²/2 − 1``, which vanishes at zero, and on its negative."""
+    """On ``e^{2t} + t²/2 − 1``, which vanishes at zero, and on its negative."""
     for side in (1.0, -1.0):
         errors = []
         for distance in (1e-1, 1e-2):
-            power = math.exp(distance)
-            derivatives = (power + 0.5 * distance**2 - 1.0, power + distance, power + 1.0, power)
+            power = math.exp(2.0 * distance)
+            derivatives = (power + 0.5 * distance**2 - 1.0, 2.0 * power + distance, 4.0 * power + 1.0, 8.0 * power)
             errors.append(abs(distance + events.householder_step(*(side * value for value in derivatives))))
         assert math.log10(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.3)
 
@@ -596,6 +612,9 @@ def test_no_root_is_certified_beyond_the_tables():
             moved = task_from_state(rotor, complex(start[0]), complex(start[1]))
             (found, _), curvature = polish(moved, block, 0.0, 0.0)
             assert found == certified or (certified and curvature > 1e3)
+        # Nor is one before the start, in a flight that goes on outside.
+        start = task.flight.state(crossing.time + 0.2 * spacing)
+        assert not polish(task_from_state(rotor, complex(start[0]), complex(start[1])), 0.0, 0.0, 0.0)[0][0]
 
 
 def test_neither_the_start_on_the_wall_nor_a_way_in_is_certified():
