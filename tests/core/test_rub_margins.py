@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 
 import numpy as np
@@ -11,6 +12,7 @@ from machines import PAPER, random_parameters
 
 from carom import jeffcott
 from carom.core import rub
+from carom.core.flow import displacement, fly_all, velocity
 from carom.core.layout import ORDER, rub_workspace
 from carom.outcome import Phase
 
@@ -19,10 +21,10 @@ FRICTION = 0.25
 ARRAYS = jeffcott(PAPER.replace(mu=FRICTION)).arrays
 
 
-def falling(time, height=1.0):
-    """Coefficients of a margin that falls in a line from a height to zero at a time."""
+def falling(time, height=1.0, order=1):
+    """Coefficients of a margin that falls from a height to zero at a time, by one power of time alone."""
     margin = np.zeros(ORDER + 1)
-    margin[:2] = height, -height / time
+    margin[0], margin[order] = height, -height / time**order
     return margin
 
 
@@ -97,6 +99,57 @@ def test_margins_within_their_rounding_do_not_end_a_phase():
             assert rub.first_transition(ARRAYS, 0, ROLLING, 0.5, work) == expected
 
 
+@pytest.mark.parametrize("order", [ORDER - 1, ORDER])
+def test_all_coefficients_of_a_margin_count(order):
+    """Margins that fall by their highest powers alone."""
+    time = pytest.approx(0.3, abs=1e-12)
+    lasts = falling(1e9, 8.0)
+    late = falling(0.3, order=order)
+    assert transition(FORWARD, 0.5, push=late, slip=lasts) == (time, FLIGHT, False)
+    assert transition(FORWARD, 0.5, push=lasts, slip=late) == (time, FORWARD, True)
+    for side, phase in ((1.0, FORWARD), (-1.0, BACKWARD)):
+        grip = side * (late - FRICTION * lasts)
+        assert transition(ROLLING, 0.5, push=lasts, grip=grip) == (time, phase, False)
+    work = rub_workspace(2)
+    work.position[:] = -1j * late
+    assert rub.turn_ahead(1.0 + 0j, 1.0, 0.5, work) == time
+
+
+def test_rest_on_the_wall_keeps_the_angle_and_the_speed_along_it():
+    """From well off the wall, moving across it: the nearest place, and no radial speed; rolling, no slip either."""
+    random = np.random.default_rng(4)
+    for rolling in (False, True):
+        for _ in range(5):
+            amplitudes = random.normal(size=2) + 1j * random.normal(size=2)
+            angle = cmath.phase(displacement(ARRAYS, 0, amplitudes))
+            rub.set_on_wall(ARRAYS, 0, amplitudes)
+            before = displacement(ARRAYS, 0, amplitudes).conjugate() * velocity(ARRAYS, 0, amplitudes)
+            rub.rest_on_wall(ARRAYS, 0, amplitudes, rolling)
+            position = displacement(ARRAYS, 0, amplitudes)
+            local = position.conjugate() * velocity(ARRAYS, 0, amplitudes)
+            assert position == pytest.approx(cmath.rect(1.0, angle), abs=1e-13)
+            assert local.real == pytest.approx(0.0, abs=1e-12)
+            assert local.imag == pytest.approx(-ARRAYS.drive[0] if rolling else before.imag, abs=1e-12)
+
+
+def test_motions_in_different_phases_are_moved_each_in_its_own():
+    random = np.random.default_rng(8)
+    amplitudes = random.normal(size=(4, 2)) + 1j * random.normal(size=(4, 2))
+    for row in amplitudes:
+        rub.rest_on_wall(ARRAYS, 0, row, True)
+    times, phases = np.array([1e-3, 2e-3, 3e-3, 4e-3]), np.array([FLIGHT, FORWARD, ROLLING, BACKWARD])
+    moved = rub.fly_or_rub_all(ARRAYS, 0, amplitudes, phases, times, rub_workspace(2))
+    for i, phase in enumerate(phases):
+        if phase == FLIGHT:
+            expected = fly_all(ARRAYS, amplitudes[i : i + 1], times[i : i + 1])[0]
+        else:
+            work, expected = rub_workspace(2), np.empty(2, complex)
+            rub.rub_series(ARRAYS, 0, amplitudes[i], int(phase), work)
+            rub.sum_series(work, times[i], expected)
+        assert moved[i] == pytest.approx(expected, rel=1e-14)
+        assert (abs(abs(displacement(ARRAYS, 0, moved[i])) - 1.0) < 1e-13) == (phase != FLIGHT)
+
+
 # ----------------------------------------------------------------------------------------------- length of a step
 
 
@@ -162,11 +215,15 @@ def test_rounding_errors_are_the_sums_of_the_sizes_of_their_terms():
         amplitudes = random.normal(size=2) + 1j * random.normal(size=2)
         spread = sizes(arrays.offsets)[0] + sizes(arrays.rows[0] * amplitudes).sum()
         speed = 1.0 + sizes(arrays.rate_rows[0] * amplitudes).sum()
-        assert rub.speed_rounding(arrays, 0, amplitudes) == pytest.approx(64 * EPSILON * spread * speed, rel=1e-12)
+        assert rub.speed_rounding(arrays, 0, amplitudes) == pytest.approx(
+            64 * EPSILON * spread * speed, rel=1e-12, abs=0.0
+        )
         row = arrays.acceleration_rows[0]
         force = abs(arrays.rate_rows[0] @ amplitudes) ** 2 + sizes(row * amplitudes).sum()
         force += sizes(row * arrays.rows[0]).sum() / (np.abs(arrays.rows[0]) ** 2).sum()
-        assert rub.push_rounding(arrays, 0, amplitudes) == pytest.approx(64 * EPSILON * spread * force, rel=1e-12)
+        assert rub.push_rounding(arrays, 0, amplitudes) == pytest.approx(
+            64 * EPSILON * spread * force, rel=1e-12, abs=0.0
+        )
 
 
 # ------------------------------------------------------------------------------------------------------- first falls
@@ -192,6 +249,21 @@ def test_the_first_fall_of_polynomials_with_known_zeros():
         assert rub._first_fall(polynomial(0.0, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
     assert rub._first_fall(polynomial(0.4, 0.4, 0.8, lead=-1.0), 1.0, 1e-14) == pytest.approx(0.8, abs=1e-12)
     assert rub._first_fall(polynomial(0.4, 0.4), 1.0, 1e-14) == 1.0
+
+
+@pytest.mark.parametrize("step", [0.1, 0.4, 2.0])
+def test_no_dip_within_a_step_is_passed_over(step):
+    """A dip of any depth below the rounding, however narrow, and a fall just before the end, in short and long steps."""
+    for depth in (1e-9, 1e-6, 1e-3):
+        dip = polynomial(0.7 * step, 0.7 * step)
+        dip[0] -= depth * step**2
+        expected = 0.7 * step - math.sqrt(depth) * step
+        assert rub._first_fall(dip, step, 1e-14) == pytest.approx(expected, abs=1e-8 * step)
+        dip[0] += 2.0 * depth * step**2
+        assert rub._first_fall(dip, step, 1e-14) == step
+    for order in (1, 2, ORDER):
+        assert rub._first_fall(falling(0.75 * step, order=order), step, 1e-14) == pytest.approx(0.75 * step, rel=1e-12)
+        assert rub._first_fall(falling(1.01 * step, order=order), step, 1e-14) == step
 
 
 def test_the_value_and_slope_of_a_margin():
