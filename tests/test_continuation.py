@@ -54,6 +54,19 @@ def test_neighbours_are_no_further_apart_than_the_largest_step(largest):
         assert gaps(branch).max() > 0.5 * largest
 
 
+@pytest.mark.parametrize("beginning", [0.12, 0.29, 0.299999])
+def test_zero_next_to_where_a_function_begins_is_found(beginning):
+    """Whichever way the branch is followed, and where the function has one sign there is nothing to find."""
+    watches = [
+        Watch("zero", lambda u, p: p - 0.3 if p > beginning else np.nan),
+        Watch("none", lambda u, p: p - beginning + 0.1 if p > beginning else np.nan),
+    ]
+    for start in (-0.9, 0.9):
+        branch = continue_branch(lambda u, p: u - p, np.array([start]), start, (-1.0, 1.0), watches=watches)
+        assert places(branch, "zero") == pytest.approx([0.3], abs=1e-13)
+        assert places(branch, "none") == []
+
+
 def test_hysteresis_reaches_both_limits_exactly():
     fold = 2.0 / 3.0 / np.sqrt(3.0)
     watch = Watch("passes 0.3", lambda u, p: u[0] - 0.3)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from carom.outcome import CaromError
-from carom.roots import bracketed_root
+from carom.roots import bracketed_root, sign_change
 
 
 def test_bracketed_root():
@@ -16,3 +16,18 @@ def test_bracketed_root():
     assert bracketed_root(lambda x: x - 1.0, 0.0, 1.0) == 1.0
     with pytest.raises(CaromError, match="no sign change"):
         bracketed_root(np.cosh, -1.0, 1.0)
+
+
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_sign_change_next_to_where_a_function_begins(mirror):
+    ends = sorted((0.0, 2.0 * mirror))
+
+    def beginning(x):
+        return mirror * x - 0.3 if mirror * x > 0.29999 else np.nan
+
+    low, high = sign_change(beginning, *ends)
+    assert beginning(low) * beginning(high) < 0.0
+    assert sign_change(lambda x: beginning(x) + 0.1, *ends) is None
+    assert sign_change(np.cosh, *ends) is None
+    assert sign_change(lambda x: np.nan, *ends) is None
+    assert sign_change(lambda x: x - mirror, *ends) == tuple(ends)

@@ -103,6 +103,23 @@ def test_an_orbit_that_repels_closes_but_does_not_attract():
 
 
 @pytest.mark.jit_only
+@pytest.mark.parametrize("friction", [0.0, 0.02])
+def test_elastic_bounces_that_become_ever_lower_are_no_orbit(friction):
+    """Bounces of any number a period close, but for what damping takes: neither route may name one of these numbers."""
+    parameters = Parameters(0.125, 0.1, 1.7, 3.06, friction, 1.0, 0.98)
+    rotor, random = jeffcott(parameters), np.random.default_rng(8)
+    positions, velocities = drawn_starts(random, 12)
+    together = settle_all(rotor, positions, velocities)
+    low = 0
+    for index, start in enumerate(zip(positions, velocities, strict=True)):
+        alone = simulate(rotor, State(*start), settle=True)
+        assert (together.outcomes[index], together.multiplicities[index]) == (alone.outcome, alone.multiplicity)
+        assert alone.multiplicity == 0 or alone.contacts.radial_speed[-alone.multiplicity :].max() > 0.01
+        low += alone.outcome is Outcome.EVENT_LIMIT
+    assert low > 8
+
+
+@pytest.mark.jit_only
 def test_an_orbit_with_rub_closes_too():
     parameters = PAPER.replace(gamma=0.0431456484, omega=1.25902546543, rho=1.31671186334, phi=0.0)
     rotor = jeffcott(parameters.replace(mu=0.427612705, d=0.43781982, radius_ratio=2.0))

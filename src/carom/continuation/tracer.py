@@ -20,7 +20,7 @@ import numpy as np
 
 from carom.continuation.branch import Branch, SpecialPoint, Steps, StopReason, Watch
 from carom.outcome import CaromError, InputError
-from carom.roots import bracketed_root
+from carom.roots import bracketed_root, sign_change
 
 __all__ = ["continue_branch", "refined_points"]
 
@@ -316,7 +316,8 @@ class _Tracer:
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, "branch point"]
         ends = [True, *(watch.ends_branch for watch in self.watches), False, False]
         reached: list[tuple[float, int, np.ndarray]] = []
-        for i in np.flatnonzero(here.watched * there.watched < 0.0):
+        changed = here.watched * there.watched < 0.0
+        for i in np.flatnonzero(changed | (np.isnan(here.watched) != np.isnan(there.watched))):
             place = self._root_on_step(here, there, length, int(i))
             if place is not None and (share is None or place[0] <= share * length):
                 reached.append((place[0], int(i), place[1]))
@@ -329,7 +330,10 @@ class _Tracer:
         return None
 
     def _root_on_step(self, here: _Stand, there: _Stand, length: float, which: int) -> tuple[float, np.ndarray] | None:
-        """Arclength and point of a zero of a watched function; ``None`` if it jumps from one sign to the other."""
+        """Arclength and point of a zero of a watched function.
+
+        ``None`` if it jumps from one sign to the other, or has one sign wherever it is defined.
+        """
         at = {0.0: here.x, length: there.x}
         values = {0.0: float(here.watched[which]), length: float(there.watched[which])}
 
@@ -341,11 +345,14 @@ class _Tracer:
                 values[distance] = np.nan if x is None else self._watched_value(which, x, here)
             return values[distance]
 
+        bracket = sign_change(value, 0.0, length)
+        if bracket is None:
+            return None
         try:
-            distance = bracketed_root(value, 0.0, length, 1e-14)
+            distance = bracketed_root(value, *bracket, 1e-14)
         except CaromError:
             return None
-        jump = abs(values[distance]) > JUMP * max(abs(values[0.0]), abs(values[length]))
+        jump = abs(values[distance]) > JUMP * max(abs(values[end]) for end in bracket)
         return None if jump else (distance, at[distance])
 
     def _return(self, path: _Path, here: _Stand, there: _Stand, heading: np.ndarray) -> float | None:

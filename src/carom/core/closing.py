@@ -25,13 +25,17 @@ from carom.core.layout import kernel, part
 from carom.core.variation import carry_through_impact, carry_to_wall
 from carom.outcome import Outcome, Phase
 
-__all__ = ["ATTRACTS", "CLOSES", "OPEN", "close", "least_period"]
+__all__ = ["ATTRACTS", "CLOSES", "FADES", "OPEN", "close", "least_period"]
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 FLIGHT = int(Phase.FLIGHT)
 ONLY_PLANE = 0
 OPEN, CLOSES, ATTRACTS = 0, 1, 2
 """No orbit was found; one that closes but does not attract, or so weakly that rounding hides it; one that attracts."""
+FADES = -1
+"""Instead of a number of impacts: the bounces become ever lower, and what they approach is lasting contact."""
+LOWEST = 1e-6
+"""Height of bounces, in clearances, below which a motion without loss in its impacts is taken to do that."""
 AROUND = 1e-3
 """Distance, relative to one plus the size of the state, within which the orbit of a motion that has recurred is looked for."""
 CLOSED = 1e-11
@@ -72,14 +76,17 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     int
         The least divisor of ``count`` after whose number of impacts an attracting orbit next to the state closes; else
         ``count``.  Of a motion that has not recurred the impacts, up to SHORT, of such an orbit that it approaches; else 0.
+        FADES where the impacts take no energy and damping makes the bounces ever lower.
     """
-    if count == 1:
-        return count
     ahead = count if count > 0 else WATCHED
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
     copy(state, states[0])
     followed, _ = _follow_impacts(rotor, table, states, durations, log, memory, work, rub)
     if not followed:
+        return count
+    if _fades(rotor, states, durations):
+        return FADES
+    if count == 1:
         return count
     longest = count if count > 0 else SHORT
     orbit = np.empty((longest + 1, 2), np.complex128)
@@ -88,8 +95,22 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
             copy(states[0], orbit[0])
             found = close(rotor, table, orbit[: impacts + 1], durations[:impacts], log, memory, work, rub)
             if found == ATTRACTS and (count > 0 or _draws_near(states, orbit[0], impacts)):
+                if _fades(rotor, orbit[: impacts + 1], durations[:impacts]):
+                    return FADES
                 return _distinct(orbit, impacts)
     return count
+
+
+@kernel
+def _fades(rotor, states, durations):
+    """Whether elastic impacts all follow low bounces: of height ``vT/4`` after a flight of duration ``T`` that ends at ``v``."""
+    if rotor.restitution[0] < 1.0:
+        return False
+    for i in range(durations.shape[0]):
+        arrival = unit(displacement(rotor, 0, states[i + 1])).conjugate() * velocity(rotor, 0, states[i + 1])
+        if 0.25 * arrival.real * durations[i] > LOWEST:
+            return False
+    return True
 
 
 @kernel
