@@ -224,6 +224,33 @@ def test_derivative_bounds_bound(arrays):
                 assert abs(value) <= table.bounds[order - 1, k] * (1 + 4 * EPSILON)
 
 
+@pytest.mark.parametrize(
+    ("lower", "upper"), [(0.3, 0.3), (1.5, 1.5), (0.1, 1.0), (-1.0, 0.8), (1.2j, 1.2j), (2j, -1.5j)]
+)
+def test_derivative_bounds_of_pairs_after_a_slow_mode(lower, upper):
+    """They bound, and are met at the end of the block by a pair that grows with one exponent."""
+    exponents, driven = np.array([0.01, lower, upper], complex), np.array([False, False, True])
+    pair = rotor_record(
+        exponents=exponents,
+        driven=driven,
+        offsets=np.zeros(1, complex),
+        rows=np.ones((1, 3), complex),
+        columns=np.ones((3, 1), complex),
+        friction=np.zeros(1),
+        restitution=np.ones(1),
+        drive=np.ones(1),
+    )
+    table = flight_table(exponents, driven)
+    end = float(table.durations[0])
+    for k in range(3):
+        assert table.basis[-1, 0, k] == pytest.approx(derivative_of_basis(pair, k, 0, end), rel=1e-12)
+        for order in (1, 2, 3):
+            values = [abs(derivative_of_basis(pair, k, order, share * end)) for share in np.linspace(0.0, 1.0, 11)]
+            assert max(values) <= table.bounds[order - 1, k] * (1 + 8 * EPSILON)
+            if k == 0 or (lower == upper and np.isreal(lower)):
+                assert max(values) == pytest.approx(table.bounds[order - 1, k], rel=1e-13)
+
+
 @pytest.mark.parametrize("depth", range(LEVELS))
 def test_the_computed_tail_is_the_whole_tail(arrays, depth):
     """With twice as many Chebyshev points the error bounds do not change: nothing hides behind the last one."""
