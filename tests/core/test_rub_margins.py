@@ -88,6 +88,8 @@ def test_margins_within_their_rounding_do_not_end_a_phase():
     for share, ends in ((0.9, False), (1.1, True)):
         work = rub_workspace(2)
         work.series[0] = amplitudes
+        work.slip[:], work.push[0] = -share * rub.speed_rounding(ARRAYS, 0, amplitudes) * lasts, 1.0
+        assert rub.first_transition(ARRAYS, 0, FORWARD, 0.5, work) == ((0.0 if ends else 0.5), FORWARD, ends)
         work.slip[:], work.push[0] = lasts, -share * rounding
         assert rub.first_transition(ARRAYS, 0, FORWARD, 0.5, work) == (
             (0.0, FLIGHT, False) if ends else (0.5, FORWARD, False)
@@ -179,6 +181,9 @@ def test_either_of_the_last_two_coefficients_decides_where_the_other_is_zero():
         work = rub_workspace(2)
         work.series[0, 0], work.series[order, 1] = 2.0, 2.0j * 5.0**order
         assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 5.0, rel=1e-12)
+        work.series[order, 1] = 2.0j * 0.5**order
+        assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION * 2.0, rel=1e-12)
+        work.series[order, 1] = 2.0j * 5.0**order
     work.series[ORDER, 0] = 2.0 * 4.0**ORDER
     assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 5.0, rel=1e-12)
     work.series[ORDER, 0] = 2.0 * 6.0**ORDER
@@ -266,6 +271,35 @@ def test_no_dip_within_a_step_is_passed_over(step):
         assert rub._first_fall(falling(1.01 * step, order=order), step, 1e-14) == step
 
 
+@pytest.mark.parametrize("step", [1e-3, 1.0])
+def test_a_dip_after_a_summit_is_not_passed_over(step):
+    """A wave that dips below zero once, halfway; it starts level, where a step by its slope would be endless."""
+    orders = np.arange(ORDER + 1)
+    factorials = np.array([math.factorial(k) for k in orders], float)
+    wave = (2.0 * math.pi / step) ** orders / factorials * np.array([1.0, 0.0, -1.0, 0.0] * 6)[: ORDER + 1]
+    for depth in (1e-9, 1e-4, 0.3):
+        margin = wave.copy()
+        lowest = np.polynomial.polynomial.polyval(np.linspace(0.45, 0.55, 20001) * step, wave).min()
+        margin[0] -= lowest + depth
+        time = rub._first_fall(margin, step, 1e-14)
+        assert time < 0.5 * step
+        assert abs(np.polynomial.polynomial.polyval(time, margin)) < 1e-12
+        margin[0] += 2.0 * depth
+        assert rub._first_fall(margin, 0.6 * step, 1e-14) == 0.6 * step
+
+
+def test_lift_off_ends_at_its_horizon_with_the_state_of_the_flight():
+    """A rotor that is pulled off the wall from rest on it, followed for less than a step."""
+    parameters = PAPER.replace(omega=3.0)
+    arrays = jeffcott(parameters).arrays
+    amplitudes = np.array(jeffcott(parameters).amplitudes(1.0 + 0j, 0j))
+    assert rub.wall_push(arrays, 0, amplitudes)[0] < -1.0
+    expected = fly_all(arrays, amplitudes[None], np.array([1e-3]))[0]
+    time, returned = rub.lift_off(arrays, 0, amplitudes, 1e-3, rub_workspace(2))
+    assert (time, returned) == (1e-3, False)
+    assert amplitudes == pytest.approx(expected, abs=1e-14)
+
+
 def test_the_value_and_slope_of_a_margin():
     margin = np.random.default_rng(7).normal(size=ORDER + 1)
     derivative = margin[1:] * np.arange(1, ORDER + 1)
@@ -283,7 +317,7 @@ def test_a_zero_is_looked_for_from_later_times_on_and_never_left_of_the_start():
     below[0] = -1.0
     assert rub._zero_before(below, 0.5) == 0.0
     # Where it does not fall there is no zero to look for.
-    assert rub._zero_before(-below, 0.5) == 0.5
+    assert rub._zero_before(-0.5 * below, 0.5) == 0.5
 
 
 def test_a_turn_is_passed_in_its_direction_only():
