@@ -13,7 +13,6 @@ import numpy as np
 
 from carom.contacts import ContactHistory, ContactLog, LastingContact
 from carom.core.advance import INSIDE_ALL, advance
-from carom.core.closing import FADES
 from carom.core.impact import set_on_wall
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all
@@ -310,16 +309,13 @@ def simulate(
         if progress:
             progress(reached)
     position, velocity = rotor.state(amplitudes)
-    multiplicity = multiplicity_of(rotor, amplitudes, int(recollection.period)) if outcome in REPEATING else 0
-    if multiplicity == FADES:
-        outcome, multiplicity = Outcome.EVENT_LIMIT, 0
     return Trajectory(
         rotor=rotor,
         start=state,
         outcome=outcome,
         time=until if outcome is Outcome.TIME_REACHED else reached,
         final=State(complex(position), complex(velocity)),
-        multiplicity=multiplicity,
+        multiplicity=multiplicity_of(rotor, amplitudes, int(recollection.period)) if outcome in REPEATING else 0,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
         segment_phases=np.concatenate([np.zeros(1, np.int64), *(log.phases for log in logs)]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),

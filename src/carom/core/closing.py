@@ -25,17 +25,15 @@ from carom.core.layout import kernel, part
 from carom.core.variation import carry_through_impact, carry_to_wall
 from carom.outcome import Outcome, Phase
 
-__all__ = ["ATTRACTS", "CLOSES", "FADES", "OPEN", "close", "least_period"]
+__all__ = ["ATTRACTS", "CLOSES", "OPEN", "close", "least_period"]
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 FLIGHT = int(Phase.FLIGHT)
 ONLY_PLANE = 0
 OPEN, CLOSES, ATTRACTS = 0, 1, 2
 """No orbit was found; one that closes but does not attract, or so weakly that rounding hides it; one that attracts."""
-FADES = -1
-"""Instead of a number of impacts: the bounces become ever lower, and what they approach is lasting contact."""
 LOWEST = 1e-6
-"""Height of bounces, in clearances, below which a motion without loss in its impacts is taken to do that."""
+"""Height of elastic bounces, in clearances, below which they are taken to become ever lower: they approach no orbit."""
 AROUND = 1e-3
 """Distance, relative to one plus the size of the state, within which the orbit of a motion that has recurred is looked for."""
 CLOSED = 1e-11
@@ -76,7 +74,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     int
         The least divisor of ``count`` after whose number of impacts an attracting orbit next to the state closes; else
         ``count``.  Of a motion that has not recurred the impacts, up to SHORT, of such an orbit that it approaches; else 0.
-        FADES where the impacts take no energy and damping makes the bounces ever lower.
+        Of elastic bounces that damping makes ever lower 0.
     """
     ahead = count if count > 0 else WATCHED
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
@@ -85,7 +83,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     if not followed:
         return count
     if _fades(rotor, states, durations):
-        return FADES
+        return 0
     if count == 1:
         return count
     longest = count if count > 0 else SHORT
@@ -96,7 +94,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
             found = close(rotor, table, orbit[: impacts + 1], durations[:impacts], log, memory, work, rub)
             if found == ATTRACTS and (count > 0 or _draws_near(states, orbit[0], impacts)):
                 if _fades(rotor, orbit[: impacts + 1], durations[:impacts]):
-                    return FADES
+                    return 0
                 return _distinct(orbit, impacts)
     return count
 

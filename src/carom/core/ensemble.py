@@ -13,7 +13,7 @@ import numpy as np
 
 from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
 from carom.core.block import move_to
-from carom.core.closing import FADES, least_period
+from carom.core.closing import least_period
 from carom.core.counter import next_number
 from carom.core.fate import NEAR, forget, impacts_until_noted, levitates, recurs, stays_inside
 from carom.core.flow import copy, displacement, squared_modulus, velocity
@@ -299,8 +299,6 @@ def _note_end(task, tools, motion, lane, outcome):
         motion.multiplicity = least_period(
             task.rotor, task.table, work.current, memory.period, log, memory, work, tools.rub
         )
-        if motion.multiplicity == FADES:
-            motion.outcome, motion.multiplicity = EVENT_LIMIT, 0
 
 
 @part
