@@ -191,7 +191,7 @@ def test_study_writes_a_report(carom, machine, tmp_path):
 
 
 def test_json_with_a_report_stays_alone_on_standard_output(carom, dimensionless, tmp_path):
-    code, out, err = carom("study", dimensionless, "--set", "gamma=0.4", "--json", "--out", tmp_path)
+    code, out, err = carom("study", dimensionless, "--set", "gamma=0.5", "--set", "mu=0", "--json", "--out", tmp_path)
 
     assert code == 0
     assert "report.html" in err

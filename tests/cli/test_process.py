@@ -10,6 +10,8 @@ import time
 import pytest
 
 CAROM = [sys.executable, "-m", "carom"]
+QUICK = ["--set", "damping=6000 N s/m", "--set", "friction=0"]
+"""Of the machine of the tests a study that is soon made: every disturbance comes back at once."""
 
 
 def run(*arguments, **options):
@@ -111,7 +113,7 @@ def test_closed_output_is_no_error():
 def test_interrupt_leaves_nothing_behind(machine, tmp_path):
     out = tmp_path / "out"
     process = subprocess.Popen(
-        [*CAROM, "study", machine, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*CAROM, "study", machine, *QUICK, "--out", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     # Interrupt while figures are being written, as soon as there is one beside the place.
     while process.poll() is None and not any(tmp_path.glob(".*.part/figures/*")):

@@ -142,8 +142,8 @@ def test_verdict_of_the_real_machine_in_units(real):
     [
         SOURCE,
         SOURCE.replace(gamma=0.05),
-        SOURCE.replace(gamma=0.0),
         SOURCE.replace(rho=0.0),
+        pytest.param(SOURCE.replace(gamma=0.0), marks=pytest.mark.deep),
         pytest.param(SOURCE.replace(d=0.0), marks=pytest.mark.deep),
         pytest.param(SOURCE.replace(gamma=0.25), marks=pytest.mark.deep),
         pytest.param(SOURCE.replace(gamma=0.4), marks=pytest.mark.deep),

@@ -16,6 +16,7 @@ from carom import jeffcott, settle_all
 from carom.core.layout import LANE_NODES, LANES, LEVELS, OCTET
 
 pytestmark = [
+    pytest.mark.deep,  # it compiles all that flies in lanes anew
     pytest.mark.jit_only,
     pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="there is no plainer one of this kind"),
 ]
