@@ -11,6 +11,8 @@ from flint import acb
 from reference import Crossing, Flight, first_crossing, jeffcott_exponents, jeffcott_flight, unit
 
 from carom.core import events
+from carom.core.block import load_products
+from carom.core.flow import displacement, squared_modulus
 from carom.core.layout import workspace
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -241,6 +243,32 @@ def rotors(seed: int, count: int) -> list[tuple[Rotor, np.random.Generator]]:
         rng = np.random.default_rng([seed, index])
         made.append((jeffcott(random_parameters(rng, index)), rng))
     return made
+
+
+def flights_that_cross(seed, count):
+    """Flights from inside that cross the wall on the longest block, and their crossings."""
+    for rotor, rng in rotors(seed, count):
+        for _ in range(20):
+            task = inside_task(rotor, rng)
+            crossing = first_crossing(task.flight, longest_block(task))
+            if crossing is not None and crossing.slope > 1e-2:
+                yield rotor, rng, task, crossing
+                break
+
+
+def at_start(task):
+    """A flight as the parts of the search get it: workspace, displacement, ``f``, size of the terms and bounds."""
+    work = workspace(len(task.amplitudes))
+    work.current[:] = task.amplitudes
+    origin = displacement(task.arrays, task.plane, task.amplitudes)
+    load_products(task.arrays, task.plane, origin, work)
+    level = squared_modulus(origin) - 1.0 if task.start == events.INSIDE else 0.0
+    spread = events._spread(task.arrays, task.plane, task.amplitudes)
+    return work, origin, level, spread, events._bounds(task.table, work)
+
+
+def longest_block(task):
+    return float(task.table.durations[0])
 
 
 def _direction(rng: np.random.Generator) -> complex:

@@ -12,9 +12,12 @@ from flights import (
     EPSILON,
     Tally,
     Task,
+    at_start,
     compare,
     flight_of,
+    flights_that_cross,
     inside_task,
+    longest_block,
     near_grazing_task,
     parameters,
     random_wall_task,
@@ -26,8 +29,7 @@ from flint import acb, arb
 from reference import first_crossing, plane_flight, unit
 
 from carom.core import events
-from carom.core.block import load_products
-from carom.core.flow import displacement, squared_modulus, velocity
+from carom.core.flow import displacement, velocity
 from carom.core.layout import DEGREE, LEVELS, record, rotor_record, workspace
 from carom.core.table import SHORTENING, flight_table
 from carom.outcome import Outcome
@@ -380,9 +382,8 @@ def test_bounds_of_steps_are_first_roots():
     # Double root, and just none.
     assert events._first_root(-1.0, 2.0, -2.0) == 1.0
     assert events._first_root(-1.0, 2.0, -2.1) == math.inf
-    # Along the wall: pulled off it stays off for a while, pressed on or free nothing can be said.
+    # Along the wall: pulled off it stays off for a while.
     assert events._departure(0.0, -2.0, 3.0) == 2.0
-    assert events._departure(0.0, 0.0, 3.0) == events._departure(0.0, 1.0, 3.0) == 0.0
 
 
 def random_bounds(count):
@@ -439,17 +440,6 @@ def test_sizes_of_terms_bound_rounding_and_derivatives():
         np.testing.assert_allclose(events._bounds(task.table, work), expected, rtol=1e-14)
 
 
-def at_start(task):
-    """A flight as the parts of the search get it: workspace, displacement, ``f``, size of the terms and bounds."""
-    work = workspace(len(task.amplitudes))
-    work.current[:] = task.amplitudes
-    origin = displacement(task.arrays, task.plane, task.amplitudes)
-    load_products(task.arrays, task.plane, origin, work)
-    level = squared_modulus(origin) - 1.0 if task.start == events.INSIDE else 0.0
-    spread = events._spread(task.arrays, task.plane, task.amplitudes)
-    return work, origin, level, spread, events._bounds(task.table, work)
-
-
 def by_steps(task, horizon):
     """Outcome and time of the first crossing on the longest block by certified steps alone; checks the state there."""
     work, origin, level, spread, bounds = at_start(task)
@@ -476,10 +466,6 @@ def test_the_level_and_its_derivatives_at_a_time():
             expected = [float(value) for value in (*task.flight.level(time), (after - before) / (2 * step))]
             size = task.noise(time, 1.0) * (1.0 + task.flight.fastest) ** np.arange(4)
             assert np.all(np.abs(np.array(found) - expected) <= 64 * EPSILON * size)
-
-
-def longest_block(task):
-    return float(task.table.durations[0])
 
 
 @pytest.mark.parametrize("kind", ["inside", "near-grazing", "fast", "late-chatter", "slow", "along-the-wall"])
@@ -511,17 +497,6 @@ def polish(task, guess, floor, doubt, curvature=None):
     return events._polish(task.arrays, task.table, task.plane, origin, level, guess, most, floor, doubt, work), bounds[
         0
     ]
-
-
-def flights_that_cross(seed, count):
-    """Flights from inside that cross the wall on the longest block, and their crossings."""
-    for rotor, rng in rotors(seed, count):
-        for _ in range(20):
-            task = inside_task(rotor, rng)
-            crossing = first_crossing(task.flight, longest_block(task))
-            if crossing is not None and crossing.slope > 1e-2:
-                yield rotor, rng, task, crossing
-                break
 
 
 def test_a_root_is_certified_where_its_slope_proves_it_the_first_and_only_there():

@@ -204,9 +204,9 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
     curvature, jerk, speed = bounds
     if start != INSIDE:
         _, slope, bend = _probe(rotor, table, plane, origin, level, 0.0, work)
-        time = _departure(min(slope, 0.0), bend, jerk)
-        if time == 0.0:
+        if slope >= 0.0 and bend >= 0.0:
             return GRAZING, time
+        time = _departure(min(slope, 0.0), bend, jerk)
     while time < block:
         value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
         # On the wall f is exact at the start, and the rounding of y there turns the change of y that follows.
@@ -219,10 +219,8 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
             nudge(rotor, work.arrival, step)
             return CONTACT, time + step
         # Steps end where half the rounding is left to zero: none can pass a crossing that rounding hides.
-        step = _safe_step(value + 0.5 * rounding, slope, bend, curvature, jerk)
-        if time + step == time:
-            return (CONTACT if slope > 0.0 else GRAZING), time
-        time += step
+        # They advance: here 1 ≥ −f > rounding > ROUNDING |ẏ| t, so with f' ≤ 2|ẏ| one is longer than two spacings of t.
+        time += _safe_step(value + 0.5 * rounding, slope, bend, curvature, jerk)
     return CLEAR, block
 
 
@@ -294,12 +292,10 @@ def _rising_time(slope, bend, jerk):
 
 @part
 def _departure(slope, bend, jerk):
-    """Time after leaving the wall, ``f' ≤ 0``, before which no return is possible; zero where that cannot be said.
+    """Time after leaving the wall, ``f' < 0`` or ``f' = 0`` and ``f'' < 0``, before which no return is possible.
 
     First root of ``f' + f''τ/2 + M₃τ²/6``, which bounds ``f/τ`` from above.
     """
-    if slope == 0.0 and bend >= 0.0:
-        return 0.0
     half = 0.5 * bend
     root = math.sqrt(half * half - 2.0 / 3.0 * jerk * slope)
     return -2.0 * slope / (root + half) if half > 0.0 else 3.0 * (root - half) / jerk
