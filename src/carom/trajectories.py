@@ -13,6 +13,8 @@ import numpy as np
 
 from carom.contacts import ContactHistory, ContactLog, LastingContact
 from carom.core.advance import INSIDE_ALL, advance
+from carom.core.closing import PASSES
+from carom.core.fate import doubt
 from carom.core.impact import set_on_wall
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all
@@ -301,6 +303,7 @@ def simulate(
     first = amplitudes.copy()
     logs: list[EventLog] = []
     reached, events, outcome, phase = 0.0, 0, Outcome.EVENT_LIMIT, int(Phase.FLIGHT)
+    multiplicity = 0
     while outcome is Outcome.EVENT_LIMIT and events < max_events:
         log = EventLog.empty(min(CHUNK, max_events - events), modes)
         outcome, time, count, phase, plane = follow(rotor, amplitudes, until - reached, phase, plane, log, recollection)
@@ -308,6 +311,11 @@ def simulate(
         reached, events = reached + time, events + count
         if progress:
             progress(reached)
+        if outcome in REPEATING:
+            multiplicity = multiplicity_of(rotor, amplitudes, int(recollection.period))
+            if multiplicity == PASSES:
+                doubt(recollection)
+                outcome, multiplicity = Outcome.EVENT_LIMIT, 0
     position, velocity = rotor.state(amplitudes)
     return Trajectory(
         rotor=rotor,
@@ -315,7 +323,7 @@ def simulate(
         outcome=outcome,
         time=until if outcome is Outcome.TIME_REACHED else reached,
         final=State(complex(position), complex(velocity)),
-        multiplicity=multiplicity_of(rotor, amplitudes, int(recollection.period)) if outcome in REPEATING else 0,
+        multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
         segment_phases=np.concatenate([np.zeros(1, np.int64), *(log.phases for log in logs)]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),

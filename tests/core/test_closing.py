@@ -103,6 +103,37 @@ def test_an_orbit_that_repels_closes_but_does_not_attract():
 
 
 @pytest.mark.jit_only
+def test_a_motion_that_only_passes_by_an_orbit_goes_on():
+    """B1,d of this machine has the multipliers -1.043 and 0.951: a motion comes within 1e-8 of it, and leaves."""
+    parameters = Parameters(
+        gamma=0.16155610137935947, omega=0.8615319990097938, rho=0.7570556724764941, phi=0.7489482538116126,
+        mu=0.37569101757556383, d=0.5310701214526219, radius_ratio=1.6389580250449938,
+    )  # fmt: skip
+    rotor, start = (
+        jeffcott(parameters),
+        State(-0.9376157591840666 - 0.049885059556011j, 1.1903963754385933 + 0.6414778990507444j),
+    )
+    orbit = next(orbit for orbit in single_impact_orbits(rotor) if orbit.name == "B1,d")
+    assert not orbit.stable
+    together = settle_all(rotor, np.array([start.position]), np.array([start.velocity]))
+    # In double precision a motion may stay on the orbit itself for ever: that is no end either.
+    on_orbit = settle_all(rotor, np.array([orbit.departure.position]), np.array([orbit.departure.velocity]))
+    alone = simulate(rotor, start, settle=True)
+    assert (alone.outcome, alone.multiplicity) == (together.outcomes[0], together.multiplicities[0])
+    assert np.abs(alone.contacts.radial_speed - orbit.radial_speed).min() < 1e-7
+    for endings in (together, on_orbit):
+        assert (
+            endings.outcomes[0] not in REPEATING
+            or endings.multiplicities[0] == 0
+            or (
+                closed_orbit(
+                    rotor, endings.positions[0], endings.velocities[0], int(endings.multiplicities[0])
+                ).attracts
+            )
+        )
+
+
+@pytest.mark.jit_only
 @pytest.mark.parametrize("friction", [0.0, 0.02])
 def test_elastic_bounces_that_become_ever_lower_are_no_orbit(friction):
     """Bounces of any number a period close, but for what damping takes: neither route may name one of these numbers."""

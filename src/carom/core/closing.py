@@ -18,20 +18,24 @@ import math
 import numpy as np
 
 from carom.core.advance import advance
-from carom.core.fate import same_state
+from carom.core.fate import NEAR, same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import unit
 from carom.core.layout import kernel, part
 from carom.core.variation import carry_through_impact, carry_to_wall
 from carom.outcome import Outcome, Phase
 
-__all__ = ["ATTRACTS", "CLOSES", "OPEN", "close", "least_period"]
+__all__ = ["ATTRACTS", "CLOSES", "OPEN", "PASSES", "REPELS", "close", "least_period"]
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 FLIGHT = int(Phase.FLIGHT)
 ONLY_PLANE = 0
-OPEN, CLOSES, ATTRACTS = 0, 1, 2
-"""No orbit was found; one that closes but does not attract, or so weakly that rounding hides it; one that attracts."""
+OPEN, CLOSES, ATTRACTS, REPELS = 0, 1, 2, 3
+"""No orbit was found; one that closes and is not known to attract or to repel; one that attracts; one that repels."""
+PASSES = -1
+"""Instead of a number of impacts: the motion has recurred next to an orbit that repels, and will leave it."""
+REPELLING = 1e-4
+"""Growth of a difference in a period from which on an orbit is said to repel."""
 LOWEST = 1e-6
 """Height of elastic bounces, in clearances, below which they are taken to become ever lower: they approach no orbit."""
 AROUND = 1e-3
@@ -74,7 +78,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     int
         The least divisor of ``count`` after whose number of impacts an attracting orbit next to the state closes; else
         ``count``.  Of a motion that has not recurred the impacts, up to SHORT, of such an orbit that it approaches; else 0.
-        Of elastic bounces that damping makes ever lower 0.
+        Of elastic bounces that damping makes ever lower 0.  PASSES of a motion that only passes by an orbit.
     """
     ahead = count if count > 0 else WATCHED
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
@@ -84,10 +88,9 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
         return count
     if _fades(rotor, states, durations):
         return 0
-    if count == 1:
-        return count
     longest = count if count > 0 else SHORT
     orbit = np.empty((longest + 1, 2), np.complex128)
+    passes = False
     for impacts in range(1, longest + 1):
         if count % impacts == 0 and same_state(states[0], states[impacts], AROUND):
             copy(states[0], orbit[0])
@@ -96,7 +99,9 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
                 if _fades(rotor, orbit[: impacts + 1], durations[:impacts]):
                     return 0
                 return _distinct(orbit, impacts)
-    return count
+            # Farther off the motion would not have recurred to within NEAR.
+            passes = passes or (found == REPELS and same_state(orbit[0], states[0], NEAR / REPELLING))
+    return PASSES if passes and count > 0 else count
 
 
 @kernel
@@ -151,7 +156,7 @@ def close(rotor, table, orbit, durations, log, memory, work, rub):
     Returns
     -------
     int
-        OPEN, CLOSES or ATTRACTS.
+        OPEN, CLOSES, ATTRACTS or REPELS.
     """
     start = orbit[0].copy()
     found = OPEN
@@ -236,7 +241,11 @@ def _newton_step(rotor, orbit, durations, work):
     apart = local - before
     size = 1.0 + math.sqrt(squared_modulus(before))
     done = abs(turned) + math.sqrt(squared_modulus(apart)) <= CLOSED * size
-    found = ATTRACTS if _contracts(jacobian) else CLOSES
+    found = CLOSES
+    if _contracts(jacobian, 1.0):
+        found = ATTRACTS
+    elif not _contracts(jacobian, 1.0 + REPELLING):
+        found = REPELS
     for i in range(3):
         jacobian[i, i] -= 1.0
     whole = _determinant(jacobian)
@@ -258,14 +267,14 @@ def _set_change(rotor, position_change, velocity_change, amplitudes):
 
 
 @kernel
-def _contracts(matrix):
-    """Whether all eigenvalues of a matrix (3, 3) lie within the unit circle (Jury 1962)."""
-    trace = matrix[0, 0] + matrix[1, 1] + matrix[2, 2]
+def _contracts(matrix, radius):
+    """Whether all eigenvalues of a matrix (3, 3) lie within a circle (Jury 1962)."""
+    trace = (matrix[0, 0] + matrix[1, 1] + matrix[2, 2]) / radius
     minors = 0.0
     for i in range(3):
         j = (i + 1) % 3
-        minors += matrix[i, i] * matrix[j, j] - matrix[i, j] * matrix[j, i]
-    determinant = _determinant(matrix)
+        minors += (matrix[i, i] * matrix[j, j] - matrix[i, j] * matrix[j, i]) / radius**2
+    determinant = _determinant(matrix) / radius**3
     return (
         1.0 - trace + minors - determinant > 0.0
         and 1.0 + trace + minors + determinant > 0.0

@@ -13,9 +13,9 @@ import numpy as np
 
 from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
 from carom.core.block import move_to
-from carom.core.closing import least_period
+from carom.core.closing import PASSES, least_period
 from carom.core.counter import next_number
-from carom.core.fate import NEAR, forget, impacts_until_noted, levitates, recurs, stays_inside
+from carom.core.fate import NEAR, doubt, forget, impacts_until_noted, levitates, recurs, stays_inside
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
@@ -113,6 +113,9 @@ def follow_each(task, motions, counter, tools):
             while outcome != GOES_ON:
                 if outcome == SINGLY:
                     outcome = _follow_singly(task, tools, lane)
+                    continue
+                if outcome in (BOUNCING, MIXED) and _passes_by(task, tools, lane):
+                    outcome = SINGLY
                     continue
                 if outcome != NONE_YET:
                     _note_end(task, tools, motions[lanes.motion[lane]], lane, outcome)
@@ -283,6 +286,23 @@ def _put_memory_by(lanes, memory, lane):
     lanes.reach[lane] = reach
 
 
+@kernel
+def _passes_by(task, tools, lane):
+    """Whether a motion that has recurred is not at its end; if it is, ``memory.period`` is that of its orbit."""
+    lanes, memory = tools.lanes, tools.memory
+    log = (tools.times, tools.phases, tools.planes, tools.before, tools.after)
+    state = tools.amplitudes
+    copy(tools.work.current, state)
+    memory.period = least_period(task.rotor, task.table, state, memory.period, log, memory, tools.work, tools.rub)
+    copy(state, tools.work.current)
+    if memory.period != PASSES:
+        return False
+    doubt(memory)
+    lanes.plane[lane] = 0
+    _put_memory_by(lanes, memory, lane)
+    return True
+
+
 @passage
 def _note_end(task, tools, motion, lane, outcome):
     """Note where the motion of a lane has ended, in ``work.current``."""
@@ -293,12 +313,7 @@ def _note_end(task, tools, motion, lane, outcome):
         displacement(task.rotor, 0, work.current),
         velocity(task.rotor, 0, work.current),
     )
-    motion.multiplicity = 0
-    if outcome in (BOUNCING, MIXED):
-        log = (tools.times, tools.phases, tools.planes, tools.before, tools.after)
-        motion.multiplicity = least_period(
-            task.rotor, task.table, work.current, memory.period, log, memory, work, tools.rub
-        )
+    motion.multiplicity = memory.period if outcome in (BOUNCING, MIXED) else 0
 
 
 @part

@@ -11,7 +11,8 @@
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a turn without flight the state has changed
   by less than ``NEAR`` and by less than ``NEAR`` per unit time, so slow changes do not pass for none.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
-  reference is renewed after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.
+  reference is renewed after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has recurred next
+  to an orbit that repels only passes by, and is followed on (:mod:`carom.core.closing`).
 - *Aperiodic*: ``patience`` impacts have passed without recurrence.
 """
 
@@ -29,6 +30,7 @@ __all__ = [
     "NEAR",
     "absorbed",
     "approaches_turn",
+    "doubt",
     "forget",
     "forget_rub",
     "impacts_until_noted",
@@ -318,6 +320,12 @@ def forget(memory):
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning = NO_TURN
+
+
+@kernel
+def doubt(memory):
+    """Look for another recurrence: what has recurred only passes by an orbit."""
+    memory.candidate, memory.period = 0, 0
 
 
 @kernel
