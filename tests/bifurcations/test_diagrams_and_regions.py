@@ -184,7 +184,7 @@ def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
             # The stated step is 0.1 of the start's values, or of a tenth of the widths where these are larger.
             sizes = np.maximum(np.abs(curve.points).max(axis=0), 0.1 * widths)
             assert np.linalg.norm(np.diff(curve.points, axis=0) / sizes, axis=1).max() <= 1.05 * STEPS.largest
-    assert ends["edge of the plane"] > sized(3, 1, 50)
+    assert ends["edge of the plane"] > sized(10, 1, 50)
 
 
 def test_inputs_that_cannot_be_used():

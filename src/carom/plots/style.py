@@ -185,7 +185,8 @@ def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
     """Run a drawing function under carom's style sheet.
 
     A figure of its own is laid out before the sheet is taken away, and its layout then stays: ticks made later would
-    get the settings of the user, and a layout done anew for each file would make each file a little different.  Axes of the user, given as the keyword `axes`, keep the layout of the user.
+    get the settings of the user, and a layout done anew for each file would make each file a little different.  Axes of
+    the user, given as the keyword `axes`, keep the layout of the user.
     """
 
     @wraps(draw)
