@@ -22,6 +22,7 @@ from carom.cli.paper import paper
 from carom.cli.simulate import simulate
 from carom.cli.study import study
 from carom.cli.sweep import sweep
+from carom.cli.terminal import InterruptionError
 from carom.outcome import CaromError, CaromWarning, InputError, printable
 
 __all__ = ["app", "main"]
@@ -92,12 +93,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with _interruptions_heeded(), _warnings_on_one_line():
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
-    except InputError as problem:
-        for line in str(problem).split("\n"):
-            _complain(line, BAD_INPUT)
-        return BAD_INPUT
     except CaromError as problem:
-        return _complain(str(problem), BAD_INPUT)
+        return _refuse(problem)
+    except InterruptionError as problem:
+        return _complain(str(problem), INTERRUPTED)
     except UsageError as problem:
         message = getattr(problem, "format_message", problem.__str__)()
         return _complain(f"{message} (carom --help tells what is allowed)", BAD_INPUT)
@@ -114,6 +113,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _complain(f"cannot read or write{where}: {problem.strerror or problem}", FAILURE)
     except Exception as problem:  # noqa: BLE001  (the last resort: no traceback reaches a user)
         return _unexpected(problem)
+    if code == INTERRUPTED:  # caught by the library of commands, which says nothing
+        return _complain("interrupted", INTERRUPTED)
     return code if isinstance(code, int) else 0
 
 
@@ -161,6 +162,14 @@ def _unexpected(problem: BaseException) -> int:
         raise problem
     name = type(problem).__name__
     return _complain(f"unexpected {name}, please report it (CAROM_DEBUG=1 shows more): {problem}", FAILURE)
+
+
+def _refuse(problem: CaromError) -> int:
+    """Say what is wrong with the input; each thing wrong with a file has a line of its own."""
+    lines = str(problem).split("\n") if isinstance(problem, InputError) else [str(problem)]
+    for line in lines:
+        _complain(line, BAD_INPUT)
+    return BAD_INPUT
 
 
 def _complain(message: str, code: int) -> int:

@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from carom.cli.terminal import AsJson, Settings, console, print_document, progress
+from carom.cli.terminal import AsJson, InterruptionError, Settings, console, print_document, progress
 
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
 
 __all__ = ["sweep"]
 
-INTERRUPTED = 130
 _SHOWN = 5
 
 
@@ -68,9 +67,7 @@ def sweep(
             )
         except KeyboardInterrupt:
             kept = f"{last[0].done:,} of {plan.points:,} points are stored; " if last else ""
-            line = f"carom: interrupted; {kept}the same command goes on with {out}"
-            console(errors=True).print(line, soft_wrap=True)
-            raise typer.Exit(INTERRUPTED) from None
+            raise InterruptionError(f"interrupted; {kept}the same command goes on with {out}") from None
     failures = _failures(plan, tally)
     if as_json:
         print_document(_document(plan, tally, failures))

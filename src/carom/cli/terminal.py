@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.progress import Progress
 
-__all__ = ["AsJson", "MachineFile", "Settings", "console", "print_document", "progress"]
+__all__ = ["AsJson", "InterruptionError", "MachineFile", "Settings", "console", "print_document", "progress"]
 
 MachineFile = Annotated[str, typer.Argument(metavar="MACHINE.toml", help="The machine file.")]
 Settings = Annotated[
@@ -32,6 +32,10 @@ PIPE_WIDTH = 140
 PATIENCE = 0.7
 """Seconds without a progress bar."""
 _CLOCK = len("0:00:00")
+
+
+class InterruptionError(Exception):
+    """A command was interrupted and has something to say about it."""
 
 
 def console(errors: bool = False) -> Console:
