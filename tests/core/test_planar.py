@@ -128,6 +128,21 @@ def test_radial_profile_agrees_with_dense_sampling():
     assert seen > 5
 
 
+def test_the_departure_of_an_orbit_without_rebound_is_no_maximum_of_the_radius():
+    """The radial speed is exactly zero there; rounding once made it a maximum on the wall."""
+    seen = 0
+    random = np.random.default_rng(12)
+    for _ in range(sized(40, 40, 1000)):
+        parameters = random_parameters(random, d=0.0, gamma=float(10 ** random.uniform(-1.5, 0.0)))
+        for orbit in single_impact_orbits(jeffcott(parameters), 15.0):
+            if orbit.admissible and orbit.slip > 0:
+                seen += 1
+                numbers = parameters.gamma, parameters.omega, parameters.mu, 0.0, orbit.period, orbit.radial_speed
+                height, top, _ = radial_profile(*numbers)
+                assert np.isnan(height) or (height < 0.0 and top > 1e-6 * orbit.period)
+    assert seen > 5
+
+
 def test_a_pair_of_extrema_of_the_radius_is_born_where_the_flattest_slope_vanishes():
     """On the branch of the source paper's figure 5b with the diamonds, B1,d."""
 

@@ -191,7 +191,11 @@ def _is_far_outside(numbers: Numbers, period: float, speed: float) -> bool:
 
 
 def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
-    """Which solution on the right each one on the left goes over to, as far as Newton's method finds it at once."""
+    """Which solution on the right each one on the left goes over to, as far as Newton's method finds it at once.
+
+    Where two solutions are close Newton's method may find the other one.  The letter of the name tells: without a fold on
+    the way each keeps its own.
+    """
     found: dict[int, int] = {}
     for backward in (False, True):
         places = [index for index, member in enumerate(right) if (member.solution.numbers.mu < 0.0) == backward]
@@ -203,11 +207,13 @@ def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
             if (solution.numbers.mu < 0.0) == backward:
                 guess = corrected(numbers, solution.period, solution.radial_speed)
                 nearest = int(np.argmin(np.abs(others - guess).max(axis=1)))
+                partner = places[nearest]
                 if (
                     _same(float(others[nearest, 0]), float(others[nearest, 1]), *guess)
-                    and places[nearest] not in found.values()
+                    and solution.name[-1] == right[partner].solution.name[-1]
+                    and partner not in found.values()
                 ):
-                    found[place] = places[nearest]
+                    found[place] = partner
     return found
 
 

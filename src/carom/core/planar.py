@@ -224,7 +224,9 @@ def radial_profile(gamma, omega, mu, d, period, speed):
     count = 48 + int(10.0 * fastest * period)
     step = period / count
     height, top, flattest = np.nan, np.nan, 1.0
-    slope, bend, _, _ = _radial(first, second, rest, driven, driving, 0.0)
+    _, bend, _, _ = _radial(first, second, rest, driven, driving, 0.0)
+    # Known exactly: of no rebound (d = 0) rounding could make a rise, and that a maximum at the impact itself.
+    slope = -d * speed
     for i in range(1, count + 1):
         time = i * step
         next_slope, next_bend, _, _ = _radial(first, second, rest, driven, driving, time)
