@@ -134,6 +134,20 @@ def test_a_motion_that_only_passes_by_an_orbit_goes_on():
 
 
 @pytest.mark.jit_only
+def test_no_number_is_named_where_no_orbit_closes():
+    """Rub brings irregular bouncing back to the same state to the last bit: 2674 computed impacts then repeat themselves."""
+    parameters = Parameters(
+        gamma=0.010919582190453933, omega=0.37741706708713113, rho=1.1060646732905892, phi=1.229913015103592,
+        mu=0.12190001982830612, d=0.9124514915788788, radius_ratio=1.7067500966210072,
+    )  # fmt: skip
+    positions = np.array([-0.9529923594883638 + 0.27279210388634423j, 0.6602592005764265 + 0.1451056352397193j])
+    velocities = np.array([1.5912335089848553 - 0.33757891694966446j, -0.8325178172900114 - 0.9984458821653093j])
+    ends = settle_all(jeffcott(parameters), positions, velocities)
+    assert set(ends.outcomes) <= set(REPEATING)
+    assert ends.multiplicities.tolist() == [0, 0]
+
+
+@pytest.mark.jit_only
 @pytest.mark.parametrize("friction", [0.0, 0.02])
 def test_elastic_bounces_that_become_ever_lower_are_no_orbit(friction):
     """Bounces of any number a period close, but for what damping takes: neither route may name one of these numbers."""

@@ -3,7 +3,8 @@
 A motion that still spirals slowly towards its orbit recurs to within :data:`~carom.core.fate.NEAR` first after a multiple
 of the period, where its turns about the orbit happen to close.  :func:`least_period` therefore asks, for every divisor
 of the number of impacts after which the motion has recurred, whether that many impacts have a fixed point close by that
-attracts.  Without lasting contact in the period the fixed point is found by Newton's method with the exact derivative of
+attracts.  Where rub has brought irregular bouncing back to the same numbers to the last bit, the computation repeats itself
+though the motion does not; no orbit closes there, and no number is named.  Without lasting contact in the period the fixed point is found by Newton's method with the exact derivative of
 the impacts (:mod:`carom.core.variation`) and judged by its multipliers; with it, by Aitken's extrapolation of the
 motion itself, for what is left of a difference after a lift-off is one number.
 
@@ -77,20 +78,19 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     -------
     int
         The least divisor of ``count`` after whose number of impacts an attracting orbit next to the state closes; else
-        ``count``.  Of a motion that has not recurred the impacts, up to SHORT, of such an orbit that it approaches; else 0.
-        Of elastic bounces that damping makes ever lower 0.  PASSES of a motion that only passes by an orbit.
+        ``count``, if any orbit closes after that many.  Of a motion that has not recurred the impacts, up to SHORT, of such
+        an orbit that it approaches.  PASSES of a motion that only passes by an orbit.  0 of all others, elastic bounces that
+        damping makes ever lower among them.
     """
     ahead = count if count > 0 else WATCHED
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
     copy(state, states[0])
     followed, _ = _follow_impacts(rotor, table, states, durations, log, memory, work, rub)
-    if not followed:
-        return count
-    if _fades(rotor, states, durations):
+    if not followed or _fades(rotor, states, durations):
         return 0
     longest = count if count > 0 else SHORT
     orbit = np.empty((longest + 1, 2), np.complex128)
-    passes = False
+    closes, passes = False, False
     for impacts in range(1, longest + 1):
         if count % impacts == 0 and same_state(states[0], states[impacts], AROUND):
             copy(states[0], orbit[0])
@@ -101,7 +101,10 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
                 return _distinct(orbit, impacts)
             # Farther off the motion would not have recurred to within NEAR.
             passes = passes or (found == REPELS and same_state(orbit[0], states[0], NEAR / REPELLING))
-    return PASSES if passes and count > 0 else count
+            closes = impacts == count and found != OPEN
+    if passes and count > 0:
+        return PASSES
+    return count if closes else 0
 
 
 @kernel
