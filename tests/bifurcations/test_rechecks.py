@@ -198,10 +198,10 @@ def vanishes(kind: str, parameters: Parameters, point) -> bool:
 @pytest.mark.parametrize(
     ("base", "plane"),
     [
-        (PAPER, Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.05))),
+        pytest.param(PAPER, Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.05)), marks=pytest.mark.deep),
         (SOFT, Plane("gamma", "omega", (0.02, 0.15), (0.15, 0.6))),
         pytest.param(PAPER, Plane("mu", "gamma", (0.02, 0.4), (0.03, 0.3)), marks=pytest.mark.deep),
-        (SOFTER, Plane("omega", "gamma", (0.13, 0.9), (0.02, 0.3))),
+        pytest.param(SOFTER, Plane("omega", "gamma", (0.13, 0.9), (0.02, 0.3)), marks=pytest.mark.deep),
     ],
 )
 def test_at_codimension_2_points_both_happen(base, plane):

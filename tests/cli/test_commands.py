@@ -4,6 +4,7 @@ import json
 import re
 
 import pytest
+from studies import QUICK
 
 from carom import __version__
 from carom.equilibria import equilibria
@@ -53,7 +54,7 @@ def test_orbits_as_json(carom, machine):
 
 @pytest.mark.parametrize("command", ["orbits", "study"])
 def test_of_a_balanced_machine_no_negative_zero_is_printed(carom, machine, command):
-    code, out, _ = carom(command, machine, "--set", "eccentricity=0 mm", "--json")
+    code, out, _ = carom(command, machine, *QUICK, "--set", "eccentricity=0 mm", "--json")
 
     assert code == 0
     assert json.loads(out)["equilibria"][0]["U"] == [0.0, 0.0]
@@ -184,7 +185,7 @@ def test_study_of_a_dimensionless_file(carom, dimensionless):
 
 
 def test_study_writes_a_report(carom, machine, tmp_path):
-    code, out, _ = carom("study", machine, "--out", tmp_path / "deep" / "out")
+    code, out, _ = carom("study", machine, *QUICK, "--out", tmp_path / "deep" / "out")
 
     assert code == 0
     assert out.rstrip().endswith(str(tmp_path / "deep" / "out" / "report.html"))

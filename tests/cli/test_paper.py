@@ -7,6 +7,19 @@ import re
 
 import pytest
 
+from carom import paper
+from carom.paper import writing
+
+
+@pytest.fixture(scope="module")
+def found():
+    return paper.reproduce()
+
+
+@pytest.fixture(autouse=True)
+def computed_once(monkeypatch, found):
+    monkeypatch.setattr(paper, "reproduce", lambda tell: found)
+
 
 def test_table_alone(carom, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -27,7 +40,10 @@ def test_json_is_one_object_and_nothing_else(carom):
     assert document["figures"] == []
 
 
-def test_everything_to_a_directory(carom, tmp_path):
+def test_everything_to_a_directory(carom, tmp_path, monkeypatch):
+    # The others are drawn in tests/paper/test_writing.py.
+    for module in (paper, writing):
+        monkeypatch.setattr(module, "figures", lambda found, all_of=module.figures: all_of(found)[-1:])
     code, out, err = carom("paper", "--out", tmp_path / "deep" / "out", "--json")
     assert code == 0
     place = tmp_path / "deep" / "out"
@@ -35,9 +51,9 @@ def test_everything_to_a_directory(carom, tmp_path):
     assert document == json.loads((place / "paper.json").read_text(encoding="utf-8"))
     assert len(err.strip().splitlines()) == 1
     assert "figure-6.svg" in err
-    for entry in document["figures"]:
-        for ending in ("svg", "png"):
-            assert (place / f"{entry['name']}.{ending}").stat().st_size > 20_000
+    assert [entry["name"] for entry in document["figures"]] == ["figure-6"]
+    for ending in ("svg", "png"):
+        assert (place / f"figure-6.{ending}").stat().st_size > 20_000
     assert not list(tmp_path.glob("deep/.*"))
 
 

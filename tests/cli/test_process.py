@@ -6,10 +6,9 @@ import subprocess
 import sys
 
 import pytest
+from studies import QUICK
 
 CAROM = [sys.executable, "-m", "carom"]
-QUICK = ["--set", "damping=6000 N s/m", "--set", "friction=0"]
-"""Of the machine of the tests a study that is soon made: every disturbance comes back at once."""
 
 
 def run(*arguments, **options):

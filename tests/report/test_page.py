@@ -102,9 +102,9 @@ def test_figures_are_files_too(written):
     assert {f"figures/{name}" for name in files} == set(listed)
 
 
-def test_same_study_gives_the_same_bytes(written, tmp_path):
-    result, path, _ = written
-    places = [path.parent, write_report(result, str(tmp_path / "again")).parent]
+def test_same_study_gives_the_same_bytes(tmp_path):
+    result = study_once(SOURCE.replace(gamma=3.0))
+    places = [write_report(result, str(tmp_path / name)).parent for name in ("once", "again")]
 
     once, again = ({file.name: file.read_bytes() for file in place.rglob("*") if file.is_file()} for place in places)
     assert once == again
@@ -122,7 +122,7 @@ def test_names_are_escaped(written):
 @pytest.mark.parametrize(
     "parameters",
     [
-        SOURCE.replace(gamma=0.0),
+        pytest.param(SOURCE.replace(gamma=0.0), marks=pytest.mark.deep),
         SOURCE.replace(rho=0.0, mu=0.0),
         SOURCE.replace(gamma=3.0),
     ],
