@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
 
 import numpy as np
@@ -13,7 +14,7 @@ from machines import PAPER
 from carom import jeffcott
 from carom.core import rub
 from carom.core.flow import displacement, fly_all, velocity
-from carom.core.layout import ORDER, rotor_record, rub_workspace
+from carom.core.layout import ORDER, record, rotor_record, rub_workspace
 from carom.outcome import Phase
 
 FLIGHT, FORWARD, BACKWARD, ROLLING = (int(phase) for phase in Phase)
@@ -154,6 +155,30 @@ def test_motions_in_different_phases_are_moved_each_in_its_own():
         assert (abs(abs(displacement(ARRAYS, 0, moved[i])) - 1.0) < 1e-13) == (phase != FLIGHT)
 
 
+def pressed_rotor(friction, acceleration):
+    """A rotor at ``y = 1`` with this acceleration, whose amplitudes are displacement and velocity themselves."""
+    fields = {name: np.array(ARRAYS[name]) for name in ARRAYS.dtype.names}
+    fields["offsets"][:], fields["weights"][:], fields["drive"][:], fields["friction"][:] = 0.0, 1.0, 1.0, friction
+    fields["rows"][:], fields["rate_rows"][:], fields["acceleration_rows"][:] = (
+        (1.0, 0.0),
+        (0.0, 1.0),
+        (acceleration, 0.0),
+    )
+    return record(**fields)
+
+
+def test_what_goes_on_without_slip_is_decided_by_the_cone_of_friction_and_its_rounding():
+    """A normal force below zero, by rounding alone, counts as zero, however large the friction."""
+    motion = np.array([1.0, -1j])
+    for friction, push, side, share in itertools.product((0.1, 5.0), (0.5, 0.0, None), (1.0, -1.0), (0.9, 1.1)):
+        acceleration = complex((push or 0.0) - 1.0, side * friction * (push or 0.0))
+        rounding = rub.push_rounding(pressed_rotor(friction, acceleration), 0, motion)
+        acceleration += complex(-0.9 * rounding if push is None else 0.0, side * share * rounding)
+        slips = FORWARD if side > 0.0 else BACKWARD
+        following = rub.next_phase(pressed_rotor(friction, acceleration), 0, motion, ROLLING)
+        assert following == (ROLLING if share < 1.0 else slips)
+
+
 # ----------------------------------------------------------------------------------------------- length of a step
 
 
@@ -248,7 +273,7 @@ def test_rounding_errors_are_the_sums_of_the_sizes_of_their_terms():
 def polynomial(*roots, lead=1.0):
     """Coefficients of a margin with these zeros, from the lowest power on."""
     margin = np.zeros(ORDER + 1)
-    coefficients = lead * np.poly(roots)[::-1]
+    coefficients = lead * np.poly(roots).real[::-1]
     margin[: len(coefficients)] = coefficients
     return margin
 
@@ -265,6 +290,14 @@ def test_the_first_fall_of_polynomials_with_known_zeros():
         assert rub._first_fall(polynomial(0.0, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
     assert rub._first_fall(polynomial(0.4, 0.4, 0.8, lead=-1.0), 1.0, 1e-14) == pytest.approx(0.8, abs=1e-12)
     assert rub._first_fall(polynomial(0.4, 0.4), 1.0, 1e-14) == 1.0
+
+
+@pytest.mark.parametrize("rounding", [1e-14, 1e-20, 1e-30])
+def test_a_fall_after_a_rise_is_not_passed_over_just_before_the_end(rounding):
+    """The curvature of a parabola is the same everywhere: the steps that it allows lead to the zero and not beyond."""
+    for first, second in ((0.2, 0.7), (0.45, 0.46), (0.0, 0.46), (0.0, 1e-3), (0.0, 500.0)):
+        rising = polynomial(-first, second, lead=-1.0)
+        assert rub._first_fall(rising, 1.001 * second, rounding) == pytest.approx(second, rel=1e-9)
 
 
 @pytest.mark.parametrize("step", [0.1, 0.4, 2.0])
@@ -314,6 +347,42 @@ def test_lift_off_ends_at_its_horizon_with_the_state_of_the_flight():
     assert amplitudes == pytest.approx(expected, abs=1e-14)
 
 
+def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_rounding_of_that_force():
+    """At speeds along the wall where the force is next to zero and falls."""
+    tried = 0
+    for angle in np.arange(0.0, 6.0, 0.5):
+        rotor = jeffcott(PAPER.replace(phi=angle))
+        turning = math.sqrt(max(PAPER.omega**2 - PAPER.rho * math.cos(angle), 0.0)) - 1.0
+        for share, leaves in ((0.8, True), (1.2, False)):
+            for _ in range(4):
+                amplitudes = np.array(rotor.amplitudes(1.0 + 0j, complex(0.0, turning)))
+                push, change = rub.wall_push(rotor.arrays, 0, amplitudes)
+                rounding = rub.push_rounding(rotor.arrays, 0, amplitudes)
+                turning += (share * rounding - push) / (2.0 * (1.0 + turning) + 1e-300)
+            if change > -0.1:
+                continue
+            assert push == pytest.approx(share * rounding, rel=0.1)
+            time, returned = rub.lift_off(rotor.arrays, 0, amplitudes, 1e-3, rub_workspace(2))
+            assert (time, returned) == ((1e-3, False) if leaves else (0.0, True))
+            tried += 1
+    assert tried >= 6
+
+
+def test_what_an_earlier_call_left_behind_does_not_change_a_lift_off():
+    """In a flight to its return, many times as long as the one above."""
+    parameters = PAPER.replace(omega=3.0)
+    arrays = jeffcott(parameters).arrays
+    found = []
+    for left in (0.0, -1e15):
+        amplitudes = np.array(jeffcott(parameters).amplitudes(1.0 + 0j, 0j))
+        work = rub_workspace(2)
+        work.first_margin[:] = left
+        found.append((*rub.lift_off(arrays, 0, amplitudes, 10.0, work), amplitudes))
+    assert found[0][0] > 0.01
+    assert found[0][:2] == found[1][:2]
+    assert np.array_equal(found[0][2], found[1][2])
+
+
 def test_the_value_and_slope_of_a_margin():
     margin = np.random.default_rng(7).normal(size=ORDER + 1)
     derivative = margin[1:] * np.arange(1, ORDER + 1)
@@ -332,6 +401,8 @@ def test_a_zero_is_looked_for_from_later_times_on_and_never_left_of_the_start():
     assert rub._zero_before(below, 0.5) == 0.0
     # Where it does not fall there is no zero to look for.
     assert rub._zero_before(-0.5 * below, 0.5) == 0.5
+    # A summit below zero at the start, to which one step leads.
+    assert rub._zero_before(-polynomial(-0.5j, 0.5j) + 0.0, 0.5) == 0.0
 
 
 def test_a_turn_is_passed_in_its_direction_only():

@@ -279,6 +279,22 @@ def test_blocks_are_short_enough_for_the_fastest_mode(arrays):
 
 
 def test_a_rotor_at_rest_has_a_table():
-    table = flight_table(np.zeros(1, complex), np.zeros(1, bool))
+    with np.errstate(divide="raise"):
+        table = flight_table(np.zeros(1, complex), np.zeros(1, bool))
     assert table.durations[0] == tables.LONGEST_BLOCK
     assert not table.coefficients.any()
+
+
+def test_arrays_have_the_shapes_that_are_documented(arrays):
+    table, modes = flight_table(arrays.exponents, arrays.driven.astype(bool)), len(arrays.exponents)
+    assert table.basis.shape == (NODES + 1, 4, modes)
+    assert table.growth.shape == (NODES + 1, modes)
+    assert table.bounds.shape == (3, modes)
+
+
+def test_the_chebyshev_transform_of_each_chebyshev_polynomial_is_its_own_coefficient():
+    """They are sampled from the start of the block to its end; the sampled polynomial of order zero is constant."""
+    points = tables._chebyshev_points(tables.SAMPLES)
+    assert np.all(np.diff(points) > 0.0)
+    sampled = np.polynomial.chebyshev.chebvander(2.0 * points - 1.0, tables.SAMPLES - 1)
+    assert tables._chebyshev_transform() @ sampled == pytest.approx(np.eye(tables.SAMPLES), abs=1e-12)
