@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -300,6 +301,58 @@ def test_a_rise_that_ends_by_the_third_derivative_alone_is_followed_to_its_cross
             before, after = (task.flight.level(time * (1.0 + side * 1e-6))[0] for side in (-1.0, 1.0))
             assert before < 0
             assert after > 0
+
+
+def test_a_rise_that_is_within_its_rounding_at_the_end_of_a_block_goes_on_in_the_next():
+    """It grazes only where it has been followed to its end."""
+    task = inflecting_task(5.0, 0.1, 1e-4, 1e-9)
+    work, origin, level, _, bounds = at_start(task)
+    block = 1e-6
+    assert -1e-9 < task.flight.level(block)[0] < 0
+    assert events._decide(task.arrays, task.table, 0, origin, level, 0.0, block, bounds, 2e-9, work) == (
+        Outcome.CLEAR,
+        block,
+    )
+
+
+# -------------------------------------------------------------------------------------------------------- roots of bounds
+
+
+def lies_on(terms):
+    """Whether a polynomial is zero within the rounding of its terms."""
+    return abs(sum(terms)) <= 8.0 * EPSILON * max(abs(term) for term in terms)
+
+
+@pytest.mark.parametrize("bend", [-1.0, -1e-9, 0.0, 1e-9, 1.0])
+def test_roots_of_the_bounds_are_exact_to_rounding_however_small_a_term(bend):
+    """The time of a rise, of a departure, and the first root of a parabola; a value or slope far below rounding too."""
+    for small, jerk in itertools.product(10.0 ** np.arange(-30.0, 1.0, 3.0), (1e-3, 1.0, 1e3)):
+        time = events._rising_time(small, bend, jerk)
+        assert time > 0.0
+        assert lies_on((small, bend * time, -0.5 * jerk * time**2))
+        time = events._departure(-small, bend, jerk)
+        assert time > 0.0
+        assert lies_on((-small, 0.5 * bend * time, jerk * time**2 / 6.0))
+        for slope in (-1.0, -1e-9, 1e-9, 1.0):
+            time = events._first_root(-small, slope, bend)
+            assert time > 0.0
+            assert time == math.inf or lies_on((-small, slope * time, 0.5 * bend * time**2))
+
+
+def test_a_crossing_at_the_horizon_is_a_contact_and_one_after_it_is_not():
+    def search_until(task, horizon):
+        work = at_start(task)[0]
+        return events._search_block(task.arrays, task.table, task.plane, horizon, task.start, work)
+
+    tried = 0
+    for _, _, task, _ in flights_that_cross(1350, 6):
+        outcome, time = search_until(task, math.inf)
+        if outcome == Outcome.CONTACT:
+            assert search_until(task, time) == (Outcome.CONTACT, time)
+            before = math.nextafter(time, 0.0)
+            assert search_until(task, before) == (Outcome.CLEAR, before)
+            tried += 1
+    assert tried >= 3
 
 
 # ------------------------------------------------------------------------------------------------- steps advance

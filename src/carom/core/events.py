@@ -287,7 +287,8 @@ def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, w
 @part
 def _rising_time(slope, bend, jerk):
     """Time up to which ``f`` rises, if ``f' > 0`` now: the root of ``f' + f''τ − M₃τ²/2``, which bounds it from below."""
-    return 2.0 * slope / (math.sqrt(bend * bend + 2.0 * jerk * slope) - bend)
+    root = math.sqrt(bend * bend + 2.0 * jerk * slope)
+    return (root + bend) / jerk if bend > 0.0 else 2.0 * slope / (root - bend)
 
 
 @part
