@@ -78,7 +78,7 @@ def _advised(study: Study, advice: Advice, *, first: bool) -> str:
         start = "The least change found that leaves levitation alone is" if first else "The other gain would do it with"
         own += f", {number(100.0 * advice.margin, 2)} % beyond the end of the range"
     else:
-        start = "No value searched leaves levitation alone; the least change found that brings back most is"
+        start = "No value searched leaves levitation alone; the least change found that brings back 99 % is"
         start = start if first else "The other gain would do it with"
     return f"{start} {what} ({own}). {_capital(check_words(study, advice))}."
 
