@@ -274,6 +274,34 @@ def test_admissibility_changes_exactly_at_grazing():
         assert "would cross the wall at t = " in below.reason
 
 
+def test_admissibility_without_rebound_changes_exactly_where_the_pull_off_the_wall_vanishes():
+    """Just beyond, the rotor leaves the wall with no radial speed and next to no acceleration."""
+    machine = Parameters(gamma=0.125, omega=0.0663, rho=0.04516, phi=1.18, mu=1.38, d=0.0, radius_ratio=186.0)
+
+    def orbit_at(gamma: float) -> Orbit:
+        return orbits_of(machine.replace(gamma=gamma))["B1,b"]
+
+    def pull(gamma: float) -> float:
+        orbit = orbit_at(gamma)
+        position, velocity = after_impact(orbit, limited=False)
+        rest = rest_position(orbit.rotor.parameters)
+        force = (flight_matrix(orbit.rotor.parameters) @ np.array([position - rest, velocity]))[1]
+        return -(position.conjugate() * force).real - abs(velocity) ** 2
+
+    onset = brentq(pull, 0.12, 0.1275, xtol=1e-15)
+    for distance in (1e-3, 1e-6, 1e-8):
+        assert "stay on the wall" in orbit_at(onset * (1.0 + distance)).reason
+        leaves = orbit_at(onset * (1.0 - distance))
+        assert leaves.reason == ""
+        with mpmath.workdps(50):
+            motion = ExactMotion(leaves.rotor.parameters)
+            start = mpmath.expj(leaves.angle)
+            _, speed = strike(leaves.rotor.parameters, leaves.radial_speed, leaves.angular_speed)
+            for time in np.geomspace(1e-9, 0.999 * leaves.period, 300):
+                position, _ = motion.fly(start, 1j * mpmath.mpf(speed) * start, mpmath.mpf(time))
+                assert abs(position) < 1
+
+
 def test_reason_names_the_time_of_the_crossing():
     orbit = orbits_of(PAPER.replace(gamma=0.05))["B1,d"]
     times = np.linspace(0.0, orbit.period, 200_001)[1:]

@@ -9,9 +9,10 @@ from typing import overload
 
 import numpy as np
 
-from carom.core.events import LEAVING, first_crossing
-from carom.core.layout import workspace
+from carom.core.events import INSIDE, LEAVING, first_crossing
+from carom.core.layout import rub_workspace, workspace
 from carom.core.planar import impact_jacobian
+from carom.core.rub import lift_off
 from carom.maps import Section, section_jacobian
 from carom.outcome import InputError, Outcome
 from carom.periods import PeriodCondition, PeriodRoots
@@ -369,9 +370,26 @@ def _why_virtual(orbit: Orbit) -> str:
     push = (departure.position.conjugate() * (start @ arrays.acceleration_rows[0])).real + abs(departure.velocity) ** 2
     if arrays.restitution[0] == 0.0 and push >= 0.0:
         return "it would stay on the wall: it does not rebound and is pressed outward"
-    code, time = first_crossing(arrays, orbit.rotor.table, 0, start, 1.5 * orbit.period, LEAVING, workspace(len(start)))
+    code, time = _first_return(orbit.rotor, start, 1.5 * orbit.period)
     if code == Outcome.CLEAR or abs(time - orbit.period) <= ARRIVAL_TOLERANCE * orbit.period:
         return ""
     if code == Outcome.GRAZING:
         return f"it grazes the wall at t = {time:.6g} after the impact"
     return f"it would cross the wall at t = {time:.6g}, before its period is over"
+
+
+def _first_return(rotor: Rotor, start: np.ndarray, horizon: float) -> tuple[int, float]:
+    """Outcome and time of the first return to the wall of a flight that leaves it after an impact."""
+    arrays, work = rotor.arrays, workspace(len(start))
+    if arrays.restitution[0] > 0.0:
+        outcome, time = first_crossing(arrays, rotor.table, 0, start, horizon, LEAVING, work)
+        return outcome, time
+    # Without rebound it leaves with no radial speed: its distance from the wall begins with the square of the time.
+    amplitudes = start.copy()
+    aloft, returned = lift_off(arrays, 0, amplitudes, horizon, rub_workspace(len(start)))
+    if aloft == 0.0:
+        return int(Outcome.GRAZING), 0.0
+    if returned:
+        return int(Outcome.CONTACT), aloft
+    outcome, time = first_crossing(arrays, rotor.table, 0, amplitudes, horizon - aloft, INSIDE, work)
+    return outcome, aloft + time
