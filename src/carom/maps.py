@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.core import variation
 from carom.core.fate import memory
 from carom.core.impact import strike
-from carom.core.layout import workspace
-from carom.core.variation import carry_through_impact, carry_to_wall, shift
 from carom.outcome import InputError, Outcome, Phase
 from carom.rotors import Rotor
 from carom.trajectories import EventLog, State, Trajectory, follow, simulate
@@ -137,26 +136,13 @@ def section_jacobian(rotor: Rotor, section: Section, duration: float) -> np.ndar
         Over ``(θ, ṙ, θ̇)``.
     """
     position, velocity = section.state.position, section.state.velocity
-    directions = np.array(
-        [
-            rotor.amplitude_change(1j * position, 1j * velocity),
-            rotor.amplitude_change(0.0, position),
-            rotor.amplitude_change(0.0, 1j * position),
-        ]
-    )
     arrays = rotor.arrays
     change, _ = strike(position, velocity, arrays.friction[0], arrays.restitution[0], arrays.drive[0])
     before = rotor.amplitudes(position, velocity)
-    carry_through_impact(arrays, 0, before, directions)
-    after = before + arrays.columns[:, 0] * change
-    arrival = rotor.fly(after, np.asarray(duration))
-    carry_to_wall(arrays, 0, duration, arrival, directions, np.empty(3), workspace(len(arrival)))
-    end_position, end_velocity = (complex(part) for part in rotor.state(arrival))
-    normal = end_position / abs(end_position)
-    local = normal.conjugate() * end_velocity
-    turn = (normal.conjugate() * (directions @ arrays.rows[0])).imag
-    swing = normal.conjugate() * (directions @ arrays.rate_rows[0])
-    return np.array([turn, swing.real + turn * local.imag, swing.imag - turn * local.real])
+    arrival = rotor.fly(before + arrays.columns[:, 0] * change, np.asarray(duration))
+    jacobian = np.empty((3, 3))
+    variation.section_jacobian(arrays, np.array([before, arrival]), np.array([duration], float), jacobian)
+    return jacobian
 
 
 def stroboscopic_map(rotor: Rotor, state: State, period: float) -> StroboscopicMap:
@@ -178,12 +164,12 @@ def stroboscopic_map(rotor: Rotor, state: State, period: float) -> StroboscopicM
     trajectory = simulate(rotor, state, period, stop_at_chatter=True)
     units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
     directions = np.array([rotor.amplitude_change(*unit) for unit in units])
-    delays, work = np.empty(4), workspace(directions.shape[1])
+    delays = np.empty(4)
     durations = np.diff(np.append(trajectory.segment_starts, trajectory.time))
     for flight, arrival in enumerate(trajectory.arrivals):
-        carry_to_wall(rotor.arrays, 0, durations[flight], arrival, directions, delays, work)
-        carry_through_impact(rotor.arrays, 0, arrival, directions)
-        shift(rotor.arrays, trajectory.segment_amplitudes[flight + 1], directions, -delays)
+        variation.carry_to_wall(rotor.arrays, 0, durations[flight], arrival, directions, delays)
+        variation.carry_through_impact(rotor.arrays, 0, arrival, directions)
+        variation.shift(rotor.arrays, trajectory.segment_amplitudes[flight + 1], directions, -delays)
     directions = rotor.fly(directions, np.full(4, durations[-1]))
     position, velocity = directions @ rotor.arrays.rows[0], directions @ rotor.arrays.rate_rows[0]
     return StroboscopicMap(trajectory, np.array([position.real, position.imag, velocity.real, velocity.imag]))

@@ -65,7 +65,7 @@ def check_carry_to_wall(arrays, table, plane, amplitudes):
     if outward < 0.5:
         return False
     carried, delays = directions_of(modes), np.empty(2 * modes)
-    carry_to_wall(arrays, plane, duration, end, carried, delays, workspace(modes))
+    carry_to_wall(arrays, plane, duration, end, carried, delays)
     for direction, found, delay in zip(directions_of(modes), carried, delays, strict=True):
 
         def moved(change):
@@ -169,7 +169,7 @@ def test_a_whole_impact_map(machine, angular_speed):
     directions = np.array([rotor.amplitude_change(0.0, 1.0), rotor.amplitude_change(0.0, 1j)])
     carried, delays, nominal = directions.copy(), np.empty(2), mapped(np.zeros(2))
     carry_through_impact(arrays, 0, before, carried)
-    carry_to_wall(arrays, 0, nominal[-1].real, nominal[:-1], carried, delays, workspace(2))
+    carry_to_wall(arrays, 0, nominal[-1].real, nominal[:-1], carried, delays)
     for direction, found, delay in zip(directions, carried, delays, strict=True):
         expected = difference(mapped, direction)
         scale = 1.0 + np.abs(carried).max()

@@ -23,7 +23,7 @@ from carom.core.fate import NEAR, same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import unit
 from carom.core.layout import kernel, part
-from carom.core.variation import carry_through_impact, carry_to_wall
+from carom.core.variation import section_jacobian, set_amplitude_change
 from carom.outcome import Outcome, Phase
 
 __all__ = ["ATTRACTS", "CLOSES", "OPEN", "PASSES", "REPELS", "close", "least_period"]
@@ -85,9 +85,11 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     ahead = count if count > 0 else WATCHED
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
     copy(state, states[0])
-    followed, _ = _follow_impacts(rotor, table, states, durations, log, memory, work, rub)
+    followed, bounces = _follow_impacts(rotor, table, states, durations, log, memory, work, rub)
     if not followed or _fades(rotor, states, durations):
         return 0
+    if count == 1 and bounces and _pulls_in(rotor, states, durations):
+        return 1
     longest = count if count > 0 else SHORT
     orbit = np.empty((longest + 1, 2), np.complex128)
     closes, passes = False, False
@@ -95,9 +97,9 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
         if count % impacts == 0 and same_state(states[0], states[impacts], AROUND):
             copy(states[0], orbit[0])
             found = close(rotor, table, orbit[: impacts + 1], durations[:impacts], log, memory, work, rub)
+            if found != OPEN and _fades(rotor, orbit[: impacts + 1], durations[:impacts]):
+                return 0
             if found == ATTRACTS and (count > 0 or _draws_near(states, orbit[0], impacts)):
-                if _fades(rotor, orbit[: impacts + 1], durations[:impacts]):
-                    return 0
                 return _distinct(orbit, impacts)
             # Farther off the motion would not have recurred to within NEAR.
             passes = passes or (found == REPELS and same_state(orbit[0], states[0], NEAR / REPELLING))
@@ -168,7 +170,7 @@ def close(rotor, table, orbit, durations, log, memory, work, rub):
         if not (followed and same_state(orbit[0], orbit[-1], 10.0 * AROUND)):
             return OPEN
         if bounces:
-            found, done = _newton_step(rotor, orbit, durations, work)
+            found, done = _newton_step(rotor, orbit, durations)
         else:
             found, done = _aitken_step(rotor, table, orbit, durations, log, memory, work, rub)
         if not same_state(orbit[0], start, AROUND):
@@ -218,30 +220,23 @@ def _changed(before, after):
 
 
 @kernel
-def _newton_step(rotor, orbit, durations, work):
-    """Newton step of an orbit without lasting contact, in ``orbit[0]``; what was found, and whether it closes."""
-    count = durations.shape[0]
-    directions, delays = np.empty((3, 2), np.complex128), np.empty(3)
-    position, speed = displacement(rotor, 0, orbit[0]), velocity(rotor, 0, orbit[0])
-    _set_change(rotor, 1j * position, 1j * speed, directions[0])
-    _set_change(rotor, 0j, position, directions[1])
-    _set_change(rotor, 0j, 1j * position, directions[2])
-    for i in range(count):
-        carry_through_impact(rotor, 0, orbit[i], directions)
-        carry_to_wall(rotor, 0, durations[i], orbit[i + 1], directions, delays, work)
-    end, end_speed = displacement(rotor, 0, orbit[count]), velocity(rotor, 0, orbit[count])
-    normal = unit(end)
-    local = normal.conjugate() * end_speed
-    before = unit(position).conjugate() * speed
+def _pulls_in(rotor, states, durations):
+    """Whether differences shrink by more than REPELLING an impact, so that a motion that recurs after each is at its orbit."""
     jacobian = np.empty((3, 3))
-    for i in range(3):
-        turn = (normal.conjugate() * (displacement(rotor, 0, directions[i]) - rotor.offsets[0])).imag
-        swing = normal.conjugate() * velocity(rotor, 0, directions[i])
-        jacobian[0, i] = turn
-        jacobian[1, i] = swing.real + turn * local.imag
-        jacobian[2, i] = swing.imag - turn * local.real
+    section_jacobian(rotor, states, durations, jacobian)
+    return _contracts(jacobian, 1.0 - REPELLING)
+
+
+@kernel
+def _newton_step(rotor, orbit, durations):
+    """Newton step of an orbit without lasting contact, in ``orbit[0]``; what was found, and whether it closes."""
+    jacobian = np.empty((3, 3))
+    section_jacobian(rotor, orbit, durations, jacobian)
+    position, speed = displacement(rotor, 0, orbit[0]), velocity(rotor, 0, orbit[0])
+    normal = unit(displacement(rotor, 0, orbit[-1]))
+    before = unit(position).conjugate() * speed
     turned = (unit(position).conjugate() * normal).imag
-    apart = local - before
+    apart = normal.conjugate() * velocity(rotor, 0, orbit[-1]) - before
     size = 1.0 + math.sqrt(squared_modulus(before))
     done = abs(turned) + math.sqrt(squared_modulus(apart)) <= CLOSED * size
     found = CLOSES
@@ -260,13 +255,8 @@ def _newton_step(rotor, orbit, durations, work):
         _solved(jacobian, 2, -turned, -apart.real, -apart.imag) / whole,
     )
     normal = unit(position) * complex(math.cos(ahead), math.sin(ahead))
-    _set_change(rotor, normal - rotor.offsets[0], normal * (before + faster), orbit[0])
+    set_amplitude_change(rotor, normal - rotor.offsets[0], normal * (before + faster), orbit[0])
     return found, done
-
-
-@part
-def _set_change(rotor, position_change, velocity_change, amplitudes):
-    amplitudes[0], amplitudes[1] = velocity_change - rotor.exponents[1] * position_change, position_change
 
 
 @kernel

@@ -43,26 +43,28 @@ def complex_expm1(z):
 
 
 @part
-def flight_increments(rotor, amplitudes, time, increments):
-    """Write ``c(time) − c(0)`` of a flight that starts with these amplitudes.
+def flight_increments(rotor, starts, time, increments):
+    """Write ``c(time) − c(0)`` of flights of one duration that start with these amplitudes; both of shape (D, N).
 
     A pair with exponents ``λ₋`` (driving, amplitude ``b``) and ``λ₊`` (driven, amplitude ``a``) moves as
     ``a e^{λ₊t} + b φ(t)`` with the divided difference ``φ = (e^{λ₊t} − e^{λ₋t})/(λ₊ − λ₋)``, written here as
     ``e^{λ₊t} (1 − e^{−(λ₊−λ₋)t})/(λ₊ − λ₋)``, which is accurate however close the exponents are.
     """
-    modes = amplitudes.shape[0]
+    flights, modes = starts.shape
     for k in range(modes):
         if k + 1 < modes and rotor.driven[k + 1]:
             continue
         growth = complex_expm1(rotor.exponents[k] * time)
-        increments[k] = amplitudes[k] * growth
+        for i in range(flights):
+            increments[i, k] = starts[i, k] * growth
         if rotor.driven[k]:
             lag = complex_expm1(-rotor.gaps[k] * time)
             response = -lag * rotor.inverse_gaps[k]
             if rotor.gaps[k] == 0.0:
                 response = complex(time, 0.0)
-            increments[k] += amplitudes[k - 1] * (1.0 + growth) * response
-            increments[k - 1] = amplitudes[k - 1] * (growth + lag + growth * lag)
+            for i in range(flights):
+                increments[i, k] += starts[i, k - 1] * (1.0 + growth) * response
+                increments[i, k - 1] = starts[i, k - 1] * (growth + lag + growth * lag)
 
 
 @kernel
@@ -70,7 +72,7 @@ def fly_all(rotor, amplitudes, times):
     """Amplitudes (M, N) after flights of given times (M,), each from its own amplitudes (M, N)."""
     flown = np.empty_like(amplitudes)
     for i in range(times.shape[0]):
-        flight_increments(rotor, amplitudes[i], times[i], flown[i])
+        flight_increments(rotor, amplitudes[i : i + 1], times[i], flown[i : i + 1])
         for k in range(amplitudes.shape[1]):
             flown[i, k] += amplitudes[i, k]
     return flown

@@ -143,7 +143,7 @@ def fly_or_rub_all(rotor, plane, amplitudes, phases, times, work):
     moved = np.empty_like(amplitudes)
     for i in range(times.shape[0]):
         if phases[i] == LEAVING:
-            flight_increments(rotor, amplitudes[i], times[i], moved[i])
+            flight_increments(rotor, amplitudes[i : i + 1], times[i], moved[i : i + 1])
             for m in range(amplitudes.shape[1]):
                 moved[i, m] += amplitudes[i, m]
         else:

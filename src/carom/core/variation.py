@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from carom.core.flow import displacement, flight_increments, velocity
-from carom.core.impact import strike_variation
-from carom.core.layout import kernel
+import numpy as np
 
-__all__ = ["carry_through_impact", "carry_to_wall", "shift"]
+from carom.core.flow import displacement, flight_increments, velocity
+from carom.core.impact import strike_variation, unit
+from carom.core.layout import kernel, part
+
+__all__ = ["carry_through_impact", "carry_to_wall", "section_jacobian", "set_amplitude_change", "shift"]
 
 
 @kernel
@@ -41,7 +43,7 @@ def carry_through_impact(rotor, plane, before, directions):
 
 
 @kernel
-def carry_to_wall(rotor, plane, duration, arrival, directions, delays, work):
+def carry_to_wall(rotor, plane, duration, arrival, directions, delays):
     """Replace changes at the start of a flight by those where the changed flight meets the wall.
 
     A changed flight arrives earlier or later by ``δt = −Re(ȳ δy)/Re(ȳ ẏ)``, which moves its arrival by ``ċ δt``: the
@@ -59,14 +61,14 @@ def carry_to_wall(rotor, plane, duration, arrival, directions, delays, work):
         Changes of the amplitudes; overwritten.
     delays : array, shape (D,)
         On return ``δt`` of each.
-    work : record of :func:`~carom.core.layout.workspace`
     """
     position = displacement(rotor, plane, arrival)
     outward = (position.conjugate() * velocity(rotor, plane, arrival)).real
+    increments = np.empty_like(directions)
+    flight_increments(rotor, directions, duration, increments)
     for i in range(directions.shape[0]):
-        flight_increments(rotor, directions[i], duration, work.increments)
         for k in range(arrival.shape[0]):
-            directions[i, k] += work.increments[k]
+            directions[i, k] += increments[i, k]
         position_change = displacement(rotor, plane, directions[i]) - rotor.offsets[plane]
         delays[i] = -(position.conjugate() * position_change).real / outward
     shift(rotor, arrival, directions, delays)
@@ -81,3 +83,41 @@ def shift(rotor, amplitudes, directions, delays):
             if rotor.driven[k]:
                 rate += amplitudes[k - 1]
             directions[i, k] += rate * delays[i]
+
+
+@kernel
+def section_jacobian(rotor, orbit, durations, jacobian):
+    """Derivative of impacts of a planar rotor, one after another, in angle, radial and angular speed.
+
+    Parameters
+    ----------
+    rotor : record of :func:`~carom.rotors.second_order_record`
+    orbit : complex array, shape (P + 1, 2)
+        Amplitudes just before each impact, and just before the one that follows.
+    durations : array, shape (P,)
+        Times between them, in ``1/Ω``.
+    jacobian : array, shape (3, 3)
+        Overwritten: of ``(θ, ṙ, θ̇)`` just before the last impact by those before the first.
+    """
+    directions, delays = np.empty((3, 2), np.complex128), np.empty(3)
+    position, speed = displacement(rotor, 0, orbit[0]), velocity(rotor, 0, orbit[0])
+    set_amplitude_change(rotor, 1j * position, 1j * speed, directions[0])
+    set_amplitude_change(rotor, 0j, position, directions[1])
+    set_amplitude_change(rotor, 0j, 1j * position, directions[2])
+    for i in range(durations.shape[0]):
+        carry_through_impact(rotor, 0, orbit[i], directions)
+        carry_to_wall(rotor, 0, durations[i], orbit[i + 1], directions, delays)
+    normal = unit(displacement(rotor, 0, orbit[-1]))
+    local = normal.conjugate() * velocity(rotor, 0, orbit[-1])
+    for i in range(3):
+        turn = (normal.conjugate() * (displacement(rotor, 0, directions[i]) - rotor.offsets[0])).imag
+        swing = normal.conjugate() * velocity(rotor, 0, directions[i])
+        jacobian[0, i] = turn
+        jacobian[1, i] = swing.real + turn * local.imag
+        jacobian[2, i] = swing.imag - turn * local.real
+
+
+@part
+def set_amplitude_change(rotor, position_change, velocity_change, amplitudes):
+    """Write the change of the two amplitudes of a planar rotor that changes its position and velocity so."""
+    amplitudes[0], amplitudes[1] = velocity_change - rotor.exponents[1] * position_change, position_change
