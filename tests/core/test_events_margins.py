@@ -339,22 +339,6 @@ def test_roots_of_the_bounds_are_exact_to_rounding_however_small_a_term(bend):
             assert time == math.inf or lies_on((-small, slope * time, 0.5 * bend * time**2))
 
 
-def test_a_crossing_at_the_horizon_is_a_contact_and_one_after_it_is_not():
-    def search_until(task, horizon):
-        work = at_start(task)[0]
-        return events._search_block(task.arrays, task.table, task.plane, horizon, task.start, work)
-
-    tried = 0
-    for _, _, task, _ in flights_that_cross(1350, 6):
-        outcome, time = search_until(task, math.inf)
-        if outcome == Outcome.CONTACT:
-            assert search_until(task, time) == (Outcome.CONTACT, time)
-            before = math.nextafter(time, 0.0)
-            assert search_until(task, before) == (Outcome.CLEAR, before)
-            tried += 1
-    assert tried >= 3
-
-
 # ------------------------------------------------------------------------------------------------- steps advance
 
 
