@@ -86,6 +86,8 @@ def test_page_shows_the_study(written):
         assert part in words
     assert result.verdict.headline.split("(")[0] in words
     assert text.count("<svg") == len(pictures(result))
+    assert "<code>carom basins</code> looks for the smallest" in text
+    assert "`" not in words
     assert "{{" not in text
     assert "{%" not in text
 

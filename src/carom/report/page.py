@@ -128,16 +128,18 @@ def _versions() -> str:
 
 
 _SUBSCRIPT = re.compile(r"\b([ce])_([rc])\b|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
+_COMMAND = re.compile(r"`(carom \w+)`")
 
 
 def _with_subscripts(text: str) -> Markup:
-    """Write ``c_r``, ``B1,d``, ``F1`` and ``Omega`` as formulas."""
+    """Write ``c_r``, ``B1,d``, ``F1`` and ``Omega`` as formulas, and commands as such."""
 
     def formula(match: re.Match[str]) -> str:
         letter, index = (part for part in match.groups() if part)
         return f"{letter}<sub>{index}</sub>"
 
-    return Markup(_SUBSCRIPT.sub(formula, str(Markup.escape(text)).replace("Omega", "Ω")))  # escaped above
+    escaped = _COMMAND.sub(r"<code>\1</code>", str(Markup.escape(text)).replace("Omega", "Ω"))
+    return Markup(_SUBSCRIPT.sub(formula, escaped))  # escaped above
 
 
 _PROLOGUE = re.compile(r"^.*?(?=<svg)", re.DOTALL)
