@@ -2,6 +2,7 @@
 
 ==================  ==================================================================================
 ``classification``  :func:`basins` and the frozen :class:`Basin`
+``dataset``         their endings with coordinates, units and how to make them again
 ``motions``         names of the motions that starts end on
 ``store``           netCDF files, whole or not at all
 ``shares``          shares with their confidence intervals

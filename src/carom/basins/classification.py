@@ -6,22 +6,19 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from carom.attractors import document_of, follow_out
+from carom.basins.dataset import NO_START, dataset_of, plan_of, provenance
 from carom.basins.motions import name_motions
 from carom.basins.shares import Share
 from carom.disturbances import (
-    MODELS,
     Coordinate,
-    Grid,
     Plan,
     Sample,
     Starts,
-    StateSlice,
 )
 from carom.ensembles import MOST_EVENTS, Endings, settle_all
 from carom.outcome import InputError, Outcome
@@ -34,18 +31,16 @@ if TYPE_CHECKING:
 
     import xarray
 
-__all__ = ["NO_START", "Basin", "basins", "follow", "plan_of", "provenance"]
+__all__ = ["Basin", "basins", "follow"]
 
-NO_START = -1
-"""Flag of a grid point that is no start: outside the wall, or where the rotor could not levitate before."""
 CRITERIA = (
     "levitated: the moduli of the modes leave no later flight room to reach the wall (proof). "
     "forward_rub: slides in a neighbourhood of the synchronous rub where all sliding goes over to that rub (proof), or "
     "within 1e-9 of the rub, or forward by the next criterion. "
     "rolling: whirls backward faster than the speed from which it surely goes over to rolling (proof), or by the next "
     "criterion. backward_whirl: after a turn along the wall without flight the state has changed by less than 1e-9. "
-    "bouncing, mixed: the state at an impact recurs to within 1e-9 twice in a row (multiplicity: impacts a period), or "
-    "has not recurred in {patience} impacts (multiplicity 0: irregular; where such motion was seen to end, it was followed on). "
+    "bouncing, mixed: the state at an impact recurs to within 1e-9 twice in a row (multiplicity: impacts a period, if an "
+    "orbit closes there), or has not recurred in {patience} impacts (multiplicity 0: irregular; where such motion was seen to end, it was followed on). "
     "grazing: double precision cannot decide. time_reached, event_limit: not settled by {until:g}/Omega or {events} "
     "events. Criteria not called a proof are evidence."
 )
@@ -256,7 +251,7 @@ def basins(
         "irregular": json.dumps(document_of(survival) if survival else None),
         "criteria": CRITERIA.format(patience=patience, until=until, events=max_events),
     }
-    return Basin(_dataset(rotor, disturbances, starts, endings, outcomes, motions, names, attributes))
+    return Basin(dataset_of(rotor, disturbances, starts, endings, outcomes, motions, names, attributes))
 
 
 def follow(rotor: Rotor, starts: Starts, **limits: Any) -> Endings:
@@ -280,128 +275,3 @@ def follow(rotor: Rotor, starts: Starts, **limits: Any) -> Endings:
         whole[name] = np.zeros(chosen.shape, values.dtype)
         whole[name][chosen] = values
     return Endings(**whole)
-
-
-def plan_of(document: Mapping[str, Any]) -> Plan:
-    """Plan from its description in the attributes of a dataset.
-
-    Raises
-    ------
-    InputError
-        A kind of disturbance that does not exist.
-    """
-    numbers = dict(document["model"])
-    kind = numbers.pop("kind")
-    if kind not in MODELS:
-        raise InputError("disturbance", kind, f"one of: {', '.join(MODELS)}")
-    if kind == StateSlice.kind:
-        numbers["velocity"] = complex(*numbers["velocity"])
-    model = MODELS[kind](**numbers)
-    if "cells" in document:
-        return Grid(model, tuple(document["cells"]))
-    return Sample(model, document["starts"], document["seed"])
-
-
-def provenance(rotor: Rotor, plan: Plan) -> dict[str, str]:
-    """What it takes to do it again."""
-    scales = rotor.scales
-    how: dict[str, object] = (
-        {"cells": plan.shape} if isinstance(plan, Grid) else {"starts": plan.count, "seed": plan.seed}
-    )
-    return {
-        "Conventions": "CF-1.11",
-        "title": "Where disturbances of a rotor inside its touchdown bearing end",
-        "source": f"carom {version('carom')}, numba {version('numba')}, numpy {version('numpy')}",
-        "parameters": json.dumps(rotor.parameters.as_dict()),
-        "scales": json.dumps(
-            {name: getattr(scales, name) for name in ("mass", "clearance", "speed")} if scales else None
-        ),
-        "disturbances": json.dumps({"model": plan.model.describe(), **how}),
-    }
-
-
-def _dataset(
-    rotor: Rotor,
-    plan: Plan,
-    starts: Starts,
-    endings: Endings,
-    outcomes: np.ndarray,
-    motions: np.ndarray,
-    names: tuple[str, ...],
-    attributes: Mapping[str, str],
-) -> xarray.Dataset:
-    import xarray
-
-    codes = [
-        NO_START,
-        *(outcome for outcome in Outcome if outcome >= Outcome.TIME_REACHED or outcome == Outcome.GRAZING),
-    ]
-    meanings = ["no_start", *(Outcome(code).label.replace("-", "_") for code in codes[1:])]
-    axes, dimensions = _axes(rotor, plan)
-    time: dict[str, object] = {"units": "1/Omega", "long_name": "time until it was known where the motion ends"}
-    if rotor.scales:
-        time |= {"si_units": "s", "si_factor": rotor.scales.time}
-    length, speed = {"units": "c_r"}, {"units": "c_r Omega"}
-    variables = {
-        "outcome": (
-            outcomes,
-            {
-                "long_name": "where the motion ends",
-                "flag_values": np.array(codes, np.int8),
-                "flag_meanings": " ".join(meanings),
-            },
-        ),
-        "motion": (
-            motions,
-            {
-                "long_name": "motion on which it ends",
-                "flag_values": np.arange(len(names), dtype=np.int16),
-                "flag_meanings": " ".join(name.replace(" ", "_") for name in names),
-                "names": json.dumps(names),
-            },
-        ),
-        "time": (np.where(starts.exists, endings.times, np.nan), time),
-        "impacts": (endings.impacts, {"units": "1", "long_name": "impacts until then"}),
-        "touched": (
-            _touched(starts, endings, outcomes).astype(np.int8),
-            {"units": "1", "long_name": "1 where the rotor met the wall, else 0"},
-        ),
-        "multiplicity": (
-            endings.multiplicities.astype(np.int32),
-            {"units": "1", "long_name": "impacts in a period of bouncing; 0 otherwise (of bouncing: irregular)"},
-        ),
-        "start_x": (starts.positions.real, {**length, "long_name": "position at the start, Re U"}),
-        "start_y": (starts.positions.imag, {**length, "long_name": "position at the start, Im U"}),
-        "start_vx": (starts.velocities.real, {**speed, "long_name": "velocity at the start, Re dU/dt"}),
-        "start_vy": (starts.velocities.imag, {**speed, "long_name": "velocity at the start, Im dU/dt"}),
-    }
-    return xarray.Dataset(
-        {name: (dimensions, np.ascontiguousarray(values), notes) for name, (values, notes) in variables.items()},
-        coords=axes,
-        attrs=dict(attributes),
-    )
-
-
-def _touched(starts: Starts, endings: Endings, outcomes: np.ndarray) -> np.ndarray:
-    """In which motions the rotor met the wall; what settles there without an impact slides or rolls there."""
-    stays = outcomes > Outcome.LEVITATED
-    touched: np.ndarray = starts.exists & (starts.touched | (endings.impacts > 0) | stays)
-    return touched
-
-
-def _axes(rotor: Rotor, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Coordinates of a dataset, those in SI too, and its dimensions."""
-    coordinates = plan.model.coordinates
-    grid = isinstance(plan, Grid)
-    axes: dict[str, Any] = {}
-    for coordinate, values in zip(coordinates, plan.values(), strict=True):
-        along = (coordinate.name,) if grid else ("start",)
-        unit = _UNITS[coordinate.scale]
-        axes[coordinate.name] = (along, values, {"units": unit, "long_name": coordinate.words})
-        if rotor.scales and coordinate.scale:
-            notes = {"units": coordinate.unit, "long_name": coordinate.words}
-            axes[f"{coordinate.name}_si"] = (along, values * coordinate.si(rotor.scales), notes)
-    return axes, tuple(coordinate.name for coordinate in coordinates) if grid else ("start",)
-
-
-_UNITS = {"": "rad", "velocity": "c_r Omega", "length": "c_r", "acceleration": "c_r Omega^2", "time": "1/Omega"}

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.basins.classification import NO_START, plan_of, provenance
+from carom.basins.dataset import NO_START, plan_of, provenance
 from carom.basins.entropy import entropies
 from carom.basins.integrity import safe_size
 from carom.basins.kicks import smallest_lost
