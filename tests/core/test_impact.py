@@ -138,6 +138,18 @@ def test_variation_against_many_digits(regime, direction):
     assert abs(found - exact) <= 32 * EPSILON * size
 
 
+@pytest.mark.parametrize("regime", REGIMES)
+def test_only_the_direction_of_the_position_counts_and_what_turns_it(regime):
+    """Four times as far out a change of the position turns it by a quarter."""
+    angle, radial, angular, *law = REGIMES[regime]
+    position, velocity = state(angle, radial, angular)
+    position_change, velocity_change = 0.3 + 0.7j, -0.2 + 1.3j
+    assert strike(4.0 * position, velocity, *law)[0] == pytest.approx(strike(position, velocity, *law)[0], rel=1e-14)
+    near = strike_variation(position, velocity, *law, position_change, velocity_change)
+    far = strike_variation(4.0 * position, velocity, *law, 4.0 * position_change, velocity_change)
+    assert far == pytest.approx(near, rel=1e-12)
+
+
 @given(st.complex_numbers(min_magnitude=1e-100, max_magnitude=1e100, allow_nan=False, allow_infinity=False))
 def test_unit(z):
     assert abs(unit(z) - z / abs(z)) <= 4 * EPSILON
