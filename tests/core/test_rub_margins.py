@@ -142,7 +142,7 @@ def test_motions_in_different_phases_are_moved_each_in_its_own():
     amplitudes = random.normal(size=(4, 2)) + 1j * random.normal(size=(4, 2))
     for row in amplitudes:
         rub.rest_on_wall(ARRAYS, 0, row, True)
-    times, phases = np.array([3.0, 2e-3, 3e-3, 4e-3]), np.array([FLIGHT, FORWARD, ROLLING, BACKWARD])
+    times, phases = np.array([2e-3, 3.0, 3e-3, 4e-3]), np.array([FORWARD, FLIGHT, ROLLING, BACKWARD])
     moved = rub.fly_or_rub_all(ARRAYS, 0, amplitudes, phases, times, rub_workspace(2))
     for i, phase in enumerate(phases):
         if phase == FLIGHT:
