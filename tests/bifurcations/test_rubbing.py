@@ -199,7 +199,7 @@ def test_curves_of_both_onsets(chatter, names):
         curve = continue_onset(chatter, point, CHATTERING, plane)
         assert curve.kind == point.kind
         assert set(curve.stops) == {"edge of the plane"}
-        for x, y in curve.points[1 : -1 : sized(41, 41, 7)]:
+        for x, y in curve.points[1 : -1 : sized(81, 81, 7)]:
             at = CHATTERING.replace(**{names[0]: x, names[1]: y})
             if point.kind == "permanent-contact":
                 assert abs(least_force_of_steady_whirl(at.gamma, at.mu)) < 1e-7

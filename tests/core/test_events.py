@@ -36,29 +36,31 @@ from carom.outcome import Outcome
 from carom.rotors import jeffcott
 
 HORIZON = 15.0
+FEW = (0.05, 0.01)
+"""Shares of the flights that are tried by day, and without the compiler, where there are thousands in several batches."""
 
 
-def count(flights: int) -> int:
-    """How many flights to try: all in a deep run, every tenth by day, without the compiler every line at least."""
-    return sized(math.ceil(0.1 * flights), math.ceil(0.03 * flights), flights)
+def count(flights: int, by_day: float = 0.1, interpreted: float = 0.03) -> int:
+    """How many flights to try: all in a deep run, this share by day, without the compiler every line at least."""
+    return sized(math.ceil(by_day * flights), math.ceil(interpreted * flights), flights)
 
 
 @pytest.mark.parametrize("batch", range(4))
 def test_random_flights(batch, record_property):
     tally = Tally("random flights")
-    for rotor, rng in rotors(100 + batch, count(1_000)):
+    for rotor, rng in rotors(100 + batch, count(1_000, *FEW)):
         for _ in range(25):
             compare(inside_task(rotor, rng), HORIZON, tally)
     record_property("flights", tally.as_property())
     tally.check()
-    assert tally.tried >= count(25_000)
+    assert tally.tried >= count(25_000, *FEW)
     assert min(tally.contact, tally.clear) > 0.2 * tally.tried
 
 
 @pytest.mark.parametrize("batch", range(2))
 def test_near_grazing_flights(batch, record_property):
     tally, passes = Tally("near-grazing flights"), 0
-    wanted = count(6_000)
+    wanted = count(6_000, *FEW)
     for rotor, rng in rotors(200 + batch, 10 * wanted):
         for _ in range(20):
             drawn = near_grazing_task(rotor, rng)
