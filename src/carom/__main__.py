@@ -5,4 +5,8 @@ import sys
 from carom.cli import main
 
 if __name__ == "__main__":
-    sys.exit(main())
+    code = main()
+    # Where a Ctrl-C came while an import ran generated code, Python would end by that signal whatever code is returned; to
+    # run any other code makes it forget.
+    exec("")
+    sys.exit(code)

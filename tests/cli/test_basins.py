@@ -105,8 +105,11 @@ def test_every_disturbance(carom, machine, tmp_path, words):
 
 def test_gravities_are_not_grams(carom, machine):
     words = ("basins", machine, "--disturbance", "shock", "--grid", "2x2", "--duration", "5 ms", "--json")
-    peaks = [json.loads(carom(*words, "--peak", peak)[1])["disturbances"]["model"]["peak"] for peak in ("6 g", "6g")]
-    assert peaks == pytest.approx([6 * 9.80665 / (0.7e-3 * 184.2**2)] * 2)
+    peaks = [
+        json.loads(carom(*words, "--peak", peak)[1])["disturbances"]["model"]["peak"]
+        for peak in ("6 g", "6g", f"{6 * 9.80665} m/s^2")
+    ]
+    assert peaks == pytest.approx([6 * 9.80665 / (0.7e-3 * 184.2**2)] * 3)
 
 
 def test_unbalance_by_default_up_to_where_the_clearance_is_filled(carom, machine):

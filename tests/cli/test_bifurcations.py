@@ -89,7 +89,7 @@ def test_starts_next_to_a_motion_are_no_disturbances(capsys):
 
 @pytest.mark.jit_only
 def test_simulated_attractors_are_the_same_for_the_same_seed(capsys):
-    words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.15", "--to", "0.2", "--attractors", "2", "--json"]
+    words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.05", "--to", "0.2", "--attractors", "2", "--json"]
     documents = []
     for _ in range(2):
         assert main(words) == 0

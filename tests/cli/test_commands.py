@@ -54,7 +54,7 @@ def test_orbits_as_json(carom, machine):
 
 @pytest.mark.parametrize("command", ["orbits", "study"])
 def test_of_a_balanced_machine_no_negative_zero_is_printed(carom, machine, command):
-    code, out, _ = carom(command, machine, *QUICK, "--set", "eccentricity=0 mm", "--json")
+    code, out, _ = carom(command, machine, "--set", "eccentricity=0 mm", "--json")
 
     assert code == 0
     assert json.loads(out)["equilibria"][0]["U"] == [0.0, 0.0]

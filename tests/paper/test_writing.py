@@ -26,6 +26,7 @@ def test_all_files_are_there(written):
     names = {f"figure-{number}.{ending}" for number in range(2, 7) for ending in ("svg", "png")}
     assert {path.name for path in place.iterdir()} == names | {"paper.json", "table.md"}
     assert {path.resolve() for path in files} == {path.resolve() for path in place.iterdir()}
+    assert all((place / name).stat().st_size > 20_000 for name in names)
 
 
 @pytest.mark.parametrize("number", range(2, 7))

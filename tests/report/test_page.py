@@ -104,8 +104,9 @@ def test_figures_are_files_too(written):
     assert {f"figures/{name}" for name in files} == set(listed)
 
 
-def test_same_study_gives_the_same_bytes(tmp_path):
-    result = study_once(SOURCE.replace(gamma=3.0))
+@pytest.mark.parametrize("gamma", [3.0, pytest.param(0.1, marks=pytest.mark.deep)])
+def test_same_study_gives_the_same_bytes(gamma, tmp_path):
+    result = study_once(SOURCE.replace(gamma=gamma))
     places = [write_report(result, str(tmp_path / name)).parent for name in ("once", "again")]
 
     once, again = ({file.name: file.read_bytes() for file in place.rglob("*") if file.is_file()} for place in places)

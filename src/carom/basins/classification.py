@@ -14,12 +14,7 @@ from carom.attractors import document_of, follow_out
 from carom.basins.dataset import NO_START, dataset_of, plan_of, provenance
 from carom.basins.motions import name_motions
 from carom.basins.shares import Share
-from carom.disturbances import (
-    Coordinate,
-    Plan,
-    Sample,
-    Starts,
-)
+from carom.disturbances import Coordinate, Plan, Sample, Starts
 from carom.ensembles import MOST_EVENTS, Endings, settle_all
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
@@ -40,7 +35,8 @@ CRITERIA = (
     "rolling: whirls backward faster than the speed from which it surely goes over to rolling (proof), or by the next "
     "criterion. backward_whirl: after a turn along the wall without flight the state has changed by less than 1e-9. "
     "bouncing, mixed: the state at an impact recurs to within 1e-9 twice in a row (multiplicity: impacts a period, if an "
-    "orbit closes there), or has not recurred in {patience} impacts (multiplicity 0: irregular; where such motion was seen to end, it was followed on). "
+    "orbit closes there), or has not recurred in {patience} impacts (multiplicity 0: irregular; where such motion was seen "
+    "to end, it was followed on). "
     "grazing: double precision cannot decide. time_reached, event_limit: not settled by {until:g}/Omega or {events} "
     "events. Criteria not called a proof are evidence."
 )

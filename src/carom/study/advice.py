@@ -1,4 +1,4 @@
-"""The least change of one gain that leaves levitation alone, or brings back 99 % of disturbances; checked by simulation."""
+"""The least change of one gain that leaves levitation alone, or brings back a wanted share; checked by simulation."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from carom.settling import PATIENCE
 from carom.study.alone import LevitationAlone
 from carom.study.ranges import Gain, MotionRange, Span
 
-__all__ = ["Advice", "advise"]
+__all__ = ["WANTED", "Advice", "advise"]
 
 MARGINS = (0.05, 0.1, 0.2, 0.4)
 """How far beyond the end of a range the advised damping or stiffness lies, relative to it; the next if the check fails."""

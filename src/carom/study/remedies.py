@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from carom.study.advice import WANTED
 from carom.study.endings import ending_words
 from carom.study.wording import counted, listed, number
 
@@ -78,7 +79,8 @@ def _advised(study: Study, advice: Advice, *, first: bool) -> str:
         start = "The least change found that leaves levitation alone is" if first else "The other gain would do it with"
         own += f", {number(100.0 * advice.margin, 2)} % beyond the end of the range"
     else:
-        start = "No value searched leaves levitation alone; the least change found that brings back 99 % is"
+        share = f"brings back {number(100.0 * WANTED, 3)} %"
+        start = f"No value searched leaves levitation alone; the least change found that {share} is"
         start = start if first else "The other gain would do it with"
     return f"{start} {what} ({own}). {_capital(check_words(study, advice))}."
 
