@@ -8,12 +8,14 @@ from compilation import sized
 from machines import PAPER
 
 from carom.attractors import find_attractors
+from carom.core.closing import least_period
+from carom.core.fate import memory
 from carom.ensembles import settle_all
 from carom.orbits import single_impact_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.rotors import jeffcott
-from carom.settling import closed_orbit
+from carom.settling import _tools, closed_orbit
 from carom.trajectories import State, simulate
 
 SPIRALLING = Parameters(
@@ -100,6 +102,29 @@ def test_an_orbit_that_repels_closes_but_does_not_attract():
     found = closed_orbit(rotor, before.position, before.velocity * (1.0 + 1e-6), 1)
     assert found is not None
     assert not found.attracts
+
+
+def test_what_is_known_of_an_orbit_is_not_asked_again_nor_taken_for_more():
+    """The state at an orbit of one impact is kept: answers are the same with it and without, next to it and elsewhere."""
+    rotor = jeffcott(PAPER)
+    orbits = {orbit.name: orbit for orbit in single_impact_orbits(rotor)}
+    states = [
+        rotor.amplitudes(orbit.section.state.position, orbit.section.state.velocity)
+        for orbit in (orbits["B1,d"], orbits["B1,c"])
+    ]
+    log, known, work, rub = _tools()
+
+    def impacts(state, recollection):
+        return least_period(rotor.arrays, rotor.table, state.copy(), 1, log, recollection, work, rub)
+
+    for scale in (0.0, 1e-9, 1e-7):
+        for state in states:
+            near = state * (1.0 + scale)
+            assert impacts(near, known) == impacts(near, memory(2))
+    assert np.abs(known.attracted - states[0]).max() < 1e-6  # the stable one, never the other
+    known.rubbed = 1
+    known.attracted[:] = states[1]
+    assert impacts(states[1], known) == impacts(states[1], memory(2)) != 1
 
 
 @pytest.mark.jit_only

@@ -4,9 +4,11 @@ A motion that still spirals slowly towards its orbit recurs to within :data:`~ca
 of the period, where its turns about the orbit happen to close.  :func:`least_period` therefore asks, for every divisor
 of the number of impacts after which the motion has recurred, whether that many impacts have a fixed point close by that
 attracts.  Where rub has brought irregular bouncing back to the same numbers to the last bit, the computation repeats itself
-though the motion does not; no orbit closes there, and no number is named.  Without lasting contact in the period the fixed point is found by Newton's method with the exact derivative of
-the impacts (:mod:`carom.core.variation`) and judged by its multipliers; with it, by Aitken's extrapolation of the
-motion itself, for what is left of a difference after a lift-off is one number.
+though the motion does not; no orbit closes there, and no number is named.
+
+Without lasting contact in the period the fixed point is found by Newton's method with the exact derivative of the impacts
+(:mod:`carom.core.variation`) and judged by its multipliers; with it, by Aitken's extrapolation of the motion itself, for
+what is left of a difference after a lift-off is one number.
 
 A motion that has not recurred at all may still draw near an orbit, however slowly: next to a period doubling, say.  It is
 told from one that never repeats in the same way, and by its distance from that orbit, which has to shrink.
@@ -51,6 +53,8 @@ SHORT, WATCHED = 64, 256
 """Impacts of the longest orbit that a motion is asked about which has not recurred, and how far it is watched for that."""
 LONGEST = 1e6
 """Time in which a motion has to come to its next event."""
+KNOWN = 10.0 * NEAR
+"""Distance, relative to one plus the size of the state, from a motion at an orbit of one impact within which another is at it too."""
 SLOW_EVENTS = 1000
 """Events that one impact may take, with the lasting contact before it."""
 ALIGNED = 0.1
@@ -72,6 +76,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     log : tuple of arrays
         Room for one event, as :func:`~carom.core.advance.advance` takes it.
     memory : record of :func:`~carom.core.fate.memory`
+        Its ``attracted`` keeps the last state found at an orbit of one impact: many motions end at the same.
     work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
 
     Returns
@@ -82,6 +87,9 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
         an orbit that it approaches.  PASSES of a motion that only passes by an orbit.  0 of all others, elastic bounces that
         damping makes ever lower among them.
     """
+    plain = count == 1 and memory.rubbed == 0 and rotor.restitution[0] < 1.0
+    if plain and same_state(memory.attracted, state, KNOWN):
+        return 1
     ahead = count if count > 0 else WATCHED
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
     copy(state, states[0])
@@ -89,6 +97,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     if not followed or _fades(rotor, states, durations):
         return 0
     if count == 1 and bounces and _pulls_in(rotor, states, durations):
+        copy(state, memory.attracted)
         return 1
     longest = count if count > 0 else SHORT
     orbit = np.empty((longest + 1, 2), np.complex128)

@@ -87,6 +87,7 @@ def memory(
     friction, strength, phase = rub_shape
     return record(
         reference=np.zeros(modes, np.complex128),
+        attracted=np.full(modes, np.nan, np.complex128),
         rub_position=np.asarray(rub_position, np.complex128),
         rub_level=np.asarray(rub_level, float),
         rub_friction=np.asarray(friction, float),
@@ -316,7 +317,7 @@ def approaches_turn(memory, position, amplitudes, speed):
 
 @kernel
 def forget(memory):
-    """Make a memory ready for another motion."""
+    """Make a memory ready for another motion of the same rotor."""
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning = NO_TURN

@@ -48,6 +48,7 @@ NODES = 64
 TERMS = 8
 """Terms of the Taylor series of the basis functions."""
 CACHE_LINE = 64
+COMPLEX, REAL = np.dtype(np.complex128), np.dtype(np.float64)
 OCTET = 8
 """Doubles in the widest registers."""
 WIDE = "+avx512f" in cpu_target.target_context.codegen().magic_tuple()[2]
@@ -216,38 +217,53 @@ def table_record(
 
 def workspace(modes: int) -> np.record:
     """Scratch arrays of a kernel call for that many modes; they carry nothing from one call to the next."""
+    return _blank(_workspace_layout(modes))
+
+
+@cache
+def _workspace_layout(modes: int) -> np.dtype:
     vectors = ("current", "arrival", "departure", "nearest", "increments", "at_node", "amplitudes")
-    return record(
-        **{name: np.zeros(modes, np.complex128) for name in vectors},
-        products=np.zeros(2 * modes + modes**2),
-        polynomial=np.zeros(DEGREE),
+    return _layout(
+        (
+            *((name, COMPLEX, (modes,)) for name in vectors),
+            ("products", REAL, (2 * modes + modes**2,)),
+            ("polynomial", REAL, (DEGREE,)),
+        )
     )
 
 
 def rub_workspace(modes: int) -> np.record:
     """Scratch arrays of lasting contact: Taylor coefficients of the motion at the contact plane."""
+    return _blank(_rub_workspace_layout(modes))
+
+
+@cache
+def _rub_workspace_layout(modes: int) -> np.dtype:
     vectors = ("position", "speed", "free", "force")
     margins = ("push", "slip", "grip", "first_margin", "second_margin")
-    return record(
-        series=np.zeros((ORDER + 1, modes), np.complex128),
-        **{name: np.zeros(ORDER + 1, np.complex128) for name in vectors},
-        **{name: np.zeros(ORDER + 1) for name in margins},
+    return _layout(
+        (
+            ("series", COMPLEX, (ORDER + 1, modes)),
+            *((name, COMPLEX, (ORDER + 1,)) for name in vectors),
+            *((name, REAL, (ORDER + 1,)) for name in margins),
+        )
     )
 
 
 def record(**fields: np.ndarray) -> np.record:
-    """Pack arrays and scalars into one record that kernels take by address.
+    """Pack arrays and scalars into one record that kernels take by address."""
+    packed = _blank(_layout(tuple((name, values.dtype, values.shape) for name, values in fields.items())))
+    for name, values in fields.items():
+        packed[name] = values
+    return packed
 
-    It begins at a multiple of 64 bytes, so that arrays of a multiple of that length never straddle cache lines.
-    """
-    layout = _layout(tuple((name, values.dtype, values.shape) for name, values in fields.items()))
+
+def _blank(layout: np.dtype) -> np.record:
+    """A record of zeros, which begins at a multiple of 64 bytes: arrays of a multiple of that length never straddle cache lines."""
     room = np.zeros(layout.itemsize + CACHE_LINE, np.uint8)
     first = -room.ctypes.data % CACHE_LINE
-    table = room[first : first + layout.itemsize].view(layout)
-    for name, values in fields.items():
-        table[name][0] = values
-    packed: np.record = table.view((np.record, layout))[0]
-    return packed
+    blank: np.record = room[first : first + layout.itemsize].view((np.record, layout))[0]
+    return blank
 
 
 @cache
