@@ -50,7 +50,7 @@ def run_heyoka(benchmark, peer, work, unit):
 def test_flights_carom(benchmark, starts):
     rotor = source_paper_machine(0.1)
     benchmark.group = "first crossing, gamma = 0.1"
-    benchmark(all_crossings, rotor.arrays, rotor.table, amplitudes_of(rotor, starts), UNTIL, workspace(2))
+    benchmark(all_crossings, rotor.system.arrays, rotor.system.table, amplitudes_of(rotor, starts), UNTIL, workspace(2))
     note(benchmark, "carom", "flight", len(starts))
 
 

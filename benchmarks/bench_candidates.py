@@ -64,7 +64,7 @@ def blocks_run(flights):
     work = workspace(2)
 
     def run():
-        by_blocks(rotor.arrays, rotor.table, amplitudes, on_wall, horizons, work, times)
+        by_blocks(rotor.system.arrays, rotor.system.table, amplitudes, on_wall, horizons, work, times)
         return times
 
     return run
@@ -72,7 +72,7 @@ def blocks_run(flights):
 
 def candidate_run(flights, search):
     _, rotor, amplitudes, on_wall, horizons = flights
-    second, first = rotor.eigenvalues
+    second, first = rotor.system.exponents
     driving = amplitudes[:, 0] / (first - second)
     terms = np.stack([amplitudes[:, 1] + driving, -driving], axis=1)
     times, loop = np.empty(len(horizons)), by_candidate(search)
@@ -88,7 +88,7 @@ def measure(benchmark, flights, run, who):
     found = run().copy()
     gamma, rotor, amplitudes, _, horizons = flights
     expected = blocks_run(flights)()
-    position, velocity = rotor.state(rotor.fly(amplitudes, np.minimum(found, expected)))
+    position, velocity = rotor.system.state(rotor.system.fly(amplitudes, np.minimum(found, expected)))
     slope = 2.0 * np.abs((position.conj() * velocity).real)
     assert np.array_equal(found < horizons, expected < horizons)
     assert (np.abs(found - expected) * slope).max() < AGREEMENT

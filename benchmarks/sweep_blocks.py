@@ -19,6 +19,8 @@ from math import exp, log
 from pathlib import Path
 from statistics import mean, median
 
+from carom.models import Jeffcott
+
 ROUNDS = 9
 GAMMAS = (0.1, 0.15)
 DEGREES, LENGTHS = (5, 6, 7, 8, 9, 10, 12), (1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0)
@@ -43,7 +45,6 @@ def work_on_tasks(degree: int, levels: int, counting: bool) -> None:
     import numpy as np
     from workload import Bounces, random_starts, source_paper_machine
 
-    from carom import jeffcott
     from carom.core import table
 
     sys.path.append(str(Path(__file__).parent.parent / "tests"))
@@ -59,7 +60,7 @@ def work_on_tasks(degree: int, levels: int, counting: bool) -> None:
             table.SHORTENING = wish["shortening"]
             if "seed" in wish["machine"]:
                 random = np.random.default_rng(wish["machine"]["seed"])
-                ready[line] = Bounces(jeffcott(random_parameters(random)), starts[:STARTS])
+                ready[line] = Bounces(Jeffcott(random_parameters(random)), starts[:STARTS])
             else:
                 ready[line] = Bounces(source_paper_machine(**wish["machine"]), starts)
             if counting:

@@ -38,7 +38,7 @@ def on_wall(angle: float, whirl: float, radial: float = 0.0) -> State:
 
 def segment_states(motion: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     """States at the start of each segment."""
-    return motion.rotor.state(motion.segment_amplitudes)
+    return motion.rotor.system.state(motion.segment_amplitudes)
 
 
 def jacobi_integral(parameters: Parameters, position: np.ndarray, velocity: np.ndarray) -> np.ndarray:

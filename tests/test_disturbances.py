@@ -33,7 +33,7 @@ GROUNDED = PAPER.replace(gamma=0.05)
 
 @pytest.fixture
 def rotor():
-    return carom.jeffcott(QUIET)
+    return carom.Jeffcott(QUIET)
 
 
 def test_kicks_are_those_of_simulate(rotor):
@@ -53,7 +53,7 @@ def test_a_radial_kick_points_away_from_the_centre(rotor):
 
 
 def test_nothing_can_be_kicked_out_of_levitation_where_there_is_none():
-    grounded = carom.jeffcott(GROUNDED)
+    grounded = carom.Jeffcott(GROUNDED)
     assert abs(rest_position(GROUNDED)) > 1.0
     for model in (VelocityKick(), KickPlane(), BaseShock(1.0, 0.5)):
         assert not Grid(model, (3, 3)).starts(grounded).exists.any()
@@ -93,7 +93,7 @@ def test_a_slice_keeps_to_the_clearance(rotor):
 
 def test_states_are_even_over_both_discs():
     sample = Sample(AnyState(1.5), 20_000, seed=4)
-    starts = sample.starts(carom.jeffcott(QUIET))
+    starts = sample.starts(carom.Jeffcott(QUIET))
     for values, radius in ((starts.positions, 1.0), (starts.velocities, 1.5)):
         assert np.abs(values).max() <= radius
         # A quarter of the area lies within half the radius; five standard errors.
@@ -140,7 +140,7 @@ def test_rescaling_keeps_what_happens_in_si():
 def test_the_plane_of_kicks_by_its_short_name():
     plan = disturbances(radial=8, tangential=6, fastest=0.4)
     assert plan == Grid(KickPlane(0.4), (8, 6))
-    assert plan.starts(carom.jeffcott(QUIET)).positions.shape == (8, 6)
+    assert plan.starts(carom.Jeffcott(QUIET)).positions.shape == (8, 6)
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ def machine() -> carom.Parameters:
 @pytest.mark.jit_only
 def test_impacts_of_motions_that_come_to_levitate_are_counted(machine):
     """Also those since a lane was last looked at."""
-    rotor = carom.jeffcott(machine.replace(rho=0.2))
+    rotor = carom.Jeffcott(machine.replace(rho=0.2))
     positions, velocities = starts(100)
     together = settle_all(rotor, positions, velocities)
     levitated = np.flatnonzero(together.outcomes == Outcome.LEVITATED)
@@ -49,7 +49,7 @@ def test_impacts_of_motions_that_come_to_levitate_are_counted(machine):
 
 @pytest.mark.parametrize("until", [1e-3, 1.0, 2.9, 3.1, 50.0])
 def test_what_levitates_is_known_to_however_short_the_time(machine, until):
-    rotor = carom.jeffcott(machine)
+    rotor = carom.Jeffcott(machine)
     at_rest = carom.State(rotor.equilibrium, 0j)
     alone = carom.simulate(rotor, at_rest, until, settle=True)
     together = settle_all(rotor, at_rest.position, at_rest.velocity, until=until)
@@ -57,7 +57,7 @@ def test_what_levitates_is_known_to_however_short_the_time(machine, until):
 
 
 def test_speeds_that_overflow_are_refused(machine):
-    rotor = carom.jeffcott(machine)
+    rotor = carom.Jeffcott(machine)
     with pytest.raises(carom.InputError, match=r"^start velocity.*1e\+100"):
         settle_all(rotor, [0.0, 0.1], [1.0, 1e120j])
     with pytest.raises(carom.InputError, match=r"^start velocity.*1e\+100"):
@@ -67,7 +67,7 @@ def test_speeds_that_overflow_are_refused(machine):
 
 @pytest.mark.jit_only
 def test_each_ends_as_it_does_alone(machine):
-    rotor = carom.jeffcott(machine)
+    rotor = carom.Jeffcott(machine)
     positions, velocities = starts(24 if COMPILED else 2)
     together = settle_all(rotor, positions, velocities)
     for place in range(len(positions)):
@@ -82,7 +82,7 @@ def test_each_ends_as_it_does_alone(machine):
 
 @pytest.mark.parametrize("restitution", [0.95, 0.5, 0.0])
 def test_each_moves_as_it_does_alone(machine, restitution):
-    rotor = carom.jeffcott(machine.replace(d=restitution))
+    rotor = carom.Jeffcott(machine.replace(d=restitution))
     positions, velocities = starts(MANY)
     together = settle_all(rotor, positions, velocities, until=20.0, settle=False)
     for place in range(len(positions)):
@@ -94,7 +94,7 @@ def test_each_moves_as_it_does_alone(machine, restitution):
 
 
 def test_threads_and_company_change_nothing(machine):
-    rotor = carom.jeffcott(machine)
+    rotor = carom.Jeffcott(machine)
     positions, velocities = starts(MANY)
     one = settle_all(rotor, positions, velocities, threads=1)
     assert_same(one, settle_all(rotor, positions, velocities, threads=3))
@@ -105,7 +105,7 @@ def test_threads_and_company_change_nothing(machine):
 
 @pytest.mark.jit_only
 def test_starts_may_have_machines_of_their_own(machine):
-    rotors = [carom.jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
+    rotors = [carom.Jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
     positions, velocities = starts(MANY)
     which = np.arange(MANY) % 3
     mixed = settle_all(rotors, positions, velocities, which=which)
@@ -116,7 +116,7 @@ def test_starts_may_have_machines_of_their_own(machine):
 
 
 def test_arrays_keep_their_shape(machine):
-    endings = settle_all(carom.jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
+    endings = settle_all(carom.Jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
     assert endings.outcomes.shape == endings.velocities.shape == (2, 3)
     assert endings.count(Outcome.LEVITATED) == endings.recovered.sum()
 
@@ -125,7 +125,7 @@ def test_arrays_keep_their_shape(machine):
 @pytest.mark.parametrize("threads", [1, 3, None])
 def test_no_start_is_no_ending(machine, shape, threads):
     none = np.empty(shape)
-    several = [carom.jeffcott(machine), carom.jeffcott(machine.replace(gamma=0.4))]
+    several = [carom.Jeffcott(machine), carom.Jeffcott(machine.replace(gamma=0.4))]
     for endings in (
         settle_all(several[0], none, 0.1j, threads=threads),
         settle_all(several, none, none, which=none, threads=threads),
@@ -139,14 +139,14 @@ def test_no_start_is_no_ending(machine, shape, threads):
 
 
 def test_without_settling_motions_reach_the_time(machine):
-    endings = settle_all(carom.jeffcott(machine), *starts(8), until=5.0, settle=False)
+    endings = settle_all(carom.Jeffcott(machine), *starts(8), until=5.0, settle=False)
     assert (endings.outcomes == Outcome.TIME_REACHED).all()
     np.testing.assert_array_equal(endings.times, 5.0)
 
 
 def test_progress_ends_at_one(machine):
     told: list[float] = []
-    settle_all(carom.jeffcott(machine), *starts(8), until=5.0, progress=told.append)
+    settle_all(carom.Jeffcott(machine), *starts(8), until=5.0, progress=told.append)
     assert told[-1] == 1.0
 
 
@@ -167,9 +167,9 @@ def test_progress_ends_at_one(machine):
 def test_bad_input_is_named(machine, changes, words):
     arguments = {"positions": [0.1, 0.2], "velocities": [0.0, 0.0], **changes}
     with pytest.raises(InputError, match=words):
-        settle_all(carom.jeffcott(machine), **arguments)
+        settle_all(carom.Jeffcott(machine), **arguments)
 
 
 def test_a_start_needs_a_machine_that_exists(machine):
     with pytest.raises(InputError, match="whole numbers from 0 to 0"):
-        settle_all([carom.jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
+        settle_all([carom.Jeffcott(machine)], [0.1], [0.0], which=np.array([1]))

@@ -10,8 +10,8 @@ import carom
 from carom.ledger import energy_ledger
 
 
-def _rotor(gamma: float) -> carom.Rotor:
-    return carom.jeffcott(
+def _rotor(gamma: float) -> carom.Jeffcott:
+    return carom.Jeffcott(
         carom.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
     )
 
@@ -55,7 +55,7 @@ def test_a_missing_account_would_show():
 
 def test_a_rotor_at_rest_has_nothing_to_account_for():
     centred = carom.Parameters(gamma=0.1, omega=0.76, rho=0.0, phi=0.0, mu=0.15, d=0.95, radius_ratio=57.0)
-    ledger = energy_ledger(carom.simulate(carom.jeffcott(centred), carom.State(0j, 0j), until=10.0))
+    ledger = energy_ledger(carom.simulate(carom.Jeffcott(centred), carom.State(0j, 0j), until=10.0))
     assert not ledger.energy.any()
     assert ledger.imbalance == 0.0
 

@@ -12,11 +12,11 @@ import pytest
 from machines import PAPER, flight_matrix
 from scipy.linalg import expm
 
-from carom import InputError, jeffcott, single_impact_orbits
+from carom import InputError, single_impact_orbits
 from carom.core.layout import rotor_record
 from carom.local import ContactSystem, cycle_determinant, non_smooth_hopf
+from carom.models import Jeffcott, System
 from carom.periods import PeriodCondition
-from carom.rotors import generator_of
 
 BOUNDARY = PAPER.replace(gamma=float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)))
 
@@ -25,7 +25,7 @@ def slopes(name: str, parameter: str, at: float) -> np.ndarray:
     """Derivatives of (ṙ, θ̇, θ) by a parameter: central differences extrapolated twice, error of order h⁶."""
 
     def state(value):
-        orbit = single_impact_orbits(jeffcott(BOUNDARY.replace(**{parameter: value})))[name]
+        orbit = single_impact_orbits(Jeffcott(BOUNDARY.replace(**{parameter: value})))[name]
         return np.array([orbit.radial_speed, orbit.angular_speed, orbit.angle])
 
     table = [(state(at + h) - state(at - h)) / (2 * h) for h in (4e-4, 2e-4, 1e-4)]
@@ -46,7 +46,7 @@ def test_slopes_of_the_exact_branches(parameter):
     assert len(hopf.cycles) == 2
     for cycle in hopf.cycles:
         # Orbits of vanishing speed are a, b where the lever is negative.
-        orbits = single_impact_orbits(jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + 1e-9)))
+        orbits = single_impact_orbits(Jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + 1e-9)))
         orbit = min(orbits, key=lambda orbit: abs(orbit.period - cycle.period) + abs(orbit.radial_speed))
         got = (cycle.radial_slope, cycle.angular_slope, cycle.angle_slope)
         assert got == pytest.approx(slopes(orbit.name, parameter, getattr(BOUNDARY, parameter)), abs=1e-8)
@@ -60,7 +60,7 @@ def test_criticality_is_the_side_on_which_the_exact_orbits_live():
     for cycle in hopf.cycles:
         found = {}
         for shift in (-1e-5, 1e-5):
-            orbits = single_impact_orbits(jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + shift)))
+            orbits = single_impact_orbits(Jeffcott(BOUNDARY.replace(gamma=BOUNDARY.gamma + shift)))
             found[shift] = [
                 orbit for orbit in orbits if 0 < orbit.radial_speed < 1e-3 and abs(orbit.period - cycle.period) < 1e-2
             ]
@@ -98,15 +98,15 @@ def test_equilibrium_must_be_on_the_wall():
 
 
 def test_determinant_of_the_planar_rotor():
-    rotor = jeffcott(BOUNDARY)
-    condition = PeriodCondition(rotor)
+    rotor = Jeffcott(BOUNDARY)
+    condition = PeriodCondition(rotor.system)
     for period in (0.4, 1.0, 2.5, 7.0):
         free = abs(np.linalg.det(expm(flight_matrix(BOUNDARY) * period) - np.eye(2))) ** 2
         for direction in (1.0, cmath.exp(0.3j), cmath.exp(2j)):
             expected = free * float(condition.value(np.asarray(period)))
-            assert cycle_determinant(rotor, period, direction) == pytest.approx(expected, rel=1e-11)
+            assert cycle_determinant(rotor.system, period, direction) == pytest.approx(expected, rel=1e-11)
     for root in condition.roots().periods:
-        low, high = (cycle_determinant(rotor, root * (1 + s)) for s in (-1e-9, 1e-9))
+        low, high = (cycle_determinant(rotor.system, root * (1 + s)) for s in (-1e-9, 1e-9))
         assert low * high < 0.0
 
 
@@ -126,14 +126,14 @@ def four_modes() -> SimpleNamespace:
         restitution=np.array([0.8]),
         drive=np.array([50.0]),
     )
-    return SimpleNamespace(arrays=arrays, generator=generator_of(arrays))
+    return System(arrays, arrays.offsets, arrays.rows)
 
 
 def test_determinant_of_a_rotor_with_four_modes():
     """Against the matrix exponential of the modes and the reset written as real matrices."""
-    rotor = four_modes()
-    row, column = rotor.arrays.rows[0], rotor.arrays.columns[:, 0]
-    generator = np.diag(rotor.arrays.exponents)
+    system = four_modes()
+    row, column = system.arrays.rows[0], system.arrays.columns[:, 0]
+    generator = np.diag(system.arrays.exponents)
     generator[1, 0] = 1.0
 
     def real(matrix):
@@ -144,11 +144,11 @@ def test_determinant_of_a_rotor_with_four_modes():
     speed = np.concatenate([reader.real, -reader.imag])
     kick = column * 1.8 * (1 + 0.2j) * direction
     reset = np.eye(8) - np.outer(np.concatenate([kick.real, kick.imag]), speed)
-    condition = PeriodCondition(rotor)
+    condition = PeriodCondition(system)
     for period in (0.3, 1.1, 4.0):
         flown = real(expm(generator * period))
         expected = np.linalg.det(reset @ flown - np.eye(8))
-        assert cycle_determinant(rotor, period, direction) == pytest.approx(expected, rel=1e-10)
+        assert cycle_determinant(system, period, direction) == pytest.approx(expected, rel=1e-10)
         free = np.linalg.det(flown - np.eye(8))
         assert expected == pytest.approx(free * float(condition.value(np.asarray(period))), rel=1e-9)
 
@@ -158,14 +158,14 @@ def test_cycles_of_a_rotor_with_four_modes():
 
     The velocity along the wall's normal changes sign in the flight, so the impact is one: it comes in outward.
     """
-    rotor = four_modes()
-    row, column = rotor.arrays.rows[0], rotor.arrays.columns[:, 0]
-    generator = np.diag(rotor.arrays.exponents)
+    system = four_modes()
+    row, column = system.arrays.rows[0], system.arrays.columns[:, 0]
+    generator = np.diag(system.arrays.exponents)
     generator[1, 0] = 1.0
-    periods = PeriodCondition(rotor).roots(20.0).periods
+    periods = PeriodCondition(system).roots(20.0).periods
     assert len(periods) >= 2
     for period in periods:
-        low, high = (cycle_determinant(rotor, period * (1.0 + shift)) for shift in (-1e-8, 1e-8))
+        low, high = (cycle_determinant(system, period * (1.0 + shift)) for shift in (-1e-8, 1e-8))
         assert low * high < 0.0
         # The state before the impact c solves c = e^{MT}(c − b): an impact of unit speed.
         flown = expm(generator * period)

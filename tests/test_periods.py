@@ -10,7 +10,8 @@ from flint import acb, arb, ctx
 from machines import PAPER, exact_return, flight_matrix, random_parameters
 from scipy.linalg import expm
 
-from carom import CaromError, InputError, Parameters, jeffcott, period_condition
+from carom import CaromError, InputError, Parameters, period_condition
+from carom.models import Jeffcott
 from carom.periods import PeriodCondition
 
 CRITICAL = 2.0 * 0.76
@@ -29,7 +30,7 @@ DAMPINGS = {
 
 
 def condition_of(parameters: Parameters, slip: int = 1) -> PeriodCondition:
-    return PeriodCondition(jeffcott(parameters), slip)
+    return PeriodCondition(Jeffcott(parameters).system, slip)
 
 
 def slip_factor(parameters: Parameters) -> complex:
@@ -92,7 +93,7 @@ def test_value_of_any_shape():
     assert table.shape == (3, 4)
     np.testing.assert_array_equal(table.ravel(), condition.value(periods))
     assert condition.value(np.asarray(0.76)).shape == ()
-    np.testing.assert_array_equal(period_condition(jeffcott(PAPER), periods), condition.value(periods))
+    np.testing.assert_array_equal(period_condition(Jeffcott(PAPER), periods), condition.value(periods))
 
 
 def test_backward_slip_turns_the_friction_round():

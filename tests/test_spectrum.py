@@ -9,8 +9,8 @@ import carom
 from carom.spectrum import full_spectrum
 
 
-def _rotor(gamma: float) -> carom.Rotor:
-    return carom.jeffcott(
+def _rotor(gamma: float) -> carom.Jeffcott:
+    return carom.Jeffcott(
         carom.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
     )
 

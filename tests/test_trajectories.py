@@ -10,8 +10,8 @@ import pytest
 from machines import PAPER, fly, strike
 
 from carom import trajectories
+from carom.models import Jeffcott
 from carom.outcome import InputError, Outcome, Phase
-from carom.rotors import jeffcott
 from carom.trajectories import Kick, State, kick, simulate
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
@@ -20,7 +20,7 @@ RUBBING = PAPER.replace(gamma=0.2, d=0.5)
 
 @pytest.fixture(scope="module")
 def rotor():
-    return jeffcott(PAPER)
+    return Jeffcott(PAPER)
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def motion(rotor):
 
 @pytest.fixture(scope="module")
 def rubbing():
-    return simulate(jeffcott(RUBBING), START, 60.0)
+    return simulate(Jeffcott(RUBBING), START, 60.0)
 
 
 def test_a_motion_is_flights_joined_by_impacts(motion):
@@ -115,13 +115,13 @@ def test_no_time_of_a_sample_is_outside_the_wall(motion, rubbing):
 class TestStarts:
     def test_a_kick_starts_at_the_equilibrium(self, rotor):
         machine = PAPER.replace(gamma=0.3)
-        motion = simulate(jeffcott(machine), kick(0.4, angle=0.2), 3.0)
-        assert motion.start.position == jeffcott(machine).equilibrium
+        motion = simulate(Jeffcott(machine), kick(0.4, angle=0.2), 3.0)
+        assert motion.start.position == Jeffcott(machine).equilibrium
         assert motion.start.velocity == pytest.approx(cmath.rect(0.4, 0.2), abs=1e-16)
         assert kick(0.4, angle=0.2) == Kick(0.4, 0.2)
 
     def test_no_kick_no_motion(self):
-        motion = simulate(jeffcott(PAPER.replace(gamma=0.3)), kick(0.0), 100.0)
+        motion = simulate(Jeffcott(PAPER.replace(gamma=0.3)), kick(0.0), 100.0)
         assert np.allclose(motion.position(motion.sample(50)), motion.start.position, rtol=0, atol=1e-15)
 
     @pytest.mark.parametrize("radius", [1.0 + 2e-12, 1.1, 1e300])
@@ -132,7 +132,7 @@ class TestStarts:
 
     def test_a_kick_from_an_equilibrium_outside_the_wall(self):
         with pytest.raises(InputError, match="start position"):
-            simulate(jeffcott(PAPER.replace(gamma=0.01)), kick(0.1), 1.0)
+            simulate(Jeffcott(PAPER.replace(gamma=0.01)), kick(0.1), 1.0)
 
     @pytest.mark.parametrize("value", [math.nan, math.inf, complex(0, -math.inf)])
     def test_not_finite(self, rotor, value):
@@ -180,7 +180,7 @@ class TestLongMotions:
     @pytest.mark.parametrize("chunk", [1, 5])
     def test_nor_in_lasting_contact(self, rubbing, monkeypatch, chunk):
         monkeypatch.setattr(trajectories, "CHUNK", chunk)
-        cut = simulate(jeffcott(RUBBING), START, 60.0)
+        cut = simulate(Jeffcott(RUBBING), START, 60.0)
         assert np.array_equal(cut.segment_phases, rubbing.segment_phases)
         assert np.allclose(cut.segment_amplitudes, rubbing.segment_amplitudes, rtol=0, atol=1e-12)
         assert cut.final.position == pytest.approx(rubbing.final.position, abs=1e-12)
@@ -242,7 +242,7 @@ class TestLastingContact:
         assert np.all(np.abs(impulses.radial_speed) < 1e-5)
 
     def test_chatter_ends_the_motion_if_asked(self, rubbing):
-        stopped = simulate(jeffcott(RUBBING), START, 60.0, stop_at_chatter=True)
+        stopped = simulate(Jeffcott(RUBBING), START, 60.0, stop_at_chatter=True)
         assert stopped.outcome is Outcome.CHATTER
         assert stopped.time == rubbing.lasting_contacts[0].start
         assert abs(stopped.final.position) == pytest.approx(1.0, abs=1e-15)

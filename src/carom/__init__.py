@@ -5,7 +5,7 @@ that :data:`_HOMES` gives; everything listed there can be had as an attribute of
 
 >>> import carom as cm
 >>> machine = cm.Machine.load("examples/keogh-cole.toml")
->>> orbits = cm.single_impact_orbits(cm.jeffcott(machine.parameters))
+>>> orbits = cm.single_impact_orbits(cm.Jeffcott(machine.parameters))
 
 The functions :func:`basins`, :func:`disturbances`, :func:`equilibria` and :func:`study` carry the name of the module they
 live in. The attribute of the package is always the function; the module is at hand as
@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from carom.ledger import energy_ledger as energy_ledger
     from carom.maps import Section as Section
     from carom.maps import impact_map as impact_map
+    from carom.models import Jeffcott as Jeffcott
     from carom.orbits import Orbit as Orbit
     from carom.orbits import OrbitSet as OrbitSet
     from carom.orbits import period_condition as period_condition
@@ -80,8 +81,6 @@ if TYPE_CHECKING:
     from carom.parameters import Scales as Scales
     from carom.parameters import Zones as Zones
     from carom.parameters import load_case as load_case
-    from carom.rotors import Rotor as Rotor
-    from carom.rotors import jeffcott as jeffcott
     from carom.safety import SafeDamping as SafeDamping
     from carom.safety import least_safe_damping as least_safe_damping
     from carom.stability import multipliers as multipliers
@@ -133,7 +132,7 @@ _HOMES = {
     "Plane": "bifurcations",
     "RegionMap": "bifurcations",
     "Rolling": "whirl",
-    "Rotor": "rotors",
+    "Jeffcott": "models",
     "Runaway": "whirl",
     "SafeDamping": "safety",
     "Sample": "disturbances",
@@ -161,7 +160,6 @@ _HOMES = {
     "harmless_shock": "basins",
     "impact_map": "maps",
     "integrity": "basins",
-    "jeffcott": "rotors",
     "kick": "trajectories",
     "least_gain_change": "basins",
     "least_safe_damping": "safety",

@@ -27,7 +27,7 @@ import numpy as np
 
 from carom.core.fate import rub_potentials
 from carom.equilibria import Equilibrium, equilibria
-from carom.rotors import Rotor
+from carom.models import Jeffcott, Subject, model_of
 
 __all__ = ["GIVEN_UP", "RubNeighbourhood", "neighbourhood_of", "rub_neighbourhood"]
 
@@ -84,19 +84,19 @@ class RubNeighbourhood:
         return inside
 
 
-def rub_neighbourhood(rotor: Rotor) -> RubNeighbourhood | None:
+def rub_neighbourhood(machine: Subject) -> RubNeighbourhood | None:
     """Largest proven neighbourhood of the synchronous rub that attracts sliding; ``None`` if there is no such rub.
 
     Parameters
     ----------
-    rotor : Rotor
-        The planar rotor.
+    machine : Machine, Case, Parameters or model
     """
+    rotor = model_of(machine)
     rub = next((entry for entry in equilibria(rotor) if entry.attracts_sliding), None)
     return neighbourhood_of(rotor, rub) if rub else None
 
 
-def neighbourhood_of(rotor: Rotor, rub: Equilibrium) -> RubNeighbourhood | None:
+def neighbourhood_of(rotor: Jeffcott, rub: Equilibrium) -> RubNeighbourhood | None:
     """Largest proven neighbourhood of a rub that attracts sliding; ``None`` where double precision can prove none."""
     numbers = rotor.parameters
     gamma, mu = numbers.gamma, numbers.mu

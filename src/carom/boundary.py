@@ -26,13 +26,13 @@ between impacts.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
+from carom.models import Jeffcott, Subject, model_of
 from carom.orbits import Orbit, orbits_within_reach
 from carom.outcome import InputError
-from carom.parameters import Parameters
-from carom.rotors import Rotor, jeffcott
+from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 
 __all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria", "boundary_values"]
 
@@ -127,15 +127,14 @@ _EQUILIBRIA = {
 }
 
 
-def boundary_equilibria(rotor: Rotor, gain: Literal["gamma", "omega"] = "gamma") -> tuple[BoundaryEquilibrium, ...]:
+def boundary_equilibria(machine: Subject, gain: Literal["gamma", "omega"] = "gamma") -> tuple[BoundaryEquilibrium, ...]:
     """Find where the contact-free equilibrium meets the wall along a gain, and classify what happens.
 
     ``|U*| = 1`` is ``ρ² = (1 − ω²)² + γ²``, from (3.7) of the source paper.
 
     Parameters
     ----------
-    rotor : Rotor
-        The planar rotor.
+    machine : Machine, Case, Parameters or model
     gain : {"gamma", "omega"}
         The parameter that is varied through positive values, all others fixed.
 
@@ -149,6 +148,7 @@ def boundary_equilibria(rotor: Rotor, gain: Literal["gamma", "omega"] = "gamma")
     InputError
         There is no such gain.
     """
+    rotor = model_of(machine)
     places = boundary_values(rotor.parameters, gain)
     return tuple(_classified(rotor.parameters, gain, value, side) for value, side in places)
 
@@ -205,12 +205,14 @@ def _small_orbits(at: Parameters) -> tuple[tuple[SmallOrbit, ...], bool]:
     return tuple(sorted(found, key=lambda orbit: orbit.name)), complete
 
 
-def _at_gap(at: Parameters, gap: float) -> Rotor:
-    """Rotor at a boundary equilibrium with its equilibrium moved inward; its ``ρ`` may be the largest there is."""
-    rotor = jeffcott(at)
-    arrays = rotor.arrays.copy()
-    arrays.offsets[:] *= 1.0 - gap
-    return replace(rotor, arrays=arrays)
+def _at_gap(at: Parameters, gap: float) -> Jeffcott:
+    """Rotor at a boundary equilibrium with its equilibrium moved inward, or outward where the gap is negative."""
+    rho = at.rho * (1.0 - gap)
+    if rho <= DIMENSIONLESS_FIELDS["rho"].highest:
+        return Jeffcott(at.replace(rho=rho))
+    # Beyond the largest unbalance allowed, nearer to resonance: there the small orbits change to first order in the gap.
+    share = 1.0 / (1.0 - gap)
+    return Jeffcott(at.replace(gamma=at.gamma * share, omega=math.sqrt(1.0 + (at.omega**2 - 1.0) * share)))
 
 
 def _smallest(orbits: tuple[Orbit, ...]) -> list[Orbit]:

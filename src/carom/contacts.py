@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from carom.models import Jeffcott
 from carom.outcome import Phase
-from carom.rotors import Rotor
 
 if TYPE_CHECKING:
     import xarray
@@ -132,7 +132,7 @@ class ContactLog(Table):
     @classmethod
     def from_states(
         cls,
-        rotor: Rotor,
+        rotor: Jeffcott,
         times: np.ndarray,
         before: tuple[np.ndarray, np.ndarray],
         after: tuple[np.ndarray, np.ndarray],
@@ -140,7 +140,7 @@ class ContactLog(Table):
         """Log of impacts from positions and velocities just before and just after, each of shape (n,)."""
         angle, radial, angular = polar(*before)
         _, radial_after, angular_after = polar(*after)
-        drive = float(rotor.arrays.drive[0])
+        drive = float(rotor.system.arrays.drive[0])
         normal = radial - radial_after
         tangential = angular_after - angular
         slip, slip_after = drive + angular, drive + angular_after
@@ -156,7 +156,7 @@ class ContactLog(Table):
             tangential_impulse=tangential,
             slip_before=slip,
             slip_after=slip_after,
-            sticks=rotor.arrays.friction[0] * normal >= np.abs(slip),
+            sticks=rotor.system.arrays.friction[0] * normal >= np.abs(slip),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-(drive - 1.0) * tangential,
         )
@@ -216,7 +216,7 @@ class ContactHistory(Table):
     @classmethod
     def from_states(
         cls,
-        rotor: Rotor,
+        rotor: Jeffcott,
         times: np.ndarray,
         phases: np.ndarray,
         state: tuple[np.ndarray, np.ndarray],
@@ -224,7 +224,7 @@ class ContactHistory(Table):
     ) -> ContactHistory:
         """History from positions and velocities, and normal and friction forces, each of shape (n,)."""
         position, velocity = state
-        drive = float(rotor.arrays.drive[0])
+        drive = float(rotor.system.arrays.drive[0])
         normal, friction = forces
         slip = np.where(phases == Phase.FLIGHT, 0.0, drive + (position.conj() * velocity).imag)
         return cls(

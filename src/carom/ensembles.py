@@ -16,9 +16,9 @@ from carom.core.counter import fresh_counter
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
+from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome
 from carom.processors import available_cores
-from carom.rotors import Rotor
 from carom.settling import PATIENCE, fresh_memory, longest_time
 from carom.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
 
@@ -69,7 +69,7 @@ class Endings:
 
 
 def settle_all(
-    rotor: Rotor | Sequence[Rotor],
+    machine: Subject | Sequence[Subject],
     positions: np.ndarray,
     velocities: np.ndarray,
     *,
@@ -91,8 +91,8 @@ def settle_all(
 
     Parameters
     ----------
-    rotor : Rotor or sequence of Rotor
-        The machine, or machines of which each start has one.
+    machine : Machine, Case, Parameters or model, or a sequence of them
+        In a sequence: machines of which each start has one.
     positions, velocities : array_like of complex
         Starts in the co-rotating frame, of one shape after broadcasting; ``|U| ≤ 1``.
     which : array_like of int, optional
@@ -120,7 +120,7 @@ def settle_all(
     InputError
         A start lies outside the wall, is too fast or not finite, ``which`` names no machine, or a limit is no number above 0.
     """
-    rotors, which = _machines(rotor, which)
+    rotors, which = _machines(machine, which)
     positions, velocities, which = np.broadcast_arrays(
         np.asarray(positions, complex), np.asarray(velocities, complex), which
     )
@@ -135,8 +135,8 @@ def settle_all(
     limits = _Limits(until, settle, patience, max_events)
     threads = threads or available_cores()
     parts = []
-    for machine, portion in _portions(which.ravel()[order], len(rotors)):
-        part = _Part(rotors[machine], motions[portion], fresh_counter())
+    for number, portion in _portions(which.ravel()[order], len(rotors)):
+        part = _Part(rotors[number], motions[portion], fresh_counter())
         parts += [part] * min(threads, 1 + len(part.motions) // FEW)
     done = 0
     for finished in _settle_parts(parts, limits, threads):
@@ -154,19 +154,20 @@ class _Limits:
     max_events: int
 
 
-def _machines(rotor: Rotor | Sequence[Rotor], which: np.ndarray | None) -> tuple[Sequence[Rotor], np.ndarray]:
-    if isinstance(rotor, Rotor):
+def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) -> tuple[Sequence[Jeffcott], np.ndarray]:
+    if isinstance(machine, Subject):
         if which is not None:
             raise InputError("which", which, "left out where there is one machine")
-        return [rotor], np.zeros((), np.int64)
+        return [model_of(machine)], np.zeros((), np.int64)
     if which is None:
         raise InputError("which", which, "the machine of each start, where there are several")
+    rotors = [model_of(one) for one in machine]
     chosen = np.asarray(which)
     if not chosen.size:
-        return rotor, chosen.astype(np.int64)
-    if not np.issubdtype(chosen.dtype, np.integer) or chosen.min() < 0 or chosen.max() >= len(rotor):
-        raise InputError("which", chosen, f"whole numbers from 0 to {len(rotor) - 1}")
-    return rotor, chosen
+        return rotors, chosen.astype(np.int64)
+    if not np.issubdtype(chosen.dtype, np.integer) or chosen.min() < 0 or chosen.max() >= len(rotors):
+        raise InputError("which", chosen, f"whole numbers from 0 to {len(rotors) - 1}")
+    return rotors, chosen
 
 
 def _check_starts(positions: np.ndarray, velocities: np.ndarray) -> None:
@@ -200,7 +201,7 @@ def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
 class _Part(NamedTuple):
     """A part in the work on some motions of one machine: the counter deals them out to all who have one."""
 
-    rotor: Rotor
+    rotor: Jeffcott
     motions: np.ndarray
     counter: np.record
 
@@ -221,7 +222,7 @@ def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator
 
 def _settle_part(part: _Part, limits: _Limits) -> int:
     until = longest_time(part.rotor) if limits.until is None else limits.until
-    task = Task(part.rotor.arrays, part.rotor.table, until, limits.max_events)
+    task = Task(part.rotor.system.arrays, part.rotor.system.table, until, limits.max_events)
     memory = fresh_memory(part.rotor, limits.patience if limits.settle else 0, absorb=True)
     # Uncompiled, a lane that has nothing to divide warns.
     with np.errstate(all="ignore"):

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.rotors import Rotor
+from carom.models import Jeffcott, Subject, model_of
 
 __all__ = ["Equilibrium", "equilibria"]
 
@@ -63,7 +63,7 @@ class Equilibrium:
         return float(np.angle(self.position))
 
 
-def equilibria(rotor: Rotor) -> tuple[Equilibrium, ...]:
+def equilibria(machine: Subject) -> tuple[Equilibrium, ...]:
     """All equilibria: the contact-free one, then the synchronous rubs (none or two, the stable one first).
 
     Contact-free: ``U* = ρe^{iφ}/(ω² − 1 + iγ)``, source paper (3.7).
@@ -78,17 +78,18 @@ def equilibria(rotor: Rotor) -> tuple[Equilibrium, ...]:
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
 
     Returns
     -------
     tuple of Equilibrium
     """
+    rotor = model_of(machine)
     return (_contact_free(rotor), *_rubs(rotor))
 
 
-def _contact_free(rotor: Rotor) -> Equilibrium:
-    eigenvalues = rotor.eigenvalues
+def _contact_free(rotor: Jeffcott) -> Equilibrium:
+    eigenvalues = rotor.system.exponents
     gap = 1.0 - abs(rotor.equilibrium)
     stable = bool(eigenvalues.real.max() < 0.0)
     return Equilibrium("contact-free", rotor.equilibrium, 0.0, _status(gap), eigenvalues, stable)
@@ -100,10 +101,10 @@ def _status(margin: float) -> Status:
     return "admissible" if margin > 0 else "virtual"
 
 
-def _rubs(rotor: Rotor) -> list[Equilibrium]:
-    arrays = rotor.arrays
+def _rubs(rotor: Jeffcott) -> list[Equilibrium]:
+    arrays = rotor.system.arrays
     grip = complex(1.0, arrays.friction[0])
-    receptance = -complex(arrays.rows[0] @ np.linalg.solve(rotor.generator, arrays.columns[:, 0]))
+    receptance = -complex(arrays.rows[0] @ np.linalg.solve(rotor.system.generator, arrays.columns[:, 0]))
     h = receptance * grip
     reach = abs(h) * abs(rotor.equilibrium)
     if reach < abs(h.imag) or reach == 0.0:
@@ -126,14 +127,14 @@ def _dies_out(eigenvalues: np.ndarray) -> bool:
     return bool(eigenvalues.real.max() < -NEUTRAL * np.abs(eigenvalues).max())
 
 
-def _eigenvalues_along_wall(rotor: Rotor, position: complex, force: float) -> np.ndarray:
+def _eigenvalues_along_wall(rotor: Jeffcott, position: complex, force: float) -> np.ndarray:
     """Exponents of small disturbances of a rub that keep contact and slip.
 
     With ``n = e^{iθ}`` the contact force changes by ``−(1 + iμ)n (δN + iN δθ)``.  Staying on the wall,
     ``Re(n̄ δÿ) = 0`` gives ``δN = Re(n̄ W M² δc) + μN δθ``.  The motion is then restricted to disturbances with
     ``Re(n̄ δy) = Re(n̄ δẏ) = 0``.
     """
-    arrays = rotor.arrays
+    arrays = rotor.system.arrays
     modes = len(arrays.exponents)
     grip = complex(1.0, arrays.friction[0])
     inward = position.conjugate()
@@ -141,7 +142,7 @@ def _eigenvalues_along_wall(rotor: Rotor, position: complex, force: float) -> np
     def rate(change: np.ndarray) -> np.ndarray:
         turn = (inward * (arrays.rows[0] @ change)).imag
         push = (inward * (arrays.acceleration_rows[0] @ change)).real + arrays.friction[0] * force * turn
-        return rotor.generator @ change - arrays.columns[:, 0] * grip * position * (push + 1j * force * turn)
+        return rotor.system.generator @ change - arrays.columns[:, 0] * grip * position * (push + 1j * force * turn)
 
     def as_real(vector: np.ndarray) -> np.ndarray:
         return np.concatenate([vector.real, vector.imag])

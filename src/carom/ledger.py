@@ -137,7 +137,7 @@ def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     """Edges of the stretches to integrate, and how many of them each segment has."""
     bounds = np.append(trajectory.segment_starts, trajectory.time)
     lengths = np.diff(bounds)
-    fastest = np.abs(trajectory.rotor.eigenvalues).max()
+    fastest = np.abs(trajectory.rotor.system.exponents).max()
     flying = trajectory.segment_phases == Phase.FLIGHT
     counts = np.where(flying, np.ceil(lengths * fastest / LONGEST_PIECE), 1).astype(int)
     counts = np.maximum(counts, 1)
@@ -148,7 +148,7 @@ def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
 
 def _stored(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     """Kinetic and spring energy at the start of each segment and at the end."""
-    position, velocity = trajectory.rotor.state(trajectory.segment_amplitudes)
+    position, velocity = trajectory.rotor.system.state(trajectory.segment_amplitudes)
     position = np.append(position, trajectory.final.position)
     velocity = np.append(velocity, trajectory.final.velocity)
     omega = trajectory.rotor.parameters.omega

@@ -26,10 +26,10 @@ from typing import Literal
 import numpy as np
 
 from carom.core.flow import fly_all
+from carom.models import System, second_order_system
 from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.periods import PeriodCondition
-from carom.rotors import LinearRotor, generator_of, second_order_record
 
 __all__ = ["ContactSystem", "LocalCycle", "NonSmoothHopf", "cycle_determinant", "non_smooth_hopf"]
 
@@ -76,20 +76,15 @@ class ContactSystem:
         return self.force / self.stiffness
 
     @cached_property
-    def arrays(self) -> np.record:
-        """The system as the kernels see it, in units of ``σ``."""
-        return second_order_record(
+    def system(self) -> System:
+        """The same as the kernels see it, in units of ``σ``."""
+        return second_order_system(
             exponents=self.exponents,
             equilibrium=self.equilibrium / self.wall,
             friction=self.friction,
             restitution=self.restitution,
             drive=np.inf,
         )
-
-    @property
-    def generator(self) -> np.ndarray:
-        """Matrix of free flight, shape (2, 2)."""
-        return generator_of(self.arrays)
 
     @property
     def exponents(self) -> tuple[complex, complex]:
@@ -165,7 +160,7 @@ def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoo
     if abs(distance) > ON_WALL:
         raise InputError("equilibrium", system.equilibrium, f"on the wall |u| = {system.wall:g}")
     rate = equilibrium_rate / system.equilibrium
-    condition = PeriodCondition(system)
+    condition = PeriodCondition(system.system)
     periods = condition.roots().periods
     levers = condition.factor * condition.a12(periods)
     turns = condition.factor * condition.a22(periods)
@@ -184,7 +179,7 @@ def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoo
     return NonSmoothHopf(system, float(rate.real), tuple(cycles))
 
 
-def cycle_determinant(rotor: LinearRotor, period: float, direction: complex = 1.0) -> float:
+def cycle_determinant(system: System, period: float, direction: complex = 1.0) -> float:
     """``det(reset · e^{MT} − 1)`` of the linearised contact at a boundary equilibrium, for any number of modes.
 
     With the reset ``1 − b rᵀ`` (``r`` reads the speed along the wall's normal, ``b`` is what a unit of it does to the
@@ -192,7 +187,7 @@ def cycle_determinant(rotor: LinearRotor, period: float, direction: complex = 1.
 
     Parameters
     ----------
-    rotor : Rotor, or anything with its ``arrays``
+    system : System
     period : float
     direction : complex
         Unit normal of the wall at the equilibrium.  The determinant does not depend on it.
@@ -202,7 +197,7 @@ def cycle_determinant(rotor: LinearRotor, period: float, direction: complex = 1.
     float
         Of the real map over ``(Re c, Im c)``, shape (2N, 2N).
     """
-    arrays = rotor.arrays
+    arrays = system.arrays
     modes = len(arrays.exponents)
     units = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
     arrivals = fly_all(arrays, units, np.full(len(units), float(period)))

@@ -10,8 +10,8 @@ import numpy as np
 from carom.core import variation
 from carom.core.fate import memory
 from carom.core.impact import strike
+from carom.models import Jeffcott, Subject, System, model_of
 from carom.outcome import InputError, Outcome, Phase
-from carom.rotors import Rotor
 from carom.trajectories import EventLog, State, Trajectory, follow, simulate
 
 __all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "section_jacobian", "stroboscopic_map"]
@@ -83,12 +83,12 @@ class StroboscopicMap:
     jacobian: np.ndarray
 
 
-def impact_map(rotor: Rotor, section: Section, longest_flight: float = 1000.0) -> ImpactMap:
+def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.0) -> ImpactMap:
     """Impact map ``P_I`` of the source paper (section 3a), with its derivative.
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
     section : Section
         State just before an impact; ``radial_speed`` above zero.
     longest_flight : float
@@ -103,28 +103,29 @@ def impact_map(rotor: Rotor, section: Section, longest_flight: float = 1000.0) -
     InputError
         The rotor does not move toward the wall.
     """
+    rotor = model_of(machine)
     if not section.radial_speed > 0.0:
         raise InputError("radial speed", section.radial_speed, "above 0: the rotor must be about to strike the wall")
     state = section.state
-    amplitudes = rotor.amplitudes(state.position, state.velocity)
+    amplitudes = rotor.system.amplitudes(state.position, state.velocity)
     log = EventLog.empty(2, len(amplitudes))
     bounces = memory(len(amplitudes), stop_at_landing=True)
     outcome, time, count, *_ = follow(rotor, amplitudes, longest_flight, Phase.FLIGHT, 0, log, bounces)
     if count < 2:
         return ImpactMap(Outcome.CLEAR if outcome is Outcome.TIME_REACHED else outcome, None, time, None)
-    position, velocity = rotor.state(log.before[1])
+    position, velocity = rotor.system.state(log.before[1])
     image = Section.from_state(complex(position), complex(velocity))
-    return ImpactMap(Outcome.CONTACT, image, time, section_jacobian(rotor, section, time))
+    return ImpactMap(Outcome.CONTACT, image, time, section_jacobian(rotor.system, section, time))
 
 
-def section_jacobian(rotor: Rotor, section: Section, duration: float) -> np.ndarray:
+def section_jacobian(system: System, section: Section, duration: float) -> np.ndarray:
     """Derivative of the impact map along a flight of known duration.
 
     The flight need not stay inside the wall, so it serves virtual orbits too.
 
     Parameters
     ----------
-    rotor : Rotor
+    system : System
     section : Section
         State just before the impact that starts the flight.
     duration : float
@@ -136,21 +137,21 @@ def section_jacobian(rotor: Rotor, section: Section, duration: float) -> np.ndar
         Over ``(θ, ṙ, θ̇)``.
     """
     position, velocity = section.state.position, section.state.velocity
-    arrays = rotor.arrays
+    arrays = system.arrays
     change, _ = strike(position, velocity, arrays.friction[0], arrays.restitution[0], arrays.drive[0])
-    before = rotor.amplitudes(position, velocity)
-    arrival = rotor.fly(before + arrays.columns[:, 0] * change, np.asarray(duration))
+    before = system.amplitudes(position, velocity)
+    arrival = system.fly(before + arrays.columns[:, 0] * change, np.asarray(duration))
     jacobian = np.empty((3, 3))
     variation.section_jacobian(arrays, np.array([before, arrival]), np.array([duration], float), jacobian)
     return jacobian
 
 
-def stroboscopic_map(rotor: Rotor, state: State, period: float) -> StroboscopicMap:
+def stroboscopic_map(rotor: Jeffcott, state: State, period: float) -> StroboscopicMap:
     """State after a fixed time and its derivative, through any number of impacts.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     state : State
         Start inside the wall.
     period : float
@@ -163,13 +164,13 @@ def stroboscopic_map(rotor: Rotor, state: State, period: float) -> StroboscopicM
     """
     trajectory = simulate(rotor, state, period, stop_at_chatter=True)
     units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
-    directions = np.array([rotor.amplitude_change(*unit) for unit in units])
+    directions = np.array([rotor.system.amplitude_change(*unit) for unit in units])
     delays = np.empty(4)
     durations = np.diff(np.append(trajectory.segment_starts, trajectory.time))
     for flight, arrival in enumerate(trajectory.arrivals):
-        variation.carry_to_wall(rotor.arrays, 0, durations[flight], arrival, directions, delays)
-        variation.carry_through_impact(rotor.arrays, 0, arrival, directions)
-        variation.shift(rotor.arrays, trajectory.segment_amplitudes[flight + 1], directions, -delays)
-    directions = rotor.fly(directions, np.full(4, durations[-1]))
-    position, velocity = directions @ rotor.arrays.rows[0], directions @ rotor.arrays.rate_rows[0]
+        variation.carry_to_wall(rotor.system.arrays, 0, durations[flight], arrival, directions, delays)
+        variation.carry_through_impact(rotor.system.arrays, 0, arrival, directions)
+        variation.shift(rotor.system.arrays, trajectory.segment_amplitudes[flight + 1], directions, -delays)
+    directions = rotor.system.fly(directions, np.full(4, durations[-1]))
+    position, velocity = directions @ rotor.system.arrays.rows[0], directions @ rotor.system.arrays.rate_rows[0]
     return StroboscopicMap(trajectory, np.array([position.real, position.imag, velocity.real, velocity.imag]))

@@ -14,9 +14,9 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.planar import impact_jacobian
 from carom.core.rub import lift_off
 from carom.maps import Section, section_jacobian
+from carom.models import Jeffcott, Subject, System, model_of
 from carom.outcome import InputError, Outcome
 from carom.periods import PeriodCondition, PeriodRoots
-from carom.rotors import Rotor
 from carom.stability import Multipliers, multipliers
 from carom.trajectories import State, Trajectory, simulate
 
@@ -44,7 +44,7 @@ class Orbit:
 
     Attributes
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     name : str
         ``"B1,d"``: pair 1; ``a``, ``c`` on its shorter period and ``b``, ``d`` on its longer; ``a``, ``b`` with the
         lower and ``c``, ``d`` with the higher radial speed.  Orbits whose slip runs backward begin with ``R``.
@@ -60,7 +60,7 @@ class Orbit:
         Why it is not admissible; empty if it is.
     """
 
-    rotor: Rotor
+    rotor: Jeffcott
     name: str
     period: float
     section: Section
@@ -107,7 +107,7 @@ class Orbit:
     def departure(self) -> State:
         """State just after the impact."""
         before = self.section.state
-        arrays = self.rotor.arrays
+        arrays = self.rotor.system.arrays
         grip = complex(1.0, self.slip * arrays.friction[0])
         change = -(1.0 + arrays.restitution[0]) * grip * self.radial_speed * before.position
         return State(before.position, before.velocity + change)
@@ -125,8 +125,8 @@ class Orbit:
             In ``1/Ω``; the orbit repeats after each period.
         """
         departure = self.departure
-        start = self.rotor.amplitudes(departure.position, departure.velocity)
-        position, _ = self.rotor.state(self.rotor.fly(start, np.mod(times, self.period)))
+        start = self.rotor.system.amplitudes(departure.position, departure.velocity)
+        position, _ = self.rotor.system.state(self.rotor.system.fly(start, np.mod(times, self.period)))
         return position
 
 
@@ -136,7 +136,7 @@ class OrbitSet(Sequence[Orbit]):
 
     Attributes
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     members : tuple of Orbit
     periods : ndarray
         All roots of ``F₁``.  Each gives up to two orbits.
@@ -150,7 +150,7 @@ class OrbitSet(Sequence[Orbit]):
         as its clearance can have either.
     """
 
-    rotor: Rotor
+    rotor: Jeffcott
     members: tuple[Orbit, ...]
     periods: np.ndarray
     longest_period: float
@@ -190,12 +190,13 @@ class OrbitSet(Sequence[Orbit]):
         raise InputError("orbit", key, f"one of: {names}")
 
 
-def period_condition(rotor: Rotor, periods: np.ndarray) -> np.ndarray:
+def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
     """``F₁(T) = 1 + Re(q a₂₂(T))``, whose roots are the periods of single-impact orbits (source paper (4.4))."""
-    return PeriodCondition(rotor).value(np.asarray(periods, float))
+    rotor = model_of(machine)
+    return PeriodCondition(rotor.system).value(np.asarray(periods, float))
 
 
-def single_impact_orbits(rotor: Rotor, longest_period: float | None = None) -> OrbitSet:
+def single_impact_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet:
     """All orbits with one impact a period, synchronous with the shaft.
 
     With ``q = (1 + d)(1 + iμ)`` and the return of the flight to its start, ``a₁₂`` and ``a₂₂`` of
@@ -206,7 +207,7 @@ def single_impact_orbits(rotor: Rotor, longest_period: float | None = None) -> O
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
         With positive damping, or with ``longest_period``.
     longest_period : float, optional
         Search only periods up to this, in ``1/Ω``.
@@ -221,40 +222,42 @@ def single_impact_orbits(rotor: Rotor, longest_period: float | None = None) -> O
     InputError
         Without damping there are infinitely many; give ``longest_period``.
     """
-    condition = PeriodCondition(rotor)
+    rotor = model_of(machine)
+    condition = PeriodCondition(rotor.system)
     roots = condition.roots(longest_period)
     orbits = _orbits_at(rotor, condition, roots, 1)
     forward_only = slip_stays_forward(rotor)
     if not forward_only:
-        backward = PeriodCondition(rotor, slip=-1)
+        backward = PeriodCondition(rotor.system, slip=-1)
         reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
         orbits += [orbit for orbit in reversed_orbits if _slip_speed(orbit) < 0.0 < orbit.radial_speed]
     return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, forward_only)
 
 
-def orbits_within_reach(rotor: Rotor) -> OrbitSet:
+def orbits_within_reach(machine: Subject) -> OrbitSet:
     """All single-impact orbits; with little or no damping, when they are too many, only those of shorter period.
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
 
     Returns
     -------
     OrbitSet
         Its ``complete`` and ``argument`` tell whether the list was cut.
     """
+    rotor = model_of(machine)
     return single_impact_orbits(rotor, longest_within_reach(rotor))
 
 
-def longest_within_reach(rotor: Rotor) -> float | None:
+def longest_within_reach(rotor: Jeffcott) -> float | None:
     """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
-    condition = PeriodCondition(rotor)
+    condition = PeriodCondition(rotor.system)
     limit = MOST_RADIANS / float(abs(condition.exponents).max())
     return None if condition.longest_period() <= limit else limit
 
 
-def slip_stays_forward(rotor: Rotor) -> bool:
+def slip_stays_forward(rotor: Jeffcott) -> bool:
     """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
 
     After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in the
@@ -274,9 +277,9 @@ def slip_stays_forward(rotor: Rotor) -> bool:
     return bool((gone - 0.5 * (parameters.rho + parameters.omega**2) * times**2).max() > 1.0)
 
 
-def _orbits_at(rotor: Rotor, condition: PeriodCondition, roots: PeriodRoots, slip: int) -> list[Orbit]:
+def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, slip: int) -> list[Orbit]:
     """Orbits at all roots, in the order of their pairs and letters."""
-    slipping = _slipping(rotor, slip)
+    slipping = _slipping(rotor.system, slip)
     levers = condition.factor * condition.a12(roots.periods)
     turns = condition.factor * condition.a22(roots.periods)
     # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
@@ -294,7 +297,7 @@ def _orbits_at(rotor: Rotor, condition: PeriodCondition, roots: PeriodRoots, sli
     return [orbit for *_, orbit in sorted(orbits, key=lambda entry: entry[:2])]
 
 
-def _jacobian(rotor: Rotor, slipping: Rotor, section: Section, period: float, slip: int) -> np.ndarray:
+def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float, slip: int) -> np.ndarray:
     """Derivative of the impact map; of an orbit that has shrunk to levitation on the wall, its limit."""
     if section.radial_speed != 0.0:
         return section_jacobian(slipping, section, period)
@@ -305,12 +308,14 @@ def _jacobian(rotor: Rotor, slipping: Rotor, section: Section, period: float, sl
     return limit
 
 
-def orbit_at(rotor: Rotor, name: str, period: float, section: Section, nontrivial: Multipliers, slip: int = 1) -> Orbit:
+def orbit_at(
+    rotor: Jeffcott, name: str, period: float, section: Section, nontrivial: Multipliers, slip: int = 1
+) -> Orbit:
     """A known orbit, with the certificate of its admissibility.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     name : str
     period : float
         In ``1/Ω``.
@@ -328,14 +333,14 @@ def orbit_at(rotor: Rotor, name: str, period: float, section: Section, nontrivia
     return replace(orbit, reason=_why_virtual(orbit))
 
 
-def _slipping(rotor: Rotor, slip: int) -> Rotor:
-    """A rotor whose slip always runs in this direction, as that of an orbit is assumed to."""
-    arrays = rotor.arrays.copy()
+def _slipping(system: System, slip: int) -> System:
+    """A system whose slip always runs in this direction, as that of an orbit is assumed to."""
+    arrays = system.arrays.copy()
     arrays.drive[:] = slip * np.inf
-    return replace(rotor, arrays=arrays)
+    return replace(system, arrays=arrays)
 
 
-def radial_speeds(rotor: Rotor, lever: complex) -> tuple[float, ...]:
+def radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
     """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; none where they have coalesced.
 
     ``lever`` is ``q a₁₂``.
@@ -352,11 +357,11 @@ def radial_speeds(rotor: Rotor, lever: complex) -> tuple[float, ...]:
 
 
 def _slip_speed(orbit: Orbit) -> float:
-    return float(orbit.rotor.arrays.drive[0] + orbit.angular_speed)
+    return float(orbit.rotor.system.arrays.drive[0] + orbit.angular_speed)
 
 
 def _why_virtual(orbit: Orbit) -> str:
-    arrays = orbit.rotor.arrays
+    arrays = orbit.rotor.system.arrays
     if orbit.radial_speed <= 0.0:
         return "it would meet the wall from outside (radial speed not above 0)"
     if arrays.friction[0] > 0.0:
@@ -366,7 +371,7 @@ def _why_virtual(orbit: Orbit) -> str:
         if arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed >= slip:
             return "friction would stop the slip during the impact"
     departure = orbit.departure
-    start = orbit.rotor.amplitudes(departure.position, departure.velocity)
+    start = orbit.rotor.system.amplitudes(departure.position, departure.velocity)
     push = (departure.position.conjugate() * (start @ arrays.acceleration_rows[0])).real + abs(departure.velocity) ** 2
     if arrays.restitution[0] == 0.0 and push >= 0.0:
         return "it would stay on the wall: it does not rebound and is pressed outward"
@@ -378,11 +383,11 @@ def _why_virtual(orbit: Orbit) -> str:
     return f"it would cross the wall at t = {time:.6g}, before its period is over"
 
 
-def _first_return(rotor: Rotor, start: np.ndarray, horizon: float) -> tuple[int, float]:
+def _first_return(rotor: Jeffcott, start: np.ndarray, horizon: float) -> tuple[int, float]:
     """Outcome and time of the first return to the wall of a flight that leaves it after an impact."""
-    arrays, work = rotor.arrays, workspace(len(start))
+    arrays, work = rotor.system.arrays, workspace(len(start))
     if arrays.restitution[0] > 0.0:
-        outcome, time = first_crossing(arrays, rotor.table, 0, start, horizon, LEAVING, work)
+        outcome, time = first_crossing(arrays, rotor.system.table, 0, start, horizon, LEAVING, work)
         return outcome, time
     # Without rebound it leaves with no radial speed: its distance from the wall begins with the square of the time.
     amplitudes = start.copy()
@@ -391,5 +396,5 @@ def _first_return(rotor: Rotor, start: np.ndarray, horizon: float) -> tuple[int,
         return int(Outcome.GRAZING), 0.0
     if returned:
         return int(Outcome.CONTACT), aloft
-    outcome, time = first_crossing(arrays, rotor.table, 0, amplitudes, horizon - aloft, INSIDE, work)
+    outcome, time = first_crossing(arrays, rotor.system.table, 0, amplitudes, horizon - aloft, INSIDE, work)
     return outcome, aloft + time

@@ -28,8 +28,8 @@ from math import factorial, pi
 
 import numpy as np
 
+from carom.models import System
 from carom.outcome import CaromError, InputError
-from carom.rotors import LinearRotor
 
 __all__ = ["PeriodCondition", "PeriodRoots"]
 
@@ -83,7 +83,7 @@ class PeriodRoots:
 
 
 class PeriodCondition:
-    """``F₁`` of a rotor, its derivative and its bounds.
+    """``F₁`` of a system, its derivative and its bounds.
 
     :func:`carom.core.planar.returns` sums the same for the planar rotor alone.  Neither can stand for the other: here
     there are any number of modes, many periods at a time and the rounding of each sum, which the proofs need; there one
@@ -92,19 +92,19 @@ class PeriodCondition:
 
     Parameters
     ----------
-    rotor : Rotor, or anything with its ``arrays`` and ``generator``
+    system : System
     slip : {1, -1}
         Direction of the slip during impacts.
     """
 
-    def __init__(self, rotor: LinearRotor, slip: int = 1) -> None:
-        arrays = rotor.arrays
+    def __init__(self, system: System, slip: int = 1) -> None:
+        arrays = system.arrays
         row, column = arrays.rows[0], arrays.columns[:, 0]
         self.factor = complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0])
         self.exponents = np.array(arrays.exponents)
         self.singles = [(k, complex(row[k] * column[k])) for k in np.flatnonzero(row * column)]
         self.pairs = [(k, complex(row[k] * column[k - 1])) for k in np.flatnonzero(arrays.driven)]
-        self.receptance = -complex(row @ np.linalg.solve(rotor.generator, column))
+        self.receptance = -complex(row @ np.linalg.solve(system.generator, column))
 
     def a12(self, periods: np.ndarray) -> np.ndarray:
         """``a₁₂(T)``, complex, of the shape of ``periods``."""

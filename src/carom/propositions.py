@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 from carom.bifurcations import Bifurcation, continue_orbit
 from carom.local import ContactSystem, LocalCycle, non_smooth_hopf
+from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 
 __all__ = ["FixedPoints", "HopfSide", "SimultaneousFolds", "fixed_points", "hopf_side", "simultaneous_folds"]
 
@@ -97,7 +97,7 @@ class HopfSide:
 
 def fixed_points(parameters: Parameters) -> FixedPoints:
     """Count the fixed points of the impact map with forward slip, and the admissible ones among them."""
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     found = single_impact_orbits(rotor)
     orbits = [orbit for orbit in found if orbit.slip > 0]
     return FixedPoints(
@@ -125,7 +125,7 @@ def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFol
     CaromError
         The pair does not end in two folds.
     """
-    orbits = single_impact_orbits(jeffcott(parameters))
+    orbits = single_impact_orbits(Jeffcott(parameters))
     names = [orbit.name for orbit in orbits]
     if not {f"B{pair},b", f"B{pair},d"} <= set(names):
         raise InputError(

@@ -12,7 +12,7 @@ from carom.core.closing import ATTRACTS, OPEN, close, least_period
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.equilibria import Equilibrium, equilibria
-from carom.rotors import Rotor
+from carom.models import Jeffcott
 from carom.whirl import rolling, runaway_speed
 
 __all__ = ["PATIENCE", "ClosedOrbit", "closed_orbit", "fresh_memory", "longest_time", "multiplicity_of"]
@@ -51,7 +51,7 @@ class ClosedOrbit:
     attracts: bool
 
 
-def fresh_memory(rotor: Rotor, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False) -> np.record:
+def fresh_memory(rotor: Jeffcott, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False) -> np.record:
     """Memory of a motion that is to begin, for :func:`~carom.trajectories.follow`; with a ``patience`` of zero it settles to nothing.
 
     With ``absorb`` it ends where it is proven to go over to the synchronous rub or to rolling, not only when it is there.
@@ -59,7 +59,7 @@ def fresh_memory(rotor: Rotor, patience: int, stop_at_chatter: bool = False, *, 
     rub = _attracting_rub(rotor) if patience > 0 else None
     around = _rub_neighbourhood(rotor) if rub and absorb else None
     return memory(
-        len(rotor.eigenvalues),
+        len(rotor.system.exponents),
         rub_position=rub.position if rub else 0j,
         patience=patience,
         recheck=_recheck_time(rotor),
@@ -71,12 +71,12 @@ def fresh_memory(rotor: Rotor, patience: int, stop_at_chatter: bool = False, *, 
     )
 
 
-def multiplicity_of(rotor: Rotor, amplitudes: np.ndarray, recurred: int) -> int:
+def multiplicity_of(rotor: Jeffcott, amplitudes: np.ndarray, recurred: int) -> int:
     """Impacts in the period of the orbit that a motion approaches which has recurred after so many impacts.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     amplitudes : ndarray of complex, shape (N,)
         State just before an impact.
     recurred : int
@@ -89,23 +89,23 @@ def multiplicity_of(rotor: Rotor, amplitudes: np.ndarray, recurred: int) -> int:
     """
     if not _can_close(rotor):
         return recurred
-    return int(least_period(rotor.arrays, rotor.table, amplitudes, recurred, *_tools()))
+    return int(least_period(rotor.system.arrays, rotor.system.table, amplitudes, recurred, *_tools()))
 
 
-def closed_orbit(rotor: Rotor, position: complex, velocity: complex, impacts: int) -> ClosedOrbit | None:
+def closed_orbit(rotor: Jeffcott, position: complex, velocity: complex, impacts: int) -> ClosedOrbit | None:
     """Find the periodic orbit with so many impacts next to a state just before one of them; ``None`` if there is none near."""
     if not _can_close(rotor):
         return None
     states, durations = np.empty((impacts + 1, MODES), complex), np.empty(impacts)
-    states[0] = rotor.amplitudes(position, velocity)
-    found = close(rotor.arrays, rotor.table, states, durations, *_tools())
+    states[0] = rotor.system.amplitudes(position, velocity)
+    found = close(rotor.system.arrays, rotor.system.table, states, durations, *_tools())
     if found == OPEN:
         return None
-    return ClosedOrbit(*rotor.state(states[:-1]), float(durations.sum()), found == ATTRACTS)
+    return ClosedOrbit(*rotor.system.state(states[:-1]), float(durations.sum()), found == ATTRACTS)
 
 
-def _can_close(rotor: Rotor) -> bool:
-    return len(rotor.eigenvalues) == MODES and len(rotor.arrays.rows) == 1
+def _can_close(rotor: Jeffcott) -> bool:
+    return len(rotor.system.exponents) == MODES and len(rotor.system.arrays.rows) == 1
 
 
 def _tools() -> tuple[tuple[np.ndarray, ...], np.record, np.record, np.record]:
@@ -116,29 +116,29 @@ def _tools() -> tuple[tuple[np.ndarray, ...], np.record, np.record, np.record]:
 
 
 @lru_cache(maxsize=ROTORS)
-def _attracting_rub(rotor: Rotor) -> Equilibrium | None:
+def _attracting_rub(rotor: Jeffcott) -> Equilibrium | None:
     """Return the synchronous rub that attracts sliding; with ``d = 1`` too, where it does not attract bounces."""
     return next((rub for rub in equilibria(rotor) if rub.attracts_sliding), None)
 
 
 @lru_cache(maxsize=ROTORS)
-def _rub_neighbourhood(rotor: Rotor) -> RubNeighbourhood | None:
+def _rub_neighbourhood(rotor: Jeffcott) -> RubNeighbourhood | None:
     rub = _attracting_rub(rotor)
     return neighbourhood_of(rotor, rub) if rub else None
 
 
-def _certain_runaway(rotor: Rotor) -> float:
+def _certain_runaway(rotor: Jeffcott) -> float:
     """Speed of backward whirl from which on sliding goes over to rolling that holds; infinite if there is none."""
     runaway = runaway_speed(rotor)
     return runaway.certain * (1.0 + GIVEN_UP) if runaway.reaches_rolling and rolling(rotor).holds else np.inf
 
 
-def _recheck_time(rotor: Rotor) -> float:
-    decay = -rotor.eigenvalues.real.max()
+def _recheck_time(rotor: Jeffcott) -> float:
+    decay = -rotor.system.exponents.real.max()
     return min(1.0 / decay, LONG_FLIGHT) if decay > 0.0 else np.inf
 
 
-def longest_time(rotor: Rotor) -> float:
+def longest_time(rotor: Jeffcott) -> float:
     """Time in ``1/Ω`` after which a motion that has not settled is given up: TIME_CONSTANTS of free flight, within bounds."""
-    decay = -float(rotor.eigenvalues.real.max())
+    decay = -float(rotor.system.exponents.real.max())
     return min(max(TIME_CONSTANTS / decay, SHORTEST_LIMIT), LONGEST_LIMIT) if decay > 0.0 else SHORTEST_LIMIT

@@ -24,9 +24,8 @@ import numpy as np
 from carom.core.advance import INSIDE_ALL, advance
 from carom.core.fate import forget, memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
-from carom.core.table import flight_table
+from carom.models import Jeffcott, System
 from carom.outcome import InputError, Outcome, Phase
-from carom.rotors import Rotor
 from carom.trajectories import EventLog
 
 __all__ = ["shaken", "states_after_shocks"]
@@ -39,22 +38,22 @@ LEAST_DISTANCE = 1e-6
 """Of the pulse from undamped resonance, ``|D|/ω²``: below it too many digits cancel."""
 
 
-def shaken(rotor: Rotor, duration: float) -> np.record:
-    """Arrays of a rotor of four modes: free flight, and the two exponentials of a half-sine pulse of this duration in ``1/Ω``.
+def shaken(rotor: Jeffcott, duration: float) -> System:
+    """A system of four modes: free flight, and the two exponentials of a half-sine pulse of this duration in ``1/Ω``.
 
     Raises
     ------
     InputError
         Undamped levitation in resonance with the pulse.
     """
-    arrays = rotor.arrays
+    arrays = rotor.system.arrays
     frequency = math.pi / duration
     pulse = (complex(0.0, frequency - 1.0), complex(0.0, -frequency - 1.0))
     free = tuple(complex(value) for value in arrays.exponents)
     nearest = min(abs((s - free[0]) * (s - free[1])) for s in pulse)
     if nearest < LEAST_DISTANCE * abs(free[0] + 1j) * abs(free[1] + 1j):
         raise InputError("duration", duration, "not half a natural period of undamped levitation, in 1/Omega")
-    return rotor_record(
+    shaken_arrays = rotor_record(
         exponents=np.array([*free, *pulse], np.complex128),
         driven=np.array([False, True, False, False]),
         offsets=arrays.offsets,
@@ -64,16 +63,17 @@ def shaken(rotor: Rotor, duration: float) -> np.record:
         restitution=arrays.restitution,
         drive=arrays.drive,
     )
+    return System(shaken_arrays, arrays.offsets, shaken_arrays.rows)
 
 
 def states_after_shocks(
-    rotor: Rotor, peaks: np.ndarray, duration: float, directions: np.ndarray
+    rotor: Jeffcott, peaks: np.ndarray, duration: float, directions: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """State at the end of half-sine pulses that hit the levitating rotor.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
         It levitates inside the wall.
     peaks, directions : ndarray
         Peak accelerations of the housing, in ``c_r Ω²``, and their directions in rad, of one shape.
@@ -89,8 +89,8 @@ def states_after_shocks(
     touched : ndarray of bool
         The rotor met the wall during the pulse.
     """
-    arrays = shaken(rotor, duration)
-    table = flight_table(arrays.exponents, arrays.driven)
+    system = shaken(rotor, duration)
+    arrays, table = system.arrays, system.table
     rest, exponents = rotor.equilibrium, arrays.exponents.tolist()
     rows, rate_rows = arrays.rows[0].tolist(), arrays.rate_rows[0].tolist()
     log, work, rub = EventLog.empty(LOGGED, MODES), workspace(MODES), rub_workspace(MODES)

@@ -18,8 +18,8 @@ from carom.core.fate import doubt
 from carom.core.impact import set_on_wall
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all
+from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome, Phase
-from carom.rotors import Rotor
 from carom.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
 
 __all__ = [
@@ -72,7 +72,7 @@ class Kick:
     speed: float
     angle: float = 0.0
 
-    def state(self, rotor: Rotor) -> State:
+    def state(self, rotor: Jeffcott) -> State:
         """Return the state just after the kick."""
         return State(rotor.equilibrium, cmath.rect(self.speed, self.angle))
 
@@ -104,7 +104,7 @@ class Trajectory:
 
     Attributes
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     start : State
     outcome : Outcome
         Where it settled, or why it was stopped.
@@ -123,7 +123,7 @@ class Trajectory:
         Mode amplitudes at the end of each segment but the last.
     """
 
-    rotor: Rotor
+    rotor: Jeffcott
     start: State
     outcome: Outcome
     time: float
@@ -154,8 +154,8 @@ class Trajectory:
 
     def log_of(self, events: np.ndarray) -> ContactLog:
         """Log of chosen events, bool, shape (n,)."""
-        before = self.rotor.state(self.arrivals[events])
-        after = self.rotor.state(self.segment_amplitudes[1:][events])
+        before = self.rotor.system.state(self.arrivals[events])
+        after = self.rotor.system.state(self.segment_amplitudes[1:][events])
         return ContactLog.from_states(self.rotor, self.segment_starts[1:][events], before, after)
 
     @cached_property
@@ -184,7 +184,7 @@ class Trajectory:
             ``U`` and ``U̇`` in the co-rotating frame, of the shape of ``times``.
         """
         amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
-        return self.rotor.state(amplitudes)
+        return self.rotor.system.state(amplitudes)
 
     def _amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mode amplitudes and phases at given times."""
@@ -192,7 +192,7 @@ class Trajectory:
         segment = np.clip(np.searchsorted(self.segment_starts, flat, side="right") - 1, 0, None)
         phases = self.segment_phases[segment]
         moved = fly_or_rub_all(
-            self.rotor.arrays,
+            self.rotor.system.arrays,
             0,
             self.segment_amplitudes[segment],
             phases,
@@ -210,8 +210,8 @@ class Trajectory:
             The normal force presses the rotor inward; friction is positive along growing angle.
         """
         amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
-        arrays = self.rotor.arrays
-        position, velocity = self.rotor.state(amplitudes)
+        arrays = self.rotor.system.arrays
+        position, velocity = self.rotor.system.state(amplitudes)
         local = position.conj() * np.einsum("...k,k->...", amplitudes, arrays.acceleration_rows[0])
         push = local.real + np.abs(velocity) ** 2
         slip_sign = np.where(phases == Phase.FORWARD_SLIP, 1.0, -1.0)
@@ -251,7 +251,7 @@ class Trajectory:
 
 
 def simulate(
-    rotor: Rotor,
+    machine: Subject,
     start: State | Kick,
     until: float | None = None,
     *,
@@ -265,7 +265,7 @@ def simulate(
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
     start : State or Kick
         On the wall (``|U| = 1`` to within 1e-12) or inside it.
     until : float, optional
@@ -290,6 +290,7 @@ def simulate(
     InputError
         The start lies outside the wall, or a number is not finite.
     """
+    rotor = model_of(machine)
     state = start.state(rotor) if isinstance(start, Kick) else start
     amplitudes, plane = _checked_start(rotor, state)
     if until is None and settle:
@@ -316,7 +317,7 @@ def simulate(
             if multiplicity == PASSES:
                 doubt(recollection)
                 outcome, multiplicity = Outcome.EVENT_LIMIT, 0
-    position, velocity = rotor.state(amplitudes)
+    position, velocity = rotor.system.state(amplitudes)
     return Trajectory(
         rotor=rotor,
         start=state,
@@ -332,13 +333,19 @@ def simulate(
 
 
 def follow(
-    rotor: Rotor, amplitudes: np.ndarray, until: float, phase: int, plane: int, log: EventLog, recollection: np.record
+    rotor: Jeffcott,
+    amplitudes: np.ndarray,
+    until: float,
+    phase: int,
+    plane: int,
+    log: EventLog,
+    recollection: np.record,
 ) -> tuple[Outcome, float, int, int, int]:
     """Advance amplitudes in place until the log is full or the motion ends; see :func:`carom.core.advance.advance`."""
     modes = len(amplitudes)
     code, *rest = advance(
-        rotor.arrays,
-        rotor.table,
+        rotor.system.arrays,
+        rotor.system.table,
         amplitudes,
         until,
         phase,
@@ -351,7 +358,7 @@ def follow(
     return Outcome(code), *rest
 
 
-def _checked_start(rotor: Rotor, state: State) -> tuple[np.ndarray, int]:
+def _checked_start(rotor: Jeffcott, state: State) -> tuple[np.ndarray, int]:
     """Amplitudes of a start, and the plane it touches or INSIDE_ALL."""
     for name in ("position", "velocity"):
         if not cmath.isfinite(getattr(state, name)):
@@ -361,8 +368,8 @@ def _checked_start(rotor: Rotor, state: State) -> tuple[np.ndarray, int]:
     radius = abs(state.position)
     if radius > 1.0 + WALL_TOLERANCE:
         raise InputError("start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g})")
-    amplitudes = rotor.amplitudes(state.position, state.velocity)
+    amplitudes = rotor.system.amplitudes(state.position, state.velocity)
     if radius < 1.0 - WALL_TOLERANCE:
         return amplitudes, INSIDE_ALL
-    set_on_wall(rotor.arrays, 0, amplitudes)
+    set_on_wall(rotor.system.arrays, 0, amplitudes)
     return amplitudes, 0

@@ -48,7 +48,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.rotors import Rotor
+from carom.models import Jeffcott, Subject, model_of
 
 __all__ = ["Rolling", "Runaway", "rolling", "rub_limit", "runaway_speed"]
 
@@ -121,7 +121,7 @@ class Rolling:
         return 2.0 * math.pi / (1.0 + self.speed)
 
 
-def runaway_speed(rotor: Rotor) -> Runaway:
+def runaway_speed(machine: Subject) -> Runaway:
     """Threshold of the runaway from sliding backward whirl to rolling.
 
     ``w_c = (γ + √(γ² + 4μ(μω² + ρ√(1 + μ²))))/(2μ)``, the larger root of ``μ(w² − ω²) − γw − ρ√(1 + μ²)``; derived in
@@ -129,20 +129,20 @@ def runaway_speed(rotor: Rotor) -> Runaway:
 
     Parameters
     ----------
-    rotor : Rotor
-        The planar rotor.
+    machine : Machine, Case, Parameters or model
 
     Returns
     -------
     Runaway
     """
+    rotor = model_of(machine)
     parameters = rotor.parameters
     pull = parameters.rho * math.hypot(1.0, parameters.mu)
     certain = max(_balance(rotor, pull), math.hypot(parameters.omega, math.sqrt(parameters.rho)))
     return Runaway(certain, _balance(rotor, 0.0), parameters.radius_ratio)
 
 
-def _balance(rotor: Rotor, pull: float) -> float:
+def _balance(rotor: Jeffcott, pull: float) -> float:
     """Larger root of ``μ(w² − ω²) − γw − pull``."""
     gamma, omega, mu = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.mu
     if mu == 0.0:
@@ -153,7 +153,7 @@ def _balance(rotor: Rotor, pull: float) -> float:
     return (gamma + root) / (2.0 * mu) if gamma >= 0.0 else gain / (root - gamma)
 
 
-def rolling(rotor: Rotor) -> Rolling:
+def rolling(machine: Subject) -> Rolling:
     """Forces and limits of rolling round the bearing.
 
     From ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)`` (see :mod:`carom.whirl`): the largest damping
@@ -162,13 +162,13 @@ def rolling(rotor: Rotor) -> Rolling:
 
     Parameters
     ----------
-    rotor : Rotor
-        The planar rotor.
+    machine : Machine, Case, Parameters or model
 
     Returns
     -------
     Rolling
     """
+    rotor = model_of(machine)
     parameters = rotor.parameters
     rho, mu, speed = parameters.rho, parameters.mu, parameters.radius_ratio
     push = (speed - parameters.omega) * (speed + parameters.omega)
@@ -192,7 +192,7 @@ def rolling(rotor: Rotor) -> Rolling:
     )
 
 
-def rub_limit(rotor: Rotor) -> float:
+def rub_limit(machine: Subject) -> float:
     """Damping up to which a stable synchronous rub exists, the other parameters as they are.
 
     The normal force ``N`` of a synchronous rub (:func:`~carom.equilibria.equilibria`) solves, with ``κ = 1 − ω²``,
@@ -206,14 +206,14 @@ def rub_limit(rotor: Rotor) -> float:
 
     Parameters
     ----------
-    rotor : Rotor
-        The planar rotor.
+    machine : Machine, Case, Parameters or model
 
     Returns
     -------
     float
         ``γ``; not above 0 if there is no rub with positive damping.
     """
+    rotor = model_of(machine)
     parameters = rotor.parameters
     rho, mu = parameters.rho, parameters.mu
     kappa = (1.0 - parameters.omega) * (1.0 + parameters.omega)

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import jeffcott
 from carom.core.advance import CHATTER_HEIGHT
+from carom.models import Jeffcott
 from carom.outcome import Phase
 from carom.parameters import Parameters
 from carom.trajectories import State, simulate
@@ -102,7 +102,7 @@ def test_completion_leaves_out_what_theory_says(chatter):
 
 @pytest.mark.parametrize("chatter", ALL, ids=NAMES)
 def test_compiled_loop_ends_where_every_bounce_does(chatter):
-    trajectory = simulate(jeffcott(chatter.parameters), chatter.start, chatter.until)
+    trajectory = simulate(Jeffcott(chatter.parameters), chatter.start, chatter.until)
     kinds = {contact.phase for contact in trajectory.lasting_contacts}
     last = chatter.rebounds[-1]
     assert kinds == {Phase.ROLLING if last.sticks else Phase.FORWARD_SLIP}

@@ -5,7 +5,7 @@ import pytest
 from compilation import sized
 from machines import PAPER
 
-from carom import jeffcott
+from carom.models import Jeffcott
 from carom.outcome import Phase
 from carom.parameters import Parameters
 from carom.trajectories import State, Trajectory, simulate
@@ -52,7 +52,7 @@ def integrator(request):
 
 def on_wall(parameters: Parameters, angle: float, rate: float, until: float) -> Trajectory:
     position = np.exp(1j * angle)
-    return simulate(jeffcott(parameters), State(position, 1j * rate * position), until)
+    return simulate(Jeffcott(parameters), State(position, 1j * rate * position), until)
 
 
 def assert_same(trajectory: Trajectory, segments: list[Segment], precision: float) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import jeffcott
+from carom.models import Jeffcott
 from carom.outcome import Phase
 from carom.parameters import Parameters
 from carom.trajectories import State, Trajectory, simulate
@@ -39,7 +39,7 @@ class Touchdown:
     def rigid(self, count: int) -> tuple[Trajectory, np.ndarray, np.ndarray]:
         """The motion carom gives, and its positions and velocities in the fixed frame at even times."""
         start = State(self.position, self.velocity - 1j * self.position)
-        trajectory = simulate(jeffcott(self.parameters), start, self.until)
+        trajectory = simulate(Jeffcott(self.parameters), start, self.until)
         times = self.times(count)
         position, velocity = trajectory.at(times)
         turn = np.exp(1j * times)

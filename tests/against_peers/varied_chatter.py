@@ -10,8 +10,9 @@ import sys
 
 import numba
 
-from carom import Parameters, jeffcott
+from carom import Parameters
 from carom.core import advance
+from carom.models import Jeffcott
 from carom.trajectories import State, simulate
 
 
@@ -21,7 +22,7 @@ def main(case: dict) -> list[list[float]]:
         raise SystemExit("set NUMBA_DISABLE_JIT=1")
     loop = sys.modules[advance.__module__] if callable(advance) else advance
     rotor, start = (
-        jeffcott(Parameters(**case["machine"])),
+        Jeffcott(Parameters(**case["machine"])),
         State(complex(*case["position"]), complex(*case["velocity"])),
     )
     finals = []

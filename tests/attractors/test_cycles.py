@@ -8,10 +8,10 @@ import pytest
 
 from carom.attractors.cycles import cycle_of, forces_on, orbit_of, same_cycle, whirl_of
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.trajectories import State, simulate
 from carom.whirl import rolling
 
@@ -24,13 +24,13 @@ def settled(rotor, state):
 
 @pytest.fixture(scope="module")
 def bouncing():
-    rotor = jeffcott(SOURCE)
+    rotor = Jeffcott(SOURCE)
     return settled(rotor, State(0.2 + 0.1j, -1.0 + 0.5j))
 
 
 @pytest.fixture(scope="module")
 def doubled():
-    rotor = jeffcott(SOURCE.replace(gamma=0.0832))
+    rotor = Jeffcott(SOURCE.replace(gamma=0.0832))
     leaving = single_impact_orbits(rotor)["B1,d"].departure
     return [settled(rotor, State(leaving.position, factor * leaving.velocity)) for factor in (0.999, 1.001, 1.01, 0.99)]
 
@@ -87,7 +87,7 @@ def test_impulse_on_an_orbit_is_that_of_its_impact(bouncing):
 
 @pytest.mark.jit_only
 def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
-    rotor = jeffcott(SOURCE.replace(gamma=0.2))
+    rotor = Jeffcott(SOURCE.replace(gamma=0.2))
     rub = equilibria(rotor)[1]
     motion = settled(rotor, State(rub.position, 0.05j * rub.position))
     cycle = cycle_of(motion)
@@ -100,7 +100,7 @@ def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
 
 
 def test_rolling_goes_backward_with_its_closed_form_force():
-    motion = settled(jeffcott(SOURCE), State(1.0 + 0j, -1j * (1.0 + 400 / 7)))
+    motion = settled(Jeffcott(SOURCE), State(1.0 + 0j, -1j * (1.0 + 400 / 7)))
     cycle = cycle_of(motion)
 
     assert cycle.outcome is Outcome.ROLLING
@@ -114,8 +114,8 @@ def test_rolling_goes_backward_with_its_closed_form_force():
 def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
     # Damping halfway between that up to which rolling holds and that beyond which no backward whirl can.
     parameters = SOURCE.replace(radius_ratio=ratio, rho=1.0)
-    limits = rolling(jeffcott(parameters))
-    rotor = jeffcott(parameters.replace(gamma=0.5 * (limits.largest_damping + limits.damping_bound)))
+    limits = rolling(Jeffcott(parameters))
+    rotor = Jeffcott(parameters.replace(gamma=0.5 * (limits.largest_damping + limits.damping_bound)))
     motion = settled(rotor, State(1.0 + 0j, -1j * (1.0 + ratio)))
     cycle = cycle_of(motion)
 
@@ -131,7 +131,7 @@ def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
 
 
 def test_levitation_is_at_rest_and_touches_nothing():
-    motion = settled(jeffcott(SOURCE.replace(gamma=0.5)), State(0.1 + 0j))
+    motion = settled(Jeffcott(SOURCE.replace(gamma=0.5)), State(0.1 + 0j))
     cycle = cycle_of(motion)
 
     assert (cycle.outcome, cycle.synchronous) == (Outcome.LEVITATED, True)
@@ -140,6 +140,6 @@ def test_levitation_is_at_rest_and_touches_nothing():
 
 
 def test_rotor_without_unbalance_does_not_whirl():
-    motion = simulate(jeffcott(SOURCE.replace(gamma=0.5, rho=0.0)), State(0j), 100.0, settle=True)
+    motion = simulate(Jeffcott(SOURCE.replace(gamma=0.5, rho=0.0)), State(0j), 100.0, settle=True)
 
     assert whirl_of(motion, cycle_of(motion)) == "none"

@@ -7,10 +7,10 @@ from carom.attractors import find_attractors, following
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.trajectories import State, kick, simulate
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -30,7 +30,7 @@ def shares(rotor, starts):
 
 @pytest.fixture(scope="module")
 def found():
-    return find_attractors(jeffcott(SOURCE))
+    return find_attractors(Jeffcott(SOURCE))
 
 
 # ------------------------------------------------------------------------------------------------ the source's machine
@@ -61,7 +61,7 @@ def test_motions_go_on_from_the_states_given(found):
 @pytest.mark.jit_only
 @pytest.mark.parametrize("seed", [0, 1])
 def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
-    rotor = jeffcott(SOURCE.replace(gamma=0.2))
+    rotor = Jeffcott(SOURCE.replace(gamma=0.2))
 
     assert equilibria(rotor)[0].stable
     assert shares(rotor, random_starts(100, 1.0, seed)) == {"synchronous rub": 1.0}
@@ -71,7 +71,7 @@ def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
 @pytest.mark.parametrize("gamma", [0.05, 0.077])
 @pytest.mark.parametrize("fastest", [0.5, 1.0])
 def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
-    ends = shares(jeffcott(SOURCE.replace(gamma=gamma)), random_starts(100, fastest))
+    ends = shares(Jeffcott(SOURCE.replace(gamma=gamma)), random_starts(100, fastest))
 
     assert set(ends) <= {"rolling", "synchronous rub"}
     assert ends["rolling"] > 0.9
@@ -79,7 +79,7 @@ def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
+    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
 
     impacts = np.array([ending.impacts for ending in found.endings])
     assert {member.name for member in found} == {"rolling", "synchronous rub"}
@@ -89,7 +89,7 @@ def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_at_gamma_0_082_lasts():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.082)), random_starts(30, 0.5), known=False)
+    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.082)), random_starts(30, 0.5), known=False)
     irregular = found["irregular bouncing"]
     followed = [ending.impacts for ending in found.ending_on("irregular bouncing")]
 
@@ -108,7 +108,7 @@ def test_irregular_bouncing_at_gamma_0_082_lasts():
 @pytest.mark.parametrize(("gamma", "half_life"), [(0.079, 640.0), (0.080, 1880.0)])
 def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience(gamma, half_life):
     """Half-lives counted over 1500 fresh starts every 250 impacts, to 4 %."""
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000)
+    found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000)
 
     assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling"}
     transient = found.transient
@@ -120,7 +120,7 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
 
 @pytest.mark.jit_only
 def test_two_impacts_a_period_beyond_the_period_doubling():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.0832)), count=40)
+    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.0832)), count=40)
 
     assert found["2-impact bouncing"].multiplicity == 2
     assert "irregular bouncing" not in found
@@ -143,7 +143,7 @@ def test_counts_and_shares_add_up(found):
 
 @pytest.mark.jit_only
 def test_same_arguments_give_the_same_attractors(found):
-    again = find_attractors(jeffcott(SOURCE))
+    again = find_attractors(Jeffcott(SOURCE))
 
     def facts(attractors):
         return [
@@ -175,7 +175,7 @@ def test_attractors_are_ordered_by_what_they_attract(found):
 
 @pytest.mark.jit_only
 def test_known_motion_is_found_though_no_disturbance_reaches_it():
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=0.4)))
+    found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.4)))
 
     assert found["rolling"].count == 0
     assert found["rolling"].known == 2
@@ -185,7 +185,7 @@ def test_known_motion_is_found_though_no_disturbance_reaches_it():
 
 
 def test_given_starts_replace_the_sample():
-    found = find_attractors(jeffcott(SOURCE), [kick(0.001), State(0.9 + 0j, 1j)], known=False)
+    found = find_attractors(Jeffcott(SOURCE), [kick(0.001), State(0.9 + 0j, 1j)], known=False)
 
     assert [ending.start.kind for ending in found.endings] == ["kick", "start"]
     assert found.endings[0].outcome is Outcome.LEVITATED
@@ -194,7 +194,7 @@ def test_given_starts_replace_the_sample():
 
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     monkeypatch.setattr(following, "longest_time", lambda rotor: 5.0)
-    found = find_attractors(jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
+    found = find_attractors(Jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
     last = found.members[-1]
 
     assert last.name == "unresolved: time-reached"
@@ -203,7 +203,7 @@ def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
 
 
 def test_unknown_attractor_names_the_known():
-    found = find_attractors(jeffcott(SOURCE), [kick(0.001)], known=False)
+    found = find_attractors(Jeffcott(SOURCE), [kick(0.001)], known=False)
 
     with pytest.raises(InputError, match="attractor = B9,z: one of: levitation"):
         found["B9,z"]
@@ -211,17 +211,17 @@ def test_unknown_attractor_names_the_known():
 
 def test_nothing_to_follow_is_an_error():
     with pytest.raises(InputError, match="count"):
-        find_attractors(jeffcott(SOURCE), [], known=False)
+        find_attractors(Jeffcott(SOURCE), [], known=False)
 
 
 def test_start_outside_the_wall_is_an_error():
     with pytest.raises(InputError, match="inside the wall"):
-        find_attractors(jeffcott(SOURCE), [State(1.5 + 0j)])
+        find_attractors(Jeffcott(SOURCE), [State(1.5 + 0j)])
 
 
 def test_progress_grows_to_one():
     shares_done = []
-    find_attractors(jeffcott(SOURCE), [kick(0.001), kick(0.002)], known=False, progress=shares_done.append)
+    find_attractors(Jeffcott(SOURCE), [kick(0.001), kick(0.002)], known=False, progress=shares_done.append)
 
     assert shares_done == sorted(shares_done)
     assert shares_done[-1] == 1.0

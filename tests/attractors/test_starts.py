@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from carom.attractors import DisturbanceSet, disturbances, known_starts
+from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters, Scales
-from carom.rotors import jeffcott
 from carom.whirl import runaway_speed
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -18,7 +18,7 @@ def states(starts):
 
 
 def test_sample_is_the_same_for_the_same_seed_only():
-    rotor = jeffcott(SOURCE)
+    rotor = Jeffcott(SOURCE)
 
     assert states(disturbances(rotor, 50, seed=3)) == states(disturbances(rotor, 50, seed=3))
     assert states(disturbances(rotor, 50, seed=3)) != states(disturbances(rotor, 50, seed=4))
@@ -26,14 +26,14 @@ def test_sample_is_the_same_for_the_same_seed_only():
 
 @pytest.mark.parametrize("count", [0, 1, 11, 100, 300])
 def test_sample_has_as_many_starts_as_asked_for(count):
-    sample = disturbances(jeffcott(SOURCE), count)
+    sample = disturbances(Jeffcott(SOURCE), count)
 
     assert len(sample) == count
     assert all(start.disturbance for start in sample)
 
 
 def test_kicks_grow_and_start_from_levitation_in_all_directions():
-    rotor = jeffcott(SOURCE)
+    rotor = Jeffcott(SOURCE)
     kicks = [start for start in disturbances(rotor, 200, fastest=3.0) if start.kind == "kick"]
     speeds = [start.speed for start in kicks]
 
@@ -47,7 +47,7 @@ def test_kicks_grow_and_start_from_levitation_in_all_directions():
 
 
 def test_starts_fill_the_clearance_and_the_disc_of_velocities():
-    sample = [start.state for start in disturbances(jeffcott(SOURCE), 5000, fastest=0.5) if start.kind == "start"]
+    sample = [start.state for start in disturbances(Jeffcott(SOURCE), 5000, fastest=0.5) if start.kind == "start"]
     radii = np.abs([state.position for state in sample])
     speeds = np.abs([state.velocity for state in sample])
 
@@ -60,14 +60,14 @@ def test_starts_fill_the_clearance_and_the_disc_of_velocities():
 
 
 def test_rotor_that_cannot_levitate_is_not_kicked_out_of_levitation():
-    rotor = jeffcott(SOURCE.replace(gamma=0.05))
+    rotor = Jeffcott(SOURCE.replace(gamma=0.05))
 
     assert abs(rotor.equilibrium) > 1.0
     assert {start.kind for start in disturbances(rotor, 40)} == {"start"}
 
 
 def test_set_is_the_sample_and_says_what_it_holds():
-    rotor, chosen = jeffcott(SOURCE), DisturbanceSet(50, seed=3, fastest=1.5)
+    rotor, chosen = Jeffcott(SOURCE), DisturbanceSet(50, seed=3, fastest=1.5)
     positions, velocities = chosen.states(rotor)
 
     assert [(s.state.position, s.state.velocity) for s in disturbances(rotor, 50, 3, 1.5)] == [
@@ -77,7 +77,7 @@ def test_set_is_the_sample_and_says_what_it_holds():
         "50 disturbances (seed 3): 24 velocity kicks of the levitating rotor, 0.01 c_r Omega to 1.5 c_r Omega, and 26 starts "
         "spread over the clearance at up to 1.5 c_r Omega"
     )
-    scaled = jeffcott(SOURCE.replace(gamma=0.05, scales=Scales(mass=50.0, clearance=0.7e-3, speed=184.2)))
+    scaled = Jeffcott(SOURCE.replace(gamma=0.05, scales=Scales(mass=50.0, clearance=0.7e-3, speed=184.2)))
     assert chosen.words(scaled) == (
         "50 disturbances (seed 3): 50 starts spread over the clearance at up to 1.5 c_r Omega (0.193 m/s)"
     )
@@ -90,7 +90,7 @@ def test_useless_set_is_an_error(wrong):
 
 
 def test_known_motions_are_approached_from_both_sides():
-    rotor = jeffcott(SOURCE)
+    rotor = Jeffcott(SOURCE)
     sample = known_starts(rotor, single_impact_orbits(rotor))
     kinds = [start.kind for start in sample]
 
@@ -102,7 +102,7 @@ def test_known_motions_are_approached_from_both_sides():
 
 
 def test_virtual_motions_are_left_out():
-    rotor = jeffcott(SOURCE.replace(gamma=0.05))
+    rotor = Jeffcott(SOURCE.replace(gamma=0.05))
     orbits = single_impact_orbits(rotor)
     named = {start.words for start in known_starts(rotor, orbits) if start.kind == "orbit"}
 
@@ -111,13 +111,13 @@ def test_virtual_motions_are_left_out():
 
 
 def test_whirl_starts_beyond_the_runaway_speed_and_at_rolling():
-    rotor = jeffcott(SOURCE)
+    rotor = Jeffcott(SOURCE)
     speeds = [-1.0 - start.state.velocity.imag for start in known_starts(rotor, ()) if start.kind == "whirl"]
 
     assert speeds == pytest.approx([1.001 * runaway_speed(rotor).certain, 400 / 7])
 
 
 def test_no_whirl_start_without_friction():
-    rotor = jeffcott(SOURCE.replace(mu=0.0))
+    rotor = Jeffcott(SOURCE.replace(mu=0.0))
 
     assert [start.kind for start in known_starts(rotor, ())] == ["rub"] * 4

@@ -11,8 +11,8 @@ from machines import PAPER
 from carom.attractors import survival as module
 from carom.attractors.survival import LOOK, Survival, document_of, follow_out, measure_survival, still_irregular
 from carom.ensembles import Endings, settle_all
+from carom.models import Jeffcott
 from carom.outcome import Outcome
-from carom.rotors import jeffcott
 
 
 def ensemble(multiplicities, outcomes, impacts=0):
@@ -94,7 +94,7 @@ def test_motions_given_up_have_neither_died_nor_lasted(monkeypatch):
 
 @pytest.mark.jit_only
 def test_motions_of_an_ensemble_are_followed_to_where_they_end():
-    rotor = jeffcott(PAPER.replace(gamma=0.08))
+    rotor = Jeffcott(PAPER.replace(gamma=0.08))
     random = np.random.default_rng(0)
     points = np.sqrt(random.random((2, 80))) * np.exp(2j * np.pi * random.random((2, 80)))
     early = settle_all(rotor, points[0], 0.5 * points[1], patience=1500)

@@ -58,7 +58,7 @@ def test_the_safe_size_is_the_last_one_tried_before_the_first_loss():
 @pytest.mark.jit_only
 def test_integrity_of_kicks_agrees_between_pictures():
     """By size and direction, and in the plane, the ball about levitation is the same to the width of the cells."""
-    rotor = carom.jeffcott(MACHINE)
+    rotor = carom.Jeffcott(MACHINE)
     rings = integrity(basins(rotor, Grid(VelocityKick(1.0), (80, 90))))
     plane = integrity(basins(rotor, Grid(KickPlane(1.0), (80, 80))))
     smallest = carom.smallest_unrecovered_kick(rotor, 1.0)
@@ -70,7 +70,7 @@ def test_integrity_of_kicks_agrees_between_pictures():
 
 @pytest.mark.jit_only
 def test_integrity_of_positions_and_samples():
-    rotor = carom.jeffcott(MACHINE)
+    rotor = carom.Jeffcott(MACHINE)
     found = integrity(basins(rotor, Grid(StateSlice(), (60, 60))))
     assert 0.0 < found.local <= 1.0 - abs(rotor.equilibrium)
     assert found.largest >= found.local - 1.0 / 60
@@ -124,7 +124,7 @@ def test_entropy_needs_room_for_a_box():
 
 @pytest.mark.jit_only
 def test_entropy_is_for_grids():
-    rotor = carom.jeffcott(MACHINE)
+    rotor = carom.Jeffcott(MACHINE)
     with pytest.raises(InputError, match="sample"):
         basin_entropy(basins(rotor, Sample(VelocityKick(1.0), 10)))
     found = basin_entropy(basins(rotor, Grid(VelocityKick(1.0), (20, 20))))

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Parameters, equilibria, jeffcott, simulate, single_impact_orbits
+from carom import Parameters, equilibria, simulate, single_impact_orbits
 from carom.bifurcations import Diagram, Numbers, Plane, SpecialValue, bifurcation_diagram, region_map, vary
 from carom.bifurcations.conditions import orbit_of
 from carom.boundary import boundary_equilibria
 from carom.maps import Section, impact_map, section_jacobian
+from carom.models import Jeffcott
 from carom.orbits import Orbit
 from carom.outcome import Phase
 from carom.periods import PeriodCondition
@@ -53,7 +54,7 @@ def longest(point: SpecialValue) -> float:
 
 
 def orbit_next_to(parameters: Parameters, point: SpecialValue) -> Orbit:
-    orbits = [orbit for orbit in single_impact_orbits(jeffcott(parameters), longest(point)) if orbit.slip > 0]
+    orbits = [orbit for orbit in single_impact_orbits(Jeffcott(parameters), longest(point)) if orbit.slip > 0]
     return min(orbits, key=lambda o: abs(o.period - point.period) + abs(o.radial_speed - point.radial_speed))
 
 
@@ -74,11 +75,11 @@ def simulated_multipliers(parameters: Parameters, point: SpecialValue) -> np.nda
 
 
 def count_roots(parameters: Parameters, point: SpecialValue) -> int:
-    return len(PeriodCondition(jeffcott(parameters)).roots(longest(point)).periods)
+    return len(PeriodCondition(Jeffcott(parameters).system).roots(longest(point)).periods)
 
 
 def count_orbits(parameters: Parameters, point: SpecialValue) -> int:
-    return sum(orbit.slip > 0 for orbit in single_impact_orbits(jeffcott(parameters), longest(point)))
+    return sum(orbit.slip > 0 for orbit in single_impact_orbits(Jeffcott(parameters), longest(point)))
 
 
 def count_extrema(parameters: Parameters, point: SpecialValue) -> int:
@@ -90,7 +91,7 @@ def count_extrema(parameters: Parameters, point: SpecialValue) -> int:
 def rolls_on(parameters: Parameters) -> bool:
     """Whether a simulated rotor that rolls does so for two turns without slipping or leaving the wall."""
     speed = 1.0 + parameters.radius_ratio
-    motion = simulate(jeffcott(parameters), State(1.0 + 0j, complex(0.0, -speed)), 4.0 * np.pi / speed)
+    motion = simulate(Jeffcott(parameters), State(1.0 + 0j, complex(0.0, -speed)), 4.0 * np.pi / speed)
     return bool((motion.segment_phases[1:] == Phase.ROLLING).all())
 
 
@@ -117,17 +118,19 @@ def check(base: Parameters, point: SpecialValue, width: float) -> None:
         counts = [count_extrema(side, point) for side in sides(base, point, width, 1e-4)]
         assert abs(counts[0] - counts[1]) == 2
     elif point.kind == "non-smooth-hopf":
-        assert abs(jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-10)
-        assert float(PeriodCondition(jeffcott(at)).value(np.array([point.period]))[0]) == pytest.approx(0.0, abs=1e-9)
+        assert abs(Jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-10)
+        assert float(PeriodCondition(Jeffcott(at).system).value(np.array([point.period]))[0]) == pytest.approx(
+            0.0, abs=1e-9
+        )
     elif point.kind == "boundary-equilibrium":
-        assert abs(jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-11)
-        assert equilibria(jeffcott(low))[0].status != equilibria(jeffcott(high))[0].status
+        assert abs(Jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-11)
+        assert equilibria(Jeffcott(low))[0].status != equilibria(Jeffcott(high))[0].status
         if point.parameter in ("gamma", "omega"):
-            known = boundary_equilibria(jeffcott(base), point.parameter)
+            known = boundary_equilibria(Jeffcott(base), point.parameter)
             near = min(known, key=lambda entry: abs(entry.value - point.value))
             assert (near.value, near.kind) == (pytest.approx(point.value, abs=1e-11), point.detail)
     elif point.kind == "rub-fold":
-        assert sorted(len(equilibria(jeffcott(side))) for side in (low, high)) == [1, 3]
+        assert sorted(len(equilibria(Jeffcott(side))) for side in (low, high)) == [1, 3]
     else:
         assert point.kind == "rolling-limit"
         assert rolls_on(sides(base, point, width, 1e-4)[0]) != rolls_on(sides(base, point, width, 1e-4)[1])
@@ -163,14 +166,14 @@ def test_every_kind_was_looked_at(diagrams):
 
 def vanishes(kind: str, parameters: Parameters, point) -> bool:
     """Whether a bifurcation of this kind happens at a codimension-2 point, by a formula that is not its test function's."""
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     if kind in ("boundary-equilibrium", "non-smooth-hopf"):
         return abs(abs(rotor.equilibrium) - 1.0) < 1e-9
     if kind == "rub-fold":
         eigenvalues = [abs(rub.eigenvalues).min() for rub in equilibria(rotor)[1:]]
-        moved = equilibria(jeffcott(parameters.replace(rho=parameters.rho * (1.0 + 1e-12))))
+        moved = equilibria(Jeffcott(parameters.replace(rho=parameters.rho * (1.0 + 1e-12))))
         return min(eigenvalues or [abs(rub.eigenvalues).min() for rub in moved[1:]]) < 1e-4
-    condition, period = PeriodCondition(rotor), np.array([point.period])
+    condition, period = PeriodCondition(rotor.system), np.array([point.period])
     if kind == "fold":
         return abs(float(condition.slope(period)[0])) < 1e-7
     lever = complex(condition.factor * condition.a12(period)[0])
@@ -178,7 +181,7 @@ def vanishes(kind: str, parameters: Parameters, point) -> bool:
         return abs(abs(lever) * point.radial_speed + lever.real / abs(lever)) < 1e-7
     # A search may find no orbit here: where two meet, rounding decides whether there are any.
     orbit = orbit_of(Numbers.of(parameters), "B1", point.period, point.radial_speed)
-    values = np.linalg.eigvals(section_jacobian(rotor, orbit.section, point.period))
+    values = np.linalg.eigvals(section_jacobian(rotor.system, orbit.section, point.period))
     if kind == "period-doubling":
         return float(np.abs(values + 1.0).min()) < 1e-4
     if kind == "neimark-sacker":

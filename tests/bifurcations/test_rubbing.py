@@ -9,7 +9,7 @@ from machines import PAPER
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from carom import InputError, jeffcott, simulate, single_impact_orbits
+from carom import InputError, simulate, single_impact_orbits
 from carom.bifurcations import (
     Plane,
     RubbingBranch,
@@ -21,6 +21,7 @@ from carom.bifurcations import (
     rubbing_orbits,
 )
 from carom.bifurcations.lift_offs import lift_off_state, next_lift_off
+from carom.models import Jeffcott
 from carom.outcome import Phase
 
 DEAD = PAPER.replace(omega=0.76, rho=0.1, mu=0.3, d=0.0)
@@ -37,7 +38,7 @@ def touches_for_a_while(orbit) -> bool:
 
 @pytest.fixture(scope="module")
 def onset():
-    orbits = single_impact_orbits(jeffcott(DEAD.replace(gamma=0.03)))
+    orbits = single_impact_orbits(Jeffcott(DEAD.replace(gamma=0.03)))
     for orbit in orbits:
         branch = continue_orbit(orbit, "gamma", (0.01, 0.1))
         found = [point for point in branch.special if point.kind == "contact-onset" and point.admissible]
@@ -50,7 +51,7 @@ def onset():
 def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
     answers = []
     for shift in (-1e-9, 1e-9):
-        orbits = single_impact_orbits(jeffcott(DEAD.replace(gamma=onset.value + shift)))
+        orbits = single_impact_orbits(Jeffcott(DEAD.replace(gamma=onset.value + shift)))
         (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - onset.radial_speed) < 1e-5]
         answers.append((touches_for_a_while(orbit), "stay on the wall" in orbit.reason))
     assert sorted(answers) == [(False, False), (True, True)]
@@ -76,7 +77,7 @@ def test_curve_of_the_onset_without_rebound(onset):
     for (x, y), speed in list(zip(curve.points, curve.radial_speeds, strict=True))[1:-1]:
         answers = set()
         for shift in (-1e-9, 1e-9):
-            orbits = single_impact_orbits(jeffcott(DEAD.replace(gamma=x + shift, rho=y)))
+            orbits = single_impact_orbits(Jeffcott(DEAD.replace(gamma=x + shift, rho=y)))
             (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - speed) < 1e-5]
             answers.add("stay on the wall" in orbit.reason)
         assert answers == {False, True}
@@ -96,7 +97,7 @@ def test_motion_with_lasting_contact_repeats_in_simulation():
     assert abs(motion.final.position - motion.start.position) < 1e-7
     assert abs(motion.final.velocity - motion.start.velocity) < 1e-7
     # It repels: a change of the angle grows by the multiplier from lift-off to lift-off.
-    rotor = jeffcott(CHATTERING)
+    rotor = Jeffcott(CHATTERING)
     moved = next_lift_off(rotor, orbit.whirl, orbit.angle + 1e-5)
     assert (moved.angle - orbit.angle) / 1e-5 == pytest.approx(orbit.multiplier, rel=1e-3)
     assert not orbit.stable
@@ -111,7 +112,7 @@ def test_lasting_contact_begins_where_the_chatter_is_only_just_complete(chatter)
     assert chatter.landing_force.max() > 1.0
     fixed = []
     for shift in (-1e-7, 1e-7):
-        rotor = jeffcott(CHATTERING.replace(gamma=point.value + shift))
+        rotor = Jeffcott(CHATTERING.replace(gamma=point.value + shift))
         angles = point.angle + np.linspace(-4e-6, 4e-6, 41)
         found = [next_lift_off(rotor, chatter.whirl, angle) for angle in angles]
         alike = [entry is not None and abs(entry.time - point.period) < 0.05 for entry in found]
@@ -169,7 +170,7 @@ def test_onsets_are_among_the_points_of_a_diagram(chatter):
 
 
 def test_lift_offs_leave_the_wall():
-    rotor = jeffcott(CHATTERING)
+    rotor = Jeffcott(CHATTERING)
     lifted = 0
     for whirl in (1, -1):
         for angle in np.linspace(-np.pi, np.pi, 25):

@@ -5,9 +5,9 @@ import pytest
 
 from carom.bifurcations import orbit_windows
 from carom.bifurcations.axes import vary
+from carom.models import Jeffcott
 from carom.orbits import orbits_within_reach
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 
 WITHOUT_REBOUND = Parameters(
     gamma=0.42, omega=0.5708421012463507, rho=0.28690883112681587, phi=-1.52, mu=1.0174969331844883, d=0.0, radius_ratio=47.6
@@ -28,7 +28,7 @@ CLOSE_SPEEDS = Parameters(gamma=0.15715, omega=0.16442, rho=0.3795, phi=-1.99, m
 def test_an_orbit_that_is_there_at_all_values_has_one_window(parameters, parameter, low, high, stable):
     for value in np.linspace(low, high, 7):
         orbits = [
-            orbit for orbit in orbits_within_reach(jeffcott(vary(parameters, parameter, value))) if orbit.admissible
+            orbit for orbit in orbits_within_reach(Jeffcott(vary(parameters, parameter, value))) if orbit.admissible
         ]
         assert orbits
         assert any(orbit.stable for orbit in orbits) == stable

@@ -8,9 +8,9 @@ from studies import QUICK
 
 from carom import __version__
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
 from carom.parameters import load_case
-from carom.rotors import jeffcott
 
 pytestmark = pytest.mark.jit_only
 
@@ -43,7 +43,7 @@ def document(answer):
 
 def test_orbits_as_json(carom, machine):
     value = document(carom("orbits", machine, "--json"))
-    rotor = jeffcott(load_case(machine).parameters)
+    rotor = Jeffcott(load_case(machine).parameters)
 
     assert set(value) >= {"parameters", "equilibria", "orbits"}
     assert all(set(entry) >= ORBIT_KEYS for entry in value["orbits"])

@@ -14,9 +14,9 @@ from carom.core.advance import CHATTER_HEIGHT, INSIDE_ALL, advance
 from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.table import flight_table
+from carom.models import Jeffcott
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.trajectories import EventLog, State, simulate
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -58,27 +58,27 @@ class Run:
 
 def paper_run(**changes):
     """The machine of the source paper, from a start inside."""
-    rotor = jeffcott(PAPER.replace(**changes))
-    return rotor, Run(rotor.arrays, rotor.table, rotor.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
+    rotor = Jeffcott(PAPER.replace(**changes))
+    return rotor, Run(rotor.system.arrays, rotor.system.table, rotor.system.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
 
 
 def wall_run(machine, angle, radial_speed, angular_speed, stop_at_landing=True):
     """A start on the wall."""
-    rotor = jeffcott(machine)
+    rotor = Jeffcott(machine)
     normal = np.exp(1j * angle)
-    amplitudes = rotor.amplitudes(normal, complex(radial_speed, angular_speed) * normal)
-    return rotor, Run(rotor.arrays, rotor.table, amplitudes, plane=0, stop_at_landing=stop_at_landing)
+    amplitudes = rotor.system.amplitudes(normal, complex(radial_speed, angular_speed) * normal)
+    return rotor, Run(rotor.system.arrays, rotor.system.table, amplitudes, plane=0, stop_at_landing=stop_at_landing)
 
 
 def test_a_flight_that_meets_nothing_ends_at_its_time():
-    rotor = jeffcott(parameters(0.3, 1.3))
-    start = rotor.amplitudes(rotor.equilibrium + 0.1, 0.05j)
-    run = Run(rotor.arrays, rotor.table, start)
+    rotor = Jeffcott(parameters(0.3, 1.3))
+    start = rotor.system.amplitudes(rotor.equilibrium + 0.1, 0.05j)
+    run = Run(rotor.system.arrays, rotor.system.table, start)
     assert run.go(12.5) is Outcome.TIME_REACHED
     assert run.time == 12.5
     assert run.times == []
     assert run.plane == INSIDE_ALL
-    assert np.allclose(run.amplitudes, rotor.fly(start, np.array(12.5)), rtol=0, atol=1e-14)
+    assert np.allclose(run.amplitudes, rotor.system.fly(start, np.array(12.5)), rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize("size", [1, 3, 7])
@@ -101,14 +101,14 @@ def test_a_full_log_ends_at_its_last_event():
     assert run.go(1e9, size=3) is Outcome.EVENT_LIMIT
     assert run.time == run.times[-1]
     assert np.array_equal(run.amplitudes, run.after[-1])
-    assert abs(rotor.state(run.amplitudes)[0]) == pytest.approx(1.0, abs=1e-15)
+    assert abs(rotor.system.state(run.amplitudes)[0]) == pytest.approx(1.0, abs=1e-15)
 
 
 def test_outward_speed_on_the_wall_strikes_at_once():
     rotor, run = wall_run(PAPER, 0.7, 0.4, -1.1)
     run.go(5.0, size=1)
     assert run.times == [0.0]
-    position, velocity = rotor.state(run.after[0])
+    position, velocity = rotor.system.state(run.after[0])
     local = np.conj(position) * velocity
     assert local.real == pytest.approx(-0.95 * 0.4, abs=1e-15)
     assert local.imag == pytest.approx(-1.1 - 0.15 * 1.95 * 0.4, abs=1e-14)
@@ -134,7 +134,7 @@ def test_chatter_ends_in_the_exact_state(restitution):
     angle, angular_speed, push = pressed_state(machine)
     rotor, run = wall_run(machine, angle, 1e-3, angular_speed)
     assert run.go(10.0) is Outcome.CHATTER
-    position, velocity = (complex(part) for part in rotor.state(run.amplitudes))
+    position, velocity = (complex(part) for part in rotor.system.state(run.amplitudes))
     local = position.conjugate() * velocity
     assert abs(position) == pytest.approx(1.0, abs=1e-15)
     assert -local.real + 1e-16 >= 0.0
@@ -177,7 +177,7 @@ def test_without_restitution_a_pulled_rotor_lifts_off():
     rotor, run = wall_run(machine, machine.phi + math.pi, 0.8, -0.9)
     assert run.go(0.05) is Outcome.TIME_REACHED
     assert run.times == [0.0]
-    assert abs(rotor.state(run.amplitudes)[0]) < 1.0
+    assert abs(rotor.system.state(run.amplitudes)[0]) < 1.0
 
 
 def test_at_rest_on_the_wall():
@@ -189,7 +189,7 @@ def test_at_rest_on_the_wall():
     assert (run.time, run.times) == (0.0, [])
     rotor, run = wall_run(PAPER, PAPER.phi + math.pi, 0.0, 0.0)
     assert run.go(0.05) is Outcome.TIME_REACHED
-    assert abs(rotor.state(run.amplitudes)[0]) < 1.0
+    assert abs(rotor.system.state(run.amplitudes)[0]) < 1.0
 
 
 def test_full_restitution_never_chatters():
@@ -198,7 +198,7 @@ def test_full_restitution_never_chatters():
     rotor, run = wall_run(machine, angle, 1e-3, angular_speed)
     assert run.go(1.0, size=5000) is Outcome.TIME_REACHED
     # The bounces keep their speed but for the slow change of the push along the way.
-    speeds = [np.real(np.conj(p) * v) for p, v in (rotor.state(before) for before in run.before)]
+    speeds = [np.real(np.conj(p) * v) for p, v in (rotor.system.state(before) for before in run.before)]
     assert len(speeds) > 100
     assert 0.5e-3 < min(speeds) <= max(speeds) < 2e-3
 
@@ -206,32 +206,34 @@ def test_full_restitution_never_chatters():
 def test_a_pass_that_touches_to_rounding_is_grazing():
     """Flown back from a point of the wall where the path is tangential, with 57 digits."""
     machine = parameters(0.1, 0.76)
-    rotor = jeffcott(machine)
+    rotor = Jeffcott(machine)
     normal = unit(machine.phi + 2.5)
     tangential = jeffcott_flight(0.1, 0.76, machine.rho, machine.phi, normal, acb(0, -0.6) * normal)
     assert tangential.level(0.0)[2] < 0
     position, velocity, _ = tangential.state(-0.7)
     task = task_from_state(rotor, complex(position), complex(velocity))
-    run = Run(rotor.arrays, rotor.table, task.amplitudes)
+    run = Run(rotor.system.arrays, rotor.system.table, task.amplitudes)
     assert run.go(5.0) is Outcome.GRAZING
     # The peak is flat: a height of rounding is a time of its root.
     assert run.time == pytest.approx(0.7, abs=1e-6)
-    assert abs(rotor.state(run.amplitudes)[0]) == pytest.approx(1.0, abs=1e-13)
+    assert abs(rotor.system.state(run.amplitudes)[0]) == pytest.approx(1.0, abs=1e-13)
     for excess, outcome in ((1e-12, Outcome.EVENT_LIMIT), (-1e-12, Outcome.TIME_REACHED)):
         shifted = (1 + acb(excess)) * normal
         flight = jeffcott_flight(0.1, 0.76, machine.rho, machine.phi, shifted, acb(0, -0.6) * normal)
         position, velocity, _ = flight.state(-0.7)
-        run = Run(rotor.arrays, rotor.table, rotor.amplitudes(complex(position), complex(velocity)))
+        run = Run(
+            rotor.system.arrays, rotor.system.table, rotor.system.amplitudes(complex(position), complex(velocity))
+        )
         assert run.go(0.75, size=1) is outcome
 
 
 def two_planes(scale, gap=0.0, machine=PAPER):
     """A planar rotor seen at two planes, the second with its own clearance and centre."""
-    rotor = jeffcott(machine)
-    row = rotor.arrays.rows[0]
-    offset = rotor.arrays.offsets[0]
+    rotor = Jeffcott(machine)
+    row = rotor.system.arrays.rows[0]
+    offset = rotor.system.arrays.offsets[0]
     return rotor, rotor_record(
-        exponents=rotor.arrays.exponents,
+        exponents=rotor.system.arrays.exponents,
         driven=np.array([False, True]),
         offsets=np.array([offset, scale * offset + gap]),
         rows=np.array([row, scale * row]),
@@ -246,7 +248,7 @@ def two_planes(scale, gap=0.0, machine=PAPER):
 def test_the_tighter_of_two_planes_is_met(scale, touched):
     rotor, arrays = two_planes(scale)
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
-    run = Run(arrays, table, rotor.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
+    run = Run(arrays, table, rotor.system.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
     run.go(1e9, size=20)
     assert run.planes == [touched] * 20
     single = rotor_record(
@@ -259,7 +261,7 @@ def test_the_tighter_of_two_planes_is_met(scale, touched):
         restitution=arrays.restitution[[touched]],
         drive=arrays.drive[[touched]],
     )
-    alone = Run(single, table, rotor.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
+    alone = Run(single, table, rotor.system.amplitudes(0.3 + 0.1j, 0.9 - 0.4j))
     alone.go(1e9, size=20)
     # Blocks of flight are cut alike, so only the horizons differ, and those not at all.
     assert np.allclose(run.times, alone.times, rtol=1e-12, atol=0)
@@ -268,7 +270,7 @@ def test_the_tighter_of_two_planes_is_met(scale, touched):
 def test_both_planes_are_met_where_their_bearings_are_apart():
     rotor, arrays = two_planes(1.0, gap=0.3, machine=PAPER.replace(rho=0.05))
     table = flight_table(arrays.exponents, arrays.driven.astype(bool))
-    run = Run(arrays, table, rotor.amplitudes(-0.2 + 0.1j, 3.0 - 2.0j))
+    run = Run(arrays, table, rotor.system.amplitudes(-0.2 + 0.1j, 3.0 - 2.0j))
     run.go(1e9, size=60)
     assert set(run.planes) == {0, 1}
     for plane, before in zip(run.planes, run.before, strict=True):
@@ -296,4 +298,4 @@ def test_contact_beside_the_boundary_equilibrium():
         State(0.676514358561373 + 0.7364294417391892j, 0.1034046048297292 - 0.1430322322663489j),
     ]
     for start in starts:
-        assert simulate(jeffcott(machine), start, 200.0).outcome is Outcome.TIME_REACHED
+        assert simulate(Jeffcott(machine), start, 200.0).outcome is Outcome.TIME_REACHED

@@ -23,7 +23,7 @@ def loaded(seed):
 
 def derivatives_of_level(rotor, amplitudes):
     """``f = |y|² − 1`` and its first three derivatives, by Leibniz's rule from those of ``y``."""
-    arrays = rotor.arrays
+    arrays = rotor.system.arrays
     y = arrays.offsets[0] + arrays.rows[0] @ amplitudes
     v, a, j = (rows[0] @ amplitudes for rows in (arrays.rate_rows, arrays.acceleration_rows, arrays.jerk_rows))
     products = [y * np.conj(y) - 1.0, 2.0 * y * np.conj(v), 2.0 * (y * np.conj(a) + v * np.conj(v))]
@@ -37,12 +37,12 @@ def test_look_at_a_node_and_move_to_any_time_agree_with_the_flight(seed):
     level = abs(origin) ** 2 - 1.0
     for node in (0, 1, NODES // 2, NODES):
         time = node * task.table.spacing
-        expected = derivatives_of_level(rotor, rotor.fly(task.amplitudes, np.array(time)))
+        expected = derivatives_of_level(rotor, rotor.system.fly(task.amplitudes, np.array(time)))
         found = block.look_at_node(task.table, node, origin, level, work)
         np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-11)
     for time in task.table.durations[0] * np.array([0.0, 0.013, 0.31, 0.77, 1.0]):
         block.move_to(task.arrays, task.table, time, work)
-        flown = rotor.fly(task.amplitudes, np.array(time))
+        flown = rotor.system.fly(task.amplitudes, np.array(time))
         np.testing.assert_allclose(work.arrival, flown, rtol=0.0, atol=1e-13 * np.abs(flown).max())
         np.testing.assert_allclose(work.increments, flown - task.amplitudes, rtol=0.0, atol=1e-13 * np.abs(flown).max())
 

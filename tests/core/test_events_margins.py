@@ -32,8 +32,8 @@ from carom.core import events
 from carom.core.block import load_polynomial, sign_changes
 from carom.core.layout import record, rotor_record
 from carom.core.table import flight_table
+from carom.models import Jeffcott
 from carom.outcome import Outcome
-from carom.rotors import jeffcott
 
 ROUNDING = 16 * EPSILON
 """Rounding error of a displacement, in units of the sizes of its terms, as the search takes it."""
@@ -97,7 +97,7 @@ def by_steps(task, block, *, spread=None, bounds=None):
 @pytest.mark.parametrize("damping", [1.0, 1e-3])
 def test_the_rounding_of_a_start_inside_is_that_of_its_terms_once(damping):
     """Half as much further inside is not called grazing."""
-    rotor = jeffcott(parameters(damping, 1.0))
+    rotor = Jeffcott(parameters(damping, 1.0))
     for direction in np.exp(1j * np.arange(0.0, 6.0, 0.5)):
         spread = at_start(task_from_state(rotor, complex(direction), complex(-direction)))[3]
         for share, expected in ((0.7, Outcome.GRAZING), (1.5, Outcome.CLEAR)):
@@ -113,7 +113,7 @@ def flights_to_a_peak(seed, count, height):
         normal = unit(rng.uniform(0.0, 6.0)) * (1 - arb(height)).sqrt()
         flight = flight_of(rotor.parameters, normal, acb(0, -rng.uniform(0.0, 1.0)) * normal)
         # Back to the wall by bisection.
-        times = np.linspace(0.05, 0.95, 19) * float(rotor.table.durations[0])
+        times = np.linspace(0.05, 0.95, 19) * float(rotor.system.table.durations[0])
         outside = [bool(flight.level(-time)[0] > 0) for time in times]
         bend = float(flight.level(0.0)[2])
         if bend > -0.1 or outside[0] or True not in outside:
@@ -126,8 +126,8 @@ def flights_to_a_peak(seed, count, height):
         position, velocity, _ = flight.state(-late)
         radial = float((position.conjugate() * velocity).real)
         own = flight_of(rotor.parameters, position, velocity)
-        amplitudes = rotor.amplitudes(complex(position), complex(velocity))
-        yield Task(own, rotor.arrays, rotor.table, amplitudes, radial_speed=radial), float(late), bend
+        amplitudes = rotor.system.amplitudes(complex(position), complex(velocity))
+        yield Task(own, rotor.system.arrays, rotor.system.table, amplitudes, radial_speed=radial), float(late), bend
         found += 1
         if found == count:
             return

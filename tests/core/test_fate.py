@@ -25,9 +25,9 @@ from carom.core.fate import (
 from carom.core.layout import rotor_record, workspace
 from carom.ensembles import settle_all
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
-from carom.rotors import Rotor, jeffcott
 from carom.trajectories import State, simulate
 
 MANY = sized(100, 20, 300)
@@ -36,18 +36,18 @@ MANY = sized(100, 20, 300)
 # ------------------------------------------------------------------------------------------------ levitation
 
 
-def accepted(rotor: Rotor, amplitudes: np.ndarray) -> bool:
-    return bool(levitates(rotor.arrays, amplitudes, workspace(len(amplitudes))))
+def accepted(rotor: Jeffcott, amplitudes: np.ndarray) -> bool:
+    return bool(levitates(rotor.system.arrays, amplitudes, workspace(len(amplitudes))))
 
 
-def dense_reach(rotor: Rotor, amplitudes: np.ndarray) -> float:
+def dense_reach(rotor: Jeffcott, amplitudes: np.ndarray) -> float:
     """Largest radius of a flight until what is left of it is small, at samples that miss maxima by far less than 1e-3."""
-    fastest, slowest = np.abs(rotor.eigenvalues).max(), -rotor.eigenvalues.real.max()
+    fastest, slowest = np.abs(rotor.system.exponents).max(), -rotor.system.exponents.real.max()
     times = np.arange(0.0, min(10.0 / slowest, 2e4 / fastest), 0.02 / fastest)
-    return float(np.abs(rotor.state(rotor.fly(amplitudes, times))[0]).max())
+    return float(np.abs(rotor.system.state(rotor.system.fly(amplitudes, times))[0]).max())
 
 
-def edge_of_acceptance(rotor: Rotor, direction: np.ndarray) -> float:
+def edge_of_acceptance(rotor: Jeffcott, direction: np.ndarray) -> float:
     """Largest multiple of a disturbance of the contact-free equilibrium that is accepted."""
     low, high = 0.0, 1.0
     while accepted(rotor, high * direction):
@@ -62,7 +62,7 @@ def levitating_rotors(seed: int, count: int):
     """Rotors with an equilibrium inside the wall, under- and overdamped and nearly critical, and a direction of disturbance."""
     random = np.random.default_rng(seed)
     while count:
-        rotor = jeffcott(random_parameters(random))
+        rotor = Jeffcott(random_parameters(random))
         if abs(rotor.equilibrium) < 0.99:
             count -= 1
             yield rotor, random.normal(size=2) + 1j * random.normal(size=2)
@@ -82,7 +82,7 @@ def test_whatever_has_died_down_enough_is_accepted():
     for rotor, direction in levitating_rotors(2, MANY):
         gap = 1.0 - abs(rotor.equilibrium)
         # |y − U*| is at most |a| + |b| times the largest of |∫e^{…}|, which is 1/e of the inverse decay or less.
-        decay = -rotor.eigenvalues.real.max()
+        decay = -rotor.system.exponents.real.max()
         largest = abs(direction[1]) + abs(direction[0]) / (math.e * decay)
         assert accepted(rotor, 0.9 * gap / largest * direction)
         assert accepted(rotor, 0.0 * direction)
@@ -94,7 +94,7 @@ def test_with_little_damping_the_proof_is_nearly_sharp(ratio):
     """Where the frequencies are far from commensurate, their phases have time to meet: what is refused would touch."""
     golden = (0.5 * (1.0 + math.sqrt(5.0))) ** ratio
     omega = (golden - 1.0) / (golden + 1.0)  # so that (1 + ω)/(1 − ω) is that power of the golden ratio
-    rotor = jeffcott(PAPER.replace(gamma=1e-4, omega=omega, rho=0.3 * (1.0 - omega**2)))
+    rotor = Jeffcott(PAPER.replace(gamma=1e-4, omega=omega, rho=0.3 * (1.0 - omega**2)))
     random = np.random.default_rng(3)
     for direction in random.normal(size=(10, 2)) + 1j * random.normal(size=(10, 2)):
         edge = edge_of_acceptance(rotor, direction)
@@ -104,8 +104,8 @@ def test_with_little_damping_the_proof_is_nearly_sharp(ratio):
 @pytest.mark.jit_only
 def test_a_motion_that_comes_back_is_told_in_good_time():
     """Not before the last touch, and as soon as the free flight has lost what the bound takes for granted."""
-    rotor = jeffcott(PAPER.replace(gamma=0.4))
-    decay = -rotor.eigenvalues.real.max()
+    rotor = Jeffcott(PAPER.replace(gamma=0.4))
+    decay = -rotor.system.exponents.real.max()
     for angle in np.linspace(0.0, 6.0, 10):
         motion = simulate(rotor, State(rotor.equilibrium, cmath.rect(1.0, angle)), 1e4, settle=True)
         assert motion.outcome is Outcome.LEVITATED
@@ -119,13 +119,13 @@ def test_a_motion_that_comes_back_is_told_in_good_time():
 
 def test_without_decay_or_room_nothing_is_accepted():
     still = np.zeros(2, complex)
-    assert not accepted(jeffcott(PAPER.replace(gamma=-0.1, rho=0.1)), still)
-    assert not accepted(jeffcott(PAPER.replace(gamma=0.01)), still)  # U* outside the wall
-    assert accepted(jeffcott(PAPER.replace(gamma=0.0, rho=0.1)), still)  # an undamped one may rest in its equilibrium
+    assert not accepted(Jeffcott(PAPER.replace(gamma=-0.1, rho=0.1)), still)
+    assert not accepted(Jeffcott(PAPER.replace(gamma=0.01)), still)  # U* outside the wall
+    assert accepted(Jeffcott(PAPER.replace(gamma=0.0, rho=0.1)), still)  # an undamped one may rest in its equilibrium
 
 
 def test_every_plane_has_to_have_room():
-    arrays = jeffcott(PAPER.replace(rho=0.1, gamma=0.3)).arrays
+    arrays = Jeffcott(PAPER.replace(rho=0.1, gamma=0.3)).system.arrays
     names = ("offsets", "rows", "friction", "restitution", "drive")
     twice = {name: np.repeat(arrays[name], 2, axis=0) for name in names}
     shared = {"exponents": arrays.exponents, "driven": arrays.driven, "columns": np.repeat(arrays.columns, 2, axis=1)}
@@ -257,8 +257,8 @@ def test_swinging_to_and_fro_is_no_turn():
 # ------------------------------------------------------------------------------------------------ what settles stays
 
 
-def settled(parameters: Parameters, start: State) -> tuple[Rotor, object]:
-    rotor = jeffcott(parameters)
+def settled(parameters: Parameters, start: State) -> tuple[Jeffcott, object]:
+    rotor = Jeffcott(parameters)
     motion = simulate(rotor, start, 1e5, settle=True)
     assert motion.outcome.settled
     return rotor, motion
@@ -339,7 +339,7 @@ def test_backward_whirl_goes_on_whirling():
 
 @pytest.mark.jit_only
 def test_irregular_bouncing_is_called_so_and_why():
-    rotor = jeffcott(PAPER.replace(gamma=0.0825))
+    rotor = Jeffcott(PAPER.replace(gamma=0.0825))
     start = State(0.3 + 0.1j, 0.9 - 0.4j)
     motion = simulate(rotor, start, 1e6, settle=True, patience=3000)
     assert (motion.outcome, motion.multiplicity) == (Outcome.BOUNCING, 0)
@@ -351,7 +351,7 @@ def test_irregular_bouncing_is_called_so_and_why():
 
 
 def test_a_motion_stopped_early_says_what_stopped_it():
-    rotor = jeffcott(PAPER)
+    rotor = Jeffcott(PAPER)
     start = State(0.3 + 0.1j, 0.9 - 0.4j)
     by_time = simulate(rotor, start, 5.0, settle=True)
     by_count = simulate(rotor, start, 1e5, settle=True, max_events=5)
@@ -370,11 +370,11 @@ def drawn_weakly_damped(random):
     gamma = float(10 ** random.uniform(-9.0, -3.0))
     omega = float(random.choice([2.0, 1.5, 3.0, 2.5, 4.0 / 3.0, 5.0 / 3.0]) + random.choice([0.0, 1e-9, 1e-6, 1e-4]))
     unbalance = float(random.uniform(0.1, 0.7)) * (omega**2 - 1.0)
-    rotor = jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=unbalance))
+    rotor = Jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=unbalance))
     room = 1.0 - abs(rotor.equilibrium)
     reach = room * float(random.uniform(0.9, 1.3))
     share, turns = float(random.random()), np.exp(2j * np.pi * random.random(2))
-    lower, upper = rotor.eigenvalues
+    lower, upper = rotor.system.exponents
     driven, driving = reach * share * turns[0], reach * (1.0 - share) * turns[1]
     return rotor, np.array([driving * (lower - upper), driven + driving])
 
@@ -385,7 +385,7 @@ def test_what_is_proven_to_stay_inside_does():
     proven = beyond = 0
     for _ in range(sized(200, 4, 6000)):
         rotor, amplitudes = drawn_weakly_damped(random)
-        lower, upper = rotor.eigenvalues
+        lower, upper = rotor.system.exponents
         driving = amplitudes[0] / (lower - upper)
         driven = amplitudes[1] - driving
         room = 1.0 - abs(rotor.equilibrium)
@@ -393,7 +393,7 @@ def test_what_is_proven_to_stay_inside_does():
         # Dense over some turns, and anywhere until the end.
         times = np.concatenate([np.linspace(0.0, 100.0, 4000), random.random(4000) * lasts])
         radius = np.abs(rotor.equilibrium + driving * np.exp(lower * times) + driven * np.exp(upper * times)).max()
-        if stays_inside(rotor.arrays, amplitudes):
+        if stays_inside(rotor.system.arrays, amplitudes):
             proven += 1
             beyond += lasts > 0.0
             assert radius < 1.0
@@ -404,14 +404,14 @@ def test_what_is_proven_to_stay_inside_does():
 
 def test_without_damping_or_with_modes_that_decay_apart_nothing_is_proven():
     for machine in (PAPER.replace(gamma=0.0, omega=2.0), PAPER.replace(gamma=5.0, omega=0.5)):
-        assert not stays_inside(jeffcott(machine).arrays, np.array([0.001 + 0j, 0.001j]))
+        assert not stays_inside(Jeffcott(machine).system.arrays, np.array([0.001 + 0j, 0.001j]))
 
 
 @pytest.mark.jit_only
 @pytest.mark.parametrize("omega", [2.0, 1.7317, 2.001])
 @pytest.mark.parametrize("gamma", [2e-5, 1e-6, 1e-8])
 def test_hardly_damped_motions_settle_alike_both_ways(gamma, omega):
-    rotor = jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=0.0857, d=0.7))
+    rotor = Jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=0.0857, d=0.7))
     random = np.random.default_rng(1)
     points = np.sqrt(random.random((2, 8))) * np.exp(2j * np.pi * random.random((2, 8)))
     together = settle_all(rotor, points[0], 2.0 * points[1])

@@ -97,8 +97,8 @@ def test_a_lane_knows_nothing_of_the_others(seed):
         board(straight, lane, task)
         board(turned, (5 * lane + 3) % LANES, task)
     for _ in range(20):
-        fly_lanes(rotor.arrays, rotor.table, 1e9, straight)
-        fly_lanes(rotor.arrays, rotor.table, 1e9, turned)
+        fly_lanes(rotor.system.arrays, rotor.system.table, 1e9, straight)
+        fly_lanes(rotor.system.arrays, rotor.system.table, 1e9, turned)
     places = [(5 * lane + 3) % LANES for lane in range(LANES)]
     for name in STATE:
         np.testing.assert_array_equal(getattr(straight, name), getattr(turned, name)[places], err_msg=name)
@@ -110,7 +110,7 @@ def test_what_is_open_or_late_stays_where_it_was():
     for lane in range(LANES):
         board(lanes, lane, inside_task(rotor, rng))
     before = {name: getattr(lanes, name).copy() for name in STATE}
-    fly_lanes(rotor.arrays, rotor.table, 1e-9, lanes)
+    fly_lanes(rotor.system.arrays, rotor.system.table, 1e-9, lanes)
     assert np.isin(lanes.verdict, (LATE, OPEN)).all()
     for name in STATE[:-1]:
         np.testing.assert_array_equal(getattr(lanes, name), before[name], err_msg=name)

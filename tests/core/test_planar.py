@@ -8,9 +8,10 @@ import pytest
 from compilation import sized
 from machines import PAPER, exact_return, random_parameters
 
-from carom import jeffcott, single_impact_orbits
+from carom import single_impact_orbits
 from carom.core.planar import orbit_conditions, planar_exponents, radial_course, radial_profile, returns
 from carom.maps import section_jacobian
+from carom.models import Jeffcott
 from carom.periods import PeriodCondition
 
 
@@ -56,8 +57,8 @@ def test_returns_vanish_at_periods_where_the_free_motion_has_died_out():
 def test_returns_agree_with_the_general_rotor():
     periods = np.linspace(0.05, 12.0, 40)
     for parameters in machines(20, 6):
-        rotor = jeffcott(parameters)
-        condition = PeriodCondition(rotor)
+        rotor = Jeffcott(parameters)
+        condition = PeriodCondition(rotor.system)
         got = np.array([returns(*planar_exponents(parameters.gamma, parameters.omega), period) for period in periods])
         assert got[:, 0] == pytest.approx(condition.a12(periods), rel=1e-10)
         assert got[:, 1] == pytest.approx(condition.a22(periods), rel=1e-10, abs=1e-12)
@@ -67,8 +68,8 @@ def test_returns_agree_with_the_general_rotor():
 def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
     seen = 0
     for parameters in [PAPER, *machines(60, 7)]:
-        rest = abs(jeffcott(parameters).equilibrium)
-        for orbit in single_impact_orbits(jeffcott(parameters), 20.0):
+        rest = abs(Jeffcott(parameters).equilibrium)
+        for orbit in single_impact_orbits(Jeffcott(parameters), 20.0):
             if orbit.slip < 0 or not 1e-6 < abs(orbit.radial_speed) < 1e3 or orbit.period < 1e-3:
                 continue
             seen += 1
@@ -77,13 +78,13 @@ def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
             assert values[0] == pytest.approx(0.0, abs=1e-12 * (1.0 + abs(turn)) * (1.0 + abs(values[2])))
             assert values[1] == pytest.approx(0.0, abs=1e-11 * max(1.0, rest**2, abs(lever * orbit.radial_speed) ** 2))
             assert orbit.angular_speed == pytest.approx(-turn.imag * orbit.radial_speed, rel=1e-9, abs=1e-12)
-            arrays = orbit.rotor.arrays
+            arrays = orbit.rotor.system.arrays
             loss = arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed
             scale = 1.0 + abs(orbit.angular_speed) + parameters.radius_ratio
             assert values[5] == pytest.approx(arrays.drive[0] + orbit.angular_speed - loss, abs=1e-9 * scale)
             if min(values[5], arrays.drive[0] + orbit.angular_speed) <= 0.0:
                 continue
-            jacobian = section_jacobian(orbit.rotor, orbit.section, orbit.period)
+            jacobian = section_jacobian(orbit.rotor.system, orbit.section, orbit.period)
             eigenvalues = np.linalg.eigvals(jacobian)
             size = (1.0 + np.abs(jacobian).max()) ** 3
             assert values[6] == pytest.approx(np.prod(eigenvalues + 1.0).real, abs=1e-9 * size)
@@ -94,7 +95,7 @@ def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
 
 
 def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
-    orbit = single_impact_orbits(jeffcott(PAPER))["B1,d"]
+    orbit = single_impact_orbits(Jeffcott(PAPER))["B1,d"]
     values = [conditions(PAPER, orbit.period, speed)[6] for speed in (1e-6, 0.0, -1e-6)]
     assert np.isfinite(values).all()
     assert values[0] - values[1] == pytest.approx(values[1] - values[2], rel=1e-4)
@@ -103,7 +104,7 @@ def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
 def test_radial_profile_agrees_with_dense_sampling():
     seen = 0
     for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(sized(30, 0), 8)]:
-        for orbit in single_impact_orbits(jeffcott(parameters), 15.0):
+        for orbit in single_impact_orbits(Jeffcott(parameters), 15.0):
             if orbit.slip < 0 or not 1e-3 < abs(orbit.radial_speed) < 30.0 or orbit.period < 1e-2:
                 continue
             speed = orbit.radial_speed
@@ -134,7 +135,7 @@ def test_the_departure_of_an_orbit_without_rebound_is_no_maximum_of_the_radius()
     random = np.random.default_rng(12)
     for _ in range(sized(40, 40, 1000)):
         parameters = random_parameters(random, d=0.0, gamma=float(10 ** random.uniform(-1.5, 0.0)))
-        for orbit in single_impact_orbits(jeffcott(parameters), 15.0):
+        for orbit in single_impact_orbits(Jeffcott(parameters), 15.0):
             if orbit.admissible and orbit.slip > 0:
                 seen += 1
                 numbers = parameters.gamma, parameters.omega, parameters.mu, 0.0, orbit.period, orbit.radial_speed
@@ -147,7 +148,7 @@ def test_a_pair_of_extrema_of_the_radius_is_born_where_the_flattest_slope_vanish
     """On the branch of the source paper's figure 5b with the diamonds, B1,d."""
 
     def at(gamma):
-        orbit = single_impact_orbits(jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
+        orbit = single_impact_orbits(Jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
         square = np.abs(orbit.path(np.linspace(0.0, orbit.period, 4001)[:-1])) ** 2
         extrema = int((np.diff(np.sign(np.diff(square))) != 0).sum())
         speed = orbit.radial_speed

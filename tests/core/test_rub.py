@@ -13,7 +13,7 @@ from compilation import sized
 from machines import PAPER, fly, random_parameters
 from scipy.integrate import solve_ivp
 
-from carom import Parameters, jeffcott
+from carom import Parameters
 from carom.core.flow import acceleration, displacement, fly_all, velocity
 from carom.core.layout import ORDER, rotor_record, rub_workspace
 from carom.core.rub import (
@@ -30,6 +30,7 @@ from carom.core.rub import (
     turn_ahead,
     wall_push,
 )
+from carom.models import Jeffcott
 from carom.outcome import Phase
 
 FLIGHT, FORWARD, BACKWARD, ROLLING = Phase.FLIGHT, Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING
@@ -40,12 +41,12 @@ SLENDER = PAPER.replace(radius_ratio=1.2)
 def on_wall(parameters, angle, rate):
     """Amplitudes of a state that moves along the wall."""
     position = cmath.rect(1.0, angle)
-    amplitudes = jeffcott(parameters).amplitudes(position, 1j * rate * position)
+    amplitudes = Jeffcott(parameters).system.amplitudes(position, 1j * rate * position)
     return np.array(amplitudes)
 
 
 def series_of(parameters, angle, rate, phase):
-    rotor = jeffcott(parameters).arrays
+    rotor = Jeffcott(parameters).system.arrays
     work = rub_workspace(2)
     rub_series(rotor, 0, on_wall(parameters, angle, rate), phase, work)
     return rotor, work
@@ -257,7 +258,7 @@ def test_flight_is_a_series_without_force():
 
 def next_event(parameters, angle, rate, phase):
     """Walk to the end of a phase: its time, what follows, whether slip stops, and the amplitudes there."""
-    rotor = jeffcott(parameters).arrays
+    rotor = Jeffcott(parameters).system.arrays
     amplitudes, work, time = on_wall(parameters, angle, rate), rub_workspace(2), 0.0
     for _ in range(200):
         rub_series(rotor, 0, amplitudes, phase, work)
@@ -283,7 +284,7 @@ def next_event(parameters, angle, rate, phase):
 )
 def test_sliding_ends_where_push_or_slip_vanishes(parameters, angle, rate, phase, following):
     """Against the root of the exact motion, to 1e-12."""
-    rotor = jeffcott(parameters).arrays
+    rotor = Jeffcott(parameters).system.arrays
     time, found, slip_stops, amplitudes = next_event(parameters, angle, rate, phase)
     drive = parameters.radius_ratio + 1.0
     assert slip_stops == (following is None)
@@ -329,7 +330,7 @@ def test_rolling_ends_where_its_friction_leaves_the_cone():
             room = partial(_room, parameters, angle, drive, side)
             exact = mpmath.findroot(room, time)
             slope = abs(mpmath.diff(room, exact))
-            noise = push_rounding(jeffcott(parameters).arrays, 0, amplitudes)
+            noise = push_rounding(Jeffcott(parameters).system.arrays, 0, amplitudes)
             assert abs(float(exact - mpmath.mpf(time))) < 1e-12 + noise / slope
     assert sides == {1, -1}
 
@@ -350,7 +351,7 @@ def test_slip_decides_what_goes_on(mu):
             parameters = SLENDER.replace(mu=mu, radius_ratio=30.0)
             amplitudes = on_wall(parameters, 0.7, -31.0 + sign * slip)
             for before in Phase:
-                assert next_phase(jeffcott(parameters).arrays, 0, amplitudes, before) == phase
+                assert next_phase(Jeffcott(parameters).system.arrays, 0, amplitudes, before) == phase
 
 
 def test_without_slip_the_cone_decides():
@@ -364,18 +365,18 @@ def test_without_slip_the_cone_decides():
             continue
         slips = FORWARD if pull > 0 else BACKWARD
         for factor, expected in ((0.5, slips), (1 - 1e-6, slips), (1.0, ROLLING), (1 + 1e-6, ROLLING), (3.0, ROLLING)):
-            rotor = jeffcott(parameters.replace(mu=factor * abs(pull) / push)).arrays
+            rotor = Jeffcott(parameters.replace(mu=factor * abs(pull) / push)).arrays
             amplitudes = on_wall(parameters, angle, -drive)
             assert next_phase(rotor, 0, amplitudes, slips) == expected
 
 
 def test_without_friction_slip_goes_on_to_the_other_side():
     parameters = SLENDER.replace(mu=0.0, gamma=0.0, rho=0.0)
-    rotor, amplitudes = jeffcott(parameters).arrays, on_wall(parameters, 0.3, -2.2)
+    rotor, amplitudes = Jeffcott(parameters).system.arrays, on_wall(parameters, 0.3, -2.2)
     assert next_phase(rotor, 0, amplitudes, FORWARD) == BACKWARD
     assert next_phase(rotor, 0, amplitudes, BACKWARD) == FORWARD
     pulled = parameters.replace(gamma=0.5)
-    assert next_phase(jeffcott(pulled).arrays, 0, on_wall(pulled, 0.3, -2.2), FORWARD) == FORWARD
+    assert next_phase(Jeffcott(pulled).system.arrays, 0, on_wall(pulled, 0.3, -2.2), FORWARD) == FORWARD
 
 
 def test_slip_that_starts_at_zero_goes_on():
@@ -383,7 +384,7 @@ def test_slip_that_starts_at_zero_goes_on():
     parameters = SLENDER.replace(gamma=0.05)
     drive = parameters.radius_ratio + 1.0
     time, following, _, amplitudes = next_event(parameters, 0.4, -drive, ROLLING)
-    rotor, work = jeffcott(parameters).arrays, rub_workspace(2)
+    rotor, work = Jeffcott(parameters).system.arrays, rub_workspace(2)
     assert time > 0.0
     assert following == FORWARD
     rub_series(rotor, 0, amplitudes, following, work)
@@ -462,7 +463,7 @@ def test_push_and_its_rate():
     for _ in range(100):
         parameters = random_parameters(random)
         angle, rate = random.uniform(-3, 3), random.normal() * 3.0
-        rotor = jeffcott(parameters).arrays
+        rotor = Jeffcott(parameters).system.arrays
         amplitudes = on_wall(parameters, angle, rate)
         push, change = wall_push(rotor, 0, amplitudes)
         rounding = push_rounding(rotor, 0, amplitudes)
@@ -486,7 +487,7 @@ def test_rounding_of_push_and_speed_bounds_what_doubles_lose():
     for _ in range(200):
         parameters = random_parameters(random, omega=1.0 + 10 ** random.uniform(-4, -1))
         angle, rate = random.uniform(-3, 3), random.normal() * 10 ** random.uniform(-2, 3)
-        rotor = jeffcott(parameters).arrays
+        rotor = Jeffcott(parameters).system.arrays
         amplitudes = on_wall(parameters, angle, rate)
         rest_on_wall(rotor, 0, amplitudes, False)
         _, w, _, radial = polar(rotor, amplitudes)
@@ -524,7 +525,7 @@ def _follow_slide(parameters, angle, rate, phase):
 
 def test_lift_off_leaves_as_the_cube_of_time():
     for parameters, amplitudes in departures(sized(20, 5)):
-        rotor = jeffcott(parameters).arrays
+        rotor = Jeffcott(parameters).system.arrays
         push, change = wall_push(rotor, 0, amplitudes)
         assert abs(push) < 2 * push_rounding(rotor, 0, amplitudes)
         assert change < 0.0
@@ -559,7 +560,7 @@ def test_a_short_hop_is_followed_to_its_landing():
         for sign in (1, -1):
             rate = -1.0 + sign * math.sqrt(square)
             amplitudes = on_wall(parameters, angle, rate)
-            rotor, work = jeffcott(parameters).arrays, rub_workspace(2)
+            rotor, work = Jeffcott(parameters).system.arrays, rub_workspace(2)
             rub_series(rotor, 0, amplitudes, FLIGHT, work)
             change, bend = work.push[1], 2 * work.push[2]
             if not (change < -1e-9 and bend > 0.0 and -4 * change / bend < 0.05):
@@ -590,7 +591,7 @@ def test_a_start_without_push_that_is_pressed_on_does_not_leave():
     angle = parameters.phi - 1.0
     rate = -1.0 + math.sqrt(parameters.omega**2 - parameters.rho * math.cos(1.0))
     amplitudes = on_wall(parameters, angle, rate)
-    rotor = jeffcott(parameters).arrays
+    rotor = Jeffcott(parameters).system.arrays
     assert wall_push(rotor, 0, amplitudes)[1] > 0.0
     time, returned = lift_off(rotor, 0, amplitudes, 1.0, rub_workspace(2))
     assert time < 1e-14
@@ -663,19 +664,19 @@ def test_a_rotor_of_four_modes_stays_on_the_wall(seed, phase):
     sign = {**SIGN, ROLLING: 0}[phase]
     rotor = CoupledRotor(seed, friction=0.2, drive=3.0)
     state = rotor.start(0.3, {FORWARD: 2.5, BACKWARD: -7.0, ROLLING: -3.0}[phase])
-    amplitudes, work, time = rotor.amplitudes(state), rub_workspace(4), 0.0
+    amplitudes, work, time = rotor.system.amplitudes(state), rub_workspace(4), 0.0
     for _ in range(12):
-        rub_series(rotor.arrays, 0, amplitudes, phase, work)
+        rub_series(rotor.system.arrays, 0, amplitudes, phase, work)
         step = rub_step(work)
         push = work.push @ step ** np.arange(ORDER + 1)
         sum_series(work, step, amplitudes)
-        rest_on_wall(rotor.arrays, 0, amplitudes, phase == ROLLING)
+        rest_on_wall(rotor.system.arrays, 0, amplitudes, phase == ROLLING)
         time += step
     expected = solve_ivp(rotor.motion, (0.0, time), state, "DOP853", args=(sign,), rtol=1e-13, atol=1e-13).y[:, -1]
-    position, speed = displacement(rotor.arrays, 0, amplitudes), velocity(rotor.arrays, 0, amplitudes)
+    position, speed = displacement(rotor.system.arrays, 0, amplitudes), velocity(rotor.system.arrays, 0, amplitudes)
     assert abs(abs(position) - 1.0) < 4e-15
     assert abs((position.conjugate() * speed).real) < 1e-14
     assert position == pytest.approx(rotor.row @ expected[:2], abs=1e-10)
     assert speed == pytest.approx(rotor.row @ expected[2:], abs=1e-9)
-    assert np.abs(amplitudes - rotor.amplitudes(expected)).max() < 1e-9
+    assert np.abs(amplitudes - rotor.system.amplitudes(expected)).max() < 1e-9
     assert push == pytest.approx(rotor.push(expected), abs=1e-9)

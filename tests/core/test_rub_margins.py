@@ -11,15 +11,15 @@ import pytest
 from flights import EPSILON
 from machines import PAPER
 
-from carom import jeffcott
 from carom.core import rub
 from carom.core.flow import displacement, fly_all, velocity
 from carom.core.layout import ORDER, record, rotor_record, rub_workspace
+from carom.models import Jeffcott
 from carom.outcome import Phase
 
 FLIGHT, FORWARD, BACKWARD, ROLLING = (int(phase) for phase in Phase)
 FRICTION = 0.25
-ARRAYS = jeffcott(PAPER.replace(mu=FRICTION)).arrays
+ARRAYS = Jeffcott(PAPER.replace(mu=FRICTION)).system.arrays
 
 
 def falling(time, height=1.0, order=1):
@@ -335,8 +335,8 @@ def test_a_dip_after_a_summit_is_not_passed_over(step):
 def test_lift_off_ends_at_its_horizon_with_the_state_of_the_flight():
     """A rotor that is pulled off the wall from rest on it, followed for less than a step."""
     parameters = PAPER.replace(omega=3.0)
-    arrays = jeffcott(parameters).arrays
-    amplitudes = np.array(jeffcott(parameters).amplitudes(1.0 + 0j, 0j))
+    arrays = Jeffcott(parameters).system.arrays
+    amplitudes = np.array(Jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
     assert rub.wall_push(arrays, 0, amplitudes)[0] < -1.0
     expected = fly_all(arrays, amplitudes[None], np.array([1e-3]))[0]
     work = rub_workspace(2)
@@ -351,18 +351,18 @@ def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_roundin
     """At speeds along the wall where the force is next to zero and falls."""
     tried = 0
     for angle in np.arange(0.0, 6.0, 0.5):
-        rotor = jeffcott(PAPER.replace(phi=angle))
+        rotor = Jeffcott(PAPER.replace(phi=angle))
         turning = math.sqrt(max(PAPER.omega**2 - PAPER.rho * math.cos(angle), 0.0)) - 1.0
         for share, leaves in ((0.8, True), (1.2, False)):
             for _ in range(4):
-                amplitudes = np.array(rotor.amplitudes(1.0 + 0j, complex(0.0, turning)))
-                push, change = rub.wall_push(rotor.arrays, 0, amplitudes)
-                rounding = rub.push_rounding(rotor.arrays, 0, amplitudes)
+                amplitudes = np.array(rotor.system.amplitudes(1.0 + 0j, complex(0.0, turning)))
+                push, change = rub.wall_push(rotor.system.arrays, 0, amplitudes)
+                rounding = rub.push_rounding(rotor.system.arrays, 0, amplitudes)
                 turning += (share * rounding - push) / (2.0 * (1.0 + turning) + 1e-300)
             if change > -0.1:
                 continue
             assert push == pytest.approx(share * rounding, rel=0.1)
-            time, returned = rub.lift_off(rotor.arrays, 0, amplitudes, 1e-3, rub_workspace(2))
+            time, returned = rub.lift_off(rotor.system.arrays, 0, amplitudes, 1e-3, rub_workspace(2))
             assert (time, returned) == ((1e-3, False) if leaves else (0.0, True))
             tried += 1
     assert tried >= 6
@@ -371,10 +371,10 @@ def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_roundin
 def test_what_an_earlier_call_left_behind_does_not_change_a_lift_off():
     """In a flight to its return, many times as long as the one above."""
     parameters = PAPER.replace(omega=3.0)
-    arrays = jeffcott(parameters).arrays
+    arrays = Jeffcott(parameters).system.arrays
     found = []
     for left in (0.0, -1e15):
-        amplitudes = np.array(jeffcott(parameters).amplitudes(1.0 + 0j, 0j))
+        amplitudes = np.array(Jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
         work = rub_workspace(2)
         work.first_margin[:] = left
         found.append((*rub.lift_off(arrays, 0, amplitudes, 10.0, work), amplitudes))

@@ -14,7 +14,7 @@ from carom.core import table as tables
 from carom.core.lanes import REACH
 from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, TERMS, rotor_record
 from carom.core.table import flight_table
-from carom.rotors import jeffcott
+from carom.models import Jeffcott
 
 EPSILON = 2.0**-52
 MACHINES = [
@@ -49,7 +49,7 @@ def general_arrays(seed: int):
 
 
 def all_arrays():
-    yield from (jeffcott(parameters(*machine)).arrays for machine in MACHINES)
+    yield from (Jeffcott(parameters(*machine)).system.arrays for machine in MACHINES)
     yield from (general_arrays(seed) for seed in range(6))
 
 

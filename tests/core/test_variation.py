@@ -12,8 +12,8 @@ from carom.core.impact import strike
 from carom.core.layout import rotor_record, workspace
 from carom.core.table import flight_table
 from carom.core.variation import carry_through_impact, carry_to_wall, shift
+from carom.models import Jeffcott
 from carom.outcome import Outcome
-from carom.rotors import jeffcott
 
 STEP = 1e-3
 """Step of the differences below, whose error is of the order of its sixth power."""
@@ -85,10 +85,10 @@ MACHINES = [(0.1, 0.76), (1.52, 0.76), (1.52 * (1 + 1e-9), 0.76), (4.0, 0.9), (0
 
 @pytest.mark.parametrize("machine", MACHINES)
 def test_arrival_of_the_planar_rotor(machine):
-    rotor = jeffcott(parameters(*machine))
+    rotor = Jeffcott(parameters(*machine))
     for angle in (0.3, 2.0, 4.1):
-        amplitudes = rotor.amplitudes(0.2 * np.exp(1j * angle), 6.0 * np.exp(2j * angle))
-        assert check_carry_to_wall(rotor.arrays, rotor.table, 0, amplitudes)
+        amplitudes = rotor.system.amplitudes(0.2 * np.exp(1j * angle), 6.0 * np.exp(2j * angle))
+        assert check_carry_to_wall(rotor.system.arrays, rotor.system.table, 0, amplitudes)
 
 
 @pytest.mark.parametrize("plane", [0, 1])
@@ -154,19 +154,19 @@ def test_shift_moves_along_the_motion():
 @pytest.mark.parametrize("angular_speed", [-2.0, 0.5, -50.9])
 def test_a_whole_impact_map(machine, angular_speed):
     """Impact, flight and arrival one after the other, with a slip that goes on and one that stops."""
-    rotor = jeffcott(parameters(*machine, rho=2.0).replace(mu=0.2, d=0.8))
-    arrays = rotor.arrays
+    rotor = Jeffcott(parameters(*machine, rho=2.0).replace(mu=0.2, d=0.8))
+    arrays = rotor.system.arrays
     law = arrays.friction[0], arrays.restitution[0], arrays.drive[0]
     position = np.exp(0.4j)
-    before = rotor.amplitudes(position, complex(2.5, angular_speed) * position)
+    before = rotor.system.amplitudes(position, complex(2.5, angular_speed) * position)
 
     def mapped(change):
         start = before + change
         impulse, _ = strike(displacement(arrays, 0, start), velocity(arrays, 0, start), *law)
-        time, state = arrival(arrays, rotor.table, 0, start + arrays.columns[:, 0] * impulse, events.LEAVING)
+        time, state = arrival(arrays, rotor.system.table, 0, start + arrays.columns[:, 0] * impulse, events.LEAVING)
         return np.append(state, time)
 
-    directions = np.array([rotor.amplitude_change(0.0, 1.0), rotor.amplitude_change(0.0, 1j)])
+    directions = np.array([rotor.system.amplitude_change(0.0, 1.0), rotor.system.amplitude_change(0.0, 1j)])
     carried, delays, nominal = directions.copy(), np.empty(2), mapped(np.zeros(2))
     carry_through_impact(arrays, 0, before, carried)
     carry_to_wall(arrays, 0, nominal[-1].real, nominal[:-1], carried, delays)

@@ -7,7 +7,7 @@ from drawn_motions import EVENTS, MANY, machines, starts
 from hypothesis import example, given
 from machines import PAPER
 
-from carom.rotors import jeffcott
+from carom.models import Jeffcott
 from carom.trajectories import State, simulate
 
 ROUNDING = 64 * 2.0**-52
@@ -16,10 +16,10 @@ ROUNDING = 64 * 2.0**-52
 
 def impacts_of(machine, start):
     """Contact log of a motion and the speeds its rounding errors go with, one for each impact."""
-    rotor = jeffcott(machine)
+    rotor = Jeffcott(machine)
     log = simulate(rotor, start, 15.0, max_events=EVENTS).contacts
     reach = 1.0 + abs(rotor.equilibrium)
-    speeds = reach * (1.0 + log.radial_speed + np.abs(log.angular_speed) + np.abs(rotor.eigenvalues).max())
+    speeds = reach * (1.0 + log.radial_speed + np.abs(log.angular_speed) + np.abs(rotor.system.exponents).max())
     return log, speeds
 
 
@@ -69,14 +69,14 @@ def test_restitution(machine, start):
 @MANY
 @given(machines(), starts())
 def test_nothing_gets_through_the_wall(machine, start):
-    motion = simulate(jeffcott(machine), start, 15.0, max_events=EVENTS)
+    motion = simulate(Jeffcott(machine), start, 15.0, max_events=EVENTS)
     assert motion.radius(motion.sample(2 * EVENTS)).max() <= 1.0 + 1e-12
 
 
 @MANY
 @given(machines(), starts())
 def test_lasting_contact_presses_and_stays_in_the_cone(machine, start):
-    motion = simulate(jeffcott(machine), start, 15.0, max_events=EVENTS)
+    motion = simulate(Jeffcott(machine), start, 15.0, max_events=EVENTS)
     for stretch in motion.lasting_contacts:
         times = np.linspace(stretch.start, stretch.end, 20, endpoint=False)
         normal, friction = motion.forces(times)

@@ -16,9 +16,9 @@ import numpy as np
 import pytest
 from compilation import sized
 
-from carom import Parameters, jeffcott
+from carom import Parameters
+from carom.models import Jeffcott
 from carom.outcome import Phase
-from carom.rotors import Rotor
 from carom.trajectories import State, Trajectory, simulate
 
 MACHINES = 50
@@ -79,13 +79,13 @@ class Work:
     allowed_stretches: float
 
 
-def work(rotor: Rotor, motion: Trajectory) -> Work:
+def work(rotor: Jeffcott, motion: Trajectory) -> Work:
     """Count the events of a motion."""
     phases = motion.segment_phases
-    position = rotor.state(motion.segment_amplitudes)[0]
+    position = rotor.system.state(motion.segment_amplitudes)[0]
     rubbing = phases[:-1] != Phase.FLIGHT
     angles = np.abs(np.angle(position[1:] / position[:-1]))[rubbing].sum()
-    lasts = np.diff(motion.segment_starts)[rubbing].sum() * np.abs(rotor.eigenvalues).max()
+    lasts = np.diff(motion.segment_starts)[rubbing].sum() * np.abs(rotor.system.exponents).max()
     stretches = int((np.diff(phases) != 0).sum())
     impacts = int(motion.is_impact.sum())
     return Work(
@@ -101,7 +101,7 @@ def work(rotor: Rotor, motion: Trajectory) -> Work:
 def test_every_start_ends(seed, record_property):
     random = np.random.default_rng([21, seed])
     parameters = machine(random)
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     outcomes: Counter[str] = Counter()
     for _ in range(STARTS):
         state = start(random, parameters)
@@ -110,7 +110,7 @@ def test_every_start_ends(seed, record_property):
         assert motion.outcome.settled, f"{motion.outcome.label} from {state} of {parameters}"
         assert math.isfinite(motion.time)
         assert np.isfinite(motion.segment_amplitudes).all()
-        position, _ = rotor.state(motion.segment_amplitudes)
+        position, _ = rotor.system.state(motion.segment_amplitudes)
         assert np.abs(position).max() <= 1.0 + 1e-12
         taken = work(rotor, motion)
         assert taken.impacts <= PATIENCE

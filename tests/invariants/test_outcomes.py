@@ -9,9 +9,9 @@ import pytest
 from compilation import sized
 from drawn_motions import EVENTS
 
+from carom.models import Jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.trajectories import State, simulate
 
 MACHINES = sized(40, 2, 150)
@@ -49,7 +49,7 @@ def limit_starts(rng):
 def test_every_motion_ends(seed, settle):
     rng = np.random.default_rng([seed, settle])
     for _ in range(MACHINES):
-        rotor = jeffcott(limit_cases(rng))
+        rotor = Jeffcott(limit_cases(rng))
         until = float(rng.choice([1.0, 20.0, 200.0]))
         for start in limit_starts(rng):
             motion = simulate(rotor, start, until, settle=settle, max_events=20 * EVENTS)

@@ -34,7 +34,7 @@ MACHINE = carom.Parameters(
 
 @pytest.fixture(scope="module")
 def rotor():
-    return carom.jeffcott(MACHINE)
+    return carom.Jeffcott(MACHINE)
 
 
 def painted(figure):
@@ -138,7 +138,7 @@ def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
 
 
 def test_without_scales_units_are_those_of_the_equations():
-    rotor = carom.jeffcott(MACHINE.replace(scales=None))
+    rotor = carom.Jeffcott(MACHINE.replace(scales=None))
     figure = plots.basin(basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
     assert r"c_\mathrm{r}\Omega" in figure.axes[1].get_xlabel()
 

@@ -72,7 +72,7 @@ def test_no_roots(quiet, read):
 
 
 def test_many_roots_names_do_not_crowd(damped):
-    rotor = carom.jeffcott(damped.rotor.parameters.replace(gamma=0.02))
+    rotor = carom.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
     orbits = carom.single_impact_orbits(rotor)
     assert len(orbits.periods) > 10
     periods = np.linspace(1e-3, orbits.longest_period, 2000)

@@ -30,7 +30,7 @@ def test_axes_tell_both_units(bouncing, damped):
 
 def test_without_scales_no_second_axes(damped):
     parameters = damped.rotor.parameters.replace(scales=None)
-    motion = carom.simulate(carom.jeffcott(parameters), carom.kick(0.35), until=20.0)
+    motion = carom.simulate(carom.Jeffcott(parameters), carom.kick(0.35), until=20.0)
     (axes,) = plots.radius(motion).axes
     assert axes.child_axes == []
     assert axes.get_xlabel() == r"time $t$ (units of $1/\Omega$)"

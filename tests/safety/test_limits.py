@@ -4,8 +4,8 @@ import pytest
 from scipy.stats import binom
 
 from carom.attractors import DisturbanceSet
+from carom.models import Jeffcott
 from carom.parameters import Parameters, Scales
-from carom.rotors import jeffcott
 from carom.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.safety.limits import rounded_up, share_words
 from carom.whirl import runaway_speed
@@ -25,7 +25,7 @@ def safe(simulated, checks=(0.6, 1.0, 2.0), rolling=ROLLING, scales=SCALES):
         ORBITS,
         simulated,
         rolling,
-        runaway_speed(jeffcott(SOURCE)),
+        runaway_speed(Jeffcott(SOURCE)),
         0.02,
         2.0,
         sample,

@@ -7,9 +7,9 @@ from scipy.stats import binom
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.ensembles import settle_all
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
-from carom.rotors import jeffcott
 from carom.safety import least_safe_damping
 from carom.whirl import rolling, runaway_speed
 
@@ -37,7 +37,7 @@ def safe():
 
 
 def lost(parameters, gamma, count, seed, fastest=2.0):
-    rotor = jeffcott(parameters.replace(gamma=gamma))
+    rotor = Jeffcott(parameters.replace(gamma=gamma))
     return count - settle_all(rotor, *DisturbanceSet(count, seed, fastest).states(rotor)).count(Outcome.LEVITATED)
 
 
@@ -61,11 +61,11 @@ def test_orbits_end_at_their_fold(safe):
 
 
 def test_rolling_counts_only_for_starts_fast_enough(safe):
-    roll = rolling(jeffcott(SOURCE))
+    roll = rolling(Jeffcott(SOURCE))
 
     assert safe.at_all == safe.rolling
     assert (safe.rolling.gamma, safe.rolling.above) == (roll.largest_damping, roll.damping_bound)
-    assert safe.runaway.certain == runaway_speed(jeffcott(SOURCE.replace(gamma=safe.within_reach.gamma))).certain
+    assert safe.runaway.certain == runaway_speed(Jeffcott(SOURCE.replace(gamma=safe.within_reach.gamma))).certain
 
 
 def test_fresh_disturbances_come_back_where_the_share_lost_is_said_to_be_small():
@@ -133,7 +133,7 @@ def test_faster_disturbances_are_counted_apart(safe):
 
 @pytest.mark.parametrize("gamma", [0.38, 0.6, 1.5])
 def test_above_the_limit_everything_tested_levitates(gamma):
-    found = find_attractors(jeffcott(SOURCE.replace(gamma=gamma)), count=60, known=False, seed=7)
+    found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=60, known=False, seed=7)
 
     assert [member.name for member in found] == ["levitation"]
 
@@ -156,7 +156,7 @@ def test_faster_disturbances_reach_rolling():
     safe = least_safe_damping(SOURCE, count=600, highest=4.0, fastest=5.0)
 
     assert (safe.within_reach.motion, safe.within_reach.evidence) == ("rolling", "simulation")
-    assert safe.rub.gamma < safe.within_reach.gamma < rolling(jeffcott(SOURCE)).largest_damping
+    assert safe.rub.gamma < safe.within_reach.gamma < rolling(Jeffcott(SOURCE)).largest_damping
     assert "some of the disturbances tried got there" in safe.words
     # Well below, disturbances roll; at the damping said to be safe none of another sample does.
     for gamma, rolls in ((0.8 * safe.simulated.gamma, True), (safe.simulated.above, False)):
@@ -167,7 +167,7 @@ def test_well_balanced_stiff_machine_is_safe_at_any_damping():
     stiff = SOURCE.replace(omega=2.0, rho=0.2, mu=0.05, d=0.5)
     safe = least_safe_damping(stiff, count=60, highest=2.0)
 
-    assert len(equilibria(jeffcott(stiff))) == 3
+    assert len(equilibria(Jeffcott(stiff))) == 3
     assert safe.rub is safe.orbits is safe.simulated is safe.within_reach is None
     assert safe.at_all.motion == "rolling"
     assert safe.words.startswith("At no damping looked at was a disturbance lost.")

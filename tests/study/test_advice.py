@@ -11,7 +11,7 @@ from studies import study_once
 
 from carom.attractors import DisturbanceSet
 from carom.ensembles import settle_all
-from carom.rotors import jeffcott
+from carom.models import Jeffcott
 from carom.study.advice import CHECKED, STEP, WANTED, advise
 from carom.study.orbit_ranges import single_impact_ranges
 from carom.study.remedies import advice_lines
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.jit_only
 
 
 def returned(parameters, count, seed):
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     ends = settle_all(rotor, *DisturbanceSet(count, seed).states(rotor))
     return np.count_nonzero(ends.recovered) / count
 

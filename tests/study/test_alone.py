@@ -9,10 +9,10 @@ from machines import random_parameters
 from carom.attractors import DisturbanceSet, motion_name
 from carom.ensembles import settle_all
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.orbits import orbits_within_reach
 from carom.outcome import Outcome
 from carom.parameters import Machine, Parameters
-from carom.rotors import jeffcott
 from carom.study.advice import advise
 from carom.study.alone import levitation_alone
 from carom.study.orbit_ranges import single_impact_ranges
@@ -50,7 +50,7 @@ def check_inside(parameters, found, random, values, count):
     for span in found.spans:
         low, high = math.log(span.low.value * (1 + 1e-7)), math.log(span.high.value * (1 - 1e-7))
         for value in np.exp(random.uniform(low, high, values)).tolist():
-            rotor = jeffcott(parameters.replace(**{found.gain: value}))
+            rotor = Jeffcott(parameters.replace(**{found.gain: value}))
             where = (parameters, found.gain, value)
             assert equilibria(rotor)[0].status == "admissible", where
             assert not known_motions(rotor), (where, known_motions(rotor))
@@ -73,11 +73,11 @@ def check_outside(parameters, found):
                     for m in met.values()
                     if m.motion == edge.motion and 0 <= outward * (m.value / edge.value - 1) < 2e-3
                 ]
-                rotor = jeffcott(parameters.replace(**{found.gain: one.value}))
+                rotor = Jeffcott(parameters.replace(**{found.gain: one.value}))
                 ends = settle_all(rotor, one.position, one.velocity)
                 assert motion_name(Outcome(int(ends.outcomes)), int(ends.multiplicities)) == one.motion
             elif edge.kind:
-                rotor = jeffcott(parameters.replace(**{found.gain: edge.value * (1 + outward * 2e-6)}))
+                rotor = Jeffcott(parameters.replace(**{found.gain: edge.value * (1 + outward * 2e-6)}))
                 gone = equilibria(rotor)[0].status != "admissible"
                 assert gone or known_motions(rotor), (parameters, found.gain, edge)
 
@@ -102,7 +102,7 @@ def test_stiffness_that_leaves_the_readme_machine_alone():
     value = math.sqrt(3.0e6 / README.scales.stiffness)
     found = levitation_alone(README, "omega", ranges_of(README, "omega"), 100)
     assert any(value in span for span in found.calm)
-    assert ends_of(jeffcott(README.replace(omega=value)), 1000, 77).recovered.all()
+    assert ends_of(Jeffcott(README.replace(omega=value)), 1000, 77).recovered.all()
 
 
 def test_a_range_is_cut_back_where_simulation_finds_more():
@@ -128,7 +128,7 @@ def test_advice_is_the_least_change_and_stands_up_to_a_fresh_sample():
     for advice in (first, second):
         assert advice.alone
         assert (advice.returned.count, advice.returned.total) == (2000, 2000)
-        assert ends_of(jeffcott(README.replace(**{advice.gain: advice.value})), 1000, 99).recovered.all()
+        assert ends_of(Jeffcott(README.replace(**{advice.gain: advice.value})), 1000, 99).recovered.all()
 
 
 def test_no_advice_where_nothing_needs_to_change():

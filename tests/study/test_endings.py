@@ -3,9 +3,9 @@
 import pytest
 
 from carom.attractors import find_attractors
+from carom.models import Jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.study.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, shown_example, touching
 from carom.trajectories import simulate
 
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.fixture(scope="module")
 def found():
-    return find_attractors(jeffcott(SOURCE))
+    return find_attractors(Jeffcott(SOURCE))
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ SOURCE = carom.Parameters(
 
 def said_of(parameters: carom.Parameters) -> str:
     study = SimpleNamespace(
-        rotor=carom.jeffcott(parameters),
+        rotor=carom.Jeffcott(parameters),
         wording=Wording(parameters.scales),
         case=SimpleNamespace(parameters=parameters),
     )
@@ -30,7 +30,7 @@ def said_of(parameters: carom.Parameters) -> str:
 
 def test_two_limits_of_rolling_are_told_apart():
     text = said_of(SOURCE)
-    roll, say = rolling(carom.jeffcott(SOURCE)), Wording(SCALES)
+    roll, say = rolling(carom.Jeffcott(SOURCE)), Wording(SCALES)
     every_angle, bound = say.gain("gamma", roll.largest_damping), say.gain("gamma", roll.damping_bound)
     assert every_angle != bound
     assert (
@@ -44,7 +44,7 @@ def test_two_limits_of_rolling_are_told_apart():
 
 def test_a_balanced_rotor_has_one_limit_of_rolling():
     parameters = SOURCE.replace(rho=0.0)
-    roll = rolling(carom.jeffcott(parameters))
+    roll = rolling(carom.Jeffcott(parameters))
     assert roll.largest_damping == pytest.approx(roll.damping_bound, rel=1e-15)
     text = said_of(parameters)
     assert "rules that out. It surely gets there" in text

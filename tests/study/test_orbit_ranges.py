@@ -7,9 +7,9 @@ import pytest
 from compilation import sized
 from machines import random_parameters
 
+from carom.models import Jeffcott
 from carom.orbits import orbits_within_reach
 from carom.parameters import Machine, Parameters
-from carom.rotors import jeffcott
 from carom.study.orbit_ranges import single_impact_ranges
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -26,7 +26,7 @@ COMPRESSOR = Machine(
 
 def orbits_at(parameters, gain, value):
     """Whether any orbit is admissible, and whether any such is stable, by the certified list."""
-    orbits = [orbit for orbit in orbits_within_reach(jeffcott(parameters.replace(**{gain: value}))) if orbit.admissible]
+    orbits = [orbit for orbit in orbits_within_reach(Jeffcott(parameters.replace(**{gain: value}))) if orbit.admissible]
     return bool(orbits), any(orbit.stable for orbit in orbits)
 
 

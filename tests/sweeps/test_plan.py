@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from sweep_tasks import Drawn, Failing, basins_plan, plan_of
 
+from carom.models import Jeffcott
 from carom.sweeps.chunk import compute_chunk, failed_chunk
 from carom.sweeps.plan import cut
 from carom.sweeps.studies import StudyTask
@@ -77,7 +78,7 @@ def test_study_tells_what_the_functions_tell(source_paper):
     task = StudyTask(24, True, source_paper.zones.limits, has_scales=False)
     seed = np.random.SeedSequence(3)
     found = task.evaluate(source_paper, seed)
-    rotor = carom.jeffcott(source_paper.parameters)
+    rotor = carom.Jeffcott(source_paper.parameters)
     attractors = carom.find_attractors(rotor, seed=int(seed.generate_state(1)[0]), count=24)
 
     assert found.keys() == {variable.name for variable in task.variables}
@@ -142,6 +143,5 @@ def test_batches_bound_memory_and_change_nothing_else(monkeypatch):
 
 
 def _rotor(plan):
-    from carom import jeffcott
 
-    return jeffcott(plan.case_at((0, 0)).parameters)
+    return Jeffcott(plan.case_at((0, 0)).parameters)

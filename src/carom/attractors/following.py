@@ -10,8 +10,8 @@ import numpy as np
 
 from carom.attractors.starts import Start
 from carom.attractors.survival import HALF_LIVES, Survival, measure_survival
+from carom.models import Jeffcott
 from carom.outcome import Outcome
-from carom.rotors import Rotor
 from carom.settling import longest_time
 from carom.trajectories import State, Trajectory, simulate
 
@@ -56,7 +56,7 @@ class Ending:
 
 
 def endings_of(
-    rotor: Rotor,
+    rotor: Jeffcott,
     starts: Sequence[Start],
     patience: int,
     name_of: Callable[[Trajectory], str],
@@ -68,7 +68,7 @@ def endings_of(
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     starts : sequence of Start
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
@@ -102,7 +102,7 @@ def endings_of(
     return [ending for ending in looks.endings if ending]
 
 
-def _survival(rotor: Rotor, states: Sequence[State], patience: int) -> Survival:
+def _survival(rotor: Jeffcott, states: Sequence[State], patience: int) -> Survival:
     positions = np.array([state.position for state in states])
     velocities = np.array([state.velocity for state in states])
     return measure_survival(rotor, positions, velocities, impacts=patience)
@@ -111,7 +111,7 @@ def _survival(rotor: Rotor, states: Sequence[State], patience: int) -> Survival:
 class _Looks:
     """Looks at the motions of all starts, each a continuation of the one before."""
 
-    def __init__(self, rotor: Rotor, starts: Sequence[Start], name_of: Callable[[Trajectory], str]) -> None:
+    def __init__(self, rotor: Jeffcott, starts: Sequence[Start], name_of: Callable[[Trajectory], str]) -> None:
         self.rotor, self.name_of, self.starts = rotor, name_of, starts
         self.states = [start.state for start in starts]
         self.endings: list[Ending | None] = [None] * len(starts)

@@ -10,9 +10,9 @@ from carom.attractors.groups import Attractor, Groups
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, Start, disturbances, known_starts
 from carom.attractors.survival import Survival
 from carom.disturbances import FASTEST
+from carom.models import Jeffcott, Subject, model_of
 from carom.orbits import orbits_within_reach
 from carom.outcome import InputError, Outcome
-from carom.rotors import Rotor
 from carom.settling import PATIENCE
 from carom.trajectories import Kick, State
 
@@ -25,7 +25,7 @@ class AttractorSet:
 
     Attributes
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     members : tuple of Attractor
         That with the most disturbances first; motions given up last.
     endings : tuple of Ending
@@ -36,7 +36,7 @@ class AttractorSet:
         Impacts without recurrence after which bouncing counts as irregular.
     """
 
-    rotor: Rotor
+    rotor: Jeffcott
     members: tuple[Attractor, ...]
     endings: tuple[Ending, ...]
     sample: DisturbanceSet | None
@@ -113,7 +113,7 @@ class AttractorSet:
 
 
 def find_attractors(
-    rotor: Rotor,
+    machine: Subject,
     starts: Sequence[State | Kick] | None = None,
     *,
     seed: int = 0,
@@ -130,7 +130,7 @@ def find_attractors(
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
     starts : sequence of State or Kick, optional
         Disturbances to follow instead of the seeded sample.
     seed, count, fastest : int, int, float
@@ -154,6 +154,7 @@ def find_attractors(
     InputError
         A start lies outside the wall, or there is nothing to follow.
     """
+    rotor = model_of(machine)
     chosen = DisturbanceSet(count, seed, fastest) if starts is None else None
     if starts is None:
         sample = disturbances(rotor, count, seed, fastest)
@@ -171,7 +172,7 @@ def find_attractors(
     return AttractorSet(rotor, tuple(ordered), endings, chosen, patience)
 
 
-def _given(rotor: Rotor, start: State | Kick) -> Start:
+def _given(rotor: Jeffcott, start: State | Kick) -> Start:
     if isinstance(start, Kick):
         return Start("kick", start.state(rotor), f"a kick of {start.speed:.3g} c_r Omega")
     return Start("start", start, "a given start")

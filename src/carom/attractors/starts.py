@@ -12,9 +12,9 @@ import numpy as np
 
 from carom.disturbances import FASTEST
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.orbits import Orbit
 from carom.outcome import InputError
-from carom.rotors import Rotor
 from carom.trajectories import State
 from carom.whirl import runaway_speed
 
@@ -95,11 +95,11 @@ class DisturbanceSet:
         if not (math.isfinite(self.fastest) and self.fastest > 0.0):
             raise InputError("fastest", self.fastest, "a finite speed above 0, in c_r Omega")
 
-    def kicks(self, rotor: Rotor) -> int:
+    def kicks(self, rotor: Jeffcott) -> int:
         """How many of them are kicks; they come first."""
         return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if abs(rotor.equilibrium) < 1.0 else 0
 
-    def states(self, rotor: Rotor) -> tuple[np.ndarray, np.ndarray]:
+    def states(self, rotor: Jeffcott) -> tuple[np.ndarray, np.ndarray]:
         """Return positions and velocities in the co-rotating frame, complex arrays of shape (count,)."""
         random, kicks = np.random.default_rng(self.seed), self.kicks(rotor)
         sizes = np.geomspace(min(SLOWEST, self.fastest), self.fastest, kicks // DIRECTIONS)
@@ -112,12 +112,12 @@ class DisturbanceSet:
             np.concatenate([np.array(blows, complex), self.fastest * points[:, 1]]),
         )
 
-    def words(self, rotor: Rotor, speed: Callable[[float], str] | None = None) -> str:
+    def words(self, rotor: Jeffcott, speed: Callable[[float], str] | None = None) -> str:
         """Say which disturbances of a rotor these are.
 
         Parameters
         ----------
-        rotor : Rotor
+        rotor : Jeffcott
         speed : callable, optional
             Writes a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in m/s.
         """
@@ -139,7 +139,7 @@ class DisturbanceSet:
         )
 
 
-def _speed_of(rotor: Rotor) -> Callable[[float], str]:
+def _speed_of(rotor: Jeffcott) -> Callable[[float], str]:
     scales = rotor.scales
 
     def write(speed: float) -> str:
@@ -148,12 +148,14 @@ def _speed_of(rotor: Rotor) -> Callable[[float], str]:
     return write
 
 
-def disturbances(rotor: Rotor, count: int = DISTURBANCES, seed: int = 0, fastest: float = FASTEST) -> tuple[Start, ...]:
+def disturbances(
+    rotor: Jeffcott, count: int = DISTURBANCES, seed: int = 0, fastest: float = FASTEST
+) -> tuple[Start, ...]:
     """Seeded sample of disturbances, one by one: those of :class:`DisturbanceSet`.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     count, seed, fastest : int, int, float
         See :class:`DisturbanceSet`.
 
@@ -170,12 +172,12 @@ def disturbances(rotor: Rotor, count: int = DISTURBANCES, seed: int = 0, fastest
     return tuple(starts)
 
 
-def known_starts(rotor: Rotor, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
+def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
     """Starts next to every motion known in closed form, so that none is missed for a small basin.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     orbits : sequence of Orbit
         Virtual ones are left out.
 

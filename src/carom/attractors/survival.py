@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from carom.ensembles import Endings, settle_all
+from carom.models import Jeffcott
 from carom.outcome import Outcome
-from carom.rotors import Rotor
 
 __all__ = ["Survival", "document_of", "follow_out", "measure_survival", "still_irregular"]
 
@@ -115,7 +115,7 @@ def still_irregular(endings: Endings) -> np.ndarray:
 
 
 def measure_survival(
-    rotor: Rotor,
+    rotor: Jeffcott,
     positions: np.ndarray,
     velocities: np.ndarray,
     *,
@@ -126,7 +126,7 @@ def measure_survival(
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     positions, velocities : ndarray of complex, shape (M,)
         States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a part is taken; fewer
         are made 200 by small changes of their velocity.
@@ -160,13 +160,13 @@ def measure_survival(
 
 
 def follow_out(
-    rotor: Rotor, endings: Endings, *, impacts: int, threads: int | None = None
+    rotor: Jeffcott, endings: Endings, *, impacts: int, threads: int | None = None
 ) -> tuple[Endings, Survival | None]:
     """Follow irregular motions of an ensemble to where they end, if they do.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     endings : Endings
     impacts : int
         For which irregular motions are followed to see how long they last.

@@ -16,9 +16,9 @@ from carom.basins.motions import name_motions
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Sample, Starts
 from carom.ensembles import MOST_EVENTS, Endings, settle_all
+from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
-from carom.rotors import Rotor, jeffcott
 from carom.settling import PATIENCE, longest_time
 
 if TYPE_CHECKING:
@@ -68,9 +68,9 @@ class Basin:
         return Parameters(**numbers, scales=Scales(**scales) if scales else None)
 
     @cached_property
-    def rotor(self) -> Rotor:
+    def rotor(self) -> Jeffcott:
         """The machine."""
-        return jeffcott(self.parameters)
+        return Jeffcott(self.parameters)
 
     @cached_property
     def plan(self) -> Plan:
@@ -185,7 +185,7 @@ class Basin:
 
 
 def basins(
-    rotor: Rotor,
+    machine: Subject,
     disturbances: Plan,
     *,
     until: float | None = None,
@@ -199,7 +199,7 @@ def basins(
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
     disturbances : Grid or Sample
         Of a model of :mod:`carom.disturbances`.
     until : float
@@ -226,6 +226,7 @@ def basins(
     InputError
         None of the disturbances is possible: a rotor that cannot levitate cannot be kicked out of levitation.
     """
+    rotor = model_of(machine)
     starts = disturbances.starts(rotor)
     until = longest_time(rotor) if until is None else until
     endings = follow(
@@ -250,7 +251,7 @@ def basins(
     return Basin(dataset_of(rotor, disturbances, starts, endings, outcomes, motions, names, attributes))
 
 
-def follow(rotor: Rotor, starts: Starts, **limits: Any) -> Endings:
+def follow(rotor: Jeffcott, starts: Starts, **limits: Any) -> Endings:
     """Where all starts end; those that do not exist, or are undecided, are not followed and have zeros everywhere.
 
     Raises

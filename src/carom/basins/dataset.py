@@ -11,8 +11,8 @@ import numpy as np
 
 from carom.disturbances import MODELS, Grid, Plan, Sample, Starts, StateSlice
 from carom.ensembles import Endings
+from carom.models import Jeffcott
 from carom.outcome import InputError, Outcome
-from carom.rotors import Rotor
 
 if TYPE_CHECKING:
     import xarray
@@ -43,7 +43,7 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
     return Sample(model, document["starts"], document["seed"])
 
 
-def provenance(rotor: Rotor, plan: Plan) -> dict[str, str]:
+def provenance(rotor: Jeffcott, plan: Plan) -> dict[str, str]:
     """What it takes to do it again."""
     scales = rotor.scales
     how: dict[str, object] = (
@@ -62,7 +62,7 @@ def provenance(rotor: Rotor, plan: Plan) -> dict[str, str]:
 
 
 def dataset_of(
-    rotor: Rotor,
+    rotor: Jeffcott,
     plan: Plan,
     starts: Starts,
     endings: Endings,
@@ -131,7 +131,7 @@ def _touched(starts: Starts, endings: Endings, outcomes: np.ndarray) -> np.ndarr
     return touched
 
 
-def _axes(rotor: Rotor, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
+def _axes(rotor: Jeffcott, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Coordinates of a dataset, those in SI too, and its dimensions."""
     coordinates = plan.model.coordinates
     grid = isinstance(plan, Grid)

@@ -19,9 +19,9 @@ from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.ensembles import MOST_EVENTS, settle_all
+from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
-from carom.rotors import Rotor, jeffcott
 from carom.settling import PATIENCE
 
 if TYPE_CHECKING:
@@ -117,7 +117,7 @@ class GainMap:
 
 
 def gain_map(
-    parameters: Parameters,
+    machine: Subject,
     disturbances: Plan,
     names: tuple[str, str] = ("stiffness", "damping"),
     *,
@@ -133,7 +133,7 @@ def gain_map(
 
     Parameters
     ----------
-    parameters : Parameters
+    machine : Machine, Case, Parameters or model
         The present machine.
     disturbances : Grid or Sample
         As for the present machine; where a parameter moves the scales (shaft speed, clearance), kicks and shocks keep
@@ -160,6 +160,7 @@ def gain_map(
     InputError
         A name or range that cannot be used.
     """
+    parameters = model_of(machine).parameters
     axes = axis(parameters, names[0]), axis(parameters, names[1])
     if axes[0].name == axes[1].name:
         raise InputError("names", ",".join(names), "two different parameters")
@@ -182,7 +183,7 @@ def gain_map(
     dataset = _dataset(axes, values, grid)
     dataset.attrs = {
         **(source or {}),
-        **provenance(jeffcott(parameters), disturbances),
+        **provenance(Jeffcott(parameters), disturbances),
         "title": "Share of disturbances that come back to levitation, against two parameters",
         **limits,
         "present_recovered": now["count"],
@@ -242,13 +243,13 @@ def measured(
 
 def _machine(
     parameters: Parameters, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]
-) -> tuple[Rotor, Starts | None]:
+) -> tuple[Jeffcott, Starts | None]:
     """Machine of a node and its starts; none where it has no levitation to come back to."""
     numbers = Numbers.of(parameters)
     for varied, value in zip(axes, node, strict=True):
         numbers = varied.set(numbers, value)
     machine = numbers.parameters
-    rotor = jeffcott(machine)
+    rotor = Jeffcott(machine)
     if abs(rotor.equilibrium) >= 1.0:
         return rotor, None
     return rotor, plan.rescaled(parameters.scales, machine.scales).starts(rotor)
@@ -283,7 +284,7 @@ def _measures(plan: Plan, outcomes: np.ndarray | None) -> dict[str, Any]:
 
 
 def _smallest(
-    parameters: Parameters, plan: Plan, rotor: Rotor, starts: Starts | None, outcomes: np.ndarray | None
+    parameters: Parameters, plan: Plan, rotor: Jeffcott, starts: Starts | None, outcomes: np.ndarray | None
 ) -> dict[str, float]:
     """The smallest kick tried that one machine does not come back from, in the present machine's units of velocity."""
     if not isinstance(plan.model, VelocityKick | KickPlane):

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
+from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome
-from carom.rotors import Rotor
 
 __all__ = ["harmless_kick", "harmless_shock", "harmless_step", "lost", "smallest_lost"]
 
 
-def harmless_kick(rotor: Rotor) -> float:
+def harmless_kick(machine: Subject) -> float:
     """Speed up to which a kick out of levitation provably never reaches the wall, in ``c_r Ω``.
 
     In the fixed frame the deviation from the levitation whirl obeys ``ü + γu̇ + ω²u = 0``, whose coefficients are real:
@@ -22,6 +22,7 @@ def harmless_kick(rotor: Rotor) -> float:
 
     Zero where the rotor cannot levitate inside the wall or its levitation is unstable.
     """
+    rotor = model_of(machine)
     numbers = rotor.parameters
     gap = 1.0 - abs(rotor.equilibrium)
     gamma, omega = numbers.gamma, numbers.omega
@@ -30,7 +31,7 @@ def harmless_kick(rotor: Rotor) -> float:
     return max(0.0, gap * (1.0 - 1e-9) / _largest_response(gamma, omega))
 
 
-def harmless_shock(rotor: Rotor, duration: float) -> float:
+def harmless_shock(machine: Subject, duration: float) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
     The deviation is the shock folded with the response to a kick, which is at most ``g`` (:func:`harmless_kick`): no larger
@@ -38,7 +39,7 @@ def harmless_shock(rotor: Rotor, duration: float) -> float:
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
     duration : float
         ``T``, in ``1/Ω``.
 
@@ -47,12 +48,13 @@ def harmless_shock(rotor: Rotor, duration: float) -> float:
     float
         In ``c_r Ω²``.
     """
+    rotor = model_of(machine)
     if not (np.isfinite(duration) and duration > 0.0):
         raise InputError("duration", duration, "a time above 0, in 1/Omega")
     return harmless_kick(rotor) * math.pi / (2.0 * duration)
 
 
-def harmless_step(rotor: Rotor) -> float:
+def harmless_step(rotor: Jeffcott) -> float:
     """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
 
     A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame, which is the deviation when

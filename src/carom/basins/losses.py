@@ -25,8 +25,8 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.ensembles import settle_all
+from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome
-from carom.rotors import Rotor
 
 __all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_kick"]
 
@@ -121,7 +121,7 @@ def has_sizes(model: Disturbance) -> bool:
 
 
 def smallest_loss(
-    rotor: Rotor,
+    machine: Subject,
     model: Disturbance,
     *,
     directions: int = DIRECTIONS,
@@ -138,7 +138,7 @@ def smallest_loss(
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
     model : Disturbance
         A kick, a shock, a step of the unbalance or a release from contact, up to its own largest size (a step: the largest
         change to the eccentricity of the machine; a release: whirl forward and backward up to 2 ``c_r Ω`` from rest).
@@ -152,6 +152,7 @@ def smallest_loss(
     InputError
         The model has no size, or the rotor cannot levitate inside the wall, or its levitation is unstable.
     """
+    rotor = model_of(machine)
     if abs(rotor.equilibrium) >= 1.0:
         raise InputError("disturbance", f"|U*| = {abs(rotor.equilibrium):.6g}", "needs levitation inside the wall")
     if rotor.parameters.gamma < 0.0:
@@ -180,7 +181,7 @@ def smallest_loss(
 
 
 def smallest_unrecovered_kick(
-    rotor: Rotor,
+    machine: Subject,
     fastest: float = FASTEST,
     *,
     directions: int = DIRECTIONS,
@@ -192,7 +193,7 @@ def smallest_unrecovered_kick(
 
     Parameters
     ----------
-    rotor : Rotor
+    machine : Machine, Case, Parameters or model
     fastest : float
         Largest kick looked at, in ``c_r Ω``.
     directions, speeds : int
@@ -210,12 +211,13 @@ def smallest_unrecovered_kick(
     InputError
         The rotor cannot levitate inside the wall, or its levitation is unstable.
     """
+    rotor = model_of(machine)
     model = VelocityKick(fastest)
     found = smallest_loss(rotor, model, directions=directions, sizes=speeds, tolerance=tolerance, threads=threads)
     return None if found.size is None else found
 
 
-def _family(rotor: Rotor, model: Disturbance) -> _Family:
+def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
     """How a disturbance is searched."""
     if isinstance(model, VelocityKick | KickPlane):
         kick = VelocityKick(model.fastest)
@@ -254,7 +256,7 @@ def _all_round(family: _Family, directions: int) -> np.ndarray:
 class _Search:
     """Starts followed so far, and the best bracket: largest recovered below, smallest lost, direction, outcome."""
 
-    def __init__(self, rotor: Rotor, family: _Family, tolerance: float, threads: int | None) -> None:
+    def __init__(self, rotor: Jeffcott, family: _Family, tolerance: float, threads: int | None) -> None:
         self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads
         self.tried = 0
         self.best: tuple[float, float, float, Outcome] | None = None

@@ -9,9 +9,9 @@ import numpy as np
 from carom.absorbing import rub_neighbourhood
 from carom.attractors.groups import Groups
 from carom.ensembles import Endings
+from carom.models import Jeffcott
 from carom.orbits import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
-from carom.rotors import Rotor
 from carom.trajectories import State, simulate
 
 __all__ = ["name_motions"]
@@ -29,7 +29,7 @@ _PLAIN = {
 _NOUNS = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
 
 
-def name_motions(rotor: Rotor, outcomes: np.ndarray, endings: Endings) -> tuple[np.ndarray, tuple[str, ...]]:
+def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tuple[np.ndarray, tuple[str, ...]]:
     """Name the motion each start ends on.
 
     Motions in lasting contact and levitation follow from the outcome.  Of periodic bouncing one motion of each kind
@@ -38,7 +38,7 @@ def name_motions(rotor: Rotor, outcomes: np.ndarray, endings: Endings) -> tuple[
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     outcomes : ndarray of int8
         Negative where there is no start.
     endings : Endings
@@ -77,7 +77,7 @@ def name_motions(rotor: Rotor, outcomes: np.ndarray, endings: Endings) -> tuple[
     return named, tuple(names)
 
 
-def _goes_over_to_rub(rotor: Rotor, endings: Endings) -> np.ndarray:
+def _goes_over_to_rub(rotor: Jeffcott, endings: Endings) -> np.ndarray:
     """Which motions in forward rub are at the synchronous rub, or where they surely go over to it."""
     still: np.ndarray = np.abs(endings.velocities) < AT_REST
     around = rub_neighbourhood(rotor)
@@ -87,7 +87,9 @@ def _goes_over_to_rub(rotor: Rotor, endings: Endings) -> np.ndarray:
     return still | around.contains(np.angle(endings.positions), along)
 
 
-def _periodic(rotor: Rotor, outcomes: np.ndarray, endings: Endings, places: np.ndarray) -> list[tuple[np.ndarray, str]]:
+def _periodic(
+    rotor: Jeffcott, outcomes: np.ndarray, endings: Endings, places: np.ndarray
+) -> list[tuple[np.ndarray, str]]:
     """Kinds of periodic bouncing: which starts, and the name."""
     if not len(places):
         return []
@@ -120,7 +122,7 @@ def _alike(*features: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return first, groups
 
 
-def _orbits(rotor: Rotor) -> Sequence[Orbit]:
+def _orbits(rotor: Jeffcott) -> Sequence[Orbit]:
     """Orbits known in closed form; none where their search is refused."""
     try:
         return orbits_within_reach(rotor)

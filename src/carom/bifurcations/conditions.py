@@ -13,8 +13,8 @@ import numpy as np
 from carom.bifurcations.axes import Numbers
 from carom.core import planar
 from carom.maps import Section
+from carom.models import Jeffcott
 from carom.orbits import Orbit, orbit_at
-from carom.rotors import jeffcott
 from carom.stability import multipliers
 
 __all__ = [
@@ -147,7 +147,7 @@ def orbit_of(numbers: Numbers, pair: str, period: float, speed: float) -> Orbit:
     angle = numbers.phi - cmath.phase(stiffness) - cmath.phase(1.0 + conditions.lever * speed)
     section = Section(math.remainder(angle, math.tau), speed, -conditions.turn.imag * speed)
     name, nontrivial = f"{pair},{letter(conditions)}", multipliers(jacobian_at(numbers, period, speed))
-    rotor = jeffcott(numbers._replace(mu=abs(numbers.mu)).parameters)
+    rotor = Jeffcott(numbers._replace(mu=abs(numbers.mu)).parameters)
     return orbit_at(rotor, name, period, section, nontrivial, slip)
 
 

@@ -15,8 +15,8 @@ from carom.bifurcations.naming import listed, orbits_on_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.steady import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
+from carom.models import Subject, model_of
 from carom.outcome import InputError
-from carom.parameters import Parameters
 
 __all__ = ["KINDS", "Codimension2Point", "Curve", "continue_curve"]
 
@@ -141,7 +141,7 @@ _SUBJECTS = {"boundary-equilibrium": "levitation", "rub-fold": "rub", "rolling-l
 
 def continue_curve(
     kind: str,
-    parameters: Parameters,
+    machine: Subject,
     plane: Plane,
     unknowns: Sequence[float] = (),
     steps: Steps | None = None,
@@ -156,7 +156,7 @@ def continue_curve(
     ----------
     kind : str
         One of :data:`KINDS`.
-    parameters : Parameters
+    machine : Machine, Case, Parameters or model
         At or near the bifurcation.
     plane : Plane
     unknowns : sequence of float
@@ -174,6 +174,7 @@ def continue_curve(
     CaromError
         No such bifurcation near the start.
     """
+    parameters = model_of(machine).parameters
     if kind not in KINDS:
         raise InputError("kind", kind, f"one of: {', '.join(KINDS)}")
     definition, base = KINDS[kind], Numbers.of(parameters)

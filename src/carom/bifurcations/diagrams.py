@@ -21,10 +21,10 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
+from carom.models import Jeffcott, Subject, model_of
 from carom.orbits import Orbit, single_impact_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 
 __all__ = ["Diagram", "bifurcation_diagram"]
 
@@ -79,7 +79,7 @@ class Diagram:
 
 
 def bifurcation_diagram(
-    parameters: Parameters,
+    machine: Subject,
     parameter: str,
     interval: tuple[float, float],
     *,
@@ -96,7 +96,7 @@ def bifurcation_diagram(
 
     Parameters
     ----------
-    parameters : Parameters
+    machine : Machine, Case, Parameters or model
     parameter : str
         Dimensionless or physical name.
     interval : tuple of float
@@ -122,6 +122,7 @@ def bifurcation_diagram(
     InputError
         Empty interval, unknown parameter, or one that is out of its range.
     """
+    parameters = model_of(machine).parameters
     along = axis(parameters, parameter)
     if not (np.isfinite(interval).all() and interval[0] < interval[1]):
         raise InputError(parameter, f"{interval[0]:g} to {interval[1]:g}", "an interval of two growing finite values")
@@ -166,7 +167,7 @@ def _orbits(parameters: Parameters) -> Iterator[Orbit]:
     """Orbits with forward slip; none without damping, where there are infinitely many."""
     if parameters.gamma > 0.0 and parameters.rho > 0.0:
         longest = LONGEST_PERIOD if parameters.gamma < 0.05 else None
-        yield from (orbit for orbit in single_impact_orbits(jeffcott(parameters), longest) if orbit.slip > 0)
+        yield from (orbit for orbit in single_impact_orbits(Jeffcott(parameters), longest) if orbit.slip > 0)
 
 
 def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:

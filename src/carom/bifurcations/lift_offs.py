@@ -13,8 +13,8 @@ from typing import Literal
 
 import numpy as np
 
+from carom.models import Jeffcott
 from carom.outcome import CaromError, Phase
-from carom.rotors import Rotor
 from carom.trajectories import State, Trajectory, simulate
 
 __all__ = ["LONGEST", "LiftOff", "Whirl", "known", "lift_off_state", "next_lift_off", "shift_of"]
@@ -54,12 +54,12 @@ class LiftOff:
     landing_force: float
 
 
-def lift_off_state(rotor: Rotor, whirl: Whirl, angle: float) -> State | None:
+def lift_off_state(rotor: Jeffcott, whirl: Whirl, angle: float) -> State | None:
     """State of a rotor that lifts off the wall; ``None`` where the normal force does not fall through zero.
 
     Parameters
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
     whirl : {1, -1}
         Sign of ``1 + θ̇``.
     angle : float
@@ -82,7 +82,7 @@ def lift_off_state(rotor: Rotor, whirl: Whirl, angle: float) -> State | None:
     return State(position, 1j * (turning - 1.0) * position)
 
 
-def next_lift_off(rotor: Rotor, whirl: Whirl, angle: float, longest: float = LONGEST) -> LiftOff | None:
+def next_lift_off(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float = LONGEST) -> LiftOff | None:
     """Follow a rotor from a lift-off to the next; ``None`` if there is none within the time ``longest``."""
     start = lift_off_state(rotor, whirl, angle)
     if start is None:
@@ -107,7 +107,7 @@ def _first_lift_off(motion: Trajectory) -> LiftOff | None:
     lifting = landing + int(np.argmax(flying[landing:]))
     if flying[landing] or not flying[lifting] or not flying[first]:
         return None
-    position, velocity = motion.rotor.state(motion.segment_amplitudes[lifting])
+    position, velocity = motion.rotor.system.state(motion.segment_amplitudes[lifting])
     times = motion.segment_starts
     return LiftOff(
         angle=cmath.phase(complex(position) * cmath.exp(-1j * rotor.parameters.phi)),

@@ -11,8 +11,8 @@ from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.bifurcations.naming import listed
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.equilibria import BOUNDARY
+from carom.models import Jeffcott
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.whirl import rolling, rub_limit
 
 __all__ = ["Motions", "forward_orbits", "motions_at"]
@@ -85,7 +85,7 @@ def motions_at(parameters: Parameters) -> Motions:
     Single-impact orbits are those with forward slip; without damping, or with so little that there would be hundreds of
     pairs, those with periods up to 60/Ω.
     """
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     orbits = [orbit for orbit in forward_orbits(parameters) if is_admissible(*orbit[1:])]
     radii = [float(np.abs(np.linalg.eigvals(jacobian_at(*orbit[1:]))).max()) for orbit in orbits]
     return Motions(

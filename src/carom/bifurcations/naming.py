@@ -8,8 +8,8 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at, letter
+from carom.models import Jeffcott
 from carom.periods import PeriodCondition
-from carom.rotors import jeffcott
 
 __all__ = ["listed", "orbits_on_curve"]
 
@@ -54,5 +54,5 @@ def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -
 
 def _pair(numbers: Numbers, period: float, speed: float) -> int:
     """Number of the pair of periods, by the roots of ``F₁`` that are shorter."""
-    shorter = PeriodCondition(jeffcott(numbers.parameters)).roots((1.0 - BELOW) * period)
+    shorter = PeriodCondition(Jeffcott(numbers.parameters).system).roots((1.0 - BELOW) * period)
     return (len(shorter.periods) + int(shorter.starts_below)) // 2 + 1

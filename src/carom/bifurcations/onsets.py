@@ -14,9 +14,9 @@ from carom.bifurcations.lift_offs import LiftOff, next_lift_off
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.rubbing import RubbingBranch, RubbingPoint, end_of_motions
 from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 
 __all__ = ["ONSETS", "continue_onset"]
 
@@ -70,7 +70,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
 
     def lift_off(angle: float, x: float, y: float) -> LiftOff | None:
         try:
-            return next_lift_off(jeffcott(second.set(first.set(base, x), y).parameters), whirl, angle)
+            return next_lift_off(Jeffcott(second.set(first.set(base, x), y).parameters), whirl, angle)
         except InputError:
             return None
 

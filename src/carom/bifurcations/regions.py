@@ -18,6 +18,7 @@ from carom.bifurcations.onsets import ONSETS, continue_onset
 from carom.bifurcations.passing import Cause, passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.survey import Survey
+from carom.models import Subject, model_of
 from carom.outcome import CaromError
 from carom.parameters import Parameters
 
@@ -124,7 +125,7 @@ def _joined(point: Codimension2Point, other: Codimension2Point) -> str:
 
 
 def region_map(
-    parameters: Parameters,
+    machine: Subject,
     plane: Plane,
     *,
     grid: int = 24,
@@ -142,7 +143,7 @@ def region_map(
 
     Parameters
     ----------
-    parameters : Parameters
+    machine : Machine, Case, Parameters or model
         Of the machine.
     plane : Plane
     grid : int
@@ -163,6 +164,7 @@ def region_map(
     InputError
         Unknown parameters, or a range they cannot have.
     """
+    parameters = model_of(machine).parameters
     plane.axes(parameters)
     tell = progress or (lambda _: None)
     place = plane.place_of(parameters)

@@ -25,10 +25,10 @@ import numpy as np
 from carom.bifurcations.axes import Axis, Numbers, axis, within
 from carom.bifurcations.lift_offs import LONGEST, LiftOff, Whirl, known, lift_off_state, next_lift_off, shift_of
 from carom.continuation import Steps, Watch, continue_branch
+from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 from carom.roots import bracketed_root
-from carom.rotors import jeffcott
 from carom.trajectories import State, Trajectory, simulate
 
 __all__ = [
@@ -87,7 +87,7 @@ class RubbingOrbit:
     def trajectory(self, periods: float = 1.0) -> Trajectory:
         """Follow it from a lift-off."""
         return simulate(
-            jeffcott(self.parameters), _start(self.parameters, self.whirl, self.angle), periods * self.period
+            Jeffcott(self.parameters), _start(self.parameters, self.whirl, self.angle), periods * self.period
         )
 
 
@@ -162,7 +162,7 @@ def rubbing_orbits(
     -------
     tuple of RubbingOrbit
     """
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     angles = np.linspace(-math.pi, math.pi, samples + 1).tolist()
     found = []
     whirls: tuple[Whirl, Whirl] = (1, -1)
@@ -259,7 +259,7 @@ class _Map:
     def after(self, angle: float, value: float) -> LiftOff | None:
         """The next lift-off."""
         try:
-            rotor = jeffcott(self.along.set(self.base, value).parameters)
+            rotor = Jeffcott(self.along.set(self.base, value).parameters)
         except InputError:
             return None
         return next_lift_off(rotor, self.whirl, angle)
@@ -318,14 +318,14 @@ def _brackets(shift: Callable[[float], float], angles: list[float]) -> list[tupl
 
 
 def _start(parameters: Parameters, whirl: Whirl, angle: float) -> State:
-    start = lift_off_state(jeffcott(parameters), whirl, angle)
+    start = lift_off_state(Jeffcott(parameters), whirl, angle)
     if start is None:
         raise CaromError(f"the rotor does not lift off at an angle of {angle:g} rad from the unbalance")
     return start
 
 
 def _orbit(parameters: Parameters, whirl: Whirl, angle: float, longest: float) -> RubbingOrbit | None:
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     here = next_lift_off(rotor, whirl, angle, longest)
     if here is None:
         return None

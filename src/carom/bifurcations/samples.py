@@ -9,9 +9,9 @@ import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.bifurcations.axes import vary
+from carom.models import Jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.rotors import Rotor, jeffcott
 from carom.trajectories import simulate
 
 __all__ = ["VALUES", "AttractorSample", "sample_attractors"]
@@ -102,7 +102,7 @@ def sample_attractors(
     tell = progress or (lambda _: None)
     found: list[AttractorSample] = []
     for done, value in enumerate(np.linspace(*interval, values).tolist()):
-        rotor = jeffcott(vary(parameters, parameter, value))
+        rotor = Jeffcott(vary(parameters, parameter, value))
         attractors = find_attractors(
             rotor, seed=disturbances.seed, count=disturbances.count, fastest=disturbances.fastest
         )
@@ -112,7 +112,7 @@ def sample_attractors(
     return tuple(found)
 
 
-def _sample(value: float, rotor: Rotor, found: Attractor) -> AttractorSample:
+def _sample(value: float, rotor: Jeffcott, found: Attractor) -> AttractorSample:
     return AttractorSample(
         value,
         found.name,
@@ -137,7 +137,7 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
     return [AttractorSample(value, TRANSIENT, label, "none", through, share, known, np.empty(0), found.transient)]
 
 
-def _impacts(rotor: Rotor, attractor: Attractor) -> np.ndarray:
+def _impacts(rotor: Jeffcott, attractor: Attractor) -> np.ndarray:
     """Radial speeds of the impacts on an attractor, one period's of a periodic one."""
     if attractor.outcome not in BOUNCES:
         return np.empty(0)

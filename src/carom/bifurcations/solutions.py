@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
+from carom.models import Jeffcott
 from carom.orbits import radial_speeds
 from carom.parameters import Parameters
 from carom.periods import PeriodCondition
-from carom.rotors import jeffcott
 
 __all__ = ["Solution", "orbit_solutions"]
 
@@ -51,13 +51,13 @@ def orbit_solutions(
     list of Solution
         Those that leave the wall: with a positive radial speed.
     """
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     if rotor.equilibrium == 0.0:
         return []
     numbers = Numbers.of(parameters)
     if backward:
         numbers = numbers._replace(mu=-numbers.mu)
-    roots = PeriodCondition(rotor, -1 if backward else 1).roots(longest_period)
+    roots = PeriodCondition(rotor.system, -1 if backward else 1).roots(longest_period)
     found = []
     for place, period in enumerate(roots.periods.tolist(), start=int(roots.starts_below)):
         pair, longer = divmod(place, 2)

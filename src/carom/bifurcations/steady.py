@@ -9,9 +9,9 @@ import numpy as np
 from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.conditions import TESTS
 from carom.equilibria import equilibria
+from carom.models import Jeffcott
 from carom.parameters import Parameters
 from carom.roots import bracketed_root
-from carom.rotors import jeffcott
 from carom.whirl import rolling
 
 __all__ = [
@@ -101,7 +101,7 @@ def rolling_branch(parameters: Parameters, along: Axis, interval: tuple[float, f
     """Where the rotor can roll, on an even grid."""
     base = Numbers.of(parameters)
     grid = np.linspace(*interval, SAMPLES)
-    found = [rolling(jeffcott(along.set(base, value).parameters)) for value in grid.tolist()]
+    found = [rolling(Jeffcott(along.set(base, value).parameters)) for value in grid.tolist()]
     return RollingBranch(
         grid, np.array([entry.largest_force for entry in found]), np.array([entry.holds for entry in found])
     )
@@ -153,7 +153,7 @@ def equilibrium_branches(
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
-        for equilibrium in equilibria(jeffcott(along.set(base, value).parameters)):
+        for equilibrium in equilibria(Jeffcott(along.set(base, value).parameters)):
             place = 0 if equilibrium.kind == "contact-free" else 1 if equilibrium.stable else 2
             table[place, column] = (
                 equilibrium.radius,

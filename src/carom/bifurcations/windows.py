@@ -19,10 +19,10 @@ from carom.bifurcations.axes import Numbers, vary
 from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import corrected, grazing_equations, is_admissible, jacobian_at, margins_of, orbit_of
 from carom.bifurcations.solutions import Solution, orbit_solutions
+from carom.models import Jeffcott
 from carom.orbits import longest_within_reach, slip_stays_forward
 from carom.outcome import CaromError
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 
 __all__ = ["OrbitWindows", "Window", "WindowEnd", "orbit_windows"]
 
@@ -159,7 +159,7 @@ _LEVELS: tuple[Level, ...] = ("possible", "stable")
 
 
 def _members(parameters: Parameters) -> list[_Member]:
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     longest = longest_within_reach(rotor)
     solutions = orbit_solutions(parameters, longest)
     if not slip_stays_forward(rotor):

@@ -125,9 +125,9 @@ def _follow(question: _Question, tell: Tell) -> _Answer:
     from carom.basins import basins as classify
     from carom.basins import harmless_kick, smallest_loss
     from carom.basins.losses import has_sizes
-    from carom.rotors import jeffcott
+    from carom.models import Jeffcott
 
-    rotor, plan = jeffcott(question.case.parameters), question.plan
+    rotor, plan = Jeffcott(question.case.parameters), question.plan
     share = 0.9 if question.gains is None else 0.3
     basin = classify(
         rotor,

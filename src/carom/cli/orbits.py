@@ -34,11 +34,11 @@ def orbits(
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)"):
         from carom.equilibria import equilibria
+        from carom.models import Jeffcott
         from carom.orbits import orbits_within_reach, single_impact_orbits
-        from carom.rotors import jeffcott
         from carom.study import orbits_document
 
-        rotor = jeffcott(case.parameters)
+        rotor = Jeffcott(case.parameters)
         steady = equilibria(rotor)
         found = orbits_within_reach(rotor) if longest is None else single_impact_orbits(rotor, longest)
     if as_json:

@@ -10,8 +10,8 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_doc
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
+    from carom.models import Jeffcott
     from carom.parameters import Case
-    from carom.rotors import Rotor
     from carom.trajectories import Kick, State, Trajectory
 
 __all__ = ["simulate"]
@@ -94,12 +94,12 @@ def _read(case: Case, start: str | None, kick: str | None, until: str | None) ->
 
 
 def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None, tell) -> Trajectory:  # type: ignore[no-untyped-def]
-    from carom.rotors import jeffcott
+    from carom.models import Jeffcott
     from carom.settling import longest_time
     from carom.trajectories import Kick
     from carom.trajectories import simulate as follow
 
-    rotor = jeffcott(case.parameters)
+    rotor = Jeffcott(case.parameters)
     if isinstance(start, Kick):
         _check_levitation(rotor, kick)
     limit = longest_time(rotor) if end is None else end
@@ -113,7 +113,7 @@ def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None
     )
 
 
-def _check_levitation(rotor: Rotor, kick: str | None) -> None:
+def _check_levitation(rotor: Jeffcott, kick: str | None) -> None:
     radius = abs(rotor.equilibrium)
     if radius > 1.0:
         words = f"needs levitation without contact, but |U*| = {radius:.6g} is outside the wall; use --start"

@@ -67,7 +67,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
 
     Parameters
     ----------
-    rotor : record of :func:`~carom.rotors.second_order_record`
+    rotor : record of :func:`~carom.models.system.second_order_system`
     table : record of :func:`~carom.core.layout.table_record`
     state : complex array, shape (2,)
         Amplitudes just before an impact, to which the motion has recurred.

@@ -42,7 +42,7 @@ NEARBY = 1.5 * NEAR
 
 
 class Task(NamedTuple):
-    """The rotor (:func:`~carom.rotors.second_order_record`), its table, and how far and how long to follow a motion."""
+    """The rotor (:func:`~carom.models.system.second_order_system`), its table, and how far and how long to follow a motion."""
 
     rotor: np.record
     table: np.record

@@ -69,7 +69,7 @@ def lanes_record() -> np.record:
 def fly_lanes(rotor, table, until, lanes):
     """Take every lane a block of flight or an impact on; the lanes that need a look afterwards, as bits.
 
-    The rotor is one of :func:`~carom.rotors.second_order_record`.
+    The rotor is one of :func:`~carom.models.system.second_order_system`.
     """
     align_stack()
     looks = 0

@@ -15,7 +15,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.rotors import Rotor
+    from carom.models import Jeffcott
 
 __all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
 
@@ -52,7 +52,7 @@ class VelocityKick(Disturbance):
             "direction", "direction of the kick"
         )
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """Levitation with the velocity changed."""
         speed, direction = values
         velocity = complex_of(speed * np.cos(direction), speed * np.sin(direction))
@@ -86,7 +86,7 @@ class KickPlane(Disturbance):
             speed_coordinate("tangential_speed", "kick in the sense of rotation", -self.fastest, self.fastest),
         )
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """Levitation with the velocity changed."""
         radial, tangential = values
         outward = outward_from(rotor)
@@ -138,7 +138,7 @@ class BaseShock(Disturbance):
         """Of the housing through the largest pulse, ``2âT/π``, in ``c_r Ω``."""
         return 2.0 * self.peak * self.duration / math.pi
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""
         from carom.shocks import states_after_shocks
 
@@ -149,11 +149,11 @@ class BaseShock(Disturbance):
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
 
 
-def outward_from(rotor: Rotor) -> complex:
+def outward_from(rotor: Jeffcott) -> complex:
     """Direction from the centre of the bearing to the levitating rotor; the heavy side where it is in the centre."""
     rest = rotor.equilibrium
     return rest / abs(rest) if rest else cmath.rect(1.0, rotor.parameters.phi)
 
 
-def _levitates(rotor: Rotor) -> bool:
+def _levitates(rotor: Jeffcott) -> bool:
     return abs(rotor.equilibrium) < 1.0

@@ -13,7 +13,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.rotors import Rotor
+    from carom.models import Jeffcott
 
 __all__ = ["FASTEST", "Disturbance"]
 
@@ -42,12 +42,12 @@ class Disturbance:
         """What it varies with."""
         raise NotImplementedError
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """Starts of free motion.
 
         Parameters
         ----------
-        rotor : Rotor
+        rotor : Jeffcott
         *values : ndarray
             One array for each coordinate; they are broadcast against each other.
         """

@@ -15,7 +15,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.rotors import Rotor
+    from carom.models import Jeffcott
 
 __all__ = ["Grid", "Plan", "Sample", "disturbances"]
 
@@ -51,7 +51,7 @@ class Grid:
             coordinate.middles(cells) for coordinate, cells in zip(self.model.coordinates, self.shape, strict=True)
         )
 
-    def starts(self, rotor: Rotor) -> Starts:
+    def starts(self, rotor: Jeffcott) -> Starts:
         """Starts, arrays of the shape of the grid."""
         return self.model.starts(rotor, *np.meshgrid(*self.values(), indexing="ij"))
 
@@ -87,7 +87,7 @@ class Sample:
         shares = np.random.default_rng(self.seed).random((self.count, len(axes)))
         return tuple(coordinate.at(share) for coordinate, share in zip(axes, shares.T, strict=True))
 
-    def starts(self, rotor: Rotor) -> Starts:
+    def starts(self, rotor: Jeffcott) -> Starts:
         """Starts, arrays of shape (count,)."""
         return self.model.starts(rotor, *self.values())
 

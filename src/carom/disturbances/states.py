@@ -22,7 +22,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.rotors import Rotor
+    from carom.models import Jeffcott
 
 __all__ = ["AnyState", "ContactRelease", "StateSlice", "UnbalanceStep"]
 
@@ -59,7 +59,7 @@ class UnbalanceStep(Disturbance):
             angle_coordinate("phase_before", "phase of the unbalance before the step, relative to that after it"),
         )
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """Levitation with the old unbalance."""
         eccentricity, phase = values
         numbers = rotor.parameters
@@ -93,7 +93,7 @@ class ContactRelease(Disturbance):
         """Angle of the place on the wall."""
         return (angle_coordinate("angle", "place on the wall"),)
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """On the wall, moving along it."""
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
@@ -124,7 +124,7 @@ class StateSlice(Disturbance):
         """Both components of the position."""
         return length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """All positions inside the wall."""
         x, y = np.broadcast_arrays(*values)
         positions = complex_of(x, y)
@@ -164,7 +164,7 @@ class AnyState(Disturbance):
             angle_coordinate("direction", "direction of the velocity"),
         )
 
-    def starts(self, rotor: Rotor, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """All of them."""
         radius, angle, speed, direction = np.broadcast_arrays(*values)
         return Starts.of(

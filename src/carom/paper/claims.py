@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.models import Jeffcott
 from carom.orbits import Orbit, single_impact_orbits
 from carom.paper.branches import FirstPair, first_pair
 from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.paper.source import machine_at
 from carom.propositions import fixed_points, simultaneous_folds
-from carom.rotors import jeffcott
 
 __all__ = ["Claim", "claims"]
 
@@ -119,7 +119,7 @@ def _longer_pairs() -> Claim:
 
 def _longer(gamma: float) -> list[Orbit]:
     """Orbits of the pairs n > 1."""
-    found = single_impact_orbits(jeffcott(machine_at(gamma)))
+    found = single_impact_orbits(Jeffcott(machine_at(gamma)))
     return [orbit for orbit in found if not orbit.name.startswith("B1,")]
 
 

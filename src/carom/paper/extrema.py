@@ -10,10 +10,10 @@ import numpy as np
 
 from carom.bifurcations import Bifurcation, Numbers, OrbitBranch
 from carom.bifurcations.conditions import grazing_equations
+from carom.models import Jeffcott
 from carom.paper.branches import DAMPINGS, FirstPair
 from carom.paper.source import machine_at
 from carom.roots import bracketed_root
-from carom.rotors import jeffcott
 
 __all__ = ["Extremum", "ExtremumLine", "RadiusDiagram", "extremum_lines", "radius_diagram", "radius_extrema"]
 
@@ -91,7 +91,7 @@ def radius_diagram(pair: FirstPair) -> RadiusDiagram:
     RadiusDiagram
     """
     gammas = np.sort(np.append(np.linspace(*DAMPINGS, 200), pair.hopf.gamma))
-    levitation = np.array([abs(jeffcott(machine_at(gamma)).equilibrium) for gamma in gammas.tolist()])
+    levitation = np.array([abs(Jeffcott(machine_at(gamma)).equilibrium) for gamma in gammas.tolist()])
     return RadiusDiagram(extremum_lines(pair.slow), extremum_lines(pair.fast), gammas, levitation)
 
 

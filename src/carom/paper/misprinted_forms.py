@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.local import ContactSystem
+from carom.models import Jeffcott
 from carom.orbits import Orbit, period_condition, single_impact_orbits
 from carom.paper.branches import FirstPair, first_pair
 from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
@@ -21,7 +22,6 @@ from carom.paper.source import SCALES, machine_at
 from carom.parameters import Parameters
 from carom.periods import PeriodCondition
 from carom.propositions import fixed_points
-from carom.rotors import jeffcott
 
 __all__ = ["Misprint", "misprints", "printed_matrix", "printed_second_form"]
 
@@ -77,7 +77,7 @@ def misprints(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None
     """
     branches = pair or first_pair()
     drawn = plane or damping_stiffness_plane(branches)
-    orbit = single_impact_orbits(jeffcott(machine_at(0.1)))["B1,d"]
+    orbit = single_impact_orbits(Jeffcott(machine_at(0.1)))["B1,d"]
     return (
         *_impact_law(orbit),
         *_closed_forms(orbit),
@@ -263,8 +263,8 @@ def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
     """Section 5, at the birth of ``B1,b``."""
     hopf = branches.hopf
     cycle = max(hopf.cycles, key=lambda entry: entry.period)
-    rotor = jeffcott(machine_at(hopf.gamma))
-    outward = 1.0 - abs(jeffcott(machine_at(hopf.gamma + 1e-6)).equilibrium)
+    rotor = Jeffcott(machine_at(hopf.gamma))
+    outward = 1.0 - abs(Jeffcott(machine_at(hopf.gamma + 1e-6)).equilibrium)
     yield Misprint(
         "section 5, choice of ε",
         "with γ = γ* + ε the equilibrium is inside if ε is negative",
@@ -283,7 +283,7 @@ def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
         0.5 * math.pi,
         turn,
     )
-    condition = PeriodCondition(rotor)
+    condition = PeriodCondition(rotor.system)
     change = float((condition.factor * condition.a22(np.array([cycle.period]))[0]).real)
     yield Misprint(
         "(5.4)",
@@ -319,7 +319,7 @@ def _letters_of_section_5(branches: FirstPair) -> Iterator[Misprint]:
         abs(shift / abs(shift) + abs(shift) * across),
         abs(rest + SMALL * across),
     )
-    condition = PeriodCondition(system)
+    condition = PeriodCondition(system.system)
     # From ṙ = −ε r₁,₀θ̇₁,₀ at the impact; the normal is e^{iΨ}.
     lever = complex((condition.factor * condition.a12(np.array([cycle.period])))[0]) * cycle.radial_slope * rest
     yield Misprint(
@@ -334,10 +334,10 @@ def _letters_of_section_5(branches: FirstPair) -> Iterator[Misprint]:
 
 def _direction_of_kick(branches: FirstPair, period: float) -> float:
     """Angle between the normal at the boundary equilibrium and the kick of a small orbit, friction's turn taken off."""
-    rotor = jeffcott(machine_at(branches.hopf.gamma + 1e-7))
+    rotor = Jeffcott(machine_at(branches.hopf.gamma + 1e-7))
     orbits = single_impact_orbits(rotor)
     small = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))
-    normal = jeffcott(machine_at(branches.hopf.gamma)).equilibrium
+    normal = Jeffcott(machine_at(branches.hopf.gamma)).equilibrium
     log = small.trajectory(1.5).contacts
     change = complex(log.radial_speed_after[0] - log.radial_speed[0], log.angular_speed_after[0] - log.angular_speed[0])
     jump = change * cmath.rect(1.0, log.angle[0])

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.models import Jeffcott
 from carom.orbits import Orbit, single_impact_orbits
 from carom.paper.source import machine_at
-from carom.rotors import Rotor, jeffcott
 
 __all__ = ["ShownMotion", "shown_motions"]
 
@@ -26,7 +26,7 @@ class ShownMotion:
     gamma : float
     words : str
         What it is.
-    rotor : Rotor
+    rotor : Jeffcott
     orbit : Orbit or None
         ``None`` for contact-free levitation, which is a point of the co-rotating frame.
     highest : float
@@ -36,7 +36,7 @@ class ShownMotion:
     panel: str
     gamma: float
     words: str
-    rotor: Rotor
+    rotor: Jeffcott
     orbit: Orbit | None
     highest: float
 
@@ -54,13 +54,13 @@ def shown_motions() -> tuple[ShownMotion, ...]:
     tuple of ShownMotion
         Panels a to c.
     """
-    levitating = jeffcott(machine_at(0.3))
+    levitating = Jeffcott(machine_at(0.3))
     shown = [ShownMotion("a", 0.3, "contact-free equilibrium", levitating, None, abs(levitating.equilibrium))]
     for panel, gamma, name, words in (
         ("b", 0.065, "B1,d", "impacting orbit near grazing"),
         ("c", 0.1, "B1,a", "impacting orbit near the non-smooth Hopf bifurcation"),
     ):
-        rotor = jeffcott(machine_at(gamma))
+        rotor = Jeffcott(machine_at(gamma))
         orbit = single_impact_orbits(rotor)[name]
         shown.append(ShownMotion(panel, gamma, words, rotor, orbit, _highest(orbit)))
     return tuple(shown)

@@ -9,11 +9,11 @@ import numpy as np
 from carom.bifurcations import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.continuation import Steps, continue_branch
+from carom.models import Jeffcott
 from carom.orbits import Orbit, single_impact_orbits
 from carom.paper.source import machine_at
 from carom.periods import PeriodCondition
 from carom.propositions import hopf_side
-from carom.rotors import Rotor, jeffcott
 
 __all__ = ["Birth", "PeriodFunction", "PeriodPair", "birth", "period_functions", "period_pairs"]
 
@@ -74,14 +74,14 @@ class Birth:
     gamma : float
     side : {"below", "at", "above"}
         Of ``γ*``.
-    rotor : Rotor
+    rotor : Jeffcott
     orbits : tuple of Orbit
         ``B1,a`` and ``B1,b``; none at ``γ*``, where they are a point.
     """
 
     gamma: float
     side: str
-    rotor: Rotor
+    rotor: Jeffcott
     orbits: tuple[Orbit, ...]
 
 
@@ -90,7 +90,7 @@ def period_functions(dampings: tuple[float, ...] = (0.1, 0.05)) -> tuple[PeriodF
     periods = np.linspace(0.02, LONGEST, 1500)
     found = []
     for gamma in dampings:
-        condition = PeriodCondition(jeffcott(machine_at(gamma)))
+        condition = PeriodCondition(Jeffcott(machine_at(gamma)).system)
         found.append(PeriodFunction(gamma, periods, condition.value(periods), condition.roots().periods))
     return tuple(found)
 
@@ -110,7 +110,7 @@ def period_pairs() -> tuple[PeriodPair, ...]:
             return np.array([np.nan])
         return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
 
-    roots = PeriodCondition(jeffcott(machine_at(DAMPINGS[0]))).roots(LONGEST).periods
+    roots = PeriodCondition(Jeffcott(machine_at(DAMPINGS[0])).system).roots(LONGEST).periods
     pairs = []
     for pair, start in enumerate(roots[::2].tolist(), start=1):
         branch = continue_branch(
@@ -142,7 +142,7 @@ def birth() -> tuple[Birth, ...]:
     at = hopf_side(machine_at(0.1)).gamma
     stages = []
     for side, gamma in (("below", at - AWAY), ("at", at), ("above", at + AWAY)):
-        rotor = jeffcott(machine_at(gamma))
+        rotor = Jeffcott(machine_at(gamma))
         orbits = single_impact_orbits(rotor)
         small = () if side == "at" else (orbits["B1,a"], orbits["B1,b"])
         stages.append(Birth(gamma, side, rotor, small))

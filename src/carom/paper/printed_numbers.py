@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Literal
 
+from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
 from carom.paper.branches import FirstPair, first_pair
 from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.paper.source import GIVEN, machine_at
 from carom.parameters import Machine
 from carom.propositions import fixed_points
-from carom.rotors import jeffcott
 
 __all__ = ["PrintedNumber", "numbers"]
 
@@ -162,7 +162,7 @@ def _counts(branches: FirstPair) -> Iterator[PrintedNumber]:
     cycles = branches.hopf.cycles
     small = [
         orbit
-        for orbit in single_impact_orbits(jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
+        for orbit in single_impact_orbits(Jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
         if orbit.name in ("B1,a", "B1,b")
     ]
     unstable = sum(orbit.admissible and not orbit.stable for orbit in small)

@@ -143,7 +143,7 @@ def _file_name(attractor: str) -> str:
 
 def _history(study: Study, example: Ending) -> Figure:
     """The motion until it has settled, with forces and energies; of levitation a little longer, as it dies out."""
-    decay = -float(study.rotor.eigenvalues.real.max())
+    decay = -float(study.rotor.system.exponents.real.max())
     tail = SHOWN_TAIL / decay if example.outcome is Outcome.LEVITATED and decay > 0 else 0.0
     end = min(example.time + tail, LONGEST_SHOWN)
     motion = simulate(study.rotor, example.start.state, end)

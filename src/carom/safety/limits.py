@@ -9,8 +9,8 @@ from typing import Literal
 
 from carom.attractors import DisturbanceSet
 from carom.basins.shares import CONFIDENCE
+from carom.models import Jeffcott
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.safety.losses import DampingCheck
 from carom.settling import PATIENCE
 from carom.whirl import Runaway
@@ -146,7 +146,7 @@ class SafeDamping:
         if not self.checks:
             return ""
         first, last = self.checks[0].gamma, self.checks[-1].gamma
-        rotor = jeffcott(self.parameters.replace(gamma=first))
+        rotor = Jeffcott(self.parameters.replace(gamma=first))
         return (
             f"At each of {len(self.checks)} dampings from {self._damping(first, 4)} to {self._damping(last, 4)} none of "
             f"{self.sample.count} fresh ones was lost: with {100 * CONFIDENCE:.0f} % confidence {share_words(self.share_below)} "

@@ -16,9 +16,9 @@ from carom.attractors import DisturbanceSet
 from carom.basins.motions import name_motions
 from carom.basins.shares import CONFIDENCE, Share
 from carom.ensembles import Endings, settle_all
+from carom.models import Jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.rotors import Rotor, jeffcott
 
 __all__ = ["DampingCheck", "Loss", "Losses", "try_disturbances"]
 
@@ -65,7 +65,7 @@ class DampingCheck:
         return -math.expm1(math.log(1.0 - CONFIDENCE) / self.sample.count)
 
 
-def try_disturbances(rotor: Rotor, sample: DisturbanceSet, threads: int | None = None) -> DampingCheck:
+def try_disturbances(rotor: Jeffcott, sample: DisturbanceSet, threads: int | None = None) -> DampingCheck:
     """Follow disturbances, every one of them, and count those that do not come back."""
     endings = settle_all(rotor, *sample.states(rotor), threads=threads)
     return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
@@ -77,7 +77,7 @@ class Loss:
 
     Attributes
     ----------
-    rotor : Rotor
+    rotor : Jeffcott
         With that damping.
     kicked : ndarray of bool, shape (n,)
         Which are kicks of the levitating rotor.
@@ -86,7 +86,7 @@ class Loss:
     endings : Endings
     """
 
-    rotor: Rotor
+    rotor: Jeffcott
     kicked: np.ndarray
     positions: np.ndarray
     velocities: np.ndarray
@@ -203,11 +203,11 @@ class Losses:
     def _new_seed(self) -> int:
         return int(self.random.integers(2**32))
 
-    def _rotor(self, gamma: float) -> Rotor:
-        return jeffcott(self.parameters.replace(gamma=gamma))
+    def _rotor(self, gamma: float) -> Jeffcott:
+        return Jeffcott(self.parameters.replace(gamma=gamma))
 
     def _lost(
-        self, rotor: Rotor, kicked: np.ndarray, positions: np.ndarray, velocities: np.ndarray, explained: float = 0.0
+        self, rotor: Jeffcott, kicked: np.ndarray, positions: np.ndarray, velocities: np.ndarray, explained: float = 0.0
     ) -> Loss | None:
         """Follow starts; those that did not come back, if there are any."""
         if not len(kicked):

@@ -9,10 +9,10 @@ import numpy as np
 
 from carom.attractors import DisturbanceSet
 from carom.disturbances import FASTEST
+from carom.models import Jeffcott, Subject, model_of
 from carom.orbits import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-from carom.rotors import jeffcott
 from carom.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping, within_reach
 from carom.safety.losses import DampingCheck, Loss, Losses
 from carom.whirl import Rolling, rolling, rub_limit, runaway_speed
@@ -44,7 +44,7 @@ Progress = Callable[[float], None]
 
 
 def least_safe_damping(
-    parameters: Parameters,
+    machine: Subject,
     *,
     seed: int = 0,
     count: int = FRESH,
@@ -64,7 +64,7 @@ def least_safe_damping(
 
     Parameters
     ----------
-    parameters : Parameters
+    machine : Machine, Case, Parameters or model
         Of the planar rotor.
     seed : int
         Of all that is random.
@@ -88,6 +88,7 @@ def least_safe_damping(
     InputError
         ``highest`` is not above the lowest damping looked at, or ``count`` is below 1.
     """
+    parameters = model_of(machine).parameters
     tell = progress or (lambda share: None)
     unit = max(1.0, parameters.omega)
     lowest = LOWEST * unit
@@ -98,7 +99,7 @@ def least_safe_damping(
     if count < 1:
         raise InputError("count", count, "a whole number of at least 1")
     grid = np.geomspace(highest, lowest, GRID)
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     end = rub_limit(rotor)
     rub = DampingLimit("synchronous rub", end, end, "closed form") if end > 0.0 and parameters.d < 1.0 else None
     orbits = _end_of_orbits(parameters, grid)
@@ -117,7 +118,7 @@ def least_safe_damping(
         orbits,
         simulated,
         _rolling_limit(rolling(rotor)),
-        runaway_speed(jeffcott(parameters.replace(gamma=limit.gamma)) if limit else rotor),
+        runaway_speed(Jeffcott(parameters.replace(gamma=limit.gamma)) if limit else rotor),
         lowest,
         highest,
         sample,
@@ -157,7 +158,7 @@ def _end_of_orbits(parameters: Parameters, grid: np.ndarray) -> DampingLimit | N
 
 def _orbit_at(parameters: Parameters, gamma: float) -> str:
     """Name of an admissible single-impact orbit, a stable one if there is; empty if there is none."""
-    real = [orbit for orbit in orbits_within_reach(jeffcott(parameters.replace(gamma=gamma))) if orbit.admissible]
+    real = [orbit for orbit in orbits_within_reach(Jeffcott(parameters.replace(gamma=gamma))) if orbit.admissible]
     return min(real, key=lambda orbit: not orbit.stable).name if real else ""
 
 

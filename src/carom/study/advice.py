@@ -12,8 +12,8 @@ from carom.attractors import DisturbanceSet
 from carom.basins import Share
 from carom.disturbances import FASTEST
 from carom.ensembles import settle_all
+from carom.models import Jeffcott
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.settling import PATIENCE
 from carom.study.alone import LevitationAlone
 from carom.study.ranges import Gain, MotionRange, Span
@@ -148,7 +148,7 @@ def _checked(parameters: Parameters, gain: Gain, value: float, margin: float) ->
 
 
 def _returned(parameters: Parameters, count: int, seed: int, patience: int = PATIENCE) -> int:
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     ends = settle_all(rotor, *DisturbanceSet(count, seed).states(rotor), patience=patience)
     return int(np.count_nonzero(ends.recovered))
 
@@ -161,7 +161,7 @@ def _bringing_back(parameters: Parameters, gain: Gain, searched: Span) -> Advice
     values = [begin * STEP**step for step in range(-steps, steps + 1) if low <= begin * STEP**step <= high]
     for value in sorted(values, key=lambda value: abs(math.log(value / begin))):
         there = parameters.replace(**{gain: value})
-        if abs(jeffcott(there).equilibrium) < 1.0 and _returned(there, TRIED, 0, TRIED_PATIENCE) >= WANTED * TRIED:
+        if abs(Jeffcott(there).equilibrium) < 1.0 and _returned(there, TRIED, 0, TRIED_PATIENCE) >= WANTED * TRIED:
             if value == own:  # nothing needs to change for that share
                 return None
             advice = _checked(parameters, gain, value, 0.0)

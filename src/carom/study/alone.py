@@ -19,9 +19,9 @@ import numpy as np
 from carom.attractors import DisturbanceSet, motion_name
 from carom.disturbances import FASTEST
 from carom.ensembles import Endings, settle_all
+from carom.models import Jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.rotors import Rotor, jeffcott
 from carom.study.ranges import Edge, Gain, MotionRange, Span, free_spans, outside
 
 __all__ = ["LevitationAlone", "Met", "levitation_alone"]
@@ -153,7 +153,7 @@ class _Trial:
 
     def at(self, value: float) -> Kind:
         """What the disturbances come to at a value: the worst of it."""
-        rotor = jeffcott(self.parameters.replace(**{self.gain: value}))
+        rotor = Jeffcott(self.parameters.replace(**{self.gain: value}))
         places, speeds = _starts(rotor, self.count)
         again = [state for kind in ("other", "whirl") for state in self.last.get(kind, ())]
         first = (
@@ -168,7 +168,7 @@ class _Trial:
         self.clear.append(value)
         return worst
 
-    def _follow(self, rotor: Rotor, value: float, positions: np.ndarray, velocities: np.ndarray) -> Kind:
+    def _follow(self, rotor: Jeffcott, value: float, positions: np.ndarray, velocities: np.ndarray) -> Kind:
         ends = settle_all(rotor, positions, velocities)
         whirls = np.isin(ends.outcomes, WHIRL)
         lost_to: dict[Kind, np.ndarray] = {"other": ~ends.recovered & ~whirls, "whirl": whirls}
@@ -199,7 +199,7 @@ class _Trial:
 _ORDER: tuple[Kind, ...] = ("levitation", "whirl", "other")
 
 
-def _starts(rotor: Rotor, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _starts(rotor: Jeffcott, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Starts on the wall at the largest speed, and the seeded sample, the fastest first."""
     places, speeds = DisturbanceSet(count, SEED).states(rotor)
     order = np.argsort(-np.abs(speeds), kind="stable")

@@ -10,10 +10,9 @@ from typing import Any
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.equilibria import Equilibrium, equilibria
+from carom.models import Jeffcott, Subject, case_of
 from carom.orbits import Orbit, OrbitSet, orbits_within_reach
-from carom.outcome import InputError
-from carom.parameters import Case, Machine, Parameters, Zones
-from carom.rotors import Rotor, jeffcott
+from carom.parameters import Case, Parameters
 from carom.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.study.advice import Advice, advise
 from carom.study.alone import LevitationAlone, levitation_alone
@@ -35,7 +34,7 @@ class Study:
     Attributes
     ----------
     case : Case
-    rotor : Rotor
+    rotor : Jeffcott
     equilibria : tuple of Equilibrium
         The contact-free one, then the synchronous rubs.
     orbits : OrbitSet
@@ -57,7 +56,7 @@ class Study:
     """
 
     case: Case
-    rotor: Rotor
+    rotor: Jeffcott
     equilibria: tuple[Equilibrium, ...]
     orbits: OrbitSet
     ranges: tuple[MotionRange, ...]
@@ -122,13 +121,12 @@ class Study:
         return study_document(self)
 
 
-def study(subject: Case | Machine | Parameters, *, progress: Progress | None = None) -> Study:
+def study(machine: Subject, *, progress: Progress | None = None) -> Study:
     """Study a machine: its simple motions, where they exist, and what becomes of disturbances.
 
     Parameters
     ----------
-    subject : Case, Machine or Parameters
-        What :func:`carom.load_case` gives, or a machine, or dimensionless parameters.
+    machine : Machine, Case, Parameters or model
     progress : callable, optional
         Called with the share done (0 to 1) and what is done next, in words.
 
@@ -139,7 +137,7 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     Raises
     ------
     InputError
-        The subject is none of these.
+        The machine is none of these.
     CaromError
         Its motions cannot be computed; the message says why.
 
@@ -148,11 +146,11 @@ def study(subject: Case | Machine | Parameters, *, progress: Progress | None = N
     >>> result = study(load_case("examples/keogh-cole.toml"))  # doctest: +SKIP
     >>> print(result.verdict.text)  # doctest: +SKIP
     """
-    case = _as_case(subject)
+    case = case_of(machine)
     tell = progress or (lambda share, words: None)
     parameters = case.parameters
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
-    rotor = jeffcott(parameters)
+    rotor = Jeffcott(parameters)
     orbits = orbits_within_reach(rotor)
     tell(0.15, "disturbances")
     found = find_attractors(rotor, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
@@ -186,13 +184,3 @@ def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[
 def _gains(parameters: Parameters) -> tuple[Gain, ...]:
     """Without damping nothing comes back whatever the stiffness, so stiffness is not looked at then."""
     return ("gamma", "omega") if parameters.gamma >= 0 else ("gamma",)
-
-
-def _as_case(subject: Case | Machine | Parameters) -> Case:
-    if isinstance(subject, Case):
-        return subject
-    if isinstance(subject, Machine):
-        return Case("machine", subject.parameters, subject, Zones())
-    if isinstance(subject, Parameters):
-        return Case("machine", subject, None, Zones())
-    raise InputError("subject", type(subject).__name__, "must be a carom.Case, carom.Machine or carom.Parameters")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from carom.models import Jeffcott
 from carom.parameters.indentation import gives_way, indentation_of_force
-from carom.rotors import Rotor
 from carom.whirl import rolling
 
 __all__ = ["rolling_document", "wall_document"]
@@ -16,7 +16,7 @@ def wall_document(indentation: float) -> dict[str, Any]:
     return {"indentation": indentation, "rigid_wall": not gives_way(indentation)}
 
 
-def rolling_document(rotor: Rotor) -> dict[str, Any]:
+def rolling_document(rotor: Jeffcott) -> dict[str, Any]:
     """Rolling backward whirl: whether it goes on once it is there, and its force."""
     roll, scales = rolling(rotor), rotor.scales
     document: dict[str, Any] = {"holds": roll.holds, "speed": roll.speed, "largest_force": roll.largest_force}

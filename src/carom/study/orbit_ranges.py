@@ -8,9 +8,9 @@ from collections.abc import Callable
 import numpy as np
 
 from carom.bifurcations import Window, WindowEnd, orbit_windows, vary
+from carom.models import Jeffcott
 from carom.orbits import Orbit, longest_within_reach, orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-from carom.rotors import jeffcott
 from carom.study.ranges import Edge, Gain, MotionRange, Span
 
 __all__ = ["single_impact_ranges"]
@@ -88,7 +88,7 @@ def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
 
 
 def _can_search(parameters: Parameters) -> bool:
-    return parameters.gamma > 0.0 and longest_within_reach(jeffcott(parameters)) is None
+    return parameters.gamma > 0.0 and longest_within_reach(Jeffcott(parameters)) is None
 
 
 def _span(parameters: Parameters, gain: Gain, window: Window, stable: bool) -> Span:
@@ -100,7 +100,7 @@ def _edge(parameters: Parameters, gain: Gain, end: WindowEnd, inward: float, sta
     if not end.kind:
         return Edge(end.value)
     there = [
-        any(_counts(orbit, stable) for orbit in orbits_within_reach(jeffcott(vary(parameters, gain, place))))
+        any(_counts(orbit, stable) for orbit in orbits_within_reach(Jeffcott(vary(parameters, gain, place))))
         for place in (end.value * (1.0 + inward * NEARBY), end.value * (1.0 - inward * NEARBY))
     ]
     return Edge(end.value, end.kind, end.period, certified=there == [True, False])

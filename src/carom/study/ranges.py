@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carom.boundary import boundary_values
+from carom.models import Jeffcott
 from carom.parameters import Parameters
-from carom.rotors import jeffcott
 from carom.whirl import rolling, rub_limit
 
 __all__ = [
@@ -226,7 +226,7 @@ def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
     slope = math.hypot(1.0, mu)
     if gain == "gamma":
         folds = (1.0 - parameters.omega**2) * slope >= rho * mu
-        end = Edge(rub_limit(jeffcott(parameters)), "rub-fold" if folds else "boundary-equilibrium")
+        end = Edge(rub_limit(Jeffcott(parameters)), "rub-fold" if folds else "boundary-equilibrium")
         return MotionRange("rub", gain, (Span(ZERO, end),) if end.value > 0 else ())
     half_width = _leg(rho, gamma)
     if half_width == 0:
@@ -257,7 +257,7 @@ def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
     -------
     MotionRange
     """
-    roll = rolling(jeffcott(parameters))
+    roll = rolling(Jeffcott(parameters))
     limit = roll.largest_damping if gain == "gamma" else roll.largest_stiffness
     return MotionRange("rolling", gain, (Span(ZERO, Edge(limit, "rolling-limit")),) if limit > 0 else ())
 

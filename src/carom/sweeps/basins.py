@@ -14,8 +14,8 @@ from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Starts
+    from carom.models import Jeffcott
     from carom.parameters import Case, Scales
-    from carom.rotors import Rotor
 
 __all__ = ["BasinsTask"]
 
@@ -121,9 +121,9 @@ class BasinsTask:
         """
         from carom.basins.kicks import smallest_lost
         from carom.basins.shares import Share
-        from carom.rotors import jeffcott
+        from carom.models import Jeffcott
 
-        rotor = jeffcott(case.parameters)
+        rotor = Jeffcott(case.parameters)
         counts = np.zeros(len(ENDINGS), np.int64)
         impacts, kicks = 0, []
         for starts in self._batches(rotor, seed):
@@ -145,7 +145,7 @@ class BasinsTask:
                 found["smallest_unrecovered_kick_si"] = smallest * rotor.scales.velocity
         return found
 
-    def _batches(self, rotor: Rotor, seed: np.random.SeedSequence) -> Iterator[Starts]:
+    def _batches(self, rotor: Jeffcott, seed: np.random.SeedSequence) -> Iterator[Starts]:
         from carom.disturbances import Sample
 
         model = self.model(rotor.scales)
@@ -160,7 +160,7 @@ def _plain(value: Any) -> Any:
     return [value.real, value.imag] if isinstance(value, complex) else value
 
 
-def _follow(rotor: Rotor, starts: Starts) -> tuple[np.ndarray, int]:
+def _follow(rotor: Jeffcott, starts: Starts) -> tuple[np.ndarray, int]:
     """Outcomes of the starts that exist, and their impacts."""
     from carom.ensembles import settle_all
 

@@ -11,9 +11,9 @@ import numpy as np
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
+    from carom.models import Jeffcott
     from carom.orbits import OrbitSet
     from carom.parameters import Case
-    from carom.rotors import Rotor
 
 __all__ = ["StudyTask"]
 
@@ -111,9 +111,9 @@ class StudyTask:
         seed : SeedSequence
             Of this point.
         """
-        from carom.rotors import jeffcott
+        from carom.models import Jeffcott
 
-        rotor = jeffcott(case.parameters)
+        rotor = Jeffcott(case.parameters)
         found = self._closed_forms(rotor, case)
         number = int(seed.generate_state(1)[0])
         if self.disturbances:
@@ -127,7 +127,7 @@ class StudyTask:
                     found[f"{variable.name}_si"] = found[variable.name] * getattr(scales, variable.scale)
         return found
 
-    def _closed_forms(self, rotor: Rotor, case: Case) -> dict[str, Any]:
+    def _closed_forms(self, rotor: Jeffcott, case: Case) -> dict[str, Any]:
         from carom.equilibria import equilibria
         from carom.orbits import orbits_within_reach
         from carom.whirl import rolling, runaway_speed
@@ -150,7 +150,7 @@ class StudyTask:
             found["zone"] = zones.labels.index(zones.zone(min(levitation.radius, 1.0)))
         return found
 
-    def _simulated(self, rotor: Rotor, seed: int) -> dict[str, Any]:
+    def _simulated(self, rotor: Jeffcott, seed: int) -> dict[str, Any]:
         from carom.attractors import find_attractors
 
         found = find_attractors(rotor, seed=seed, count=self.disturbances)
@@ -161,7 +161,7 @@ class StudyTask:
             "smallest_unrecovered_kick": math.nan if smallest is None else smallest,
         }
 
-    def _damping(self, rotor: Rotor, seed: int) -> dict[str, Any]:
+    def _damping(self, rotor: Jeffcott, seed: int) -> dict[str, Any]:
         from carom.safety import DampingLimit, least_safe_damping
 
         safe = least_safe_damping(rotor.parameters, seed=seed, count=max(self.disturbances, 1), threads=1)

@@ -1,0 +1,68 @@
+"""The planar rigid rotor: parameters, and the system that follows from them."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from carom.core.planar import planar_exponents
+from carom.models.system import System, second_order_system
+from carom.parameters import Parameters, Scales
+
+__all__ = ["Jeffcott"]
+
+
+@dataclass(frozen=True)
+class Jeffcott:
+    """Rigid rotor on a linear isotropic bearing inside a circular clearance (Föppl–Jeffcott rotor).
+
+    In the co-rotating frame ``Ü + (γ + 2i)U̇ + (ω² − 1 + iγ)U = ρe^{iφ}`` [1]_ (2.13), with the exponents
+    ``λ± = (−γ − 2i ± √(γ² − 4ω²))/2``.
+
+    Attributes
+    ----------
+    parameters : Parameters
+
+    References
+    ----------
+    .. [1] Mora, Budd, Glendinning, Keogh, "Non-smooth Hopf-type bifurcations arising from impact–friction contact
+       events in rotating machinery", Proc. R. Soc. A 470 (2014).
+    """
+
+    parameters: Parameters
+
+    @cached_property
+    def system(self) -> System:
+        """Modes, contact plane and contact law."""
+        parameters = self.parameters
+        gamma, omega = parameters.gamma, parameters.omega
+        return second_order_system(
+            exponents=planar_exponents(gamma, omega),
+            # The sum makes a negative zero, the quotient of a balanced rotor, plain zero.
+            equilibrium=cmath.rect(parameters.rho, parameters.phi) / complex(omega**2 - 1.0, gamma) + 0j,
+            friction=parameters.mu,
+            restitution=parameters.d,
+            drive=parameters.radius_ratio + 1.0,
+        )
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that turn results into SI units, if known."""
+        return self.parameters.scales
+
+    @property
+    def equilibrium(self) -> complex:
+        """Contact-free equilibrium position ``U*``; it may lie outside the clearance."""
+        return complex(self.system.rest[0])
+
+    def replace(self, **changes: Any) -> Jeffcott:
+        """Return the rotor with other parameters.
+
+        Raises
+        ------
+        InputError
+            A name is unknown or a value not allowed.
+        """
+        return Jeffcott(self.parameters.replace(**changes))

@@ -1,0 +1,42 @@
+"""The one door for rotors: whatever describes one, to its model."""
+
+from __future__ import annotations
+
+from carom.models.jeffcott import Jeffcott
+from carom.outcome import InputError, shown
+from carom.parameters import Case, Machine, Parameters, Zones
+
+__all__ = ["Subject", "case_of", "model_of"]
+
+Subject = Jeffcott | Parameters | Machine | Case
+"""What describes a rotor."""
+
+
+def model_of(subject: Subject) -> Jeffcott:
+    """Model of a machine, a case, parameters, or a model itself.
+
+    Raises
+    ------
+    InputError
+        It is none of these.
+    """
+    if isinstance(subject, Jeffcott):
+        return subject
+    if isinstance(subject, Machine | Case):
+        return Jeffcott(subject.parameters)
+    if isinstance(subject, Parameters):
+        return Jeffcott(subject)
+    raise InputError("machine", shown(subject), "a Machine, a Case, Parameters or a model")
+
+
+def case_of(subject: Subject) -> Case:
+    """Case of a machine, parameters or a model, with the zones that hold by default; or a case itself.
+
+    Raises
+    ------
+    InputError
+        It is none of these.
+    """
+    if isinstance(subject, Case):
+        return subject
+    return Case("machine", model_of(subject).parameters, subject if isinstance(subject, Machine) else None, Zones())

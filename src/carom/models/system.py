@@ -1,0 +1,148 @@
+"""A linear rotor as arrays: what kernels see of any model, and the way between states and mode amplitudes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from carom.core.flow import fly_all
+from carom.core.layout import rotor_record
+from carom.core.table import flight_table
+
+__all__ = ["System", "second_order_system"]
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """Modes, contact planes and contact law of a rotor, ready for the kernels; what follows from them is computed.
+
+    A state is given by the ``n`` coordinates of the rotor and their rates; of a rotor with one coordinate they are plain
+    numbers.  Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.
+
+    Attributes
+    ----------
+    arrays : numpy.record
+        Of :func:`~carom.core.layout.rotor_record`, with ``N = 2n`` modes and ``P`` contact planes.
+    rest : ndarray of complex, shape (n,)
+        Coordinates at the contact-free equilibrium.
+    shapes : ndarray of complex, shape (n, N)
+        Coordinates per amplitude.
+    """
+
+    arrays: np.record
+    rest: np.ndarray
+    shapes: np.ndarray
+
+    @cached_property
+    def table(self) -> np.record:
+        """Constants of the certified crossing search (:func:`~carom.core.layout.table_record`)."""
+        return flight_table(self.arrays.exponents, self.arrays.driven)
+
+    @property
+    def exponents(self) -> np.ndarray:
+        """Exponents ``λ`` of free flight, shape (N,)."""
+        return np.asarray(self.arrays.exponents)
+
+    @cached_property
+    def generator(self) -> np.ndarray:
+        """Matrix ``M`` of free flight ``ċ = M c``, shape (N, N)."""
+        return np.diag(self.exponents) + np.diag(self.arrays.driven[1:].astype(complex), -1)
+
+    @cached_property
+    def _readings(self) -> np.ndarray:
+        """Coordinates, then their rates, per amplitude, shape (2n, N)."""
+        return np.concatenate([self.shapes, self.shapes @ self.generator])
+
+    @cached_property
+    def _amplitudes_per_reading(self) -> np.ndarray:
+        return np.linalg.inv(self._readings)
+
+    def amplitudes(self, position: complex | np.ndarray, velocity: complex | np.ndarray) -> np.ndarray:
+        """Mode amplitudes of a state.
+
+        Parameters
+        ----------
+        position, velocity : complex, or ndarray of complex, shape (n,)
+            Coordinates and their rates.
+
+        Returns
+        -------
+        ndarray of complex, shape (N,)
+        """
+        return self.amplitude_change(position - (self.rest if len(self.rest) > 1 else self.rest[0]), velocity)
+
+    def amplitude_change(
+        self, position_change: complex | np.ndarray, velocity_change: complex | np.ndarray
+    ) -> np.ndarray:
+        """Change of the mode amplitudes, shape (N,), that goes with a small or large change of state."""
+        readings = np.append(position_change, velocity_change)
+        # Not a matrix product: threads of the linear algebra library cost far more than these few numbers a state.
+        changes: np.ndarray = np.einsum("nk,k->n", self._amplitudes_per_reading, readings)
+        return changes
+
+    def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Position and velocity of mode amplitudes of shape (..., N), each of shape (..., n); of one coordinate (...)."""
+        count = len(self.rest)
+        readings = np.einsum("...k,nk->...n", amplitudes, self._readings)
+        position, velocity = readings[..., :count] + self.rest, readings[..., count:]
+        return (position, velocity) if count > 1 else (position[..., 0], velocity[..., 0])
+
+    def at_plane(self, amplitudes: np.ndarray, plane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement of a contact plane and its rate for mode amplitudes of shape (..., N), each of shape (...)."""
+        position = np.einsum("...k,k->...", amplitudes, self.arrays.rows[plane]) + self.arrays.offsets[plane]
+        return position, np.einsum("...k,k->...", amplitudes, self.arrays.rate_rows[plane])
+
+    def fly(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
+        """Mode amplitudes after free flights.
+
+        Parameters
+        ----------
+        amplitudes : ndarray of complex, shape (..., N)
+        times : array_like, shape (...)
+
+        Returns
+        -------
+        ndarray of complex, shape (..., N)
+        """
+        times = np.asarray(times, float)
+        starts = np.broadcast_to(amplitudes, (*times.shape, amplitudes.shape[-1]))
+        flown: np.ndarray = fly_all(self.arrays, starts.reshape(-1, starts.shape[-1]), times.ravel())
+        return flown.reshape(starts.shape)
+
+
+def second_order_system(
+    *,
+    exponents: tuple[complex, complex],
+    equilibrium: complex,
+    friction: float,
+    restitution: float,
+    drive: float,
+) -> System:
+    """``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is its displacement at the wall too.
+
+    Its two modes are a pair: the driving amplitude ``b = u̇ − λ₊(u − K)``, which decays with ``λ₋``, and the driven
+    ``a = u − K``, so any damping is treated alike: underdamped, critical and overdamped.
+
+    Parameters
+    ----------
+    exponents : tuple of complex
+        Roots ``λ₋, λ₊`` of ``λ² + αλ + β``, the one with the smaller real part first.
+    equilibrium : complex
+        ``K = Γ/β``.
+    friction, restitution, drive : float
+        As in :func:`~carom.core.layout.rotor_record`.
+    """
+    offsets, rows = np.array([equilibrium], np.complex128), np.array([[0.0, 1.0]], np.complex128)
+    arrays = rotor_record(
+        exponents=np.array(exponents, np.complex128),
+        driven=np.array([False, True]),
+        offsets=offsets,
+        rows=rows,
+        columns=np.array([[1.0], [0.0]], np.complex128),
+        friction=np.array([friction]),
+        restitution=np.array([restitution]),
+        drive=np.array([drive]),
+    )
+    return System(arrays, offsets, rows)

@@ -1,0 +1,38 @@
+"""The planar rotor: what its parameters make of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom.models import Jeffcott
+from carom.outcome import InputError
+from carom.parameters import Scales
+
+
+def test_rotors_of_the_same_parameters_are_one():
+    assert Jeffcott(PAPER) == Jeffcott(PAPER.replace())
+    assert len({Jeffcott(PAPER), Jeffcott(PAPER.replace()), Jeffcott(PAPER.replace(gamma=0.2))}) == 2
+
+
+def test_replacing_a_parameter_replaces_all_that_follows_from_it():
+    rotor = Jeffcott(PAPER)
+    other = rotor.replace(gamma=0.3)
+    assert other.parameters == PAPER.replace(gamma=0.3)
+    assert other.system.exponents.real == pytest.approx([-0.15, -0.15])
+    assert rotor.parameters is PAPER
+    with pytest.raises(InputError, match="gama"):
+        rotor.replace(gama=0.3)
+
+
+def test_equilibrium_solves_the_equation():
+    equilibrium = Jeffcott(PAPER).equilibrium
+    force = PAPER.rho * np.exp(1j * PAPER.phi)
+    assert complex(PAPER.omega**2 - 1.0, PAPER.gamma) * equilibrium == pytest.approx(force, abs=1e-15)
+
+
+def test_scales_are_those_of_the_parameters():
+    scales = Scales(50.0, 0.7e-3, 184.2)
+    assert Jeffcott(PAPER.replace(scales=scales)).scales == scales
+    assert Jeffcott(PAPER).scales is None

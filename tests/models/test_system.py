@@ -1,0 +1,104 @@
+"""Systems: arrays of any linear rotor, and the way between states and amplitudes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER, random_parameters
+from scipy.linalg import expm
+
+from carom.core.layout import rotor_record
+from carom.models import Jeffcott, System, second_order_system
+
+
+def modal(random, count):
+    """A system with that many coordinates, of random modes in pairs and singles, and one contact plane."""
+    modes = 2 * count
+    exponents = -random.uniform(0.02, 0.6, modes) + 1j * random.uniform(-3.0, 3.0, modes)
+    driven = np.zeros(modes, bool)
+    driven[1] = True
+    exponents[1] = complex(max(exponents[:2].real), exponents[1].imag)
+    shapes = random.normal(size=(count, modes)) + 1j * random.normal(size=(count, modes))
+    rest = random.normal(size=count) + 1j * random.normal(size=count)
+    reading = random.normal(size=(1, count))
+    arrays = rotor_record(
+        exponents=exponents,
+        driven=driven,
+        offsets=reading @ rest,
+        rows=reading @ shapes,
+        columns=random.normal(size=(modes, 1)) + 0j,
+        friction=np.array([0.1]),
+        restitution=np.array([0.8]),
+        drive=np.array([30.0]),
+    )
+    return System(arrays, rest, shapes), reading
+
+
+@pytest.mark.parametrize("count", [1, 2, 4, 8])
+def test_states_and_amplitudes_are_one_another(count):
+    random = np.random.default_rng(count)
+    system, reading = modal(random, count)
+    position, velocity = random.normal(size=(2, count)) + 1j * random.normal(size=(2, count))
+    given = (position, velocity) if count > 1 else (complex(position[0]), complex(velocity[0]))
+    amplitudes = system.amplitudes(*given)
+
+    found = system.state(amplitudes)
+    np.testing.assert_allclose(found, given, atol=1e-11)
+    plane_position, plane_velocity = system.at_plane(amplitudes, 0)
+    np.testing.assert_allclose([plane_position], reading @ position, atol=1e-11)
+    np.testing.assert_allclose([plane_velocity], reading @ velocity, atol=1e-11)
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_flight_is_the_matrix_exponential(count):
+    random = np.random.default_rng(10 + count)
+    system, _ = modal(random, count)
+    amplitudes = random.normal(size=2 * count) + 1j * random.normal(size=2 * count)
+    times = np.array([0.0, 0.3, 2.0, 7.0])
+    expected = [expm(system.generator * time) @ amplitudes for time in times]
+    np.testing.assert_allclose(system.fly(amplitudes, times), expected, atol=1e-11)
+
+
+def test_many_states_at_once_are_those_of_each():
+    random = np.random.default_rng(3)
+    system, _ = modal(random, 3)
+    amplitudes = random.normal(size=(4, 5, 6)) + 1j * random.normal(size=(4, 5, 6))
+    positions, velocities = system.state(amplitudes)
+    assert positions.shape == velocities.shape == (4, 5, 3)
+    for place in np.ndindex(4, 5):
+        one = system.state(amplitudes[place])
+        np.testing.assert_allclose((positions[place], velocities[place]), one, atol=1e-13)
+
+
+def test_a_second_order_system_keeps_its_equation():
+    """``ü + αu̇ + βu = Γ`` for the rates that the generator gives."""
+    for seed in range(20):
+        random = np.random.default_rng(seed)
+        alpha, beta, force = random.normal(size=3) + 1j * random.normal(size=3)
+        roots = np.roots([1.0, alpha, beta])
+        lower, upper = sorted(map(complex, roots), key=lambda root: root.real)
+        system = second_order_system(
+            exponents=(lower, upper), equilibrium=force / beta, friction=0.1, restitution=0.5, drive=3.0
+        )
+        position, velocity = random.normal(size=2) + 1j * random.normal(size=2)
+        amplitudes = system.amplitudes(complex(position), complex(velocity))
+        acceleration = system.arrays.acceleration_rows[0] @ amplitudes
+        assert acceleration + alpha * velocity + beta * position == pytest.approx(force, abs=1e-11)
+
+
+def test_amplitudes_of_the_planar_rotor_are_those_of_its_equation():
+    """``b = U̇ − λ₊(U − U*)`` and ``a = U − U*``, to the last bit: other numbers would follow other bounces."""
+    random = np.random.default_rng(5)
+    for _ in range(200):
+        rotor = Jeffcott(random_parameters(random))
+        position, velocity = (complex(*random.normal(size=2)) for _ in range(2))
+        change = position - rotor.equilibrium
+        expected = [velocity - complex(rotor.system.exponents[1]) * change, change]
+        np.testing.assert_array_equal(rotor.system.amplitudes(position, velocity), expected)
+
+
+def test_what_follows_from_the_arrays_is_made_once():
+    rotor = Jeffcott(PAPER)
+    assert rotor.system is rotor.system
+    assert rotor.system.table is rotor.system.table
+    assert rotor.system.generator is rotor.system.generator
