@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import pytest
 
-from carom import paper
+from carom.reproductions import mora2014
 
 
 @pytest.fixture(scope="module")
-def found() -> paper.Reproduction:
+def found() -> mora2014.Reproduction:
     """All results; the kernels are compiled and the drawing modules loaded afterwards."""
-    return paper.reproduce()
+    return mora2014.reproduce()
 
 
 def test_four_curves(benchmark, found):
     """From nothing: the branches on which the curves start, and the curves of fold, wall, grazing and period doubling."""
     benchmark.group = "figure 6b, four curves"
-    curves = benchmark(lambda: paper.four_curves(paper.first_pair()))
+    curves = benchmark(lambda: mora2014.four_curves(mora2014.first_pair()))
     points = sum(len(curve.points) for curve in curves)
     benchmark.extra_info.update(who="carom", unit="point", units=points)
 
@@ -24,12 +24,12 @@ def test_four_curves(benchmark, found):
 def test_results(benchmark, found):
     """Figures 2 to 6 and all numbers, computed."""
     benchmark.group = "all results of the source paper"
-    benchmark(paper.reproduce)
+    benchmark(mora2014.reproduce)
     benchmark.extra_info.update(who="carom", unit="paper", units=1)
 
 
 def test_figures(benchmark, found, tmp_path):
     """Drawn and written, vector and PNG."""
     benchmark.group = "all figures of the source paper, drawn and written"
-    benchmark.pedantic(paper.write_paper, args=(found, str(tmp_path / "out")), rounds=3, warmup_rounds=1)
+    benchmark.pedantic(mora2014.write_paper, args=(found, str(tmp_path / "out")), rounds=3, warmup_rounds=1)
     benchmark.extra_info.update(who="carom", unit="paper", units=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from importlib import import_module
 from pathlib import Path
 
@@ -61,3 +62,15 @@ def test_files_that_are_pointed_to_exist():
     for page in pages:
         for path in re.findall(r"`((?:tests|examples|docs|tools)/[\w./-]+)`", page.read_text(encoding="utf-8")):
             assert (ROOT / path).exists(), f"{page.name}: {path}"
+
+
+def test_the_map_of_modules_is_that_of_the_layers():
+    """In `CONTRIBUTING.md`, from the lowest layer up: what `make layers` checks against the tree."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    (layers,) = [
+        contract["layers"]
+        for contract in project["tool"]["importlinter"]["contracts"]
+        if contract.get("containers") == ["carom"]
+    ]
+    listed = re.findall(r"^\| `(\w+)` \|", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    assert [*listed, "__main__"] == layers[::-1]

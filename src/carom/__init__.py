@@ -18,8 +18,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from carom import paper as paper
     from carom import plots as plots
+    from carom import reproductions as reproductions
     from carom.absorbing import rub_neighbourhood as rub_neighbourhood
     from carom.attractors import Attractor as Attractor
     from carom.attractors import AttractorSet as AttractorSet
@@ -181,7 +181,7 @@ _HOMES = {
     "smallest_unrecovered_kick": "basins",
     "study": "study",
 }
-_SUBPACKAGES = ("paper", "plots")
+_SUBPACKAGES = ("plots", "reproductions")
 
 __all__ = ["__version__", *_HOMES, *_SUBPACKAGES]  # noqa: PLE0604  (all of them are strings)
 

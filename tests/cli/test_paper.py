@@ -7,18 +7,18 @@ import re
 
 import pytest
 
-from carom import paper
-from carom.paper import writing
+from carom.reproductions import mora2014
+from carom.reproductions.mora2014 import writing
 
 
 @pytest.fixture(scope="module")
 def found():
-    return paper.reproduce()
+    return mora2014.reproduce()
 
 
 @pytest.fixture(autouse=True)
 def computed_once(monkeypatch, found):
-    monkeypatch.setattr(paper, "reproduce", lambda tell: found)
+    monkeypatch.setattr(mora2014, "reproduce", lambda tell: found)
 
 
 def test_table_alone(carom, tmp_path, monkeypatch):
@@ -41,8 +41,8 @@ def test_json_is_one_object_and_nothing_else(carom):
 
 
 def test_everything_to_a_directory(carom, tmp_path, monkeypatch):
-    # The others are drawn in tests/paper/test_writing.py.
-    for module in (paper, writing):
+    # The others are drawn in tests/reproductions/mora2014/test_writing.py.
+    for module in (mora2014, writing):
         monkeypatch.setattr(module, "figures", lambda found, all_of=module.figures: all_of(found)[-1:])
     code, out, err = carom("paper", "--out", tmp_path / "deep" / "out", "--json")
     assert code == 0

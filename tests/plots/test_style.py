@@ -55,6 +55,12 @@ print("matplotlib.pyplot" in sys.modules)
     assert answer.stdout.strip() == "False"
 
 
+def test_what_draws_loads_nothing_that_computes():
+    program = "import sys, carom.plots; print('numba' in sys.modules, 'carom.core' in sys.modules)"
+    answer = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert answer.stdout.strip() == "False False"
+
+
 def test_meanings_differ_in_line_or_marker_or_width_not_in_colour_alone():
     for (one, look), (other, another) in itertools.combinations(plots.LOOKS.items(), 2):
         same_shape = (look.line, look.marker) == (another.line, another.marker)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from carom.paper import Reproduction
+    from carom.reproductions.mora2014 import Reproduction
 
 __all__ = ["paper"]
 
@@ -36,7 +36,7 @@ def paper(
             from carom.report import check_directory
 
             check_directory(out, "--out")
-        from carom.paper import figures, paper_document, reproduce, write_paper
+        from carom.reproductions.mora2014 import figures, paper_document, reproduce, write_paper
 
         share_of_results = 1.0 if out is None else 0.3
         found = reproduce(lambda share, words: tell(share_of_results * share, words))

@@ -10,13 +10,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.plots.diagrams import branch_line, mark_point
-from carom.plots.paper.panels import DAMPING, INK, branch_key, letter, name_branch
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
+from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, OrbitBranch
-    from carom.paper.branches import FirstPair
-    from carom.paper.extrema import ExtremumLine, RadiusDiagram
+    from carom.reproductions.mora2014.branches import FirstPair
+    from carom.reproductions.mora2014.extrema import ExtremumLine, RadiusDiagram
 
 __all__ = ["figure_4", "figure_5"]
 
@@ -30,7 +30,7 @@ def figure_4(pair: FirstPair) -> Figure:
 
     Parameters
     ----------
-    pair : carom.paper.FirstPair
+    pair : carom.reproductions.mora2014.FirstPair
 
     Returns
     -------
@@ -121,8 +121,8 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
 
     Parameters
     ----------
-    pair : carom.paper.FirstPair
-    radii : carom.paper.RadiusDiagram
+    pair : carom.reproductions.mora2014.FirstPair
+    radii : carom.reproductions.mora2014.RadiusDiagram
 
     Returns
     -------

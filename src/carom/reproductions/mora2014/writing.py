@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from carom.paper.document import markdown, paper_document
-from carom.paper.pictures import figures
-from carom.paper.reproduction import Reproduction
+from carom.reproductions.mora2014.document import markdown, paper_document
+from carom.reproductions.mora2014.pictures import figures
+from carom.reproductions.mora2014.reproduction import Reproduction
 
 __all__ = ["write_paper"]
 

@@ -11,14 +11,14 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
 from carom.plots.diagrams import POINTS, mark_point, point_key
-from carom.plots.paper.panels import DAMPING, INK, letter
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol, times_larger
+from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, letter
 
 if TYPE_CHECKING:
     from carom.orbits import Orbit
-    from carom.paper.periods import Birth, PeriodFunction, PeriodPair
-    from carom.paper.reproduction import Periods
+    from carom.reproductions.mora2014.periods import Birth, PeriodFunction, PeriodPair
+    from carom.reproductions.mora2014.reproduction import Periods
 
 __all__ = ["figure_3"]
 
@@ -35,7 +35,7 @@ def figure_3(periods: Periods, birth: float) -> Figure:
 
     Parameters
     ----------
-    periods : carom.paper.Periods
+    periods : carom.reproductions.mora2014.Periods
     birth : float
         Damping of the non-smooth Hopf bifurcation.
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from carom import paper
+from carom.reproductions import mora2014
 
 
 @pytest.fixture(scope="session")
-def found() -> paper.Reproduction:
-    return paper.reproduce()
+def found() -> mora2014.Reproduction:
+    return mora2014.reproduce()

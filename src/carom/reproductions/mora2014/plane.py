@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from carom.bifurcations import Codimension2Point, Curve, Motions, Plane, continue_curve, motions_at
 from carom.continuation import Steps
-from carom.paper.branches import FirstPair, first_pair
-from carom.paper.source import machine_at
+from carom.reproductions.mora2014.branches import FirstPair, first_pair
+from carom.reproductions.mora2014.source import machine_at
 
 __all__ = ["DampingStiffnessPlane", "NamedRegion", "damping_stiffness_plane", "four_curves"]
 

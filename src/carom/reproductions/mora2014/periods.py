@@ -11,9 +11,9 @@ from carom.bifurcations.conditions import conditions_at
 from carom.continuation import Steps, continue_branch
 from carom.models import Jeffcott
 from carom.orbits import Orbit, single_impact_orbits
-from carom.paper.source import machine_at
 from carom.periods import PeriodCondition
-from carom.propositions import hopf_side
+from carom.reproductions.mora2014.propositions import hopf_side
+from carom.reproductions.mora2014.source import machine_at
 
 __all__ = ["Birth", "PeriodFunction", "PeriodPair", "birth", "period_functions", "period_pairs"]
 

@@ -9,9 +9,10 @@ import pytest
 from machines import PAPER
 from scipy.optimize import brentq, minimize_scalar
 
-from carom import equilibria, paper, period_condition, single_impact_orbits
+from carom import equilibria, period_condition, single_impact_orbits
 from carom.bifurcations import motions_at
 from carom.models import Jeffcott
+from carom.reproductions import mora2014
 
 
 def test_motions_of_figure_2(found):
@@ -187,7 +188,7 @@ def test_new_curves_of_figure_6(found, omega):
 
 def test_progress_is_told():
     shares = []
-    paper.reproduce(lambda share, words: shares.append((share, words)))
+    mora2014.reproduce(lambda share, words: shares.append((share, words)))
     assert [share for share, _ in shares] == sorted(share for share, _ in shares)
     assert all(words for _, words in shares)
     assert len(shares) >= 4

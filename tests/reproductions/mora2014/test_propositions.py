@@ -8,7 +8,7 @@ from machines import PAPER
 
 from carom import InputError, single_impact_orbits
 from carom.models import Jeffcott
-from carom.propositions import fixed_points, hopf_side, simultaneous_folds
+from carom.reproductions.mora2014.propositions import fixed_points, hopf_side, simultaneous_folds
 
 
 @pytest.mark.parametrize("gamma", [0.03, 0.06, 0.1, 0.17, 0.2])

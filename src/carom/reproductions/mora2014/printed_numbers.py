@@ -9,11 +9,11 @@ from typing import Literal
 
 from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
-from carom.paper.branches import FirstPair, first_pair
-from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
-from carom.paper.source import GIVEN, machine_at
 from carom.parameters import Machine
-from carom.propositions import fixed_points
+from carom.reproductions.mora2014.branches import FirstPair, first_pair
+from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.reproductions.mora2014.propositions import fixed_points
+from carom.reproductions.mora2014.source import GIVEN, machine_at
 
 __all__ = ["PrintedNumber", "numbers"]
 

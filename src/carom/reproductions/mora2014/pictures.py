@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Literal
 
-from carom.paper.reproduction import Reproduction, reproduce
+from carom.reproductions.mora2014.reproduction import Reproduction, reproduce
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,7 +110,7 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
 
 def _drawn(name: Literal["figure_2", "figure_3", "figure_4", "figure_5", "figure_6"], *results: object) -> Figure:
     # Loading what draws takes longer than computing.
-    from carom.plots import paper
+    from carom.reproductions.mora2014 import drawing
 
-    draw: Callable[..., Figure] = getattr(paper, name)
+    draw: Callable[..., Figure] = getattr(drawing, name)
     return draw(*results)

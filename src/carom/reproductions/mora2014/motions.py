@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.models import Jeffcott
 from carom.orbits import Orbit, single_impact_orbits
-from carom.paper.source import machine_at
+from carom.reproductions.mora2014.source import machine_at
 
 __all__ = ["ShownMotion", "shown_motions"]
 

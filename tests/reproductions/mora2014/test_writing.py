@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from carom import InputError, paper
+from carom import InputError
+from carom.reproductions import mora2014
 
 
 @pytest.fixture(scope="module")
 def written(found, tmp_path_factory):
     place = tmp_path_factory.mktemp("paper") / "out"
     shares = []
-    files = paper.write_paper(found, str(place), lambda share, words: shares.append(share))
+    files = mora2014.write_paper(found, str(place), lambda share, words: shares.append(share))
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
     return place, files
@@ -85,7 +86,7 @@ def test_table_has_every_row(found, written):
 def test_a_directory_that_cannot_be_written(found, tmp_path):
     (tmp_path / "file").write_text("kept")
     with pytest.raises(InputError, match="is a file"):
-        paper.write_paper(found, str(tmp_path / "file"))
+        mora2014.write_paper(found, str(tmp_path / "file"))
     assert (tmp_path / "file").read_text() == "kept"
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
@@ -96,5 +97,5 @@ def test_nothing_is_left_of_an_interrupted_write(found, tmp_path):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        paper.write_paper(found, str(tmp_path / "out"), interrupt)
+        mora2014.write_paper(found, str(tmp_path / "out"), interrupt)
     assert list(tmp_path.iterdir()) == []

@@ -9,10 +9,10 @@ import numpy as np
 
 from carom.models import Jeffcott
 from carom.orbits import Orbit, single_impact_orbits
-from carom.paper.branches import FirstPair, first_pair
-from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
-from carom.paper.source import machine_at
-from carom.propositions import fixed_points, simultaneous_folds
+from carom.reproductions.mora2014.branches import FirstPair, first_pair
+from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds
+from carom.reproductions.mora2014.source import machine_at
 
 __all__ = ["Claim", "claims"]
 

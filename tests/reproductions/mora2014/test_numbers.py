@@ -10,9 +10,10 @@ import pytest
 from machines import PAPER, rest_position
 from scipy.optimize import brentq
 
-from carom import paper, single_impact_orbits
+from carom import single_impact_orbits
 from carom.models import Jeffcott
 from carom.periods import PeriodCondition
+from carom.reproductions import mora2014
 
 EXPECTED = {
     "damping γ = c/(mΩ)": (1400.0 / (50.0 * 184.2), 1e-15),
@@ -60,7 +61,7 @@ def test_rounded_they_are_what_is_printed(found):
 
 def test_agreement_is_about_the_digits_printed():
     def row(printed, value, kind="computed"):
-        return paper.PrintedNumber("here", "what", kind, printed, "", value)
+        return mora2014.PrintedNumber("here", "what", kind, printed, "", value)
 
     assert row("0.178", 0.17849).agrees
     assert not row("0.178", 0.17851).agrees
@@ -76,7 +77,7 @@ def test_what_is_given_is_used_as_it_is(found):
     assert {row.unit for row in given} >= {"kg", "N s/m", "N/m", "m", "rad", "rad/s"}
     assert {motion.gamma for motion in found.motions} == {0.3, 0.065, 0.1}
     assert [function.gamma for function in found.periods.functions] == [0.1, 0.05]
-    machine = paper.machine_at(PAPER.gamma)
+    machine = mora2014.machine_at(PAPER.gamma)
     assert [getattr(machine, name) for name in ("gamma", "omega", "rho", "phi", "mu", "d")] == [
         getattr(PAPER, name) for name in ("gamma", "omega", "rho", "phi", "mu", "d")
     ]

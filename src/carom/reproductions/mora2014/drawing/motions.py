@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from carom.plots.paper.panels import letter
 from carom.plots.plane import (
     clearance_circle,
     direction_arrow,
@@ -21,10 +20,11 @@ from carom.plots.plane import (
 )
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol
+from carom.reproductions.mora2014.drawing.panels import letter
 
 if TYPE_CHECKING:
     from carom.orbits import Orbit
-    from carom.paper.motions import ShownMotion
+    from carom.reproductions.mora2014.motions import ShownMotion
 
 __all__ = ["figure_2"]
 
@@ -38,7 +38,7 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
 
     Parameters
     ----------
-    motions : tuple of carom.paper.ShownMotion
+    motions : tuple of carom.reproductions.mora2014.ShownMotion
 
     Returns
     -------

@@ -11,13 +11,13 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from carom.plots.diagrams import CURVES, branch_line, curve_line, mark_point
-from carom.plots.paper.panels import DAMPING, INK, branch_key, letter, name_branch
 from carom.plots.style import TWO_COLUMNS, styled
+from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 
 if TYPE_CHECKING:
     from carom.bifurcations import Curve
-    from carom.paper.branches import FirstPair
-    from carom.paper.plane import DampingStiffnessPlane
+    from carom.reproductions.mora2014.branches import FirstPair
+    from carom.reproductions.mora2014.plane import DampingStiffnessPlane
 
 __all__ = ["figure_6"]
 
@@ -33,8 +33,8 @@ def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
 
     Parameters
     ----------
-    pair : carom.paper.FirstPair
-    plane : carom.paper.DampingStiffnessPlane
+    pair : carom.reproductions.mora2014.FirstPair
+    plane : carom.reproductions.mora2014.DampingStiffnessPlane
 
     Returns
     -------

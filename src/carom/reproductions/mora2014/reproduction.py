@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from carom.paper.branches import FirstPair, first_pair
-from carom.paper.claims import Claim, claims
-from carom.paper.extrema import RadiusDiagram, radius_diagram
-from carom.paper.misprinted_forms import Misprint, misprints
-from carom.paper.motions import ShownMotion, shown_motions
-from carom.paper.periods import Birth, PeriodFunction, PeriodPair, birth, period_functions, period_pairs
-from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
-from carom.paper.printed_numbers import PrintedNumber, numbers
+from carom.reproductions.mora2014.branches import FirstPair, first_pair
+from carom.reproductions.mora2014.claims import Claim, claims
+from carom.reproductions.mora2014.extrema import RadiusDiagram, radius_diagram
+from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
+from carom.reproductions.mora2014.motions import ShownMotion, shown_motions
+from carom.reproductions.mora2014.periods import (
+    Birth,
+    PeriodFunction,
+    PeriodPair,
+    birth,
+    period_functions,
+    period_pairs,
+)
+from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
 
 __all__ = ["Periods", "Reproduction", "reproduce"]
 

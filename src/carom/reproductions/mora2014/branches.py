@@ -8,8 +8,8 @@ from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
 from carom.continuation import Steps
 from carom.models import Jeffcott
 from carom.orbits import single_impact_orbits
-from carom.paper.source import machine_at
-from carom.propositions import HopfSide, hopf_side
+from carom.reproductions.mora2014.propositions import HopfSide, hopf_side
+from carom.reproductions.mora2014.source import machine_at
 
 __all__ = ["FirstPair", "first_pair"]
 

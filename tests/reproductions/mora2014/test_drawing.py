@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom import paper
 from carom.plots.diagrams import CURVES, POINTS
 from carom.plots.style import LOOKS, TWO_COLUMNS
+from carom.reproductions import mora2014
 
 
 @pytest.fixture(scope="module")
 def drawn():
-    found = paper.reproduce()
-    return found, {picture.name: (picture, picture.draw()) for picture in paper.figures(found)}
+    found = mora2014.reproduce()
+    return found, {picture.name: (picture, picture.draw()) for picture in mora2014.figures(found)}
 
 
 def words_of(figure):
@@ -130,13 +130,3 @@ def test_stable_part_of_figure_6(drawn):
         np.testing.assert_array_equal(np.stack(line.get_data(), axis=1), found.plane.curve(kind).points)
     listed = words_of(figures["figure-6"][1])
     assert all(any(word.startswith(f"{region.part}:") for word in listed) for region in found.plane.regions)
-
-
-def test_unknown_results_are_not_needed_for_drawing_alone():
-    """What draws computes nothing: it loads no module that does."""
-    import subprocess
-    import sys
-
-    code = "import sys, carom.plots.paper; print([name for name in sys.modules if name in ('carom.paper', 'numba')])"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"

@@ -16,12 +16,12 @@ import numpy as np
 from carom.local import ContactSystem
 from carom.models import Jeffcott
 from carom.orbits import Orbit, period_condition, single_impact_orbits
-from carom.paper.branches import FirstPair, first_pair
-from carom.paper.plane import DampingStiffnessPlane, damping_stiffness_plane
-from carom.paper.source import SCALES, machine_at
 from carom.parameters import Parameters
 from carom.periods import PeriodCondition
-from carom.propositions import fixed_points
+from carom.reproductions.mora2014.branches import FirstPair, first_pair
+from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.reproductions.mora2014.propositions import fixed_points
+from carom.reproductions.mora2014.source import SCALES, machine_at
 
 __all__ = ["Misprint", "misprints", "printed_matrix", "printed_second_form"]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from carom.paper.pictures import Picture
-from carom.paper.plane import NamedRegion
-from carom.paper.reproduction import Reproduction
-from carom.paper.source import CITATION, machine_at
+from carom.reproductions.mora2014.pictures import Picture
+from carom.reproductions.mora2014.plane import NamedRegion
+from carom.reproductions.mora2014.reproduction import Reproduction
+from carom.reproductions.mora2014.source import CITATION, machine_at
 
 __all__ = ["markdown", "paper_document"]
 

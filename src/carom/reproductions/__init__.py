@@ -1,0 +1,1 @@
+"""Published results computed again: each paper in a room of its own."""

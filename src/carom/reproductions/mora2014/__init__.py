@@ -1,0 +1,85 @@
+"""The source paper, all of it: its figures 2 to 6 drawn again, and its numbers and misprints beside ours.
+
+>>> from carom.reproductions import mora2014
+>>> found = mora2014.reproduce()                      # all results, in less than a second once compiled
+>>> for picture in mora2014.figures(found):           # figures 2 to 6
+...     print(picture.name, picture.caption)
+...     figure = picture.draw()                    # a matplotlib figure; picture.result is what it shows
+>>> for row in found.numbers:                      # or mora2014.numbers()
+...     print(row.place, row.quantity, row.printed, row.value, row.agrees, row.note)
+>>> for row in found.misprints:                    # or mora2014.misprints()
+...     print(row.place, row.printed, row.right, row.printed_value, row.value)
+>>> for claim in found.claims:                     # propositions, and what holds of them
+...     print(claim.place, claim.statement, claim.holds, claim.found)
+>>> mora2014.write_paper(found, "out")                # figure-2.svg, figure-2.png, …, paper.json, table.md
+
+``carom paper --out DIR`` does the same.  The parts can be had alone: :func:`shown_motions` (figure 2),
+:func:`period_functions`, :func:`period_pairs` and :func:`birth` (figure 3), :func:`first_pair` (figures 4 and 6a),
+:func:`radius_diagram` (figure 5), :func:`four_curves` and :func:`damping_stiffness_plane` (figure 6b).
+"""
+
+from carom.reproductions.mora2014.branches import FirstPair, first_pair
+from carom.reproductions.mora2014.claims import Claim, claims
+from carom.reproductions.mora2014.document import markdown, paper_document
+from carom.reproductions.mora2014.extrema import (
+    Extremum,
+    ExtremumLine,
+    RadiusDiagram,
+    extremum_lines,
+    radius_diagram,
+    radius_extrema,
+)
+from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
+from carom.reproductions.mora2014.motions import ShownMotion, shown_motions
+from carom.reproductions.mora2014.periods import (
+    Birth,
+    PeriodFunction,
+    PeriodPair,
+    birth,
+    period_functions,
+    period_pairs,
+)
+from carom.reproductions.mora2014.pictures import Picture, figures
+from carom.reproductions.mora2014.plane import DampingStiffnessPlane, NamedRegion, damping_stiffness_plane, four_curves
+from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
+from carom.reproductions.mora2014.reproduction import Periods, Reproduction, reproduce
+from carom.reproductions.mora2014.source import machine_at
+from carom.reproductions.mora2014.writing import write_paper
+
+__all__ = [
+    "Birth",
+    "Claim",
+    "DampingStiffnessPlane",
+    "Extremum",
+    "ExtremumLine",
+    "FirstPair",
+    "Misprint",
+    "NamedRegion",
+    "PeriodFunction",
+    "PeriodPair",
+    "Periods",
+    "Picture",
+    "PrintedNumber",
+    "RadiusDiagram",
+    "Reproduction",
+    "ShownMotion",
+    "birth",
+    "claims",
+    "damping_stiffness_plane",
+    "extremum_lines",
+    "figures",
+    "first_pair",
+    "four_curves",
+    "machine_at",
+    "markdown",
+    "misprints",
+    "numbers",
+    "paper_document",
+    "period_functions",
+    "period_pairs",
+    "radius_diagram",
+    "radius_extrema",
+    "reproduce",
+    "shown_motions",
+    "write_paper",
+]
