@@ -6,7 +6,7 @@ import pytest
 from workload import source_paper_machine
 
 import carom
-from carom.basins import basins
+from carom.basins import map_basins
 
 STARTS = 4000
 
@@ -18,10 +18,10 @@ def test_basin(benchmark, who, gamma):
     """Positions even over the clearance, speeds up to 2; one thread."""
     rotor = source_paper_machine(gamma)
     plan = carom.Sample(carom.AnyState(2.0), STARTS, seed=1)
-    found = basins(rotor, plan, threads=1)
+    found = map_basins(rotor, plan, threads=1)
     assert found.unresolved == 0
     benchmark.group = "a basin"
-    benchmark(basins, rotor, plan, threads=1)
+    benchmark(map_basins, rotor, plan, threads=1)
     benchmark.extra_info.update(who=who, unit="start", units=STARTS)
 
 

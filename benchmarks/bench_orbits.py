@@ -28,7 +28,7 @@ def orbits_by_grid(parameters, longest=30.0, step=0.02):
 def test_orbits_carom(benchmark):
     rotor = source_paper_machine(0.1)
     benchmark.group = "all single-impact orbits, gamma = 0.1"
-    benchmark(carom.single_impact_orbits, rotor)
+    benchmark(carom.find_orbits, rotor)
     benchmark.extra_info.update(who="carom", unit="machine", units=1)
 
 

@@ -43,7 +43,7 @@ def pytest_sessionstart(session):
 def corner():
     """Map of a part of the source paper's plane: most of its curves pass no line through the machine."""
     plane = carom.Plane("gamma", "omega", (0.025, 0.1), (0.19, 0.765))
-    return carom.region_map(PAPER, plane, grid=sized(8, 6))
+    return carom.map_regions(PAPER, plane, grid=sized(8, 6))
 
 
 def pytest_collection_modifyitems(config, items):

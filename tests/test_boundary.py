@@ -5,9 +5,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from carom.boundary import SMALL_GAP, boundary_equilibria
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.periods import PeriodCondition
@@ -52,7 +52,7 @@ def test_equilibria_on_both_sides_are_as_classified(parameters, gain):
         assume(abs(1.0 - at.omega) > 0.05 and at.omega > 0.05)
         for gap in (1e-6, -1e-6):
             rotor = at_gap(boundary, gap)
-            levitation, *rubs = equilibria(rotor)
+            levitation, *rubs = find_equilibria(rotor)
             exact = 1.0 - abs(rotor.equilibrium)
             small = min(rubs, key=lambda rub: abs(rub.normal_force))
 
@@ -100,14 +100,14 @@ def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_
 def test_small_orbits_of_the_source_machine_are_those_near_the_boundary():
     (boundary,) = boundary_equilibria(Jeffcott(SOURCE))
     rotor = at_gap(boundary, 1e-4)
-    orbits = single_impact_orbits(rotor)
+    orbits = find_orbits(rotor)
 
     for orbit in boundary.orbits:
         near = orbits[orbit.name]
         assert near.admissible
         assert near.period == pytest.approx(orbit.period, rel=1e-2)
         assert near.radial_speed == pytest.approx(orbit.speed_rate * (1.0 - abs(rotor.equilibrium)), rel=1e-2)
-    virtual = single_impact_orbits(at_gap(boundary, -1e-4))
+    virtual = find_orbits(at_gap(boundary, -1e-4))
     assert not any(virtual[orbit.name].admissible for orbit in boundary.orbits)
 
 
@@ -122,9 +122,9 @@ def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
     assert not stable[0].levitating_side
     # The rotor really goes over: from the boundary equilibrium to the small rub or the small orbit.
     rotor = at_gap(above, -1e-3)
-    rub = next(rub for rub in equilibria(rotor)[1:] if rub.stable)
+    rub = next(rub for rub in find_equilibria(rotor)[1:] if rub.stable)
     resting = simulate(rotor, State(rub.position * (1.0 - 1e-9)), 1e5, settle=True)
-    bouncing = simulate(rotor, single_impact_orbits(rotor)["B1,d"].departure, 1e5, settle=True)
+    bouncing = simulate(rotor, find_orbits(rotor)["B1,d"].departure, 1e5, settle=True)
     assert resting.outcome is Outcome.FORWARD_RUB
     assert rub.normal_force < 1e-3
     assert (bouncing.outcome, bouncing.multiplicity) == (Outcome.BOUNCING, 1)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from machines import PAPER
 
 from carom.contacts import LastingContact, polar
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.ledger import energy_ledger
 from carom.models import Jeffcott
 from carom.outcome import Phase
@@ -144,7 +144,7 @@ def test_kinds_of_lasting_contact(phase, kind):
 def test_force_at_the_synchronous_rub_in_newtons():
     """At rest in the co-rotating frame the wall carries ``N``, and friction ``μN`` against the spin."""
     rotor = Jeffcott(PAPER)
-    rub = next(entry for entry in equilibria(rotor) if entry.kind == "rub" and entry.stable)
+    rub = next(entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable)
     resting = simulate(rotor, State(rub.position), 20.0)
     normal, friction = resting.forces(np.linspace(0.0, 20.0, 50))
     assert np.allclose(normal, rub.normal_force, rtol=1e-9, atol=0)
@@ -190,7 +190,7 @@ def test_a_history_holds_forces_slip_and_powers_in_contact_only():
 def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
     """Sliding at the synchronous rub, where both are steady: ``−μN(s + 1)`` lost as heat and ``μNs`` from the drive."""
     rotor = Jeffcott(PAPER)
-    rub = next(entry for entry in equilibria(rotor) if entry.kind == "rub" and entry.stable)
+    rub = next(entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable)
     resting = simulate(rotor, State(rub.position), 20.0)
     history, ledger = resting.history(np.linspace(0.0, 20.0, 11)), energy_ledger(resting)
     for power, work, slip in (

@@ -21,7 +21,7 @@ from carom.disturbances import (
     StateSlice,
     UnbalanceStep,
     VelocityKick,
-    disturbances,
+    kick_grid,
 )
 from carom.outcome import InputError
 
@@ -138,7 +138,7 @@ def test_rescaling_keeps_what_happens_in_si():
 
 
 def test_the_plane_of_kicks_by_its_short_name():
-    plan = disturbances(radial=8, tangential=6, fastest=0.4)
+    plan = kick_grid(radial=8, tangential=6, fastest=0.4)
     assert plan == Grid(KickPlane(0.4), (8, 6))
     assert plan.starts(carom.Jeffcott(QUIET)).positions.shape == (8, 6)
 

@@ -9,7 +9,7 @@ import pytest
 from machines import PAPER, flight_matrix, random_parameters, rest_position
 from scipy.integrate import solve_ivp
 
-from carom import Equilibrium, Parameters, equilibria
+from carom import Equilibrium, Parameters, find_equilibria
 from carom.models import Jeffcott
 from carom.trajectories import State, simulate
 
@@ -18,7 +18,7 @@ RUB_FOLD = PAPER.rho * math.hypot(1.0, PAPER.mu) - PAPER.mu * (1.0 - PAPER.omega
 
 
 def found(parameters: Parameters) -> tuple[Equilibrium, tuple[Equilibrium, ...]]:
-    first, *rubs = equilibria(Jeffcott(parameters))
+    first, *rubs = find_equilibria(Jeffcott(parameters))
     return first, tuple(rubs)
 
 
@@ -178,7 +178,7 @@ def test_sliding_motion_goes_to_the_stable_rub_and_leaves_the_saddle(gamma):
 
 def test_a_simulated_rotor_stays_at_its_stable_rub():
     rotor = Jeffcott(PAPER.replace(gamma=0.2))
-    stable = equilibria(rotor)[1]
+    stable = find_equilibria(rotor)[1]
     end = simulate(rotor, State(stable.position), 200.0).final
     assert end.position == pytest.approx(stable.position, abs=1e-9)
 

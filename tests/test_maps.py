@@ -17,10 +17,10 @@ from carom import (
     Parameters,
     Section,
     State,
-    equilibria,
+    find_equilibria,
+    find_orbits,
     impact_map,
     simulate,
-    single_impact_orbits,
 )
 from carom.maps import stroboscopic_map
 from carom.models import Jeffcott
@@ -182,7 +182,7 @@ def test_never_to_return():
 
 def test_longest_flight():
     rotor = Jeffcott(PAPER)
-    section = single_impact_orbits(rotor)["B1,d"].section
+    section = find_orbits(rotor)["B1,d"].section
     assert impact_map(rotor, section, longest_flight=2.8).outcome is Outcome.CLEAR
     assert impact_map(rotor, section, longest_flight=2.9).outcome is Outcome.CONTACT
 
@@ -191,7 +191,7 @@ def test_chatter():
     """Pressed outward, the smallest bounces do not count one by one."""
     parameters = PAPER.replace(gamma=0.05, d=0.5)
     rotor = Jeffcott(parameters)
-    rub = equilibria(rotor)[1]
+    rub = find_equilibria(rotor)[1]
     assert rub.status == "admissible"
     assert impact_map(rotor, Section(rub.angle, 1e-9, 0.0)).outcome is Outcome.CHATTER
     assert impact_map(rotor, Section(rub.angle, 1e-3, 0.0)).outcome is Outcome.CONTACT
@@ -292,7 +292,7 @@ def test_stroboscopic_jacobian_of_free_flight_is_the_matrix_exponential():
 def test_over_a_period_the_eigenvalues_are_the_multipliers_and_one(name, share):
     """One for a shift along the orbit; wherever on the orbit one starts."""
     rotor = Jeffcott(PAPER)
-    orbit = single_impact_orbits(rotor)[name]
+    orbit = find_orbits(rotor)[name]
     motion = orbit.trajectory(1.0)
     position, velocity = motion.at(np.array([share * orbit.period]))
     mapped = stroboscopic_map(rotor, State(complex(position[0]), complex(velocity[0])), orbit.period)

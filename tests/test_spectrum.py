@@ -27,7 +27,7 @@ def test_levitation_is_one_line_at_the_shaft_speed():
 
 
 def test_an_orbit_whirls_at_the_shaft_speed_and_multiples_of_its_impact_rate_beside_it():
-    orbit = carom.single_impact_orbits(_rotor(0.1))["B1,d"]
+    orbit = carom.find_orbits(_rotor(0.1))["B1,d"]
     motion = orbit.trajectory(periods=60)
     spectrum = full_spectrum(motion, highest_order=6.0)
     rate = 2 * np.pi / orbit.period

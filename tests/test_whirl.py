@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from carom.ensembles import settle_all
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters, Scales
@@ -230,7 +230,7 @@ def test_stable_rub_exists_exactly_below_its_limit(omega, rho, mu, share):
     gamma = share * limit if limit > 0.0 else share
     assume(abs(omega - 1.0) + gamma > 1e-6)
 
-    rubs = equilibria(Jeffcott(parameters.replace(gamma=gamma)))[1:]
+    rubs = find_equilibria(Jeffcott(parameters.replace(gamma=gamma)))[1:]
 
     assert any(rub.stable for rub in rubs) == (gamma < limit)
     assert any(rub.status == "admissible" for rub in rubs) == (gamma < limit)
@@ -284,5 +284,5 @@ def test_sliding_forward_goes_over_to_the_rub_or_leaves_the_wall():
             continue
         slid += 1
         assert abs(motion.final.velocity) < 1e-6
-        assert min(abs(motion.final.position - entry.position) for entry in equilibria(rotor)) < 1e-6
+        assert min(abs(motion.final.position - entry.position) for entry in find_equilibria(rotor)) < 1e-6
     assert slid > 40

@@ -5,7 +5,7 @@ that :data:`_HOMES` gives; everything listed there can be had as an attribute of
 
 >>> import carom as cm
 >>> machine = cm.Machine.load("examples/keogh-cole.toml")
->>> orbits = cm.single_impact_orbits(cm.Jeffcott(machine.parameters))
+>>> orbits = cm.find_orbits(cm.Jeffcott(machine.parameters))
 
 The functions :func:`basins`, :func:`disturbances`, :func:`equilibria` and :func:`study` carry the name of the module they
 live in. The attribute of the package is always the function; the module is at hand as
@@ -28,22 +28,22 @@ if TYPE_CHECKING:
     from carom.basins import Basin as Basin
     from carom.basins import GainMap as GainMap
     from carom.basins import basin_entropy as basin_entropy
-    from carom.basins import basins as basins
-    from carom.basins import gain_map as gain_map
     from carom.basins import harmless_kick as harmless_kick
     from carom.basins import harmless_shock as harmless_shock
     from carom.basins import integrity as integrity
     from carom.basins import least_gain_change as least_gain_change
+    from carom.basins import map_basins as map_basins
+    from carom.basins import map_gains as map_gains
     from carom.basins import smallest_loss as smallest_loss
     from carom.basins import smallest_unrecovered_kick as smallest_unrecovered_kick
     from carom.bifurcations import Diagram as Diagram
     from carom.bifurcations import OrbitBranch as OrbitBranch
     from carom.bifurcations import Plane as Plane
     from carom.bifurcations import RegionMap as RegionMap
-    from carom.bifurcations import bifurcation_diagram as bifurcation_diagram
     from carom.bifurcations import continue_curve as continue_curve
     from carom.bifurcations import continue_orbit as continue_orbit
-    from carom.bifurcations import region_map as region_map
+    from carom.bifurcations import find_bifurcations as find_bifurcations
+    from carom.bifurcations import map_regions as map_regions
     from carom.boundary import BoundaryEquilibrium as BoundaryEquilibrium
     from carom.boundary import boundary_equilibria as boundary_equilibria
     from carom.disturbances import AnyState as AnyState
@@ -55,11 +55,11 @@ if TYPE_CHECKING:
     from carom.disturbances import StateSlice as StateSlice
     from carom.disturbances import UnbalanceStep as UnbalanceStep
     from carom.disturbances import VelocityKick as VelocityKick
-    from carom.disturbances import disturbances as disturbances
+    from carom.disturbances import kick_grid as kick_grid
     from carom.ensembles import Endings as Endings
     from carom.ensembles import settle_all as settle_all
     from carom.equilibria import Equilibrium as Equilibrium
-    from carom.equilibria import equilibria as equilibria
+    from carom.equilibria import find_equilibria as find_equilibria
     from carom.ledger import EnergyLedger as EnergyLedger
     from carom.ledger import energy_ledger as energy_ledger
     from carom.maps import Section as Section
@@ -67,8 +67,8 @@ if TYPE_CHECKING:
     from carom.models import Jeffcott as Jeffcott
     from carom.orbits import Orbit as Orbit
     from carom.orbits import OrbitSet as OrbitSet
+    from carom.orbits import find_orbits as find_orbits
     from carom.orbits import period_condition as period_condition
-    from carom.orbits import single_impact_orbits as single_impact_orbits
     from carom.outcome import CaromError as CaromError
     from carom.outcome import CaromWarning as CaromWarning
     from carom.outcome import InputError as InputError
@@ -80,7 +80,7 @@ if TYPE_CHECKING:
     from carom.parameters import Parameters as Parameters
     from carom.parameters import Scales as Scales
     from carom.parameters import Zones as Zones
-    from carom.parameters import load_case as load_case
+    from carom.parameters import load as load
     from carom.safety import SafeDamping as SafeDamping
     from carom.safety import least_safe_damping as least_safe_damping
     from carom.stability import multipliers as multipliers
@@ -146,16 +146,16 @@ _HOMES = {
     "VelocityKick": "disturbances",
     "Zones": "parameters",
     "basin_entropy": "basins",
-    "basins": "basins",
-    "bifurcation_diagram": "bifurcations",
+    "map_basins": "basins",
+    "find_bifurcations": "bifurcations",
     "boundary_equilibria": "boundary",
     "continue_curve": "bifurcations",
     "continue_orbit": "bifurcations",
-    "disturbances": "disturbances",
+    "kick_grid": "disturbances",
     "energy_ledger": "ledger",
-    "equilibria": "equilibria",
+    "find_equilibria": "equilibria",
     "find_attractors": "attractors",
-    "gain_map": "basins",
+    "map_gains": "basins",
     "harmless_kick": "basins",
     "harmless_shock": "basins",
     "impact_map": "maps",
@@ -163,12 +163,12 @@ _HOMES = {
     "kick": "trajectories",
     "least_gain_change": "basins",
     "least_safe_damping": "safety",
-    "load_case": "parameters",
+    "load": "parameters",
     "load_sweep": "sweeps",
     "multipliers": "stability",
     "open_sweep": "sweeps",
     "period_condition": "orbits",
-    "region_map": "bifurcations",
+    "map_regions": "bifurcations",
     "rolling": "whirl",
     "rub_limit": "whirl",
     "rub_neighbourhood": "absorbing",
@@ -176,7 +176,7 @@ _HOMES = {
     "runaway_speed": "whirl",
     "settle_all": "ensembles",
     "simulate": "trajectories",
-    "single_impact_orbits": "orbits",
+    "find_orbits": "orbits",
     "smallest_loss": "basins",
     "smallest_unrecovered_kick": "basins",
     "study": "study",

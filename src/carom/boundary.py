@@ -4,7 +4,7 @@ With the gap ``g = 1 − |U*|`` between the contact-free equilibrium and the wal
 ``g → 0``; both grow in proportion to ``|g|``, so the side on which they exist is a sign.
 
 *A synchronous rub.*  Its normal force solves ``|h|²N² + 2 Re(h) N + 1 − |U*|² = 0`` with ``h = H(1 + iμ)`` and the static
-receptance ``H = 1/(ω² − 1 + iγ)`` (:func:`~carom.equilibria.equilibria`), so the branch that meets the wall has
+receptance ``H = 1/(ω² − 1 + iγ)`` (:func:`~carom.equilibria.find_equilibria`), so the branch that meets the wall has
 
     N ≈ −g/Re h = g ρ²/(κ − μγ),      κ = 1 − ω².
 

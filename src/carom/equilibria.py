@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.models import Jeffcott, Subject, model_of
 
-__all__ = ["Equilibrium", "equilibria"]
+__all__ = ["Equilibrium", "find_equilibria"]
 
 Kind = Literal["contact-free", "rub"]
 Status = Literal["admissible", "boundary", "virtual"]
@@ -63,7 +63,7 @@ class Equilibrium:
         return float(np.angle(self.position))
 
 
-def equilibria(machine: Subject) -> tuple[Equilibrium, ...]:
+def find_equilibria(machine: Subject) -> tuple[Equilibrium, ...]:
     """All equilibria: the contact-free one, then the synchronous rubs (none or two, the stable one first).
 
     Contact-free: ``U* = ρe^{iφ}/(ω² − 1 + iγ)``, source paper (3.7).

@@ -23,12 +23,12 @@ from carom.trajectories import State, Trajectory, simulate
 __all__ = [
     "Orbit",
     "OrbitSet",
+    "find_orbits",
     "longest_within_reach",
     "orbit_at",
     "orbits_within_reach",
     "period_condition",
     "radial_speeds",
-    "single_impact_orbits",
     "slip_stays_forward",
 ]
 
@@ -196,7 +196,7 @@ def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
     return PeriodCondition(rotor.system).value(np.asarray(periods, float))
 
 
-def single_impact_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet:
+def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet:
     """All orbits with one impact a period, synchronous with the shaft.
 
     With ``q = (1 + d)(1 + iμ)`` and the return of the flight to its start, ``a₁₂`` and ``a₂₂`` of
@@ -247,7 +247,7 @@ def orbits_within_reach(machine: Subject) -> OrbitSet:
         Its ``complete`` and ``argument`` tell whether the list was cut.
     """
     rotor = model_of(machine)
-    return single_impact_orbits(rotor, longest_within_reach(rotor))
+    return find_orbits(rotor, longest_within_reach(rotor))
 
 
 def longest_within_reach(rotor: Jeffcott) -> float | None:

@@ -11,7 +11,7 @@ from carom.absorbing import GIVEN_UP, RubNeighbourhood, neighbourhood_of
 from carom.core.closing import ATTRACTS, OPEN, close, least_period
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
-from carom.equilibria import Equilibrium, equilibria
+from carom.equilibria import Equilibrium, find_equilibria
 from carom.models import Jeffcott
 from carom.whirl import rolling, runaway_speed
 
@@ -118,7 +118,7 @@ def _tools() -> tuple[tuple[np.ndarray, ...], np.record, np.record, np.record]:
 @lru_cache(maxsize=ROTORS)
 def _attracting_rub(rotor: Jeffcott) -> Equilibrium | None:
     """Return the synchronous rub that attracts sliding; with ``d = 1`` too, where it does not attract bounces."""
-    return next((rub for rub in equilibria(rotor) if rub.attracts_sliding), None)
+    return next((rub for rub in find_equilibria(rotor) if rub.attracts_sliding), None)
 
 
 @lru_cache(maxsize=ROTORS)

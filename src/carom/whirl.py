@@ -195,7 +195,7 @@ def rolling(machine: Subject) -> Rolling:
 def rub_limit(machine: Subject) -> float:
     """Damping up to which a stable synchronous rub exists, the other parameters as they are.
 
-    The normal force ``N`` of a synchronous rub (:func:`~carom.equilibria.equilibria`) solves, with ``κ = 1 − ω²``,
+    The normal force ``N`` of a synchronous rub (:func:`~carom.equilibria.find_equilibria`) solves, with ``κ = 1 − ω²``,
 
         (1 + μ²)N² − 2(κ − μγ)N + κ² + γ² − ρ² = 0.
 

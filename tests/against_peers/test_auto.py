@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import single_impact_orbits
+from carom import find_orbits
 from carom.bifurcations import Plane, continue_curve, continue_orbit
 from carom.models import Jeffcott
 
@@ -19,7 +19,7 @@ LIMITS = (0.65, 0.95)
 
 @pytest.mark.parametrize("kind", ["fold", "period-doubling"])
 def test_curve_is_that_of_auto(kind, tmp_path):
-    branch = continue_orbit(single_impact_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.05, 0.2))
+    branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.05, 0.2))
     (point,) = [special for special in branch.special if special.kind == kind]
     unknowns = [point.period, point.value] if kind == "fold" else [point.period, point.radial_speed, point.value]
     followed = follow(kind, PAPER, unknowns, LIMITS, tmp_path)

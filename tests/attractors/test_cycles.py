@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from carom.attractors.cycles import cycle_of, forces_on, orbit_of, same_cycle, whirl_of
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.trajectories import State, simulate
@@ -31,12 +31,12 @@ def bouncing():
 @pytest.fixture(scope="module")
 def doubled():
     rotor = Jeffcott(SOURCE.replace(gamma=0.0832))
-    leaving = single_impact_orbits(rotor)["B1,d"].departure
+    leaving = find_orbits(rotor)["B1,d"].departure
     return [settled(rotor, State(leaving.position, factor * leaving.velocity)) for factor in (0.999, 1.001, 1.01, 0.99)]
 
 
 def test_bouncing_repeats_its_orbit(bouncing):
-    orbits = single_impact_orbits(bouncing.rotor)
+    orbits = find_orbits(bouncing.rotor)
     cycle = cycle_of(bouncing)
 
     assert cycle.multiplicity == 1
@@ -53,7 +53,7 @@ def test_two_impacts_a_period_are_the_same_from_either_impact(doubled):
     assert {cycle.multiplicity for cycle in cycles} == {2}
     assert max(abs(np.diff(first))) > 1e-2, "all of them ended at the same of the two impacts"
     assert all(same_cycle(cycles[0], cycle) for cycle in cycles)
-    assert orbit_of(cycles[0], single_impact_orbits(doubled[0].rotor)) is None
+    assert orbit_of(cycles[0], find_orbits(doubled[0].rotor)) is None
 
 
 @pytest.mark.jit_only
@@ -80,7 +80,7 @@ def test_different_orbits_are_different_cycles(bouncing, doubled):
 
 
 def test_impulse_on_an_orbit_is_that_of_its_impact(bouncing):
-    orbit = single_impact_orbits(bouncing.rotor)["B1,d"]
+    orbit = find_orbits(bouncing.rotor)["B1,d"]
 
     assert forces_on(bouncing, cycle_of(bouncing)) == pytest.approx((1.95 * orbit.radial_speed, 0.0), rel=1e-7)
 
@@ -88,7 +88,7 @@ def test_impulse_on_an_orbit_is_that_of_its_impact(bouncing):
 @pytest.mark.jit_only
 def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
     rotor = Jeffcott(SOURCE.replace(gamma=0.2))
-    rub = equilibria(rotor)[1]
+    rub = find_equilibria(rotor)[1]
     motion = settled(rotor, State(rub.position, 0.05j * rub.position))
     cycle = cycle_of(motion)
 

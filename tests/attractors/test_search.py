@@ -6,9 +6,9 @@ import pytest
 from carom.attractors import find_attractors, following
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
 from carom.trajectories import State, kick, simulate
@@ -38,8 +38,8 @@ def found():
 
 @pytest.mark.jit_only
 def test_all_attractors_of_the_source_machine(found):
-    orbit = single_impact_orbits(found.rotor)["B1,d"]
-    rub = equilibria(found.rotor)[1]
+    orbit = find_orbits(found.rotor)["B1,d"]
+    rub = find_equilibria(found.rotor)[1]
 
     assert {member.name for member in found} == {"levitation", "B1,d", "synchronous rub", "rolling"}
     bouncing = found["B1,d"]
@@ -63,7 +63,7 @@ def test_motions_go_on_from_the_states_given(found):
 def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
     rotor = Jeffcott(SOURCE.replace(gamma=0.2))
 
-    assert equilibria(rotor)[0].stable
+    assert find_equilibria(rotor)[0].stable
     assert shares(rotor, random_starts(100, 1.0, seed)) == {"synchronous rub": 1.0}
 
 

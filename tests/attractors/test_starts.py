@@ -5,7 +5,7 @@ import pytest
 
 from carom.attractors import DisturbanceSet, disturbances, known_starts
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters, Scales
 from carom.whirl import runaway_speed
@@ -91,7 +91,7 @@ def test_useless_set_is_an_error(wrong):
 
 def test_known_motions_are_approached_from_both_sides():
     rotor = Jeffcott(SOURCE)
-    sample = known_starts(rotor, single_impact_orbits(rotor))
+    sample = known_starts(rotor, find_orbits(rotor))
     kinds = [start.kind for start in sample]
 
     assert (kinds.count("orbit"), kinds.count("rub"), kinds.count("whirl")) == (8, 4, 2)
@@ -103,7 +103,7 @@ def test_known_motions_are_approached_from_both_sides():
 
 def test_virtual_motions_are_left_out():
     rotor = Jeffcott(SOURCE.replace(gamma=0.05))
-    orbits = single_impact_orbits(rotor)
+    orbits = find_orbits(rotor)
     named = {start.words for start in known_starts(rotor, orbits) if start.kind == "orbit"}
 
     assert named == {f"a start next to {orbit.name}" for orbit in orbits if orbit.admissible}

@@ -9,7 +9,7 @@ import pytest
 from machines import PAPER
 
 import carom
-from carom.basins import Basin, basins
+from carom.basins import Basin, map_basins
 from carom.basins.motions import _alike
 from carom.disturbances import (
     AnyState,
@@ -37,7 +37,7 @@ def rotor():
 
 @pytest.fixture(scope="module")
 def kicks(rotor):
-    return basins(rotor, Grid(VelocityKick(1.0), (10, 12)), source={"machine_file": "machine.toml"})
+    return map_basins(rotor, Grid(VelocityKick(1.0), (10, 12)), source={"machine_file": "machine.toml"})
 
 
 def test_each_ends_as_simulated_alone(rotor, kicks):
@@ -51,7 +51,7 @@ def test_each_ends_as_simulated_alone(rotor, kicks):
 
 
 def test_motions_have_the_names_of_the_attractors(rotor):
-    basin = basins(rotor, Grid(StateSlice(), (24, 24)))
+    basin = map_basins(rotor, Grid(StateSlice(), (24, 24)))
     assert set(basin.fractions) == {"levitation", "B1,d", "synchronous rub"}
     assert sum(basin.fractions.values()) == pytest.approx(1.0)
     index, outcomes = basin.dataset["motion"].values, basin.outcomes
@@ -67,14 +67,14 @@ def test_motions_have_the_names_of_the_attractors(rotor):
 
 def test_period_doubled_bouncing_has_a_name_of_its_own():
     rotor = carom.Jeffcott(PAPER.replace(gamma=0.0832))
-    basin = basins(rotor, Grid(VelocityKick(1.0), (3, 8)))
+    basin = map_basins(rotor, Grid(VelocityKick(1.0), (3, 8)))
     assert "2-impact bouncing" in basin.fractions
     assert "B1,d" not in basin.fractions
 
 
 def test_irregular_bouncing_is_told_from_periodic():
     rotor = carom.Jeffcott(PAPER.replace(gamma=0.082))
-    basin = basins(rotor, Grid(VelocityKick(1.0), (3, 8)), patience=1500)
+    basin = map_basins(rotor, Grid(VelocityKick(1.0), (3, 8)), patience=1500)
     irregular = basin.dataset["motion"].values == basin.motions.index("irregular bouncing")
     assert irregular.sum() > 12
     assert (basin.outcomes[irregular] == Outcome.BOUNCING).all()
@@ -92,7 +92,7 @@ def test_motions_that_are_alike_are_found_without_comparing_all(rotor):
 
 def test_threads_change_nothing(rotor, kicks):
     one, two = (
-        basins(rotor, kicks.plan, threads=threads, source={"machine_file": "machine.toml"}) for threads in (1, 2)
+        map_basins(rotor, kicks.plan, threads=threads, source={"machine_file": "machine.toml"}) for threads in (1, 2)
     )
     assert one.dataset.identical(two.dataset)
     assert one.dataset.identical(kicks.dataset)
@@ -111,13 +111,13 @@ def test_threads_change_nothing(rotor, kicks):
     ],
 )
 def test_a_file_holds_all_it_takes_to_do_it_again(rotor, plan, tmp_path):
-    basin = basins(rotor, plan)
+    basin = map_basins(rotor, plan)
     basin.save(tmp_path / "basins.nc")
     read = Basin.load(tmp_path / "basins.nc")
     assert read.plan == plan
     assert read.parameters == MACHINE
     assert read.dataset.identical(basin.dataset)
-    assert basins(read.rotor, read.plan).dataset.identical(basin.dataset)
+    assert map_basins(read.rotor, read.plan).dataset.identical(basin.dataset)
 
 
 def test_the_dataset_follows_the_conventions(kicks):
@@ -139,7 +139,7 @@ def test_the_dataset_follows_the_conventions(kicks):
 
 
 def test_starts_given_up_count_as_lost(rotor):
-    basin = basins(rotor, Grid(VelocityKick(1.0), (6, 6)), until=3.0)
+    basin = map_basins(rotor, Grid(VelocityKick(1.0), (6, 6)), until=3.0)
     assert basin.unresolved > 0
     assert "unresolved: time-reached" in basin.fractions
     assert basin.share_recovered.count == (basin.outcomes == Outcome.LEVITATED).sum()
@@ -147,7 +147,7 @@ def test_starts_given_up_count_as_lost(rotor):
 
 
 def test_shares_of_a_sample_have_an_interval(rotor):
-    basin = basins(rotor, Sample(VelocityKick(1.0), 200, seed=1))
+    basin = map_basins(rotor, Sample(VelocityKick(1.0), 200, seed=1))
     share = basin.share_recovered
     assert share.low < share.fraction < share.high
     assert "95 % confidence" in share.words
@@ -159,8 +159,8 @@ def test_shares_of_a_sample_have_an_interval(rotor):
 def test_no_levitation_no_kick():
     grounded = carom.Jeffcott(PAPER.replace(gamma=0.05))
     with pytest.raises(InputError, match="possible"):
-        basins(grounded, Grid(VelocityKick(), (3, 3)))
-    released = basins(grounded, Grid(ContactRelease(), (5,)))
+        map_basins(grounded, Grid(VelocityKick(), (3, 3)))
+    released = map_basins(grounded, Grid(ContactRelease(), (5,)))
     assert released.share_recovered.count == 0
 
 

@@ -10,7 +10,7 @@ import pytest
 from machines import PAPER
 
 import carom
-from carom.basins import GainMap, basin_entropy, basins, gain_map, integrity, least_gain_change
+from carom.basins import GainMap, basin_entropy, integrity, least_gain_change, map_basins, map_gains
 from carom.bifurcations import vary
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.outcome import InputError, Outcome
@@ -25,7 +25,7 @@ RANGES = ((7.0e5, 1.4e6), (500.0, 4500.0))
 
 @pytest.fixture(scope="module")
 def found():
-    return gain_map(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, source={"machine_file": "machine.toml"})
+    return map_gains(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, source={"machine_file": "machine.toml"})
 
 
 def test_each_node_is_the_basin_of_its_machine(found):
@@ -41,7 +41,7 @@ def test_each_node_is_the_basin_of_its_machine(found):
             if not levitates[i, k]:
                 assert node["recovered"] == 0.0
                 continue
-            basin = basins(rotor, KICKS)
+            basin = map_basins(rotor, KICKS)
             assert node["recovered"] == basin.share_recovered.fraction
             assert node["integrity"] == pytest.approx(integrity(basin).local)
             speeds, angles = (
@@ -61,13 +61,13 @@ def test_each_node_is_the_basin_of_its_machine(found):
 
 def test_the_present_machine(found):
     assert found.present == pytest.approx((MACHINE.omega**2 * SCALES.stiffness, 0.152 * SCALES.damping))
-    share = basins(carom.Jeffcott(MACHINE), KICKS).share_recovered
+    share = map_basins(carom.Jeffcott(MACHINE), KICKS).share_recovered
     assert found.present_share == share
 
 
 def test_neither_threads_nor_chunks_matter(found, monkeypatch):
-    monkeypatch.setattr(sys.modules[gain_map.__module__], "CHUNK", 250)
-    again = gain_map(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, threads=1, source={"machine_file": "machine.toml"})
+    monkeypatch.setattr(sys.modules[map_gains.__module__], "CHUNK", 250)
+    again = map_gains(MACHINE, KICKS, shape=(5, 6), ranges=RANGES, threads=1, source={"machine_file": "machine.toml"})
     assert again.dataset.identical(found.dataset)
 
 
@@ -78,7 +78,7 @@ def test_the_least_change_is_enough_and_half_of_it_is_not(found):
     for part in (1.0, 0.97):
         values = [now * (1.0 + part * relative) for now, relative in zip(found.present, change.changes, strict=True)]
         machine = vary(vary(MACHINE, "stiffness", values[0]), "damping", values[1])
-        shares.append(basins(carom.Jeffcott(machine), KICKS).share_recovered.fraction)
+        shares.append(map_basins(carom.Jeffcott(machine), KICKS).share_recovered.fraction)
     assert shares[0] == change.share.fraction >= 0.95
     assert shares[1] < 0.95
     assert change.values == pytest.approx(
@@ -88,25 +88,25 @@ def test_the_least_change_is_enough_and_half_of_it_is_not(found):
 
 def test_no_change_and_no_way(found):
     assert least_gain_change(found, 0.1).changes == (0.0, 0.0)
-    narrow = gain_map(MACHINE, KICKS, shape=(2, 2), ranges=((9.7e5, 9.9e5), (1390.0, 1410.0)))
+    narrow = map_gains(MACHINE, KICKS, shape=(2, 2), ranges=((9.7e5, 9.9e5), (1390.0, 1410.0)))
     assert least_gain_change(narrow, 0.99) is None
     with pytest.raises(InputError, match="wanted"):
         least_gain_change(found, 1.5)
 
 
 def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
-    found = gain_map(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
+    found = map_gains(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
     slow = vary(vary(MACHINE, "speed", 120.0), "damping", 3000.0)
     plan = Grid(VelocityKick.in_si(slow.scales, 0.02), (10, 10))
     assert plan.model.fastest != pytest.approx(KICKS.model.fastest, rel=0.1)
-    share = basins(carom.Jeffcott(slow), plan).share_recovered
+    share = map_basins(carom.Jeffcott(slow), plan).share_recovered
     assert found.dataset["recovered"].values[0, 0] == pytest.approx(share.fraction, abs=0.011)
 
 
 def test_samples_and_dimensionless_axes_and_files(tmp_path):
     plan = Sample(VelocityKick(0.2), 60, seed=5)
     limits = {"patience": 9_000, "max_events": 90_000}
-    found = gain_map(PAPER.replace(gamma=0.15), plan, ("omega", "gamma"), shape=(3, 4), **limits)
+    found = map_gains(PAPER.replace(gamma=0.15), plan, ("omega", "gamma"), shape=(3, 4), **limits)
     low, middle, high = (found.dataset[name].values for name in ("recovered_low", "recovered", "recovered_high"))
     able = found.dataset["levitates"].values > 0.0
     assert (low <= middle).all()
@@ -134,4 +134,4 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
 )
 def test_what_cannot_be_mapped(words, complaint):
     with pytest.raises(InputError, match=complaint):
-        gain_map(MACHINE, KICKS, **words)
+        map_gains(MACHINE, KICKS, **words)

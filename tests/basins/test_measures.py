@@ -11,7 +11,7 @@ from scipy.ndimage import distance_transform_edt
 from scipy.stats import binomtest
 
 import carom
-from carom.basins import Share, basin_entropy, basins, integrity
+from carom.basins import Share, basin_entropy, integrity, map_basins
 from carom.basins.entropy import entropies
 from carom.basins.integrity import _distances, safe_size
 from carom.disturbances import AnyState, ContactRelease, Grid, KickPlane, Sample, StateSlice, VelocityKick
@@ -59,8 +59,8 @@ def test_the_safe_size_is_the_last_one_tried_before_the_first_loss():
 def test_integrity_of_kicks_agrees_between_pictures():
     """By size and direction, and in the plane, the ball about levitation is the same to the width of the cells."""
     rotor = carom.Jeffcott(MACHINE)
-    rings = integrity(basins(rotor, Grid(VelocityKick(1.0), (80, 90))))
-    plane = integrity(basins(rotor, Grid(KickPlane(1.0), (80, 80))))
+    rings = integrity(map_basins(rotor, Grid(VelocityKick(1.0), (80, 90))))
+    plane = integrity(map_basins(rotor, Grid(KickPlane(1.0), (80, 80))))
     smallest = carom.smallest_unrecovered_kick(rotor, 1.0)
     assert rings.local == pytest.approx(smallest.size, abs=1.5 / 80)
     assert plane.local == pytest.approx(smallest.size, abs=3.0 / 80)
@@ -71,14 +71,14 @@ def test_integrity_of_kicks_agrees_between_pictures():
 @pytest.mark.jit_only
 def test_integrity_of_positions_and_samples():
     rotor = carom.Jeffcott(MACHINE)
-    found = integrity(basins(rotor, Grid(StateSlice(), (60, 60))))
+    found = integrity(map_basins(rotor, Grid(StateSlice(), (60, 60))))
     assert 0.0 < found.local <= 1.0 - abs(rotor.equilibrium)
     assert found.largest >= found.local - 1.0 / 60
-    drawn = integrity(basins(rotor, Sample(KickPlane(1.0), 2000)))
-    assert drawn.local == pytest.approx(integrity(basins(rotor, Grid(KickPlane(1.0), (60, 60)))).local, abs=0.06)
+    drawn = integrity(map_basins(rotor, Sample(KickPlane(1.0), 2000)))
+    assert drawn.local == pytest.approx(integrity(map_basins(rotor, Grid(KickPlane(1.0), (60, 60)))).local, abs=0.06)
     for plan in (Grid(ContactRelease(), (8,)), Sample(AnyState(), 8)):
         with pytest.raises(InputError, match="levitation"):
-            integrity(basins(rotor, plan))
+            integrity(map_basins(rotor, plan))
 
 
 def test_entropy_of_one_colour_is_zero():
@@ -126,6 +126,6 @@ def test_entropy_needs_room_for_a_box():
 def test_entropy_is_for_grids():
     rotor = carom.Jeffcott(MACHINE)
     with pytest.raises(InputError, match="sample"):
-        basin_entropy(basins(rotor, Sample(VelocityKick(1.0), 10)))
-    found = basin_entropy(basins(rotor, Grid(VelocityKick(1.0), (20, 20))))
+        basin_entropy(map_basins(rotor, Sample(VelocityKick(1.0), 10)))
+    found = basin_entropy(map_basins(rotor, Grid(VelocityKick(1.0), (20, 20))))
     assert 0.0 < found.whole < found.boundary < math.log(3.0)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import InputError, single_impact_orbits
+from carom import InputError, find_orbits
 from carom.bifurcations import KINDS, Curve, Plane, continue_curve, continue_orbit
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.periods import PeriodCondition
 
@@ -17,7 +17,7 @@ PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
 
 @pytest.fixture(scope="module")
 def curves() -> dict[str, Curve]:
-    branch = continue_orbit(single_impact_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.02, 0.3))
+    branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.02, 0.3))
     found = {
         point.kind: continue_curve(point.kind, point.numbers.parameters, PLANE, (point.period, point.radial_speed))
         for point in branch.special
@@ -52,7 +52,7 @@ def test_grazing_curve_by_the_certified_search(curves):
     for (x, y), period in list(zip(curve.points, curve.periods, strict=True))[1:-1:4]:
         answers = []
         for shift in (-1e-9, 1e-9):
-            orbits = single_impact_orbits(Jeffcott(PAPER.replace(gamma=x + shift, omega=y)))
+            orbits = find_orbits(Jeffcott(PAPER.replace(gamma=x + shift, omega=y)))
             near = [orbit for orbit in orbits if abs(orbit.period - period) < 1e-6]
             answers.append(sorted(orbit.admissible for orbit in near))
         assert answers[0] != answers[1]
@@ -62,7 +62,7 @@ def test_period_doubling_curve_by_the_multipliers_of_the_orbits(curves):
     curve = curves["period-doubling"]
     rows = list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))
     for (x, y), period, speed in rows[1:-1:4]:
-        orbits = single_impact_orbits(Jeffcott(PAPER.replace(gamma=x, omega=y)))
+        orbits = find_orbits(Jeffcott(PAPER.replace(gamma=x, omega=y)))
         near = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed - speed))
         assert np.abs(near.multipliers.values + 1.0).min() < 1e-7
 
@@ -73,7 +73,7 @@ def test_equilibrium_curves_in_closed_form(curves):
     x, y = curves["rub-fold"].points.T
     assert x + PAPER.mu * (1.0 - y**2) == pytest.approx(PAPER.rho * np.sqrt(1.0 + PAPER.mu**2), abs=1e-12)
     for gamma, omega in curves["rub-fold"].points[1:-1:3]:
-        counts = [len(equilibria(Jeffcott(PAPER.replace(gamma=gamma + s, omega=omega)))) for s in (-1e-9, 1e-9)]
+        counts = [len(find_equilibria(Jeffcott(PAPER.replace(gamma=gamma + s, omega=omega)))) for s in (-1e-9, 1e-9)]
         assert counts == [3, 1]
 
 
@@ -89,7 +89,7 @@ def test_fold_meets_the_boundary_equilibrium(curves):
 
 def test_non_smooth_hopf_curve_turns_back_where_the_two_cycles_meet():
     """It lies on the curve of the boundary equilibrium, as far as F₁ has roots; there the short period becomes the long."""
-    branch = continue_orbit(single_impact_orbits(Jeffcott(PAPER))["B1,a"], "gamma", (0.02, 0.17))
+    branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,a"], "gamma", (0.02, 0.17))
     point = next(point for point in branch.special if point.kind == "non-smooth-hopf")
     curve = continue_curve("non-smooth-hopf", point.numbers.parameters, PLANE, (point.period, point.radial_speed))
     for (x, y), period in zip(curve.points, curve.periods, strict=True):
@@ -105,7 +105,7 @@ def test_non_smooth_hopf_curve_turns_back_where_the_two_cycles_meet():
 
 def test_every_pair_of_parameters():
     """Friction and restitution move the fold; unbalance does not, as ``F₁`` does not depend on it."""
-    orbit = single_impact_orbits(Jeffcott(PAPER))["B1,d"]
+    orbit = find_orbits(Jeffcott(PAPER))["B1,d"]
     branch = continue_orbit(orbit, "gamma", (0.02, 0.3))
     (fold,) = [point for point in branch.special if point.kind == "fold"]
     at, unknowns = fold.numbers.parameters, (fold.period, fold.radial_speed)

@@ -9,8 +9,8 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
-from carom import InputError, Machine, equilibria, single_impact_orbits
-from carom.bifurcations import Plane, axis, bifurcation_diagram, motions_at, region_map, value_of
+from carom import InputError, Machine, find_equilibria, find_orbits
+from carom.bifurcations import Plane, axis, find_bifurcations, map_regions, motions_at, value_of
 from carom.bifurcations.curves import STEPS
 from carom.models import Jeffcott
 from carom.parameters import Scales
@@ -18,7 +18,7 @@ from carom.parameters import Scales
 
 @pytest.fixture(scope="module")
 def diagram():
-    return bifurcation_diagram(PAPER, "gamma", (0.05, 0.4))
+    return find_bifurcations(PAPER, "gamma", (0.05, 0.4))
 
 
 def test_points_of_the_source_papers_machine(diagram):
@@ -40,7 +40,7 @@ def test_points_of_the_source_papers_machine(diagram):
 def test_every_branch_is_followed_once(diagram):
     assert len(diagram.orbits) == 2
     for value in (0.0501, 0.09, 0.16):
-        orbits = [orbit for orbit in single_impact_orbits(Jeffcott(PAPER.replace(gamma=value))) if orbit.admissible]
+        orbits = [orbit for orbit in find_orbits(Jeffcott(PAPER.replace(gamma=value))) if orbit.admissible]
         for orbit in orbits:
             passing = [
                 branch
@@ -52,7 +52,7 @@ def test_every_branch_is_followed_once(diagram):
 
 @pytest.mark.parametrize("edge", [0.1, 0.178])
 def test_branches_that_begin_on_the_edge_are_followed_once(edge):
-    found = bifurcation_diagram(PAPER, "gamma", (edge, 0.3))
+    found = find_bifurcations(PAPER, "gamma", (edge, 0.3))
     assert len(found.orbits) == 2
 
 
@@ -64,7 +64,7 @@ def test_equilibrium_branches(diagram):
     assert stable.stable[stable.values < 0.3699].all()
     assert not saddle.stable.any()
     for index in (10, 100):
-        at = equilibria(Jeffcott(PAPER.replace(gamma=levitation.values[index])))
+        at = find_equilibria(Jeffcott(PAPER.replace(gamma=levitation.values[index])))
         assert levitation.radius[index] == pytest.approx(at[0].radius)
         assert stable.normal_force[index] == pytest.approx(at[1].normal_force)
 
@@ -96,7 +96,7 @@ def test_motions_agree_with_certified_orbits():
     random = np.random.default_rng(9)
     for _ in range(sized(20, 20, 40)):
         parameters = PAPER.replace(gamma=random.uniform(0.02, 0.3), omega=random.uniform(0.6, 1.0))
-        orbits = [orbit for orbit in single_impact_orbits(Jeffcott(parameters), 60.0) if orbit.admissible]
+        orbits = [orbit for orbit in find_orbits(Jeffcott(parameters), 60.0) if orbit.admissible]
         motions = motions_at(parameters)
         assert motions.orbits == len(orbits)
         assert motions.stable_orbits == sum(orbit.stable for orbit in orbits)
@@ -110,7 +110,7 @@ def test_steady_motions_are_those_of_the_equilibria():
     rubs = 0
     for _ in range(sized(150, 5)):
         parameters = random_parameters(random, gamma=float(10 ** random.uniform(-1.3, 0.5)))
-        contact_free, *others = equilibria(Jeffcott(parameters))
+        contact_free, *others = find_equilibria(Jeffcott(parameters))
         motions = motions_at(parameters)
         assert motions.contact_free is (contact_free.status == "admissible")
         assert motions.rub is any(rub.stable and rub.status == "admissible" for rub in others)
@@ -119,7 +119,7 @@ def test_steady_motions_are_those_of_the_equilibria():
 
 
 def test_map_of_the_source_papers_plane():
-    found = region_map(PAPER, Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.0)), grid=10)
+    found = map_regions(PAPER, Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.0)), grid=10)
     assert found.lost == ()
     kinds = [curve.kind for curve in found.curves]
     expected = ["boundary-equilibrium", "fold", "grazing", "non-smooth-hopf", "period-doubling", "rub-fold"]
@@ -173,7 +173,7 @@ def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
         machine = Machine.from_parameters(drawn, Scales(20.0, 0.3e-3, 250.0)).parameters
         first, second = PAIRS[trial % len(PAIRS)]
         plane = Plane(first, second, around(machine, first), around(machine, second))
-        found = region_map(machine, plane, grid=2)
+        found = map_regions(machine, plane, grid=2)
         assert found.lost == ()
         widths = np.ptp([plane.first_range, plane.second_range], axis=1)
         for curve in found.curves:
@@ -190,11 +190,11 @@ def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
 
 def test_inputs_that_cannot_be_used():
     with pytest.raises(InputError, match="two growing finite values"):
-        bifurcation_diagram(PAPER, "gamma", (0.3, 0.1))
+        find_bifurcations(PAPER, "gamma", (0.3, 0.1))
     with pytest.raises(InputError, match="d = "):
-        bifurcation_diagram(PAPER, "d", (0.5, 1.5))
+        find_bifurcations(PAPER, "d", (0.5, 1.5))
     with pytest.raises(InputError, match="mass, clearance and speed"):
-        bifurcation_diagram(PAPER, "speed", (100.0, 200.0))
+        find_bifurcations(PAPER, "speed", (100.0, 200.0))
 
 
 def test_regions_in_words():
@@ -211,7 +211,7 @@ def test_regions_in_words():
 
 def test_points_of_thin_regions_lie_inside():
     plane = Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.05))
-    found = region_map(PAPER, plane, grid=sized(8, 8, 16))
+    found = map_regions(PAPER, plane, grid=sized(8, 8, 16))
     assert found.everywhere == ("backward rolling",)
     for region in found.regions:
         assert motions_at(plane.at(PAPER, *region.point)) == region.motions

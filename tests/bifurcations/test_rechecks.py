@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Parameters, equilibria, simulate, single_impact_orbits
-from carom.bifurcations import Diagram, Numbers, Plane, SpecialValue, bifurcation_diagram, region_map, vary
+from carom import Parameters, find_equilibria, find_orbits, simulate
+from carom.bifurcations import Diagram, Numbers, Plane, SpecialValue, find_bifurcations, map_regions, vary
 from carom.bifurcations.conditions import orbit_of
 from carom.boundary import boundary_equilibria
 from carom.maps import Section, impact_map, section_jacobian
@@ -41,7 +41,7 @@ CLOSE = 1e-9
 
 @pytest.fixture(scope="module")
 def diagrams() -> dict[str, Diagram]:
-    return {name: bifurcation_diagram(*case) for name, case in CASES.items()}
+    return {name: find_bifurcations(*case) for name, case in CASES.items()}
 
 
 def sides(base: Parameters, point: SpecialValue, width: float, close: float = CLOSE) -> tuple[Parameters, Parameters]:
@@ -54,7 +54,7 @@ def longest(point: SpecialValue) -> float:
 
 
 def orbit_next_to(parameters: Parameters, point: SpecialValue) -> Orbit:
-    orbits = [orbit for orbit in single_impact_orbits(Jeffcott(parameters), longest(point)) if orbit.slip > 0]
+    orbits = [orbit for orbit in find_orbits(Jeffcott(parameters), longest(point)) if orbit.slip > 0]
     return min(orbits, key=lambda o: abs(o.period - point.period) + abs(o.radial_speed - point.radial_speed))
 
 
@@ -79,7 +79,7 @@ def count_roots(parameters: Parameters, point: SpecialValue) -> int:
 
 
 def count_orbits(parameters: Parameters, point: SpecialValue) -> int:
-    return sum(orbit.slip > 0 for orbit in single_impact_orbits(Jeffcott(parameters), longest(point)))
+    return sum(orbit.slip > 0 for orbit in find_orbits(Jeffcott(parameters), longest(point)))
 
 
 def count_extrema(parameters: Parameters, point: SpecialValue) -> int:
@@ -124,13 +124,13 @@ def check(base: Parameters, point: SpecialValue, width: float) -> None:
         )
     elif point.kind == "boundary-equilibrium":
         assert abs(Jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-11)
-        assert equilibria(Jeffcott(low))[0].status != equilibria(Jeffcott(high))[0].status
+        assert find_equilibria(Jeffcott(low))[0].status != find_equilibria(Jeffcott(high))[0].status
         if point.parameter in ("gamma", "omega"):
             known = boundary_equilibria(Jeffcott(base), point.parameter)
             near = min(known, key=lambda entry: abs(entry.value - point.value))
             assert (near.value, near.kind) == (pytest.approx(point.value, abs=1e-11), point.detail)
     elif point.kind == "rub-fold":
-        assert sorted(len(equilibria(Jeffcott(side))) for side in (low, high)) == [1, 3]
+        assert sorted(len(find_equilibria(Jeffcott(side))) for side in (low, high)) == [1, 3]
     else:
         assert point.kind == "rolling-limit"
         assert rolls_on(sides(base, point, width, 1e-4)[0]) != rolls_on(sides(base, point, width, 1e-4)[1])
@@ -170,8 +170,8 @@ def vanishes(kind: str, parameters: Parameters, point) -> bool:
     if kind in ("boundary-equilibrium", "non-smooth-hopf"):
         return abs(abs(rotor.equilibrium) - 1.0) < 1e-9
     if kind == "rub-fold":
-        eigenvalues = [abs(rub.eigenvalues).min() for rub in equilibria(rotor)[1:]]
-        moved = equilibria(Jeffcott(parameters.replace(rho=parameters.rho * (1.0 + 1e-12))))
+        eigenvalues = [abs(rub.eigenvalues).min() for rub in find_equilibria(rotor)[1:]]
+        moved = find_equilibria(Jeffcott(parameters.replace(rho=parameters.rho * (1.0 + 1e-12))))
         return min(eigenvalues or [abs(rub.eigenvalues).min() for rub in moved[1:]]) < 1e-4
     condition, period = PeriodCondition(rotor.system), np.array([point.period])
     if kind == "fold":
@@ -208,7 +208,7 @@ def vanishes(kind: str, parameters: Parameters, point) -> bool:
     ],
 )
 def test_at_codimension_2_points_both_happen(base, plane):
-    found = region_map(base, plane, grid=2)
+    found = map_regions(base, plane, grid=2)
     assert found.codimension2
     if base is SOFT:
         ratios = {point.kind for point in found.codimension2 if point.kind.startswith("resonance")}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Plane, region_map, single_impact_orbits
+from carom import Plane, find_orbits, map_regions
 from carom.models import Jeffcott
 
 PLANE = Plane("rho", "gamma", (0.2, 0.25), (0.15, 0.19))
@@ -14,19 +14,19 @@ PLANE = Plane("rho", "gamma", (0.2, 0.25), (0.15, 0.19))
 
 def multipliers_at(base, plane, point) -> np.ndarray:
     """Of the orbit there, by the general derivative of the impact map and not by the planar closed form."""
-    orbits = single_impact_orbits(Jeffcott(plane.at(base, *point.value)))
+    orbits = find_orbits(Jeffcott(plane.at(base, *point.value)))
     near = min(orbits, key=lambda o: abs(o.period - point.period) + abs(o.radial_speed - point.radial_speed))
     return near.multipliers.values
 
 
 def test_a_short_curve_between_two_resonances():
     """The curve lies between two folds, in a sliver that no grid of cells sees."""
-    found = region_map(PAPER, PLANE, grid=3)
+    found = map_regions(PAPER, PLANE, grid=3)
     (curve,) = [curve for curve in found.curves if curve.kind == "neimark-sacker"]
     assert curve.stops == ("resonance-1:1", "resonance-1:1")
     assert curve.admissible.all()
     middle = len(curve.points) // 2
-    orbits = single_impact_orbits(Jeffcott(PLANE.at(PAPER, *curve.points[middle])))
+    orbits = find_orbits(Jeffcott(PLANE.at(PAPER, *curve.points[middle])))
     near = min(orbits, key=lambda orbit: abs(orbit.period - curve.periods[middle]))
     pair = near.multipliers.values[np.abs(near.multipliers.values.imag) > 1e-4]
     assert len(pair) == 2

@@ -9,15 +9,15 @@ from machines import PAPER
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from carom import InputError, simulate, single_impact_orbits
+from carom import InputError, find_orbits, simulate
 from carom.bifurcations import (
     Plane,
     RubbingBranch,
-    bifurcation_diagram,
     continue_curve,
     continue_onset,
     continue_orbit,
     continue_rubbing,
+    find_bifurcations,
     rubbing_orbits,
 )
 from carom.bifurcations.lift_offs import lift_off_state, next_lift_off
@@ -38,7 +38,7 @@ def touches_for_a_while(orbit) -> bool:
 
 @pytest.fixture(scope="module")
 def onset():
-    orbits = single_impact_orbits(Jeffcott(DEAD.replace(gamma=0.03)))
+    orbits = find_orbits(Jeffcott(DEAD.replace(gamma=0.03)))
     for orbit in orbits:
         branch = continue_orbit(orbit, "gamma", (0.01, 0.1))
         found = [point for point in branch.special if point.kind == "contact-onset" and point.admissible]
@@ -51,7 +51,7 @@ def onset():
 def test_without_rebound_the_simulation_begins_to_stay_on_the_wall(onset):
     answers = []
     for shift in (-1e-9, 1e-9):
-        orbits = single_impact_orbits(Jeffcott(DEAD.replace(gamma=onset.value + shift)))
+        orbits = find_orbits(Jeffcott(DEAD.replace(gamma=onset.value + shift)))
         (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - onset.radial_speed) < 1e-5]
         answers.append((touches_for_a_while(orbit), "stay on the wall" in orbit.reason))
     assert sorted(answers) == [(False, False), (True, True)]
@@ -77,7 +77,7 @@ def test_curve_of_the_onset_without_rebound(onset):
     for (x, y), speed in list(zip(curve.points, curve.radial_speeds, strict=True))[1:-1]:
         answers = set()
         for shift in (-1e-9, 1e-9):
-            orbits = single_impact_orbits(Jeffcott(DEAD.replace(gamma=x + shift, rho=y)))
+            orbits = find_orbits(Jeffcott(DEAD.replace(gamma=x + shift, rho=y)))
             (orbit,) = [orbit for orbit in orbits if abs(orbit.radial_speed - speed) < 1e-5]
             answers.add("stay on the wall" in orbit.reason)
         assert answers == {False, True}
@@ -161,7 +161,7 @@ def test_contact_shrinks_towards_the_onset(chatter):
 
 @pytest.mark.jit_only
 def test_onsets_are_among_the_points_of_a_diagram(chatter):
-    found = bifurcation_diagram(CHATTERING, "gamma", (0.1, 0.3), lasting=True)
+    found = find_bifurcations(CHATTERING, "gamma", (0.1, 0.3), lasting=True)
     expected = {point.kind: point.value for point in chatter.special}
     for kind in ("contact-onset", "permanent-contact"):
         points = [point for point in found.points if point.kind == kind]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import CaromError, Machine, Parameters, Plane, region_map
+from carom import CaromError, Machine, Parameters, Plane, map_regions
 from carom.bifurcations import Motions, RegionMap, motions_at, value_of
 from carom.bifurcations import survey as module
 from carom.bifurcations.cells import regions_between
@@ -129,7 +129,7 @@ def test_every_change_along_sixty_lines_of_each_plane_lies_on_a_curve():
     """At most one change in 200 may be unexplained, listed ones included."""
     total, missed = 0, []
     for name, (base, plane) in PLANES.items():
-        found = region_map(base, plane)
+        found = map_regions(base, plane)
         count, bad = tried(base, plane, found, 60, 120)
         total += count
         missed += [(name, *entry) for entry in bad] + [(name, change) for change in found.unexplained]

@@ -7,10 +7,10 @@ import pytest
 from studies import QUICK
 
 from carom import __version__
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
-from carom.parameters import load_case
+from carom.orbits import find_orbits
+from carom.parameters import load
 
 pytestmark = pytest.mark.jit_only
 
@@ -43,12 +43,12 @@ def document(answer):
 
 def test_orbits_as_json(carom, machine):
     value = document(carom("orbits", machine, "--json"))
-    rotor = Jeffcott(load_case(machine).parameters)
+    rotor = Jeffcott(load(machine).parameters)
 
     assert set(value) >= {"parameters", "equilibria", "orbits"}
     assert all(set(entry) >= ORBIT_KEYS for entry in value["orbits"])
-    assert [entry["period"] for entry in value["orbits"]] == [orbit.period for orbit in single_impact_orbits(rotor)]
-    assert [entry["status"] for entry in value["equilibria"]] == [entry.status for entry in equilibria(rotor)]
+    assert [entry["period"] for entry in value["orbits"]] == [orbit.period for orbit in find_orbits(rotor)]
+    assert [entry["status"] for entry in value["equilibria"]] == [entry.status for entry in find_equilibria(rotor)]
     assert value["complete"] is True
 
 

@@ -16,7 +16,7 @@ from compilation import sized
 
 from carom.cli import main
 from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, load_case
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, load
 from carom.sweeps import load_sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -271,7 +271,7 @@ def test_damaged_machine_files_are_read_as_they_are_or_refused(tmp_path, example
     for number in range(CASES // 2):
         path.write_bytes(damaged(whole, rng))
         try:
-            case = load_case(path)
+            case = load(path)
         except InputError as problem:
             assert_printable(str(problem))
             continue
@@ -369,7 +369,7 @@ def test_damaged_settings_are_what_they_say(machine, name, unit):
     for _ in range(CASES):
         text = damaged(b"0.5 " + unit.encode(), rng).decode("utf-8", "replace")
         try:
-            case = load_case(machine, [f"{name}={text}"])
+            case = load(machine, [f"{name}={text}"])
         except InputError as problem:
             assert_printable(str(problem))
             continue

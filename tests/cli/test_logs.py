@@ -10,7 +10,7 @@ import xarray
 from carom.cli.logs import write_csv, write_netcdf
 from carom.models import Jeffcott
 from carom.outcome import InputError, Phase
-from carom.parameters import load_case
+from carom.parameters import load
 from carom.trajectories import kick, simulate
 
 pytestmark = pytest.mark.jit_only
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.jit_only
 
 @pytest.fixture
 def motion(machine):
-    return simulate(Jeffcott(load_case(machine).parameters), kick(0.1, 2.0), 150.0)
+    return simulate(Jeffcott(load(machine).parameters), kick(0.1, 2.0), 150.0)
 
 
 def rows_of(path):
@@ -44,7 +44,7 @@ def test_csv_holds_impacts_and_lasting_contacts_in_order(motion, tmp_path):
 
 
 def test_csv_of_a_dimensionless_machine(dimensionless, tmp_path):
-    motion = simulate(Jeffcott(load_case(dimensionless).parameters), kick(0.4, 0.2), 50.0)
+    motion = simulate(Jeffcott(load(dimensionless).parameters), kick(0.4, 0.2), 50.0)
     write_csv(motion, str(tmp_path / "log.csv"))
 
     rows = rows_of(tmp_path / "log.csv")
@@ -72,7 +72,7 @@ def test_netcdf_holds_the_same_with_units(motion, tmp_path):
 
 
 def test_motion_without_contact(machine, tmp_path):
-    motion = simulate(Jeffcott(load_case(machine).parameters), kick(0.001), 10.0)
+    motion = simulate(Jeffcott(load(machine).parameters), kick(0.001), 10.0)
     write_csv(motion, str(tmp_path / "log.csv"))
     write_netcdf(motion, str(tmp_path / "log.nc"))
 

@@ -12,7 +12,7 @@ from carom.core.closing import least_period
 from carom.core.fate import memory
 from carom.ensembles import settle_all
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.settling import _tools, closed_orbit
@@ -75,7 +75,7 @@ def test_an_orbit_with_three_impacts_is_told_so_however_it_is_reached():
 @pytest.mark.parametrize("away", [-1e-5, -1e-9, 1e-9, 1e-7, 1e-5])
 def test_next_to_a_period_doubling_one_impact_is_told_from_two(away):
     rotor = Jeffcott(PAPER.replace(gamma=DOUBLING + away))
-    leaving = single_impact_orbits(rotor)["B1,d"].departure
+    leaving = find_orbits(rotor)["B1,d"].departure
     faster = leaving.velocity * np.array([0.9999, 1.0001])
     ends = settle_all(rotor, np.full(2, leaving.position), faster)
     assert ends.multiplicities.tolist() == [1 if away > 0.0 else 2] * 2
@@ -85,7 +85,7 @@ def test_next_to_a_period_doubling_one_impact_is_told_from_two(away):
 
 def test_an_orbit_that_is_not_closed_yet_is_found_next_to_a_state():
     rotor = Jeffcott(PAPER)
-    known = single_impact_orbits(rotor)["B1,d"]
+    known = find_orbits(rotor)["B1,d"]
     before = known.section.state
     near = closed_orbit(rotor, before.position, before.velocity * (1.0 + 1e-5j), 1)
     assert near is not None
@@ -98,7 +98,7 @@ def test_an_orbit_that_is_not_closed_yet_is_found_next_to_a_state():
 
 def test_an_orbit_that_repels_closes_but_does_not_attract():
     rotor = Jeffcott(PAPER.replace(gamma=0.08))
-    before = single_impact_orbits(rotor)["B1,d"].section.state
+    before = find_orbits(rotor)["B1,d"].section.state
     found = closed_orbit(rotor, before.position, before.velocity * (1.0 + 1e-6), 1)
     assert found is not None
     assert not found.attracts
@@ -107,7 +107,7 @@ def test_an_orbit_that_repels_closes_but_does_not_attract():
 def test_what_is_known_of_an_orbit_is_not_asked_again_nor_taken_for_more():
     """The state at an orbit of one impact is kept: answers are the same with it and without, next to it and elsewhere."""
     rotor = Jeffcott(PAPER)
-    orbits = {orbit.name: orbit for orbit in single_impact_orbits(rotor)}
+    orbits = {orbit.name: orbit for orbit in find_orbits(rotor)}
     states = [
         rotor.system.amplitudes(orbit.section.state.position, orbit.section.state.velocity)
         for orbit in (orbits["B1,d"], orbits["B1,c"])
@@ -136,7 +136,7 @@ def test_a_motion_that_only_passes_by_an_orbit_goes_on():
     )  # fmt: skip
     rotor = Jeffcott(parameters)
     start = State(-0.9376157591840666 - 0.049885059556011j, 1.1903963754385933 + 0.6414778990507444j)
-    orbit = next(orbit for orbit in single_impact_orbits(rotor) if orbit.name == "B1,d")
+    orbit = next(orbit for orbit in find_orbits(rotor) if orbit.name == "B1,d")
     assert not orbit.stable
     together = settle_all(rotor, np.array([start.position]), np.array([start.velocity]))
     # In double precision a motion may stay on the orbit itself for ever: that is no end either.

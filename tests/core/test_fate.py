@@ -24,7 +24,7 @@ from carom.core.fate import (
 )
 from carom.core.layout import rotor_record, workspace
 from carom.ensembles import settle_all
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
@@ -271,7 +271,7 @@ SLENDER = Parameters(gamma=0.04, omega=0.74, rho=1.12, phi=0.0, mu=0.3, d=0.81, 
 def test_a_rotor_at_its_rub_stays_there():
     rotor, motion = settled(PAPER.replace(gamma=0.2), State(0.2 + 0.1j, 0.5 + 0.3j))
     assert motion.outcome is Outcome.FORWARD_RUB
-    (rub,) = [entry for entry in equilibria(rotor) if entry.kind == "rub" and entry.stable]
+    (rub,) = [entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable]
     later = simulate(rotor, motion.final, 2000.0)
     assert {contact.phase for contact in later.lasting_contacts} == {Phase.FORWARD_SLIP}
     assert len(later.contacts) == 0

@@ -8,7 +8,7 @@ import pytest
 from compilation import sized
 from machines import PAPER, exact_return, random_parameters
 
-from carom import single_impact_orbits
+from carom import find_orbits
 from carom.core.planar import orbit_conditions, planar_exponents, radial_course, radial_profile, returns
 from carom.maps import section_jacobian
 from carom.models import Jeffcott
@@ -69,7 +69,7 @@ def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
     seen = 0
     for parameters in [PAPER, *machines(60, 7)]:
         rest = abs(Jeffcott(parameters).equilibrium)
-        for orbit in single_impact_orbits(Jeffcott(parameters), 20.0):
+        for orbit in find_orbits(Jeffcott(parameters), 20.0):
             if orbit.slip < 0 or not 1e-6 < abs(orbit.radial_speed) < 1e3 or orbit.period < 1e-3:
                 continue
             seen += 1
@@ -95,7 +95,7 @@ def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
 
 
 def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
-    orbit = single_impact_orbits(Jeffcott(PAPER))["B1,d"]
+    orbit = find_orbits(Jeffcott(PAPER))["B1,d"]
     values = [conditions(PAPER, orbit.period, speed)[6] for speed in (1e-6, 0.0, -1e-6)]
     assert np.isfinite(values).all()
     assert values[0] - values[1] == pytest.approx(values[1] - values[2], rel=1e-4)
@@ -104,7 +104,7 @@ def test_jacobian_exists_in_the_limit_of_vanishing_impacts():
 def test_radial_profile_agrees_with_dense_sampling():
     seen = 0
     for parameters in [PAPER, PAPER.replace(gamma=0.06), PAPER.replace(gamma=0.02), *machines(sized(30, 0), 8)]:
-        for orbit in single_impact_orbits(Jeffcott(parameters), 15.0):
+        for orbit in find_orbits(Jeffcott(parameters), 15.0):
             if orbit.slip < 0 or not 1e-3 < abs(orbit.radial_speed) < 30.0 or orbit.period < 1e-2:
                 continue
             speed = orbit.radial_speed
@@ -135,7 +135,7 @@ def test_the_departure_of_an_orbit_without_rebound_is_no_maximum_of_the_radius()
     random = np.random.default_rng(12)
     for _ in range(sized(40, 40, 1000)):
         parameters = random_parameters(random, d=0.0, gamma=float(10 ** random.uniform(-1.5, 0.0)))
-        for orbit in single_impact_orbits(Jeffcott(parameters), 15.0):
+        for orbit in find_orbits(Jeffcott(parameters), 15.0):
             if orbit.admissible and orbit.slip > 0:
                 seen += 1
                 numbers = parameters.gamma, parameters.omega, parameters.mu, 0.0, orbit.period, orbit.radial_speed
@@ -148,7 +148,7 @@ def test_a_pair_of_extrema_of_the_radius_is_born_where_the_flattest_slope_vanish
     """On the branch of the source paper's figure 5b with the diamonds, B1,d."""
 
     def at(gamma):
-        orbit = single_impact_orbits(Jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
+        orbit = find_orbits(Jeffcott(PAPER.replace(gamma=gamma)))["B1,d"]
         square = np.abs(orbit.path(np.linspace(0.0, orbit.period, 4001)[:-1])) ** 2
         extrema = int((np.diff(np.sign(np.diff(square))) != 0).sum())
         speed = orbit.radial_speed

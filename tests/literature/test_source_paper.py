@@ -17,7 +17,7 @@ from machines import PAPER, flight_matrix, rest_position
 from scipy.linalg import expm
 from scipy.optimize import bisect, brentq, minimize_scalar
 
-from carom import Orbit, OrbitSet, Scales, State, equilibria, period_condition, simulate, single_impact_orbits
+from carom import Orbit, OrbitSet, Scales, State, find_equilibria, find_orbits, period_condition, simulate
 from carom.models import Jeffcott
 from carom.periods import PeriodCondition
 
@@ -32,7 +32,7 @@ def assert_prints(value: float, printed: str) -> None:
 
 def orbits_at(gamma: float, omega: float = PAPER.omega) -> OrbitSet:
     longest = None if gamma > 0 else 3.0
-    return single_impact_orbits(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)), longest)
+    return find_orbits(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)), longest)
 
 
 # --------------------------------------------------------------------------------------------- where things happen
@@ -42,7 +42,7 @@ def boundary_damping(omega: float = PAPER.omega) -> float:
     """``γ*``, at which the contact-free equilibrium lies on the wall."""
 
     def beyond(gamma: float) -> float:
-        return equilibria(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)))[0].radius - 1.0
+        return find_equilibria(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)))[0].radius - 1.0
 
     return brentq(beyond, 1e-3, 0.45, **FINE)
 
@@ -151,7 +151,9 @@ def test_extra_extremum():
 
 def test_fold_of_the_rubs():
     """``γ = ρ√(1 + μ²) − μ(1 − ω²)``: beyond it no synchronous rub exists."""
-    gamma = bisect(lambda gamma: len(equilibria(Jeffcott(PAPER.replace(gamma=gamma)))) - 2.0, 0.36, 0.38, xtol=1e-14)
+    gamma = bisect(
+        lambda gamma: len(find_equilibria(Jeffcott(PAPER.replace(gamma=gamma)))) - 2.0, 0.36, 0.38, xtol=1e-14
+    )
     assert_prints(gamma, "0.3700060")
 
 
@@ -211,7 +213,7 @@ def test_regions(place, status, admissible):
     """Section 4b and figure 6b: what exists, and what is admissible, on either side of the two curves."""
     gamma, omega = place
     orbits = orbits_at(gamma, omega)
-    assert equilibria(orbits.rotor)[0].status == status
+    assert find_equilibria(orbits.rotor)[0].status == status
     assert {orbit.name: orbit.admissible for orbit in orbits} == {
         f"B1,{key}": value for key, value in admissible.items()
     }

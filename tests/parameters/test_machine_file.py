@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carom.outcome import InputError
-from carom.parameters import Case, Machine, Scales, Zones, load_case
+from carom.parameters import Case, Machine, Scales, Zones, load
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REAL = EXAMPLES / "keogh-cole.toml"
@@ -67,7 +67,7 @@ def write(tmp_path):
 def error_of(path, *settings):
     """The input error of loading; its message is one line and names its parts."""
     with pytest.raises(InputError) as caught:
-        load_case(path, settings)
+        load(path, settings)
     error = caught.value
     assert "\n" not in str(error)
     assert str(error).startswith(f"{error.field} = ")
@@ -78,7 +78,7 @@ def error_of(path, *settings):
 
 
 def test_the_real_machine_is_the_one_of_keogh_and_cole():
-    case = load_case(REAL)
+    case = load(REAL)
 
     assert case.name == "keogh-cole"
     assert case.machine == Machine(
@@ -100,7 +100,7 @@ def test_the_real_machine_is_the_one_of_keogh_and_cole():
 
 
 def test_the_paper_case_is_dimensionless():
-    case = load_case(PAPER)
+    case = load(PAPER)
 
     numbers = {"gamma": 0.1, "omega": 0.76, "rho": 3 / 7, "phi": 0.21, "mu": 0.15, "d": 0.95, "radius_ratio": 400 / 7}
     assert case.parameters.as_dict() == numbers
@@ -148,7 +148,7 @@ def test_a_byte_order_mark_and_windows_line_ends_do_no_harm(write):
 
 
 def test_angles_of_a_dimensionless_file_may_have_units(write):
-    case = load_case(write(text_of("dimensionless", {**NUMBERS, "phi": '"180 deg"'})))
+    case = load(write(text_of("dimensionless", {**NUMBERS, "phi": '"180 deg"'})))
 
     assert case.parameters.phi == math.pi
 
@@ -227,7 +227,7 @@ def test_a_zero_entry_is_named_where_it_is_not_allowed(write, field):
 
 @pytest.mark.parametrize("field", ["damping", "eccentricity", "unbalance_phase", "friction", "restitution"])
 def test_a_zero_entry_is_read_where_it_is_allowed(write, field):
-    machine = load_case(write(text_of("machine", {**ENTRIES, field: "0"}))).machine
+    machine = load(write(text_of("machine", {**ENTRIES, field: "0"}))).machine
 
     assert getattr(machine, field) == 0.0
 
@@ -355,7 +355,7 @@ def test_a_radius_is_not_negative(radius):
 
 
 def test_zone_limits_are_read_from_the_file(write):
-    case = load_case(write(text_of("machine", ENTRIES) + "[zones]\nlimits = [0.2, 0.5, 1]\n"))
+    case = load(write(text_of("machine", ENTRIES) + "[zones]\nlimits = [0.2, 0.5, 1]\n"))
 
     assert case == Case("rotor", case.machine.parameters, Machine.load(REAL), Zones((0.2, 0.5, 1.0)))
     assert case.zones.zone(0.25) == "B"

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carom.outcome import InputError
-from carom.parameters import Machine, load_case
+from carom.parameters import Machine, load
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 REAL = EXAMPLES / "keogh-cole.toml"
@@ -27,7 +27,7 @@ PARTNERS = {
 def error_of(path, *settings):
     """The input error of loading; each line of its message names its parts."""
     with pytest.raises(InputError) as caught:
-        load_case(path, settings)
+        load(path, settings)
     error = caught.value
     for line, one in zip(str(error).split("\n"), error.errors, strict=True):
         assert line.startswith(f"{one.field} = ")
@@ -43,9 +43,9 @@ def error_of(path, *settings):
     ],
 )
 def test_a_dimensionless_setting_is_exact(path, name, text):
-    before = load_case(path)
+    before = load(path)
 
-    case = load_case(path, [f" {name} = {text} "])
+    case = load(path, [f" {name} = {text} "])
 
     assert case.parameters == before.parameters.replace(**{name: float(text)})
     if before.machine is not None:
@@ -56,7 +56,7 @@ def test_a_dimensionless_setting_is_exact(path, name, text):
 def test_settings_are_exact_and_the_machine_follows(gamma, omega, rho, radius_ratio):
     numbers = {"gamma": gamma, "omega": omega, "rho": rho if rho > 1e-20 else 0.0, "radius_ratio": radius_ratio}
 
-    case = load_case(REAL, [f"{name}={number!r}" for name, number in numbers.items()])
+    case = load(REAL, [f"{name}={number!r}" for name, number in numbers.items()])
 
     followed = case.machine.parameters.as_dict()
     for name, number in numbers.items():
@@ -65,7 +65,7 @@ def test_settings_are_exact_and_the_machine_follows(gamma, omega, rho, radius_ra
 
 
 def test_physical_settings_change_what_depends_on_them():
-    case = load_case(REAL, ["speed=1500 rpm", "damping = 2000 N s/m", "friction=0.2", "mass=60"])
+    case = load(REAL, ["speed=1500 rpm", "damping = 2000 N s/m", "friction=0.2", "mass=60"])
 
     expected = Machine.load(REAL).replace(speed="1500 rpm", damping=2000, friction=0.2, mass=60)
     assert case.machine == expected
@@ -74,11 +74,11 @@ def test_physical_settings_change_what_depends_on_them():
 
 
 def test_physical_settings_come_before_dimensionless_ones():
-    case = load_case(REAL, ["gamma=0.1", "speed=1500 rpm"])
+    case = load(REAL, ["gamma=0.1", "speed=1500 rpm"])
 
     assert case.parameters.gamma == 0.1
     assert case.machine.damping == pytest.approx(0.1 * 50 * 1500 * math.pi / 30, rel=1e-15)
-    assert case == load_case(REAL, ["speed=1500 rpm", "gamma=0.1"])
+    assert case == load(REAL, ["speed=1500 rpm", "gamma=0.1"])
 
 
 @pytest.mark.parametrize("path", [REAL, PAPER])
@@ -137,7 +137,7 @@ def test_physical_settings_need_a_machine(setting, advice):
 
 
 def test_a_dimensionless_file_may_have_negative_damping():
-    assert load_case(PAPER, ["gamma=-0.2"]).parameters.gamma == -0.2
+    assert load(PAPER, ["gamma=-0.2"]).parameters.gamma == -0.2
 
 
 def test_a_broken_file_is_not_mended_by_a_setting(tmp_path):

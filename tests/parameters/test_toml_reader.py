@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from carom.outcome import InputError, MultipleInputError
-from carom.parameters import load_case
+from carom.parameters import load
 from carom.parameters.toml_reader import _PARTS, _first_deep_line
 
 REAL = (Path(__file__).parents[2] / "examples" / "keogh-cole.toml").read_text(encoding="utf-8")
@@ -19,7 +19,7 @@ def error_of(tmp_path):
         path = tmp_path / name
         path.write_text(content, encoding="utf-8")
         with pytest.raises(InputError) as caught:
-            load_case(path, settings)
+            load(path, settings)
         assert all(line.isprintable() for line in str(caught.value).split("\n"))
         return caught.value
 
@@ -122,7 +122,7 @@ def test_very_many_errors_are_counted(error_of):
 def test_no_control_character_of_an_input_is_in_its_error(error_of, text, tmp_path):
     error_of(REAL, f"{text}=3", f"gamma={text}", f"mass=3 k{text}g", text)
     with pytest.raises(InputError) as caught:
-        load_case(tmp_path / f"{text}.toml")
+        load(tmp_path / f"{text}.toml")
     assert str(caught.value).isprintable()
     if text != "\ud800":  # which TOML refuses itself
         quoted = '"' + "".join(sign if sign.isprintable() else f"\\u{ord(sign):04x}" for sign in text) + '"'
@@ -134,4 +134,4 @@ def test_the_name_of_a_case_is_printable(tmp_path):
     path = tmp_path / "\x1b[2J\nro\u202etor.toml"
     path.write_text(REAL, encoding="utf-8")
 
-    assert load_case(path).name == "\\x1b[2J\\nro\\u202etor"
+    assert load(path).name == "\\x1b[2J\\nro\\u202etor"

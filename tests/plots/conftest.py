@@ -17,7 +17,7 @@ def _motions(gamma: float) -> SimpleNamespace:
     )
     rotor = carom.Jeffcott(parameters)
     return SimpleNamespace(
-        rotor=rotor, orbits=carom.single_impact_orbits(rotor), equilibria=carom.equilibria(rotor), scales=scales
+        rotor=rotor, orbits=carom.find_orbits(rotor), equilibria=carom.find_equilibria(rotor), scales=scales
     )
 
 

@@ -10,7 +10,7 @@ from matplotlib.contour import QuadContourSet
 
 import carom
 from carom import plots
-from carom.basins import basins, gain_map, least_gain_change, smallest_unrecovered_kick
+from carom.basins import least_gain_change, map_basins, map_gains, smallest_unrecovered_kick
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -65,7 +65,7 @@ def grey(colour):
 
 
 def test_kicks_by_size_and_direction(rotor):
-    basin = basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
+    basin = map_basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
     smallest = smallest_unrecovered_kick(rotor, 1.0)
     figure = plots.basin(basin, smallest)
     green = np.array(to_rgb(plots.OUTCOMES["levitated"].colour))
@@ -86,7 +86,7 @@ def test_kicks_by_size_and_direction(rotor):
 
 
 def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
-    basin = basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
+    basin = map_basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
     steps = plots.basin(basin).axes[1].patches
     tops = [patch.get_data().values for patch in steps]
     assert tops[-1] == pytest.approx(np.full(12, 100.0))
@@ -105,7 +105,7 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
     ],
 )
 def test_each_disturbance_has_its_picture(rotor, plan, labels):
-    figure = plots.basin(basins(rotor, plan), title="a title")
+    figure = plots.basin(map_basins(rotor, plan), title="a title")
     said = [text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel(), axes.get_title())]
     for label in labels:
         assert any(label in text for text in said), label
@@ -113,7 +113,7 @@ def test_each_disturbance_has_its_picture(rotor, plan, labels):
 
 
 def test_cells_are_where_their_start_is(rotor):
-    basin = basins(rotor, Grid(KickPlane(1.0), (10, 14)))
+    basin = map_basins(rotor, Grid(KickPlane(1.0), (10, 14)))
     (mesh,) = [entry for entry in plots.basin(basin).axes[0].collections if isinstance(entry, QuadMesh)]
     x, y = basin.dataset["radial_speed_si"].values, basin.dataset["tangential_speed_si"].values
     corners = mesh.get_coordinates()
@@ -127,7 +127,7 @@ def test_cells_are_where_their_start_is(rotor):
 
 @pytest.mark.parametrize("plan", [Grid(VelocityKick(1.0), (6, 8)), Grid(ContactRelease("rotating"), (20,))])
 def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
-    found = basins(rotor, plan)
+    found = map_basins(rotor, plan)
     axes = plots.basin(found).axes[0]
     hatched = [entry for entry in axes.collections if isinstance(entry, QuadContourSet)]
     looks = {plots.OUTCOMES[Outcome(code).label].hatch for code in np.unique(found.outcomes)} - {""}
@@ -139,18 +139,18 @@ def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
 
 def test_without_scales_units_are_those_of_the_equations():
     rotor = carom.Jeffcott(MACHINE.replace(scales=None))
-    figure = plots.basin(basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
+    figure = plots.basin(map_basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
     assert r"c_\mathrm{r}\Omega" in figure.axes[1].get_xlabel()
 
 
 def test_a_grid_of_states_has_no_picture(rotor):
     with pytest.raises(InputError, match="sample"):
-        plots.basin(basins(rotor, Grid(AnyState(1.0), (2, 2, 2, 2))))
+        plots.basin(map_basins(rotor, Grid(AnyState(1.0), (2, 2, 2, 2))))
 
 
 def test_gain_map(rotor):
     plan = Grid(VelocityKick.in_si(SCALES, 0.08), (8, 8))
-    found = gain_map(MACHINE, plan, shape=(6, 7), ranges=((7e5, 1.6e6), (200.0, 4000.0)))
+    found = map_gains(MACHINE, plan, shape=(6, 7), ranges=((7e5, 1.6e6), (200.0, 4000.0)))
     change = least_gain_change(found, 0.9)
     figure = plots.gain_map(found, change)
     axes, bar = figure.axes
@@ -179,7 +179,7 @@ def test_gain_map(rotor):
 
 def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
     plan = Grid(VelocityKick.in_si(SCALES, 0.08), (5, 5))
-    found = gain_map(MACHINE, plan, shape=(3, 3))
+    found = map_gains(MACHINE, plan, shape=(3, 3))
     x, y = (found.dataset[axis.name].values for axis in found.axes)
     node = abs(x - found.present[0]).argmin(), abs(y - found.present[1]).argmin()
 
@@ -203,14 +203,14 @@ def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
     assert "every kick tried comes back" in words(figure)
     assert "smallest kick tried that does not come back (m/s)" in [axes.get_ylabel() for axes in figure.axes]
 
-    drawn = gain_map(MACHINE, Sample(VelocityKick.in_si(SCALES, 0.08), 20), shape=(2, 2))
+    drawn = map_gains(MACHINE, Sample(VelocityKick.in_si(SCALES, 0.08), 20), shape=(2, 2))
     with pytest.raises(InputError, match="one that this map has: recovered"):
         plots.gain_map(drawn, measure="integrity")
 
 
 def test_gain_map_of_dimensionless_parameters():
     plan = Grid(VelocityKick(0.3), (5, 5))
-    found = gain_map(MACHINE.replace(scales=None), plan, ("omega", "gamma"), shape=(3, 3))
+    found = map_gains(MACHINE.replace(scales=None), plan, ("omega", "gamma"), shape=(3, 3))
     axes = plots.gain_map(found, title="a title").axes[0]
     assert r"\omega" in axes.get_xlabel()
     assert axes.get_title() == "a title"

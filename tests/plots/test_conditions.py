@@ -57,7 +57,7 @@ def test_bound_far_away_is_told_in_words(damped, read):
 
 
 def test_no_claim_beyond_an_unfinished_search(damped, read):
-    orbits = carom.single_impact_orbits(damped.rotor, longest_period=5.0)
+    orbits = carom.find_orbits(damped.rotor, longest_period=5.0)
     periods = np.linspace(1e-3, 5.0, 500)
     figure = plots.period_condition(orbits, periods, carom.period_condition(damped.rotor, periods))
     words = read.legend(figure)
@@ -73,7 +73,7 @@ def test_no_roots(quiet, read):
 
 def test_many_roots_names_do_not_crowd(damped):
     rotor = carom.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
-    orbits = carom.single_impact_orbits(rotor)
+    orbits = carom.find_orbits(rotor)
     assert len(orbits.periods) > 10
     periods = np.linspace(1e-3, orbits.longest_period, 2000)
     (axes,) = plots.period_condition(orbits, periods, carom.period_condition(rotor, periods)).axes

@@ -68,9 +68,9 @@ def test_virtual_orbits_are_faint(weak, read):
 
 def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
     rotor = carom.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
-    orbits = carom.single_impact_orbits(rotor)
+    orbits = carom.find_orbits(rotor)
     virtual = sum(not orbit.admissible for orbit in orbits)
-    figure = plots.equilibria_and_orbits(carom.equilibria(rotor), orbits)
+    figure = plots.equilibria_and_orbits(carom.find_equilibria(rotor), orbits)
     whole = figure.axes[0]
     assert len(read.lines(whole, "path")) == len(orbits) - virtual
     assert sum(len(line.get_xdata()) for line in read.lines(whole, "virtual")) == virtual

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from studies import study_once
 
-from carom.parameters import Parameters, load_case
+from carom.parameters import Parameters, load
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
 
@@ -58,7 +58,7 @@ class Page(html.parser.HTMLParser):
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     example = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
-    result = study_once(load_case(example))
+    result = study_once(load(example))
     told = []
     path = write_report(result, str(tmp_path_factory.mktemp("report")), lambda share, words: told.append(share))
     assert told == sorted(told)

@@ -6,7 +6,7 @@ from scipy.stats import binom
 
 from carom.attractors import DisturbanceSet, find_attractors
 from carom.ensembles import settle_all
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
@@ -167,7 +167,7 @@ def test_well_balanced_stiff_machine_is_safe_at_any_damping():
     stiff = SOURCE.replace(omega=2.0, rho=0.2, mu=0.05, d=0.5)
     safe = least_safe_damping(stiff, count=60, highest=2.0)
 
-    assert len(equilibria(Jeffcott(stiff))) == 3
+    assert len(find_equilibria(Jeffcott(stiff))) == 3
     assert safe.rub is safe.orbits is safe.simulated is safe.within_reach is None
     assert safe.at_all.motion == "rolling"
     assert safe.words.startswith("At no damping looked at was a disturbance lost.")

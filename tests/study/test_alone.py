@@ -8,7 +8,7 @@ from machines import random_parameters
 
 from carom.attractors import DisturbanceSet, motion_name
 from carom.ensembles import settle_all
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.orbits import orbits_within_reach
 from carom.outcome import Outcome
@@ -41,7 +41,7 @@ def ends_of(rotor, count, seed):
 def known_motions(rotor):
     """Names of the admissible motions other than levitation."""
     names = {orbit.name for orbit in orbits_within_reach(rotor) if orbit.admissible}
-    rubs = [rub for rub in equilibria(rotor)[1:] if rub.status == "admissible" and rub.normal_force > 1e-9]
+    rubs = [rub for rub in find_equilibria(rotor)[1:] if rub.status == "admissible" and rub.normal_force > 1e-9]
     return names | ({"rub"} if rubs else set())
 
 
@@ -52,7 +52,7 @@ def check_inside(parameters, found, random, values, count):
         for value in np.exp(random.uniform(low, high, values)).tolist():
             rotor = Jeffcott(parameters.replace(**{found.gain: value}))
             where = (parameters, found.gain, value)
-            assert equilibria(rotor)[0].status == "admissible", where
+            assert find_equilibria(rotor)[0].status == "admissible", where
             assert not known_motions(rotor), (where, known_motions(rotor))
             ends = ends_of(rotor, count, int(random.integers(1 << 30)))
             whirls = np.isin(ends.outcomes, WHIRLS)
@@ -78,7 +78,7 @@ def check_outside(parameters, found):
                 assert motion_name(Outcome(int(ends.outcomes)), int(ends.multiplicities)) == one.motion
             elif edge.kind:
                 rotor = Jeffcott(parameters.replace(**{found.gain: edge.value * (1 + outward * 2e-6)}))
-                gone = equilibria(rotor)[0].status != "admissible"
+                gone = find_equilibria(rotor)[0].status != "admissible"
                 assert gone or known_motions(rotor), (parameters, found.gain, edge)
 
 

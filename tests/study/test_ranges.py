@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -37,11 +37,11 @@ planar = st.builds(
 
 
 def levitates(parameters):
-    return equilibria(Jeffcott(parameters))[0].status == "admissible"
+    return find_equilibria(Jeffcott(parameters))[0].status == "admissible"
 
 
 def rubs(parameters):
-    return any(entry.status == "admissible" for entry in equilibria(Jeffcott(parameters))[1:])
+    return any(entry.status == "admissible" for entry in find_equilibria(Jeffcott(parameters))[1:])
 
 
 EXISTS = {"contact-free": (contact_free_range, levitates), "rub": (rub_range, rubs)}
@@ -104,14 +104,14 @@ def test_rub_pushes_at_its_fold_and_not_beyond_the_point_where_the_fold_meets_th
         (threshold,) = rub_range(parameters, "gamma").thresholds
         assert threshold.edge.kind == kind
         below = parameters.replace(gamma=threshold.edge.value * (1.0 - 1e-6))
-        forces = [entry.normal_force for entry in equilibria(Jeffcott(below))[1:] if entry.status == "admissible"]
+        forces = [entry.normal_force for entry in find_equilibria(Jeffcott(below))[1:] if entry.status == "admissible"]
         assert len(forces) == (2 if kind == "rub-fold" else 1)
 
 
 @settings(max_examples=60)
 @given(parameters=planar)
 def test_where_a_rub_exists_a_stable_one_does(parameters):
-    found = [entry for entry in equilibria(Jeffcott(parameters))[1:] if entry.status == "admissible"]
+    found = [entry for entry in find_equilibria(Jeffcott(parameters))[1:] if entry.status == "admissible"]
 
     forces = [entry.normal_force for entry in found]
     assume(all(force > 1e-9 for force in forces) and (len(forces) < 2 or abs(forces[0] - forces[1]) > 1e-6))

@@ -84,7 +84,7 @@ def test_study_tells_what_the_functions_tell(source_paper):
     assert found.keys() == {variable.name for variable in task.variables}
     # The source paper: at this damping B1,d is the only stable orbit; three others exist or are virtual.
     assert (found["levitates"], found["stable_orbits"], found["orbits_complete"]) == (True, 1, True)
-    assert found["orbits"] == sum(orbit.admissible for orbit in carom.single_impact_orbits(rotor))
+    assert found["orbits"] == sum(orbit.admissible for orbit in carom.find_orbits(rotor))
     assert found["levitation_radius"] == abs(rotor.equilibrium)
     assert found["recovered"] == attractors.recovered
     assert found["least_damping"] >= 0.3

@@ -12,7 +12,7 @@ import pytest
 import carom
 from carom.disturbances import MODELS
 from carom.outcome import InputError
-from carom.parameters import load_case
+from carom.parameters import load
 from carom.sweeps import load_sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -69,7 +69,7 @@ def test_point_is_the_machine_of_the_same_settings(write, settings):
     point = tuple(count - 1 for count in plan.shape)
     here = [f"{name}={value!r}" for name, value in plan.values(point).items()]
 
-    assert plan.case_at(point) == load_case(EXAMPLES.parent / write().with_name("machine.toml"), [*settings, *here])
+    assert plan.case_at(point) == load(EXAMPLES.parent / write().with_name("machine.toml"), [*settings, *here])
 
 
 def test_sizes_with_units_stay_and_plain_ones_scale(write):

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from carom.disturbances import FASTEST
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.orbits import Orbit
 from carom.outcome import InputError
@@ -194,7 +194,7 @@ def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
             for change in (-NUDGE, NUDGE) if orbit.stable else (-PUSH, PUSH):
                 state = State(leaving.position, (1.0 + change) * leaving.velocity)
                 starts.append(Start("orbit", state, f"a start next to {orbit.name}"))
-    for rub in equilibria(rotor)[1:]:
+    for rub in find_equilibria(rotor)[1:]:
         if rub.status == "admissible":
             words = f"a start next to the {'stable' if rub.stable else 'unstable'} synchronous rub"
             speeds = (-NUDGE, NUDGE) if rub.stable else (-PUSH, PUSH)

@@ -17,9 +17,9 @@
 """
 
 from carom.basins.changes import GainChange, least_gain_change
-from carom.basins.classification import Basin, basins
+from carom.basins.classification import Basin, map_basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
-from carom.basins.gains import GainMap, gain_map
+from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity import Integrity, integrity
 from carom.basins.kicks import harmless_kick, harmless_shock, harmless_step
 from carom.basins.losses import SmallestLoss, smallest_loss, smallest_unrecovered_kick
@@ -34,13 +34,13 @@ __all__ = [
     "Share",
     "SmallestLoss",
     "basin_entropy",
-    "basins",
-    "gain_map",
     "harmless_kick",
     "harmless_shock",
     "harmless_step",
     "integrity",
     "least_gain_change",
+    "map_basins",
+    "map_gains",
     "smallest_loss",
     "smallest_unrecovered_kick",
 ]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-__all__ = ["Basin", "basins", "follow"]
+__all__ = ["Basin", "follow", "map_basins"]
 
 CRITERIA = (
     "levitated: the moduli of the modes leave no later flight room to reach the wall (proof). "
@@ -184,7 +184,7 @@ class Basin:
         return cls(load(path, ("outcome", "motion", "time", "touched")))
 
 
-def basins(
+def map_basins(
     machine: Subject,
     disturbances: Plan,
     *,

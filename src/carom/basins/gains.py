@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-__all__ = ["GainMap", "gain_map", "measured"]
+__all__ = ["GainMap", "map_gains", "measured"]
 
 AROUND = (0.5, 2.0)
 """Default range of a parameter, in its present value."""
@@ -86,7 +86,7 @@ class GainMap:
 
     @property
     def limits(self) -> dict[str, int]:
-        """``patience`` and ``max_events`` of :func:`~carom.basins.basins` with which it was measured."""
+        """``patience`` and ``max_events`` of :func:`~carom.basins.map_basins` with which it was measured."""
         return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
 
     @property
@@ -116,7 +116,7 @@ class GainMap:
         return cls(load(path, ("recovered", "levitates")))
 
 
-def gain_map(
+def map_gains(
     machine: Subject,
     disturbances: Plan,
     names: tuple[str, str] = ("stiffness", "damping"),
@@ -146,7 +146,7 @@ def gain_map(
     shape : tuple of int
         Values of both, ends included.
     patience, max_events, threads, source
-        As for :func:`~carom.basins.basins`.
+        As for :func:`~carom.basins.map_basins`.
     progress : callable, optional
         Called with the share done, 0 to 1.
 

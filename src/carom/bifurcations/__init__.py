@@ -5,11 +5,11 @@ from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.cells import Region
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
-from carom.bifurcations.diagrams import Diagram, bifurcation_diagram
+from carom.bifurcations.diagrams import Diagram, find_bifurcations
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.onsets import ONSETS, continue_onset
 from carom.bifurcations.planes import Plane
-from carom.bifurcations.regions import RegionMap, region_map
+from carom.bifurcations.regions import RegionMap, map_regions
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch, SpecialValue
@@ -40,14 +40,14 @@ __all__ = [
     "Window",
     "WindowEnd",
     "axis",
-    "bifurcation_diagram",
     "continue_curve",
     "continue_onset",
     "continue_orbit",
     "continue_rubbing",
+    "find_bifurcations",
+    "map_regions",
     "motions_at",
     "orbit_windows",
-    "region_map",
     "rubbing_orbits",
     "sample_attractors",
     "value_of",

@@ -167,7 +167,7 @@ def pressed_on(numbers: Numbers, period: float, speed: float) -> float:
 def rub_fold(numbers: Numbers) -> float:
     """``ρ²(1 + μ²) − (γ + μ(1 − ω²))²``: zero where the two synchronous rubs meet, negative without any.
 
-    From ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)`` (:func:`carom.equilibria.equilibria`), whose left side is at most
+    From ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)`` (:func:`carom.equilibria.find_equilibria`), whose left side is at most
     ``ρ√(1 + μ²)``.
     """
     needed = numbers.gamma + numbers.mu * (1.0 - numbers.omega**2)

@@ -22,11 +22,11 @@ from carom.bifurcations.steady import (
     steady_points,
 )
 from carom.models import Jeffcott, Subject, model_of
-from carom.orbits import Orbit, single_impact_orbits
+from carom.orbits import Orbit, find_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters
 
-__all__ = ["Diagram", "bifurcation_diagram"]
+__all__ = ["Diagram", "find_bifurcations"]
 
 SAMPLES = 13
 """Values of the parameter at which all orbits are looked for."""
@@ -78,7 +78,7 @@ class Diagram:
         return self.axis.name
 
 
-def bifurcation_diagram(
+def find_bifurcations(
     machine: Subject,
     parameter: str,
     interval: tuple[float, float],
@@ -91,7 +91,7 @@ def bifurcation_diagram(
 ) -> Diagram:
     """Find every branch on an interval, and every special point on it.
 
-    Single-impact orbits are all found (:func:`~carom.orbits.single_impact_orbits`) at 13 evenly spaced values, and each
+    Single-impact orbits are all found (:func:`~carom.orbits.find_orbits`) at 13 evenly spaced values, and each
     one that lies on no branch yet is continued both ways.
 
     Parameters
@@ -167,7 +167,7 @@ def _orbits(parameters: Parameters) -> Iterator[Orbit]:
     """Orbits with forward slip; none without damping, where there are infinitely many."""
     if parameters.gamma > 0.0 and parameters.rho > 0.0:
         longest = LONGEST_PERIOD if parameters.gamma < 0.05 else None
-        yield from (orbit for orbit in single_impact_orbits(Jeffcott(parameters), longest) if orbit.slip > 0)
+        yield from (orbit for orbit in find_orbits(Jeffcott(parameters), longest) if orbit.slip > 0)
 
 
 def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:

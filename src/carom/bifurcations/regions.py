@@ -11,7 +11,7 @@ from carom.bifurcations.axes import vary
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
-from carom.bifurcations.diagrams import Diagram, bifurcation_diagram
+from carom.bifurcations.diagrams import Diagram, find_bifurcations
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.naming import listed
 from carom.bifurcations.onsets import ONSETS, continue_onset
@@ -22,7 +22,7 @@ from carom.models import Subject, model_of
 from carom.outcome import CaromError
 from carom.parameters import Parameters
 
-__all__ = ["RegionMap", "region_map"]
+__all__ = ["RegionMap", "map_regions"]
 
 SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
 """Distance in widths of the plane, and relative difference of periods, below which codimension-2 points are the same."""
@@ -124,7 +124,7 @@ def _joined(point: Codimension2Point, other: Codimension2Point) -> str:
     return " + ".join([point.kind, *missing])
 
 
-def region_map(
+def map_regions(
     machine: Subject,
     plane: Plane,
     *,
@@ -173,7 +173,7 @@ def region_map(
     curves: list[Curve] = []
     lost: list[str] = []
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        diagram = bifurcation_diagram(base, name, interval, virtual=virtual, lasting=lasting)
+        diagram = find_bifurcations(base, name, interval, virtual=virtual, lasting=lasting)
         curves = _through_diagram(base, plane, diagram, virtual, curves, lost)
         tell(share)
     survey = Survey(base, plane, curves)

@@ -36,7 +36,7 @@ class Solution(NamedTuple):
 def orbit_solutions(
     parameters: Parameters, longest_period: float | None = None, *, backward: bool = False
 ) -> list[Solution]:
-    """Solve the equations at all roots of ``F₁`` (:func:`carom.orbits.single_impact_orbits`).
+    """Solve the equations at all roots of ``F₁`` (:func:`carom.orbits.find_orbits`).
 
     Parameters
     ----------

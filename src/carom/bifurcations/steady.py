@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.conditions import TESTS
-from carom.equilibria import equilibria
+from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.parameters import Parameters
 from carom.roots import bracketed_root
@@ -153,7 +153,7 @@ def equilibrium_branches(
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
-        for equilibrium in equilibria(Jeffcott(along.set(base, value).parameters)):
+        for equilibrium in find_equilibria(Jeffcott(along.set(base, value).parameters)):
             place = 0 if equilibrium.kind == "contact-free" else 1 if equilibrium.stable else 2
             table[place, column] = (
                 equilibrium.radius,

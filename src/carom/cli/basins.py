@@ -69,9 +69,9 @@ def basins(
     1/Omega; those of a parameter of the machine are in SI units. With --gains the share that comes back is mapped
     against P and D gain, or any two parameters.
     """
-    from carom.parameters import load_case
+    from carom.parameters import load
 
-    case = load_case(machine, settings or ())
+    case = load(machine, settings or ())
     sizes = {"fastest": fastest, "peak": peak, "duration": duration, "before": before, "release": release}
     plan = read_plan(case.parameters, disturbance, sizes, grid, starts, seed)
     asked = read_gains(case.parameters, gains, plane, x, y, wanted)
@@ -122,8 +122,8 @@ class _Answer:
 
 def _follow(question: _Question, tell: Tell) -> _Answer:
     """Basin, smallest loss and harmless speed of a machine; and its gain map, if that is asked for."""
-    from carom.basins import basins as classify
     from carom.basins import harmless_kick, smallest_loss
+    from carom.basins import map_basins as classify
     from carom.basins.losses import has_sizes
     from carom.models import Jeffcott
 
@@ -146,9 +146,9 @@ def _follow(question: _Question, tell: Tell) -> _Answer:
 
 
 def _map(question: _Question, asked: Gains, tell: Tell) -> tuple[GainMap, GainChange | None]:
-    from carom.basins import gain_map, least_gain_change
+    from carom.basins import least_gain_change, map_gains
 
-    found = gain_map(
+    found = map_gains(
         question.case.parameters,
         question.plan,
         asked.names,

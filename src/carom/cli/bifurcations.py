@@ -69,12 +69,12 @@ def bifurcations(
     points, grazing, boundary equilibria, non-smooth Hopf points, folds of rubs and the limit of rolling.  Along the
     speed it is a run-up diagram: damping and stiffness stay, what they mean to the rotor changes with the speed.
     """
-    from carom.bifurcations import Numbers, axis, bifurcation_diagram
+    from carom.bifurcations import Numbers, axis, find_bifurcations
     from carom.bifurcations.documents import diagram_document
     from carom.cli.starts import read_value
-    from carom.parameters import load_case
+    from carom.parameters import load
 
-    parameters = load_case(machine, settings or ()).parameters
+    parameters = load(machine, settings or ()).parameters
     varied = axis(parameters, along.strip())
     first, last = read_value("--from", start, varied), read_value("--to", end, varied)
     if first == last:
@@ -83,7 +83,7 @@ def bifurcations(
         raise InputError("--seed", seed, "goes with --attractors alone")
     directory = _directory(out)
     with progress("following orbits (the kernels are compiled on first use)") as tell:
-        diagram = bifurcation_diagram(
+        diagram = find_bifurcations(
             parameters,
             varied.name,
             (min(first, last), max(first, last)),
@@ -126,11 +126,11 @@ def regions(
     Curves are followed from the bifurcations met on the two lines through the machine as it is, and from every change of
     motions between neighbouring points of the grid.  Changes that no curve explains are listed.
     """
-    from carom.bifurcations import Plane, axis, region_map
+    from carom.bifurcations import Plane, axis, map_regions
     from carom.bifurcations.documents import regions_document
-    from carom.parameters import load_case
+    from carom.parameters import load
 
-    parameters = load_case(machine, settings or ()).parameters
+    parameters = load(machine, settings or ()).parameters
     names = [name.strip() for name in plane.split(",")]
     if len(names) != 2:
         raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")
@@ -141,7 +141,7 @@ def regions(
     ]
     directory = _directory(out)
     with progress("following curves (the kernels are compiled on first use)") as tell:
-        found = region_map(
+        found = map_regions(
             parameters,
             Plane(axes[0].name, axes[1].name, *ranges),
             grid=grid,

@@ -24,23 +24,23 @@ def orbits(
 
     All orbits with one impact a period, with the argument that there are no more.
     """
-    from carom.parameters import load_case
+    from carom.parameters import load
 
-    case = load_case(machine, settings or ())
+    case = load(machine, settings or ())
     longest = None
     if longest_period is not None:
         from carom.cli.starts import read_time
 
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)"):
-        from carom.equilibria import equilibria
+        from carom.equilibria import find_equilibria
         from carom.models import Jeffcott
-        from carom.orbits import orbits_within_reach, single_impact_orbits
+        from carom.orbits import find_orbits, orbits_within_reach
         from carom.study import orbits_document
 
         rotor = Jeffcott(case.parameters)
-        steady = equilibria(rotor)
-        found = orbits_within_reach(rotor) if longest is None else single_impact_orbits(rotor, longest)
+        steady = find_equilibria(rotor)
+        found = orbits_within_reach(rotor) if longest is None else find_orbits(rotor, longest)
     if as_json:
         print_document(orbits_document(case.parameters, steady, found, case.machine))
         return

@@ -53,9 +53,9 @@ def simulate(
 
     The motion is followed through flights, impacts and lasting contact, exactly to rounding.
     """
-    from carom.parameters import load_case
+    from carom.parameters import load
 
-    case = load_case(machine, settings or ())
+    case = load(machine, settings or ())
     targets = {option: path for option, path in (("--csv", csv), ("--netcdf", netcdf)) if path is not None}
     if targets:
         from carom.cli.logs import check_file

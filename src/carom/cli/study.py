@@ -25,9 +25,9 @@ def study(
     Every simple motion of the machine with its stability, the damping and stiffness at which each appears or vanishes,
     and where 200 simulated disturbances end. With --out also figures, study.json and report.html.
     """
-    from carom.parameters import load_case
+    from carom.parameters import load
 
-    case = load_case(machine, settings or ())
+    case = load(machine, settings or ())
     with progress("loading") as tell:
         if out is not None:
             from carom.report import check_directory

@@ -24,7 +24,7 @@ from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.disturbances.kinds import MODELS
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.disturbances.plans import Grid, Plan, Sample, disturbances
+from carom.disturbances.plans import Grid, Plan, Sample, kick_grid
 from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
 
 __all__ = [
@@ -44,6 +44,6 @@ __all__ = [
     "StateSlice",
     "UnbalanceStep",
     "VelocityKick",
-    "disturbances",
+    "kick_grid",
     "outward_from",
 ]

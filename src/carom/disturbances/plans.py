@@ -17,7 +17,7 @@ from carom.parameters import Scales
 if TYPE_CHECKING:
     from carom.models import Jeffcott
 
-__all__ = ["Grid", "Plan", "Sample", "disturbances"]
+__all__ = ["Grid", "Plan", "Sample", "kick_grid"]
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class Sample:
 Plan: TypeAlias = Grid | Sample
 
 
-def disturbances(radial: int = 100, tangential: int = 100, fastest: float = FASTEST) -> Grid:
+def kick_grid(radial: int = 100, tangential: int = 100, fastest: float = FASTEST) -> Grid:
     """Grid of velocity kicks out of levitation, by their radial and tangential parts.
 
     Parameters

@@ -8,13 +8,13 @@
 ``toml_reader``           file -> raw tables
 ``scaling``               :class:`Scales`, :class:`Parameters`
 ``machine``               :class:`Machine` and the way to its parameters and back
-``machine_file``          :func:`load_case`: file and settings -> :class:`Case`
+``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
 """
 
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Field, unknown_name
 from carom.parameters.machine import Machine
-from carom.parameters.machine_file import Case, Zones, load_case
+from carom.parameters.machine_file import Case, Zones, load
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters, Scales
 from carom.parameters.sizes import Size, read_size
@@ -30,7 +30,7 @@ __all__ = [
     "Scales",
     "Size",
     "Zones",
-    "load_case",
+    "load",
     "read_quantity",
     "read_size",
     "unknown_name",

@@ -23,7 +23,7 @@ from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
 
-__all__ = ["Case", "Zones", "load_case"]
+__all__ = ["Case", "Zones", "load"]
 
 _SETTING = "--set"
 
@@ -101,7 +101,7 @@ class Case:
     zones: Zones
 
 
-def load_case(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
+def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     """Read a machine file and apply settings to it.
 
     Parameters
@@ -127,7 +127,7 @@ def load_case(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Cas
 
     Examples
     --------
-    >>> case = load_case("examples/keogh-cole.toml", ["speed=1500 rpm", "gamma=0.1"])
+    >>> case = load("examples/keogh-cole.toml", ["speed=1500 rpm", "gamma=0.1"])
     >>> case.parameters.gamma
     0.1
     """

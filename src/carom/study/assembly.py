@@ -9,7 +9,7 @@ from typing import Any
 
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.boundary import BoundaryEquilibrium, boundary_equilibria
-from carom.equilibria import Equilibrium, equilibria
+from carom.equilibria import Equilibrium, find_equilibria
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits import Orbit, OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
@@ -143,7 +143,7 @@ def study(machine: Subject, *, progress: Progress | None = None) -> Study:
 
     Examples
     --------
-    >>> result = study(load_case("examples/keogh-cole.toml"))  # doctest: +SKIP
+    >>> result = study(load("examples/keogh-cole.toml"))  # doctest: +SKIP
     >>> print(result.verdict.text)  # doctest: +SKIP
     """
     case = case_of(machine)
@@ -165,7 +165,7 @@ def study(machine: Subject, *, progress: Progress | None = None) -> Study:
         parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
     )
     advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
-    return Study(case, rotor, equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe, fresh)
+    return Study(case, rotor, find_equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe, fresh)
 
 
 def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:

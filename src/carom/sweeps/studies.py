@@ -128,11 +128,11 @@ class StudyTask:
         return found
 
     def _closed_forms(self, rotor: Jeffcott, case: Case) -> dict[str, Any]:
-        from carom.equilibria import equilibria
+        from carom.equilibria import find_equilibria
         from carom.orbits import orbits_within_reach
         from carom.whirl import rolling, runaway_speed
 
-        levitation, *rubs = equilibria(rotor)
+        levitation, *rubs = find_equilibria(rotor)
         there = [rub for rub in rubs if rub.status == "admissible"]
         zones = case.zones
         found = {

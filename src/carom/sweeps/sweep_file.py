@@ -19,7 +19,7 @@ from carom.parameters import (
     Field,
     Scales,
     Zones,
-    load_case,
+    load,
     read_quantity,
     read_size,
     unknown_name,
@@ -120,7 +120,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     top = problems.attempt(_read, _Top, content, "", _TABLES)
     listed = [*(top.settings if top else []), *settings]
     machine = Path(name).parent / (top.machine if top else "")
-    case = problems.attempt(load_case, machine, listed) if top else None
+    case = problems.attempt(load, machine, listed) if top else None
     axes = problems.attempt(_axes, tables.get("axes"), listed, case)
     task = problems.attempt(_task, tables, top, case)
     problems.tell()

@@ -9,7 +9,7 @@ import pytest
 from machines import PAPER
 from scipy.optimize import brentq, minimize_scalar
 
-from carom import equilibria, period_condition, single_impact_orbits
+from carom import find_equilibria, find_orbits, period_condition
 from carom.bifurcations import motions_at
 from carom.models import Jeffcott
 from carom.reproductions import mora2014
@@ -19,7 +19,7 @@ def test_motions_of_figure_2(found):
     levitation, grazing, small = found.motions
     assert [motion.panel for motion in found.motions] == ["a", "b", "c"]
     assert levitation.orbit is None
-    assert equilibria(levitation.rotor)[0].status == "admissible"
+    assert find_equilibria(levitation.rotor)[0].status == "admissible"
     assert levitation.highest == abs(levitation.rotor.equilibrium)
     assert (grazing.orbit.name, small.orbit.name) == ("B1,d", "B1,a")
     assert grazing.orbit.admissible
@@ -46,7 +46,7 @@ def test_pairs_of_figure_3(found):
             assert abs(period_condition(Jeffcott(PAPER.replace(gamma=gamma)), np.array([period]))[0]) < 1e-10
         assert (np.diff(pair.longer.astype(int)) != 0).sum() == 1
     # All there are up to 30/Ω at the weakest damping, each pair once.
-    weakest = single_impact_orbits(Jeffcott(PAPER.replace(gamma=0.005)), 30.0).periods
+    weakest = find_orbits(Jeffcott(PAPER.replace(gamma=0.005)), 30.0).periods
     starts = np.sort([period for pair in found.periods.pairs for period in pair.periods[[0, -1]]])
     np.testing.assert_allclose(starts[: len(weakest)], weakest, rtol=1e-10)
 
@@ -64,7 +64,7 @@ def test_branches_of_figure_4(found):
     for branch in (found.pair.slow, found.pair.fast):
         assert branch.stops == ("parameter limit", "parameter limit")
         for place in range(0, len(branch), 25):
-            orbits = single_impact_orbits(Jeffcott(PAPER.replace(gamma=branch.values[place])), 30.0)
+            orbits = find_orbits(Jeffcott(PAPER.replace(gamma=branch.values[place])), 30.0)
             orbit = orbits[branch.names[place]]
             assert branch.radial_speed[place] == pytest.approx(orbit.radial_speed, abs=1e-9)
             assert branch.angular_speed[place] == pytest.approx(orbit.angular_speed, abs=1e-8)
@@ -78,7 +78,7 @@ def test_local_theory_of_figure_4(found):
     birth = found.pair.hopf.gamma
 
     def orbit(gamma, period):
-        near = single_impact_orbits(Jeffcott(PAPER.replace(gamma=gamma)))
+        near = find_orbits(Jeffcott(PAPER.replace(gamma=gamma)))
         return min(near, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))
 
     def slope(cycle, name, step):
@@ -167,7 +167,7 @@ def test_new_curves_of_figure_6(found, omega):
     """Grazing and period doubling at other stiffnesses than the figure's own, by root search over full orbits."""
 
     def orbit(gamma):
-        return single_impact_orbits(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)))["B1,d"]
+        return find_orbits(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)))["B1,d"]
 
     def highest(gamma):
         at = orbit(gamma)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
 from carom.continuation import Steps
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.reproductions.mora2014.propositions import HopfSide, hopf_side
 from carom.reproductions.mora2014.source import machine_at
 
@@ -62,9 +62,9 @@ def first_pair() -> FirstPair:
     -------
     FirstPair
     """
-    orbits = single_impact_orbits(Jeffcott(machine_at(0.1)))
+    orbits = find_orbits(Jeffcott(machine_at(0.1)))
     # Without damping the search for all orbits has no end; these two have short periods.
-    undamped = single_impact_orbits(Jeffcott(machine_at(-0.3)), 1.0)
+    undamped = find_orbits(Jeffcott(machine_at(-0.3)), 1.0)
     return FirstPair(
         slow=continue_orbit(orbits["B1,b"], "gamma", DAMPINGS, STEPS),
         fast=continue_orbit(orbits["B1,d"], "gamma", DAMPINGS, STEPS),

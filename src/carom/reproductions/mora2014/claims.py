@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.models import Jeffcott
-from carom.orbits import Orbit, single_impact_orbits
+from carom.orbits import Orbit, find_orbits
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds
@@ -119,7 +119,7 @@ def _longer_pairs() -> Claim:
 
 def _longer(gamma: float) -> list[Orbit]:
     """Orbits of the pairs n > 1."""
-    found = single_impact_orbits(Jeffcott(machine_at(gamma)))
+    found = find_orbits(Jeffcott(machine_at(gamma)))
     return [orbit for orbit in found if not orbit.name.startswith("B1,")]
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from carom.local import ContactSystem
 from carom.models import Jeffcott
-from carom.orbits import Orbit, period_condition, single_impact_orbits
+from carom.orbits import Orbit, find_orbits, period_condition
 from carom.parameters import Parameters
 from carom.periods import PeriodCondition
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
@@ -77,7 +77,7 @@ def misprints(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None
     """
     branches = pair or first_pair()
     drawn = plane or damping_stiffness_plane(branches)
-    orbit = single_impact_orbits(Jeffcott(machine_at(0.1)))["B1,d"]
+    orbit = find_orbits(Jeffcott(machine_at(0.1)))["B1,d"]
     return (
         *_impact_law(orbit),
         *_closed_forms(orbit),
@@ -335,7 +335,7 @@ def _letters_of_section_5(branches: FirstPair) -> Iterator[Misprint]:
 def _direction_of_kick(branches: FirstPair, period: float) -> float:
     """Angle between the normal at the boundary equilibrium and the kick of a small orbit, friction's turn taken off."""
     rotor = Jeffcott(machine_at(branches.hopf.gamma + 1e-7))
-    orbits = single_impact_orbits(rotor)
+    orbits = find_orbits(rotor)
     small = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))
     normal = Jeffcott(machine_at(branches.hopf.gamma)).equilibrium
     log = small.trajectory(1.5).contacts

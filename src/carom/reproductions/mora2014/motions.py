@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.models import Jeffcott
-from carom.orbits import Orbit, single_impact_orbits
+from carom.orbits import Orbit, find_orbits
 from carom.reproductions.mora2014.source import machine_at
 
 __all__ = ["ShownMotion", "shown_motions"]
@@ -61,7 +61,7 @@ def shown_motions() -> tuple[ShownMotion, ...]:
         ("c", 0.1, "B1,a", "impacting orbit near the non-smooth Hopf bifurcation"),
     ):
         rotor = Jeffcott(machine_at(gamma))
-        orbit = single_impact_orbits(rotor)[name]
+        orbit = find_orbits(rotor)[name]
         shown.append(ShownMotion(panel, gamma, words, rotor, orbit, _highest(orbit)))
     return tuple(shown)
 

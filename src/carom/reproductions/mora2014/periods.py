@@ -10,7 +10,7 @@ from carom.bifurcations import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.continuation import Steps, continue_branch
 from carom.models import Jeffcott
-from carom.orbits import Orbit, single_impact_orbits
+from carom.orbits import Orbit, find_orbits
 from carom.periods import PeriodCondition
 from carom.reproductions.mora2014.propositions import hopf_side
 from carom.reproductions.mora2014.source import machine_at
@@ -143,7 +143,7 @@ def birth() -> tuple[Birth, ...]:
     stages = []
     for side, gamma in (("below", at - AWAY), ("at", at), ("above", at + AWAY)):
         rotor = Jeffcott(machine_at(gamma))
-        orbits = single_impact_orbits(rotor)
+        orbits = find_orbits(rotor)
         small = () if side == "at" else (orbits["B1,a"], orbits["B1,b"])
         stages.append(Birth(gamma, side, rotor, small))
     return tuple(stages)

@@ -8,7 +8,7 @@ from decimal import Decimal
 from typing import Literal
 
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.parameters import Machine
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
@@ -162,7 +162,7 @@ def _counts(branches: FirstPair) -> Iterator[PrintedNumber]:
     cycles = branches.hopf.cycles
     small = [
         orbit
-        for orbit in single_impact_orbits(Jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
+        for orbit in find_orbits(Jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
         if orbit.name in ("B1,a", "B1,b")
     ]
     unstable = sum(orbit.admissible and not orbit.stable for orbit in small)

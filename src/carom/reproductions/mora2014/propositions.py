@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from carom.bifurcations import Bifurcation, continue_orbit
 from carom.local import ContactSystem, LocalCycle, non_smooth_hopf
 from carom.models import Jeffcott
-from carom.orbits import single_impact_orbits
+from carom.orbits import find_orbits
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 
@@ -98,7 +98,7 @@ class HopfSide:
 def fixed_points(parameters: Parameters) -> FixedPoints:
     """Count the fixed points of the impact map with forward slip, and the admissible ones among them."""
     rotor = Jeffcott(parameters)
-    found = single_impact_orbits(rotor)
+    found = find_orbits(rotor)
     orbits = [orbit for orbit in found if orbit.slip > 0]
     return FixedPoints(
         pairs=(len(found.periods) + 1) // 2,
@@ -125,7 +125,7 @@ def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFol
     CaromError
         The pair does not end in two folds.
     """
-    orbits = single_impact_orbits(Jeffcott(parameters))
+    orbits = find_orbits(Jeffcott(parameters))
     names = [orbit.name for orbit in orbits]
     if not {f"B{pair},b", f"B{pair},d"} <= set(names):
         raise InputError(
