@@ -50,7 +50,7 @@ format: $(TEST) ## format the code and mend what can be mended
 
 # What is compiled is not seen: for the lines of the kernels their own tests run without the compiler, before all do with it.
 coverage: $(TEST) ## run the tests and report what they cover
-	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not jit_only" --cov --cov-report= --cov-fail-under=0 tests/core tests/test_ensembles.py
+	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not jit_only" --cov --cov-report= --cov-fail-under=0 tests/core tests/motions/test_ensembles.py
 	@$(MAKE) --no-print-directory test ARGS="--cov --cov-append --cov-report=term-missing:skip-covered $(ARGS)"
 
 mutants: $(TEST) ## change the core in small ways and see whether its tests notice; needs cosmic-ray

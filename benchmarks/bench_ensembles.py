@@ -13,7 +13,7 @@ import pytest
 from against_peers.bouncing import HeyokaFlights, ScipyFlights, bounces
 from workload import MOST_IMPACTS, UNTIL, source_paper_machine
 
-from carom.ensembles import settle_all
+from carom.motions.ensembles import settle_all
 from carom.processors import available_cores
 
 GAMMAS = (0.1, 0.15)

@@ -9,8 +9,8 @@ import carom
 from carom.core.advance import INSIDE_ALL, advance
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
+from carom.motions.trajectories import EventLog
 from carom.outcome import Phase
-from carom.trajectories import EventLog
 
 UNTIL, MOST_IMPACTS = 200.0, 100
 FLYING = int(Phase.FLIGHT)

@@ -9,8 +9,8 @@ from compilation import sized
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from carom.motions.trajectories import State
 from carom.parameters import Parameters
-from carom.trajectories import State
 
 MANY = settings(max_examples=sized(50, 15, 150))
 """How many motions to draw; fewer without the compiler."""

@@ -11,8 +11,8 @@ import math
 import numpy as np
 from compilation import sized
 
+from carom.motions.trajectories import State, Trajectory
 from carom.parameters import Parameters
-from carom.trajectories import State, Trajectory
 
 EPSILON = 2.0**-52
 LONG = sized(2_000, 60, 10_000)

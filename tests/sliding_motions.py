@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
-from carom.trajectories import simulate
 
 
 def ahead_of(found, angles):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from carom.parameters import Case, Machine, Parameters
-from carom.study import Study, study
+from carom.studies import Study, study
 
 QUICK = ("--set", "damping=6000 N s/m", "--set", "friction=0")
 """Of the machine of the examples a study that is soon made: every disturbance comes back at once."""

@@ -9,7 +9,7 @@ that :data:`_HOMES` gives; everything listed there can be had as an attribute of
 
 The functions :func:`basins`, :func:`disturbances`, :func:`equilibria` and :func:`study` carry the name of the module they
 live in. The attribute of the package is always the function; the module is at hand as
-``sys.modules["carom.equilibria"]`` and in ``from carom.equilibria import ...``.
+``sys.modules["carom.closed_forms.equilibria"]`` and in ``from carom.closed_forms.equilibria import ...``.
 """
 
 import sys
@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from carom import plots as plots
     from carom import reproductions as reproductions
-    from carom.absorbing import rub_neighbourhood as rub_neighbourhood
     from carom.attractors import Attractor as Attractor
     from carom.attractors import AttractorSet as AttractorSet
     from carom.attractors import Survival as Survival
@@ -44,8 +43,16 @@ if TYPE_CHECKING:
     from carom.bifurcations import continue_orbit as continue_orbit
     from carom.bifurcations import find_bifurcations as find_bifurcations
     from carom.bifurcations import map_regions as map_regions
-    from carom.boundary import BoundaryEquilibrium as BoundaryEquilibrium
-    from carom.boundary import boundary_equilibria as boundary_equilibria
+    from carom.bifurcations.boundary import BoundaryEquilibrium as BoundaryEquilibrium
+    from carom.bifurcations.boundary import boundary_equilibria as boundary_equilibria
+    from carom.closed_forms.absorbing import rub_neighbourhood as rub_neighbourhood
+    from carom.closed_forms.equilibria import Equilibrium as Equilibrium
+    from carom.closed_forms.equilibria import find_equilibria as find_equilibria
+    from carom.closed_forms.whirl import Rolling as Rolling
+    from carom.closed_forms.whirl import Runaway as Runaway
+    from carom.closed_forms.whirl import rolling as rolling
+    from carom.closed_forms.whirl import rub_limit as rub_limit
+    from carom.closed_forms.whirl import runaway_speed as runaway_speed
     from carom.disturbances import AnyState as AnyState
     from carom.disturbances import BaseShock as BaseShock
     from carom.disturbances import ContactRelease as ContactRelease
@@ -56,19 +63,22 @@ if TYPE_CHECKING:
     from carom.disturbances import UnbalanceStep as UnbalanceStep
     from carom.disturbances import VelocityKick as VelocityKick
     from carom.disturbances import kick_grid as kick_grid
-    from carom.ensembles import Endings as Endings
-    from carom.ensembles import settle_all as settle_all
-    from carom.equilibria import Equilibrium as Equilibrium
-    from carom.equilibria import find_equilibria as find_equilibria
-    from carom.ledger import EnergyLedger as EnergyLedger
-    from carom.ledger import energy_ledger as energy_ledger
-    from carom.maps import Section as Section
-    from carom.maps import impact_map as impact_map
     from carom.models import Jeffcott as Jeffcott
-    from carom.orbits import Orbit as Orbit
-    from carom.orbits import OrbitSet as OrbitSet
-    from carom.orbits import find_orbits as find_orbits
-    from carom.orbits import period_condition as period_condition
+    from carom.motions.ensembles import Endings as Endings
+    from carom.motions.ensembles import settle_all as settle_all
+    from carom.motions.ledger import EnergyLedger as EnergyLedger
+    from carom.motions.ledger import energy_ledger as energy_ledger
+    from carom.motions.trajectories import State as State
+    from carom.motions.trajectories import Trajectory as Trajectory
+    from carom.motions.trajectories import kick as kick
+    from carom.motions.trajectories import simulate as simulate
+    from carom.orbits.maps import Section as Section
+    from carom.orbits.maps import impact_map as impact_map
+    from carom.orbits.single_impact import Orbit as Orbit
+    from carom.orbits.single_impact import OrbitSet as OrbitSet
+    from carom.orbits.single_impact import find_orbits as find_orbits
+    from carom.orbits.single_impact import period_condition as period_condition
+    from carom.orbits.stability import multipliers as multipliers
     from carom.outcome import CaromError as CaromError
     from carom.outcome import CaromWarning as CaromWarning
     from carom.outcome import InputError as InputError
@@ -83,21 +93,11 @@ if TYPE_CHECKING:
     from carom.parameters import load as load
     from carom.safety import SafeDamping as SafeDamping
     from carom.safety import least_safe_damping as least_safe_damping
-    from carom.stability import multipliers as multipliers
-    from carom.study import study as study
+    from carom.studies import study as study
     from carom.sweeps import SweepPlan as SweepPlan
     from carom.sweeps import load_sweep as load_sweep
     from carom.sweeps import open_sweep as open_sweep
     from carom.sweeps import run_sweep as run_sweep
-    from carom.trajectories import State as State
-    from carom.trajectories import Trajectory as Trajectory
-    from carom.trajectories import kick as kick
-    from carom.trajectories import simulate as simulate
-    from carom.whirl import Rolling as Rolling
-    from carom.whirl import Runaway as Runaway
-    from carom.whirl import rolling as rolling
-    from carom.whirl import rub_limit as rub_limit
-    from carom.whirl import runaway_speed as runaway_speed
 
     __version__: str
 
@@ -108,15 +108,15 @@ _HOMES = {
     "Survival": "attractors",
     "BaseShock": "disturbances",
     "Basin": "basins",
-    "BoundaryEquilibrium": "boundary",
+    "BoundaryEquilibrium": "bifurcations.boundary",
     "CaromError": "outcome",
     "CaromWarning": "outcome",
     "Case": "parameters",
     "ContactRelease": "disturbances",
     "Diagram": "bifurcations",
-    "Endings": "ensembles",
-    "EnergyLedger": "ledger",
-    "Equilibrium": "equilibria",
+    "Endings": "motions.ensembles",
+    "EnergyLedger": "motions.ledger",
+    "Equilibrium": "closed_forms.equilibria",
     "GainMap": "basins",
     "Grid": "disturbances",
     "InputError": "outcome",
@@ -131,55 +131,55 @@ _HOMES = {
     "Phase": "outcome",
     "Plane": "bifurcations",
     "RegionMap": "bifurcations",
-    "Rolling": "whirl",
+    "Rolling": "closed_forms.whirl",
     "Jeffcott": "models",
-    "Runaway": "whirl",
+    "Runaway": "closed_forms.whirl",
     "SafeDamping": "safety",
     "Sample": "disturbances",
     "Scales": "parameters",
-    "Section": "maps",
-    "State": "trajectories",
+    "Section": "orbits.maps",
+    "State": "motions.trajectories",
     "StateSlice": "disturbances",
     "SweepPlan": "sweeps",
-    "Trajectory": "trajectories",
+    "Trajectory": "motions.trajectories",
     "UnbalanceStep": "disturbances",
     "VelocityKick": "disturbances",
     "Zones": "parameters",
     "basin_entropy": "basins",
     "map_basins": "basins",
     "find_bifurcations": "bifurcations",
-    "boundary_equilibria": "boundary",
+    "boundary_equilibria": "bifurcations.boundary",
     "continue_curve": "bifurcations",
     "continue_orbit": "bifurcations",
     "kick_grid": "disturbances",
-    "energy_ledger": "ledger",
-    "find_equilibria": "equilibria",
+    "energy_ledger": "motions.ledger",
+    "find_equilibria": "closed_forms.equilibria",
     "find_attractors": "attractors",
     "map_gains": "basins",
     "harmless_kick": "basins",
     "harmless_shock": "basins",
-    "impact_map": "maps",
+    "impact_map": "orbits.maps",
     "integrity": "basins",
-    "kick": "trajectories",
+    "kick": "motions.trajectories",
     "least_gain_change": "basins",
     "least_safe_damping": "safety",
     "load": "parameters",
     "load_sweep": "sweeps",
-    "multipliers": "stability",
+    "multipliers": "orbits.stability",
     "open_sweep": "sweeps",
     "period_condition": "orbits",
     "map_regions": "bifurcations",
-    "rolling": "whirl",
-    "rub_limit": "whirl",
-    "rub_neighbourhood": "absorbing",
+    "rolling": "closed_forms.whirl",
+    "rub_limit": "closed_forms.whirl",
+    "rub_neighbourhood": "closed_forms.absorbing",
     "run_sweep": "sweeps",
-    "runaway_speed": "whirl",
-    "settle_all": "ensembles",
-    "simulate": "trajectories",
+    "runaway_speed": "closed_forms.whirl",
+    "settle_all": "motions.ensembles",
+    "simulate": "motions.trajectories",
     "find_orbits": "orbits",
     "smallest_loss": "basins",
     "smallest_unrecovered_kick": "basins",
-    "study": "study",
+    "study": "studies",
 }
 _SUBPACKAGES = ("plots", "reproductions")
 

@@ -15,9 +15,9 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.trajectories import State, simulate
 
 from .bouncing import HeyokaFlights, ScipyFlights, bounces, error_bounds
 

@@ -15,9 +15,9 @@ from machines import PAPER
 
 from carom.core.advance import CHATTER_HEIGHT
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, simulate
 from carom.outcome import Phase
 from carom.parameters import Parameters
-from carom.trajectories import State, simulate
 
 from .exact_chatter import DIGITS, ExactRotor, Rebound
 

@@ -6,9 +6,9 @@ from compilation import sized
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import Phase
 from carom.parameters import Parameters
-from carom.trajectories import State, Trajectory, simulate
 
 from .constrained_motion import (
     HeyokaIntegrator,

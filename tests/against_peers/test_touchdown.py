@@ -12,9 +12,9 @@ import pytest
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import Phase
 from carom.parameters import Parameters
-from carom.trajectories import State, Trajectory, simulate
 
 from . import time_stepping
 

@@ -13,7 +13,7 @@ import numba
 from carom import Parameters
 from carom.core import advance
 from carom.models import Jeffcott
-from carom.trajectories import State, simulate
+from carom.motions.trajectories import State, simulate
 
 
 def main(case: dict) -> list[list[float]]:

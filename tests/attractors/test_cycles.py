@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from carom.attractors.cycles import cycle_of, forces_on, orbit_of, same_cycle, whirl_of
-from carom.equilibria import find_equilibria
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.motions.trajectories import State, simulate
+from carom.orbits.single_impact import find_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.trajectories import State, simulate
-from carom.whirl import rolling
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 

@@ -6,12 +6,12 @@ import pytest
 from carom.attractors import find_attractors, following
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
-from carom.equilibria import find_equilibria
+from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.motions.trajectories import State, kick, simulate
+from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
-from carom.trajectories import State, kick, simulate
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from carom.attractors import DisturbanceSet, disturbances, known_starts
+from carom.closed_forms.whirl import runaway_speed
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters, Scales
-from carom.whirl import runaway_speed
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 

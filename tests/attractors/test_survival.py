@@ -10,8 +10,8 @@ from machines import PAPER
 
 from carom.attractors import survival as module
 from carom.attractors.survival import LOOK, Survival, document_of, follow_out, measure_survival, still_irregular
-from carom.ensembles import Endings, settle_all
 from carom.models import Jeffcott
+from carom.motions.ensembles import Endings, settle_all
 from carom.outcome import Outcome
 
 

@@ -9,11 +9,11 @@ from machines import PAPER, random_parameters
 
 from carom import InputError, find_orbits, simulate
 from carom.bifurcations import OrbitBranch, continue_orbit
+from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
-from carom.maps import Section, impact_map
 from carom.models import Jeffcott
-from carom.periods import PeriodCondition
-from carom.trajectories import State
+from carom.motions.trajectories import State
+from carom.orbits.maps import Section, impact_map
 
 
 @pytest.fixture(scope="module")

@@ -8,9 +8,9 @@ from machines import PAPER
 
 from carom import InputError, find_orbits
 from carom.bifurcations import KINDS, Curve, Plane, continue_curve, continue_orbit
-from carom.equilibria import find_equilibria
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.periods import PeriodCondition
 
 PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
 

@@ -10,14 +10,14 @@ from machines import PAPER
 
 from carom import Parameters, find_equilibria, find_orbits, simulate
 from carom.bifurcations import Diagram, Numbers, Plane, SpecialValue, find_bifurcations, map_regions, vary
+from carom.bifurcations.boundary import boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
-from carom.boundary import boundary_equilibria
-from carom.maps import Section, impact_map, section_jacobian
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.orbits import Orbit
+from carom.motions.trajectories import State
+from carom.orbits.maps import Section, impact_map, section_jacobian
+from carom.orbits.single_impact import Orbit
 from carom.outcome import Phase
-from carom.periods import PeriodCondition
-from carom.trajectories import State
 
 pytestmark = pytest.mark.jit_only
 

@@ -9,8 +9,8 @@ from machines import PAPER
 from carom import find_orbits, simulate
 from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
 from carom.models import Jeffcott
-from carom.orbits import Orbit
-from carom.trajectories import State
+from carom.motions.trajectories import State
+from carom.orbits.single_impact import Orbit
 
 SOFT = PAPER.replace(omega=0.35, rho=0.2)
 """The source paper's rotor on a softer bearing and better balanced: B1,d loses stability through a pair at 80 degrees."""

@@ -6,7 +6,7 @@ import pytest
 from carom.bifurcations import orbit_windows
 from carom.bifurcations.axes import vary
 from carom.models import Jeffcott
-from carom.orbits import orbits_within_reach
+from carom.orbits.single_impact import orbits_within_reach
 from carom.parameters import Parameters
 
 WITHOUT_REBOUND = Parameters(

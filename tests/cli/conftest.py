@@ -26,7 +26,7 @@ def studies_are_made_once(monkeypatch):
     from studies import study_once
 
     # As an attribute of the package the name is the function, not the module.
-    monkeypatch.setattr(sys.modules["carom.study"], "study", lambda subject, *, progress: study_once(subject))
+    monkeypatch.setattr(sys.modules["carom.studies"], "study", lambda subject, *, progress: study_once(subject))
 
 
 @pytest.fixture

@@ -7,9 +7,9 @@ import pytest
 from studies import QUICK
 
 from carom import __version__
-from carom.equilibria import find_equilibria
+from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.orbits.single_impact import find_orbits
 from carom.parameters import load
 
 pytestmark = pytest.mark.jit_only

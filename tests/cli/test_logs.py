@@ -9,9 +9,9 @@ import xarray
 
 from carom.cli.logs import write_csv, write_netcdf
 from carom.models import Jeffcott
+from carom.motions.trajectories import kick, simulate
 from carom.outcome import InputError, Phase
 from carom.parameters import load
-from carom.trajectories import kick, simulate
 
 pytestmark = pytest.mark.jit_only
 

@@ -7,9 +7,9 @@ import pytest
 from carom.bifurcations import axis
 from carom.cli import main
 from carom.cli.starts import read_kick, read_range, read_start, read_time
+from carom.motions.trajectories import Kick, State
 from carom.outcome import InputError
 from carom.parameters import Parameters, Scales
-from carom.trajectories import Kick, State
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 

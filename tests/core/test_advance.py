@@ -15,9 +15,9 @@ from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.table import flight_table
 from carom.models import Jeffcott
+from carom.motions.trajectories import EventLog, State, simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
-from carom.trajectories import EventLog, State, simulate
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 

@@ -10,13 +10,13 @@ from machines import PAPER
 from carom.attractors import find_attractors
 from carom.core.closing import least_period
 from carom.core.fate import memory
-from carom.ensembles import settle_all
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.motions.ensembles import settle_all
+from carom.motions.settling import _tools, closed_orbit
+from carom.motions.trajectories import State, simulate
+from carom.orbits.single_impact import find_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.settling import _tools, closed_orbit
-from carom.trajectories import State, simulate
 
 SPIRALLING = Parameters(
     gamma=0.03689825909891265,

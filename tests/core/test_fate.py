@@ -11,6 +11,7 @@ from compilation import COMPILED, sized
 from machines import PAPER, random_parameters
 
 from carom.attractors import find_attractors
+from carom.closed_forms.equilibria import find_equilibria
 from carom.core.fate import (
     NEAR,
     approaches_turn,
@@ -23,12 +24,11 @@ from carom.core.fate import (
     stays_inside,
 )
 from carom.core.layout import rotor_record, workspace
-from carom.ensembles import settle_all
-from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
+from carom.motions.ensembles import settle_all
+from carom.motions.trajectories import State, simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
-from carom.trajectories import State, simulate
 
 MANY = sized(100, 20, 300)
 

@@ -9,10 +9,10 @@ from compilation import sized
 from machines import PAPER, exact_return, random_parameters
 
 from carom import find_orbits
+from carom.closed_forms.periods import PeriodCondition
 from carom.core.planar import orbit_conditions, planar_exponents, radial_course, radial_profile, returns
-from carom.maps import section_jacobian
 from carom.models import Jeffcott
-from carom.periods import PeriodCondition
+from carom.orbits.maps import section_jacobian
 
 
 def machines(count: int, seed: int):

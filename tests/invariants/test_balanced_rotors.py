@@ -15,9 +15,9 @@ from limiting_motions import EPSILON, angular_momentum, on_wall, starts
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
-from carom.trajectories import State, Trajectory, simulate
 
 
 @pytest.mark.jit_only

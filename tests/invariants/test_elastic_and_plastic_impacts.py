@@ -26,7 +26,7 @@ from limiting_motions import (
 from machines import PAPER
 
 from carom.models import Jeffcott
-from carom.trajectories import State, simulate
+from carom.motions.trajectories import State, simulate
 
 # ------------------------------------------------------------------------------------------------ d → 1: elastic
 

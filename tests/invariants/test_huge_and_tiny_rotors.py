@@ -14,8 +14,8 @@ from limiting_motions import START, on_wall, starts
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import simulate
 from carom.outcome import Phase
-from carom.trajectories import simulate
 
 
 def test_slip_of_a_huge_rotor_never_reverses():

@@ -18,8 +18,8 @@ from compilation import sized
 
 from carom import Parameters
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import Phase
-from carom.trajectories import State, Trajectory, simulate
 
 MACHINES = 50
 STARTS = sized(60, 1, 2000)

@@ -10,9 +10,9 @@ from compilation import sized
 from drawn_motions import EVENTS
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.trajectories import State, simulate
 
 MACHINES = sized(40, 2, 150)
 STOPPED = {Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING}

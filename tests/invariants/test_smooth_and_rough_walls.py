@@ -16,10 +16,10 @@ from limiting_motions import EPSILON, on_wall, starts
 from machines import PAPER
 from scipy.special import ellipj, ellipk
 
-from carom.ledger import energy_ledger
 from carom.models import Jeffcott
+from carom.motions.ledger import energy_ledger
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
-from carom.trajectories import simulate
 
 # ------------------------------------------------------------------------------------------------ μ = 0: smooth wall
 

@@ -16,8 +16,8 @@ from machines import PAPER
 from scipy.integrate import solve_ivp
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, simulate
 from carom.parameters import Machine, Scales
-from carom.trajectories import State, simulate
 
 EPSILON = 2.0**-52
 UNTIL = 6.0

@@ -14,8 +14,8 @@ from limiting_motions import EPSILON, START, jacobi_integral, on_wall, segment_s
 from machines import PAPER
 
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import Outcome, Phase
-from carom.trajectories import State, Trajectory, simulate
 
 # ------------------------------------------------------------------------------------------------ γ → 0: undamped
 

@@ -18,8 +18,8 @@ from scipy.linalg import expm
 from scipy.optimize import bisect, brentq, minimize_scalar
 
 from carom import Orbit, OrbitSet, Scales, State, find_equilibria, find_orbits, period_condition, simulate
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.periods import PeriodCondition
 
 FINE = {"xtol": 1e-15, "rtol": 1e-14}
 

@@ -9,8 +9,8 @@ from compilation import COMPILED
 
 import carom
 from carom import plots
-from carom.ledger import energy_ledger
-from carom.spectrum import full_spectrum
+from carom.motions.ledger import energy_ledger
+from carom.motions.spectrum import full_spectrum
 
 
 @pytest.fixture(scope="module")

@@ -5,13 +5,13 @@ import pytest
 from scipy.stats import binom
 
 from carom.attractors import DisturbanceSet, find_attractors
-from carom.ensembles import settle_all
-from carom.equilibria import find_equilibria
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import Jeffcott
+from carom.motions.ensembles import settle_all
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
 from carom.safety import least_safe_damping
-from carom.whirl import rolling, runaway_speed
 
 pytestmark = pytest.mark.jit_only
 

@@ -10,11 +10,11 @@ from typing import Literal
 
 import numpy as np
 
-from carom.orbits import Orbit
+from carom.closed_forms.whirl import rolling
+from carom.motions.settling import closed_orbit
+from carom.motions.trajectories import Trajectory
+from carom.orbits.single_impact import Orbit
 from carom.outcome import Outcome, Phase
-from carom.settling import closed_orbit
-from carom.trajectories import Trajectory
-from carom.whirl import rolling
 
 __all__ = ["Cycle", "Whirl", "cycle_of", "forces_on", "orbit_of", "same_cycle", "whirl_of"]
 
@@ -62,7 +62,7 @@ class Cycle:
 def cycle_of(motion: Trajectory) -> Cycle:
     """Read from the end of a motion what it repeats.
 
-    Periodic bouncing is closed to rounding where it can be (:func:`~carom.settling.closed_orbit`): motions that end on one
+    Periodic bouncing is closed to rounding where it can be (:func:`~carom.motions.settling.closed_orbit`): motions that end on one
     orbit then repeat the same, however far from it each was when it was found to be periodic.
     """
     outcome = motion.outcome

@@ -11,9 +11,9 @@ import numpy as np
 from carom.attractors.starts import Start
 from carom.attractors.survival import HALF_LIVES, Survival, measure_survival
 from carom.models import Jeffcott
+from carom.motions.settling import longest_time
+from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import Outcome
-from carom.settling import longest_time
-from carom.trajectories import State, Trajectory, simulate
 
 __all__ = ["Ending", "endings_of"]
 

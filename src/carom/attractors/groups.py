@@ -10,9 +10,9 @@ from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, orbit_of,
 from carom.attractors.following import Ending
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
-from carom.orbits import Orbit
+from carom.motions.trajectories import State, Trajectory
+from carom.orbits.single_impact import Orbit
 from carom.outcome import Outcome
-from carom.trajectories import State, Trajectory
 
 __all__ = ["Attractor", "Groups", "motion_name"]
 

@@ -11,10 +11,10 @@ from carom.attractors.starts import DISTURBANCES, DisturbanceSet, Start, disturb
 from carom.attractors.survival import Survival
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott, Subject, model_of
-from carom.orbits import orbits_within_reach
+from carom.motions.settling import PATIENCE
+from carom.motions.trajectories import Kick, State
+from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
-from carom.settling import PATIENCE
-from carom.trajectories import Kick, State
 
 __all__ = ["AttractorSet", "find_attractors"]
 

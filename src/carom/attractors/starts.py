@@ -10,13 +10,13 @@ from typing import Literal
 
 import numpy as np
 
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.whirl import runaway_speed
 from carom.disturbances import FASTEST
-from carom.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.orbits import Orbit
+from carom.motions.trajectories import State
+from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
-from carom.trajectories import State
-from carom.whirl import runaway_speed
 
 __all__ = ["DISTURBANCES", "DisturbanceSet", "Kind", "Start", "disturbances", "known_starts"]
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from carom.ensembles import Endings, settle_all
 from carom.models import Jeffcott
+from carom.motions.ensembles import Endings, settle_all
 from carom.outcome import Outcome
 
 __all__ = ["Survival", "document_of", "follow_out", "measure_survival", "still_irregular"]

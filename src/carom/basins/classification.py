@@ -15,11 +15,11 @@ from carom.basins.dataset import NO_START, dataset_of, plan_of, provenance
 from carom.basins.motions import name_motions
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Sample, Starts
-from carom.ensembles import MOST_EVENTS, Endings, settle_all
 from carom.models import Jeffcott, Subject, model_of
+from carom.motions.ensembles import MOST_EVENTS, Endings, settle_all
+from carom.motions.settling import PATIENCE, longest_time
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
-from carom.settling import PATIENCE, longest_time
 
 if TYPE_CHECKING:
     import os
@@ -204,7 +204,7 @@ def map_basins(
         Of a model of :mod:`carom.disturbances`.
     until : float
         Time after which a motion that has not settled is given up, in ``1/Ω``; by default
-        :func:`~carom.settling.longest_time`.
+        :func:`~carom.motions.settling.longest_time`.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
     max_events : int

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.disturbances import MODELS, Grid, Plan, Sample, Starts, StateSlice
-from carom.ensembles import Endings
 from carom.models import Jeffcott
+from carom.motions.ensembles import Endings
 from carom.outcome import InputError, Outcome
 
 if TYPE_CHECKING:

@@ -18,11 +18,11 @@ from carom.basins.kicks import smallest_lost
 from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
-from carom.ensembles import MOST_EVENTS, settle_all
 from carom.models import Jeffcott, Subject, model_of
+from carom.motions.ensembles import MOST_EVENTS, settle_all
+from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
-from carom.settling import PATIENCE
 
 if TYPE_CHECKING:
     import os

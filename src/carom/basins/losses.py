@@ -24,8 +24,8 @@ from carom.disturbances import (
     UnbalanceStep,
     VelocityKick,
 )
-from carom.ensembles import settle_all
 from carom.models import Jeffcott, Subject, model_of
+from carom.motions.ensembles import settle_all
 from carom.outcome import InputError, Outcome
 
 __all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_kick"]

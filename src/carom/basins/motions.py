@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from carom.absorbing import rub_neighbourhood
 from carom.attractors.groups import Groups
-from carom.ensembles import Endings
+from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.models import Jeffcott
-from carom.orbits import Orbit, orbits_within_reach
+from carom.motions.ensembles import Endings
+from carom.motions.trajectories import State, simulate
+from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
-from carom.trajectories import State, simulate
 
 __all__ = ["name_motions"]
 

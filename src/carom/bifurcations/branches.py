@@ -19,7 +19,7 @@ from carom.bifurcations.conditions import (
     profile_at,
 )
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
-from carom.orbits import Orbit
+from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
 
 __all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]

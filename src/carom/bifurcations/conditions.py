@@ -12,10 +12,10 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.core import planar
-from carom.maps import Section
 from carom.models import Jeffcott
-from carom.orbits import Orbit, orbit_at
-from carom.stability import multipliers
+from carom.orbits.maps import Section
+from carom.orbits.single_impact import Orbit, orbit_at
+from carom.orbits.stability import multipliers
 
 __all__ = [
     "TESTS",
@@ -117,7 +117,7 @@ def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float
 def is_admissible(numbers: Numbers, period: float, speed: float) -> bool:
     """Whether the orbit stays inside the wall and goes on slipping, by its extrema of the radius.
 
-    The proof is left to the certified search of :attr:`carom.orbits.Orbit.admissible`.
+    The proof is left to the certified search of :attr:`carom.orbits.single_impact.Orbit.admissible`.
     """
     return speed > 0.0 and min(margins_of(numbers, period, speed).values()) > 0.0
 
@@ -167,7 +167,7 @@ def pressed_on(numbers: Numbers, period: float, speed: float) -> float:
 def rub_fold(numbers: Numbers) -> float:
     """``ρ²(1 + μ²) − (γ + μ(1 − ω²))²``: zero where the two synchronous rubs meet, negative without any.
 
-    From ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)`` (:func:`carom.equilibria.find_equilibria`), whose left side is at most
+    From ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)`` (:func:`carom.closed_forms.equilibria.find_equilibria`), whose left side is at most
     ``ρ√(1 + μ²)``.
     """
     needed = numbers.gamma + numbers.mu * (1.0 - numbers.omega**2)
@@ -175,7 +175,7 @@ def rub_fold(numbers: Numbers) -> float:
 
 
 def rolling_limit(numbers: Numbers) -> float:
-    """``μ(s² − ω²) − |γ|s − ρ√(1 + μ²)``: not negative where friction can hold rolling at every angle (:mod:`carom.whirl`)."""
+    """``μ(s² − ω²) − |γ|s − ρ√(1 + μ²)``: not negative where friction can hold rolling at every angle (:mod:`carom.closed_forms.whirl`)."""
     speed, mu = numbers.radius_ratio, numbers.mu
     needed = abs(numbers.gamma) * speed + numbers.rho * math.hypot(1.0, mu)
     return mu * (speed**2 - numbers.omega**2) - needed

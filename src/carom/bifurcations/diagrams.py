@@ -22,7 +22,7 @@ from carom.bifurcations.steady import (
     steady_points,
 )
 from carom.models import Jeffcott, Subject, model_of
-from carom.orbits import Orbit, find_orbits
+from carom.orbits.single_impact import Orbit, find_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters
 
@@ -91,7 +91,7 @@ def find_bifurcations(
 ) -> Diagram:
     """Find every branch on an interval, and every special point on it.
 
-    Single-impact orbits are all found (:func:`~carom.orbits.find_orbits`) at 13 evenly spaced values, and each
+    Single-impact orbits are all found (:func:`~carom.orbits.single_impact.find_orbits`) at 13 evenly spaced values, and each
     one that lies on no branch yet is continued both ways.
 
     Parameters

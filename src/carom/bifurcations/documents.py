@@ -12,8 +12,8 @@ from carom.bifurcations.regions import RegionMap
 from carom.bifurcations.rubbing import RubbingBranch
 from carom.bifurcations.samples import AttractorSample
 from carom.bifurcations.steady import EquilibriumBranch
+from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
-from carom.settling import PATIENCE
 
 __all__ = ["diagram_document", "regions_document"]
 

@@ -10,10 +10,10 @@ from carom.bifurcations.conditions import is_admissible, jacobian_at
 from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.bifurcations.naming import listed
 from carom.bifurcations.solutions import Solution, orbit_solutions
-from carom.equilibria import BOUNDARY
+from carom.closed_forms.equilibria import BOUNDARY
+from carom.closed_forms.whirl import rolling, rub_limit
 from carom.models import Jeffcott
 from carom.parameters import Parameters
-from carom.whirl import rolling, rub_limit
 
 __all__ = ["Motions", "forward_orbits", "motions_at"]
 
@@ -31,7 +31,7 @@ class Motions:
     rub : bool
         Whether a stable synchronous rub (forward whirl) is admissible.
     rolling : bool
-        Whether a rotor that rolls round the bearing in backward whirl goes on rolling (:mod:`carom.whirl`).
+        Whether a rotor that rolls round the bearing in backward whirl goes on rolling (:mod:`carom.closed_forms.whirl`).
     stable_names, unstable_names : tuple of str
         Names of the orbits.
     """

@@ -8,8 +8,8 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at, letter
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.periods import PeriodCondition
 
 __all__ = ["listed", "orbits_on_curve"]
 

@@ -25,11 +25,11 @@ import numpy as np
 from carom.bifurcations.axes import Axis, Numbers, axis, within
 from carom.bifurcations.lift_offs import LONGEST, LiftOff, Whirl, known, lift_off_state, next_lift_off, shift_of
 from carom.continuation import Steps, Watch, continue_branch
+from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
+from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
-from carom.roots import bracketed_root
-from carom.trajectories import State, Trajectory, simulate
 
 __all__ = [
     "RubbingBranch",

@@ -10,9 +10,9 @@ import numpy as np
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.bifurcations.axes import vary
 from carom.models import Jeffcott
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.trajectories import simulate
 
 __all__ = ["VALUES", "AttractorSample", "sample_attractors"]
 

@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.orbits import radial_speeds
+from carom.orbits.single_impact import radial_speeds
 from carom.parameters import Parameters
-from carom.periods import PeriodCondition
 
 __all__ = ["Solution", "orbit_solutions"]
 
@@ -36,7 +36,7 @@ class Solution(NamedTuple):
 def orbit_solutions(
     parameters: Parameters, longest_period: float | None = None, *, backward: bool = False
 ) -> list[Solution]:
-    """Solve the equations at all roots of ``F₁`` (:func:`carom.orbits.find_orbits`).
+    """Solve the equations at all roots of ``F₁`` (:func:`carom.orbits.single_impact.find_orbits`).
 
     Parameters
     ----------

@@ -8,11 +8,11 @@ import numpy as np
 
 from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.conditions import TESTS
-from carom.equilibria import find_equilibria
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.whirl import rolling
+from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
 from carom.parameters import Parameters
-from carom.roots import bracketed_root
-from carom.whirl import rolling
 
 __all__ = [
     "EquilibriumBranch",
@@ -82,7 +82,7 @@ class EquilibriumBranch:
 
 @dataclass(frozen=True, eq=False)
 class RollingBranch:
-    """Rolling round the bearing in backward whirl (:mod:`carom.whirl`) along the parameter.
+    """Rolling round the bearing in backward whirl (:mod:`carom.closed_forms.whirl`) along the parameter.
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
 
 
 def _what_becomes_of_levitation(numbers: Numbers) -> str:
-    """Persistence where the synchronous rub lives on the other side, ``1 − ω² < μγ`` (:mod:`carom.boundary`)."""
+    """Persistence where the synchronous rub lives on the other side, ``1 − ω² < μγ`` (:mod:`carom.bifurcations.boundary`)."""
     return "persistence" if 1.0 - numbers.omega**2 < numbers.mu * numbers.gamma else "non-smooth fold"
 
 

@@ -20,7 +20,7 @@ from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import corrected, grazing_equations, is_admissible, jacobian_at, margins_of, orbit_of
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.models import Jeffcott
-from carom.orbits import longest_within_reach, slip_stays_forward
+from carom.orbits.single_impact import longest_within_reach, slip_stays_forward
 from carom.outcome import CaromError
 from carom.parameters import Parameters
 
@@ -120,7 +120,7 @@ def orbit_windows(
     parameter : str
         Dimensionless, or physical (in SI units; needs scales).
     values : sequence of float
-        In growing order: where to look for all orbits (:func:`~carom.orbits.orbits_within_reach`).  A window between two
+        In growing order: where to look for all orbits (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two
         of them is found if an orbit that has it exists at one of them, or nearly so.
     progress : callable, optional
         Called with the share done, 0 to 1.

@@ -238,6 +238,6 @@ def _time(value: float, scales: Scales | None) -> str:
 
 
 def _value(words: str, value: float, unit: str) -> str:
-    from carom.study.wording import number
+    from carom.studies.wording import number
 
     return f"{words} {number(value, 5)}{' ' + unit if unit else ''}"

@@ -187,7 +187,7 @@ def _write(out: str, answer: _Answer) -> None:
     from carom.plots import gain_map as draw_map
     from carom.plots import save
     from carom.report.directory import filled_at_once
-    from carom.study import as_json
+    from carom.studies import as_json
 
     with filled_at_once(out, "--out") as directory:
         save(draw_basin(answer.basin, answer.smallest), directory / "figures" / "basins")

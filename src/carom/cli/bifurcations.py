@@ -184,7 +184,7 @@ def _directory(out: str | None) -> Path | None:
 
 def _write(directory: Path, stem: str, figure: Figure, document: dict[str, Any]) -> None:
     from carom.plots import save
-    from carom.study import as_json
+    from carom.studies import as_json
 
     written = save(figure, directory / stem)
     target = directory / f"{stem}.json"

@@ -17,7 +17,7 @@ from carom.outcome import InputError, Phase
 if TYPE_CHECKING:
     import xarray
 
-    from carom.trajectories import Trajectory
+    from carom.motions.trajectories import Trajectory
 
 __all__ = ["check_file", "write_csv", "write_netcdf"]
 
@@ -90,7 +90,7 @@ def _columns(motion: Trajectory) -> dict[str, tuple[np.ndarray, str]]:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
-    from carom.contacts import phase_flags
+    from carom.motions.contacts import phase_flags
 
     scales = motion.rotor.scales
     dataset = motion.contacts.to_dataset(scales)

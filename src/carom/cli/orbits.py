@@ -33,10 +33,10 @@ def orbits(
 
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
     with progress("equilibria and periodic orbits (the kernels are compiled on first use)"):
-        from carom.equilibria import find_equilibria
+        from carom.closed_forms.equilibria import find_equilibria
         from carom.models import Jeffcott
-        from carom.orbits import find_orbits, orbits_within_reach
-        from carom.study import orbits_document
+        from carom.orbits.single_impact import find_orbits, orbits_within_reach
+        from carom.studies import orbits_document
 
         rotor = Jeffcott(case.parameters)
         steady = find_equilibria(rotor)

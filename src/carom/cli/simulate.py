@@ -11,8 +11,8 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.models import Jeffcott
+    from carom.motions.trajectories import Kick, State, Trajectory
     from carom.parameters import Case
-    from carom.trajectories import Kick, State, Trajectory
 
 __all__ = ["simulate"]
 
@@ -72,7 +72,7 @@ def simulate(
             for option, path in targets.items():
                 writers[option](motion, path)
     if as_json:
-        from carom.study import trajectory_document
+        from carom.studies import trajectory_document
 
         print_document(trajectory_document(motion))
         return
@@ -95,9 +95,9 @@ def _read(case: Case, start: str | None, kick: str | None, until: str | None) ->
 
 def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None, tell) -> Trajectory:  # type: ignore[no-untyped-def]
     from carom.models import Jeffcott
-    from carom.settling import longest_time
-    from carom.trajectories import Kick
-    from carom.trajectories import simulate as follow
+    from carom.motions.settling import longest_time
+    from carom.motions.trajectories import Kick
+    from carom.motions.trajectories import simulate as follow
 
     rotor = Jeffcott(case.parameters)
     if isinstance(start, Kick):

@@ -33,7 +33,7 @@ def study(
             from carom.report import check_directory
 
             check_directory(out, "--out")
-        from carom.study import study as study_case
+        from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
         result = study_case(case, progress=lambda share, words: tell(share_of_study * share, words))

@@ -86,7 +86,7 @@ def _words(tally: Tally) -> str:
 
 
 def _rate(rate: float, noun: str) -> str:
-    from carom.study.wording import number
+    from carom.studies.wording import number
 
     return f"{number(rate, 3)} {noun}/s"
 

@@ -15,9 +15,10 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.cli.fitting import fitted
+from carom.motions.trajectories import Trajectory
 from carom.parameters.indentation import indentation_of_hit
-from carom.study import Study, Wording
-from carom.study.summaries import (
+from carom.studies import Study, Wording
+from carom.studies.summaries import (
     MotionRow,
     dimensionless_rows,
     kick_rows,
@@ -25,12 +26,11 @@ from carom.study.summaries import (
     simple_motion_rows,
     threshold_rows,
 )
-from carom.study.wording import counted, no_rigid_wall, number
-from carom.trajectories import Trajectory
+from carom.studies.wording import counted, no_rigid_wall, number
 
 if TYPE_CHECKING:
-    from carom.equilibria import Equilibrium
-    from carom.orbits import Orbit, OrbitSet
+    from carom.closed_forms.equilibria import Equilibrium
+    from carom.orbits.single_impact import Orbit, OrbitSet
     from carom.parameters import Case
 
 __all__ = ["print_motion", "print_orbits", "print_study"]

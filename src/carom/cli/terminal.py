@@ -49,7 +49,7 @@ def console(errors: bool = False) -> Console:
 
 def print_document(document: dict[str, Any]) -> None:
     """Print one JSON object."""
-    from carom.study import as_json
+    from carom.studies import as_json
 
     sys.stdout.write(as_json(document) + "\n")
 

@@ -3,6 +3,7 @@
 =============  =======================================================
 ``branch``     what is asked for and what is found
 ``tracer``     how it is found: prediction, correction, special points
+``roots``      root of a function of one variable, bracketed
 =============  =======================================================
 """
 

@@ -19,8 +19,8 @@ from itertools import pairwise
 import numpy as np
 
 from carom.continuation.branch import Branch, SpecialPoint, Steps, StopReason, Watch
+from carom.continuation.roots import bracketed_root, sign_change
 from carom.outcome import CaromError, InputError
-from carom.roots import bracketed_root, sign_change
 
 __all__ = ["continue_branch", "refined_points"]
 

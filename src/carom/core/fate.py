@@ -5,9 +5,9 @@
   without damping stays inside the wall for one turn of its modes against each other, and the turns that follow until
   then differ too little from it.  Either is a proof.
 - *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding; or, where the memory holds
-  one, it lies in a neighbourhood of that rub which sliding never leaves.  This is a proof too (:mod:`carom.absorbing`).
+  one, it lies in a neighbourhood of that rub which sliding never leaves.  This is a proof too (:mod:`carom.closed_forms.absorbing`).
 - *Rolling*: where the memory holds the speed of a certain runaway, backward whirl slides faster.  A proof
-  (:mod:`carom.whirl`).
+  (:mod:`carom.closed_forms.whirl`).
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a turn without flight the state has changed
   by less than ``NEAR`` and by less than ``NEAR`` per unit time, so slow changes do not pass for none.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
@@ -80,7 +80,7 @@ def memory(
     rub_level : float
         Level of the function below which forward slip surely goes over to the rub; zero not to ask.
     rub_shape : tuple of float
-        The ``μ``, ``p`` and ``y₀`` of that function, see :mod:`carom.absorbing`.
+        The ``μ``, ``p`` and ``y₀`` of that function, see :mod:`carom.closed_forms.absorbing`.
     runaway : float
         Speed of backward whirl from which on sliding surely goes over to rolling for good; infinite not to ask.
     """
@@ -265,7 +265,7 @@ def near_rub(memory, position, speed):
 
 @kernel
 def absorbed(memory, position, speed):
-    """Whether a state that slides forward lies where it surely goes over to the synchronous rub (:mod:`carom.absorbing`)."""
+    """Whether a state that slides forward lies where it surely goes over to the synchronous rub (:mod:`carom.closed_forms.absorbing`)."""
     if memory.rub_level <= 0.0:
         return False
     friction, phase = memory.rub_friction, memory.rub_phase

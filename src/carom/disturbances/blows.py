@@ -33,7 +33,7 @@ class VelocityKick(Disturbance):
     ----------
     fastest : float
         Largest change of velocity, in ``c_r Ω``.  Directions are angles in the co-rotating frame, as those of
-        :func:`~carom.trajectories.kick`.
+        :func:`~carom.motions.trajectories.kick`.
     """
 
     fastest: float = FASTEST
@@ -101,7 +101,7 @@ class BaseShock(Disturbance):
     """The housing, bearings and all, is accelerated by ``a(t) = â sin(πt/T)`` along a line for a time ``T``.
 
     The motion of the levitating rotor relative to the housing is followed exactly through the pulse, contacts included
-    (:mod:`carom.shocks`); the start is the state at its end.  Directions are those of the acceleration in the fixed
+    (:mod:`carom.disturbances.shocks`); the start is the state at its end.  Directions are those of the acceleration in the fixed
     frame, measured from the real axis of the co-rotating frame at the instant when the pulse begins.
 
     Attributes
@@ -140,7 +140,7 @@ class BaseShock(Disturbance):
 
     def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""
-        from carom.shocks import states_after_shocks
+        from carom.disturbances.shocks import states_after_shocks
 
         peaks, directions = np.broadcast_arrays(*values)
         if not _levitates(rotor):

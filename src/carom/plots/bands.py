@@ -12,8 +12,8 @@ from carom.plots.plane import Complex, Floats, Frame
 from carom.plots.style import LOOKS
 
 if TYPE_CHECKING:
-    from carom.contacts import LastingContact
-    from carom.trajectories import Trajectory
+    from carom.motions.contacts import LastingContact
+    from carom.motions.trajectories import Trajectory
 
 __all__ = ["bands_on_the_circle", "bands_over_time", "drawing_times", "flying"]
 

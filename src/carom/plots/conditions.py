@@ -17,7 +17,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import number, orbit_symbol, time_in_words
 
 if TYPE_CHECKING:
-    from carom.orbits import Orbit, OrbitSet
+    from carom.orbits.single_impact import Orbit, OrbitSet
 
 __all__ = ["period_condition"]
 

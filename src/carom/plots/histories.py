@@ -27,9 +27,9 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_length, axis_time, ending, orbit_look, orbit_title
 
 if TYPE_CHECKING:
-    from carom.orbits import Orbit
+    from carom.motions.trajectories import Trajectory
+    from carom.orbits.single_impact import Orbit
     from carom.parameters import Scales, Zones
-    from carom.trajectories import Trajectory
 
 __all__ = ["draw_radius", "radius"]
 
@@ -50,7 +50,7 @@ def radius(
 
     Parameters
     ----------
-    motion : carom.trajectories.Trajectory or carom.orbits.Orbit
+    motion : carom.motions.trajectories.Trajectory or carom.orbits.Orbit
         Motion to draw.
     zones : carom.parameters.Zones, optional
         Vibration zones A to D, drawn as bands behind the curve.

@@ -30,8 +30,8 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import counted, ending, orbit_look, orbit_title, time_in_words, turns
 
 if TYPE_CHECKING:
-    from carom.orbits import Orbit
-    from carom.trajectories import Trajectory
+    from carom.motions.trajectories import Trajectory
+    from carom.orbits.single_impact import Orbit
 
 __all__ = ["motion", "orbit"]
 
@@ -118,7 +118,7 @@ def motion(
 
     Parameters
     ----------
-    trajectory : carom.trajectories.Trajectory
+    trajectory : carom.motions.trajectories.Trajectory
         Motion to draw.
     since : float
         Draw only what happens from this time on [1/Omega], to leave out a transient.

@@ -30,8 +30,8 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol
 
 if TYPE_CHECKING:
-    from carom.equilibria import Equilibrium
-    from carom.orbits import Orbit, OrbitSet
+    from carom.closed_forms.equilibria import Equilibrium
+    from carom.orbits.single_impact import Orbit, OrbitSet
 
 __all__ = ["equilibria_and_orbits"]
 
@@ -66,7 +66,7 @@ def equilibria_and_orbits(
 
     Parameters
     ----------
-    equilibria : sequence of carom.equilibria.Equilibrium
+    equilibria : sequence of carom.closed_forms.equilibria.Equilibrium
         Contact-free and rub equilibria.
     orbits : carom.orbits.OrbitSet
         Periodic orbits of the rotor.

@@ -20,7 +20,7 @@ from carom.plots.style import LOOKS, Look
 from carom.plots.words import axis_length, times_larger
 
 if TYPE_CHECKING:
-    from carom.orbits import Orbit
+    from carom.orbits.single_impact import Orbit
     from carom.parameters import Scales
 
 __all__ = [

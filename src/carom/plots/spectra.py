@@ -14,8 +14,8 @@ from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_words
 
 if TYPE_CHECKING:
-    from carom.orbits import Orbit
-    from carom.spectrum import FullSpectrum
+    from carom.motions.spectrum import FullSpectrum
+    from carom.orbits.single_impact import Orbit
 
 __all__ = ["multipliers", "spectrum"]
 
@@ -37,7 +37,7 @@ def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
     Parameters
     ----------
     orbits : iterable of carom.orbits.Orbit
-        Orbits, for example an :class:`carom.orbits.OrbitSet`.
+        Orbits, for example an :class:`carom.orbits.single_impact.OrbitSet`.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 88 mm wide.
 
@@ -168,7 +168,7 @@ def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
 
     Parameters
     ----------
-    full : carom.spectrum.FullSpectrum
+    full : carom.motions.spectrum.FullSpectrum
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
 

@@ -16,9 +16,9 @@ from carom.plots.style import LOOKS, REGIMES, TWO_COLUMNS, WORKS, styled
 from carom.plots.words import axis_time
 
 if TYPE_CHECKING:
-    from carom.ledger import EnergyLedger
+    from carom.motions.ledger import EnergyLedger
+    from carom.motions.trajectories import Trajectory
     from carom.parameters import Scales
-    from carom.trajectories import Trajectory
 
 __all__ = ["energies", "forces", "regimes", "touchdown"]
 
@@ -33,8 +33,8 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
 
     Parameters
     ----------
-    trajectory : carom.trajectories.Trajectory
-    ledger : carom.ledger.EnergyLedger
+    trajectory : carom.motions.trajectories.Trajectory
+    ledger : carom.motions.ledger.EnergyLedger
         Its energies.
     title : str, optional
 
@@ -66,7 +66,7 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 
     Parameters
     ----------
-    trajectory : carom.trajectories.Trajectory
+    trajectory : carom.motions.trajectories.Trajectory
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
 
@@ -121,7 +121,7 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 
     Parameters
     ----------
-    trajectory : carom.trajectories.Trajectory
+    trajectory : carom.motions.trajectories.Trajectory
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
 
@@ -196,7 +196,7 @@ def energies(ledger: EnergyLedger, scales: Scales | None = None, *, axes: Axes |
 
     Parameters
     ----------
-    ledger : carom.ledger.EnergyLedger
+    ledger : carom.motions.ledger.EnergyLedger
     scales : carom.parameters.Scales, optional
         Turns the energies into J.
     axes : matplotlib.axes.Axes, optional

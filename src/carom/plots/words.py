@@ -9,7 +9,7 @@ from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
     from carom.bifurcations import Axis
-    from carom.orbits import Orbit
+    from carom.orbits.single_impact import Orbit
     from carom.outcome import Outcome
     from carom.parameters import Scales
 

@@ -11,13 +11,13 @@ from matplotlib.figure import Figure
 
 from carom import plots
 from carom.attractors import Ending
-from carom.ledger import energy_ledger
-from carom.orbits import Orbit, OrbitSet, period_condition
+from carom.motions.ledger import energy_ledger
+from carom.motions.trajectories import simulate
+from carom.orbits.single_impact import Orbit, OrbitSet, period_condition
 from carom.outcome import Outcome
 from carom.parameters import Zones
-from carom.study import Study
-from carom.study.endings import ending_phrase, shown_example
-from carom.trajectories import simulate
+from carom.studies import Study
+from carom.studies.endings import ending_phrase, shown_example
 
 __all__ = ["Picture", "pictures"]
 

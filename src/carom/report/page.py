@@ -16,8 +16,8 @@ from markupsafe import Markup
 from carom import plots
 from carom.report.directory import FIGURES, MANIFEST, filled_at_once
 from carom.report.figures import Picture, pictures
-from carom.study import NOT_COVERED, Study, as_json
-from carom.study.summaries import (
+from carom.studies import NOT_COVERED, Study, as_json
+from carom.studies.summaries import (
     dimensionless_rows,
     kick_rows,
     machine_rows,

@@ -9,11 +9,11 @@ from typing import Literal
 
 from carom.attractors import DisturbanceSet
 from carom.basins.shares import CONFIDENCE
+from carom.closed_forms.whirl import Runaway
 from carom.models import Jeffcott
+from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
 from carom.safety.losses import DampingCheck
-from carom.settling import PATIENCE
-from carom.whirl import Runaway
 
 __all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "unsettled_words", "within_reach"]
 

@@ -15,8 +15,8 @@ import numpy as np
 from carom.attractors import DisturbanceSet
 from carom.basins.motions import name_motions
 from carom.basins.shares import CONFIDENCE, Share
-from carom.ensembles import Endings, settle_all
 from carom.models import Jeffcott
+from carom.motions.ensembles import Endings, settle_all
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 

@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from carom.attractors import DisturbanceSet
+from carom.closed_forms.whirl import Rolling, rolling, rub_limit, runaway_speed
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott, Subject, model_of
-from carom.orbits import orbits_within_reach
+from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping, within_reach
 from carom.safety.losses import DampingCheck, Loss, Losses
-from carom.whirl import Rolling, rolling, rub_limit, runaway_speed
 
 __all__ = ["FRESH", "least_safe_damping"]
 
@@ -55,7 +55,7 @@ def least_safe_damping(
 ) -> SafeDamping:
     """Find the least damping above which no contact motion is met by a standard set of disturbances.
 
-    The synchronous rub (:func:`~carom.whirl.rub_limit`) and rolling (:func:`~carom.whirl.rolling`) have closed forms.
+    The synchronous rub (:func:`~carom.closed_forms.whirl.rub_limit`) and rolling (:func:`~carom.closed_forms.whirl.rolling`) have closed forms.
     Single-impact orbits are complete at each damping; their uppermost limit is bisected.  What else there may be (orbits
     with several impacts, irregular bouncing, motions with rub) and what is met at all is left to simulation: from the
     highest damping down, samples of disturbances are followed until some are lost; these, of every way to be lost, are

@@ -162,7 +162,7 @@ def _plain(value: Any) -> Any:
 
 def _follow(rotor: Jeffcott, starts: Starts) -> tuple[np.ndarray, int]:
     """Outcomes of the starts that exist, and their impacts."""
-    from carom.ensembles import settle_all
+    from carom.motions.ensembles import settle_all
 
     decided = starts.exists & ~starts.undecided
     endings = settle_all(rotor, starts.positions[decided], starts.velocities[decided], threads=1)

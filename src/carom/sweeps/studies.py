@@ -12,7 +12,7 @@ from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.models import Jeffcott
-    from carom.orbits import OrbitSet
+    from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case
 
 __all__ = ["StudyTask"]
@@ -128,9 +128,9 @@ class StudyTask:
         return found
 
     def _closed_forms(self, rotor: Jeffcott, case: Case) -> dict[str, Any]:
-        from carom.equilibria import find_equilibria
-        from carom.orbits import orbits_within_reach
-        from carom.whirl import rolling, runaway_speed
+        from carom.closed_forms.equilibria import find_equilibria
+        from carom.closed_forms.whirl import rolling, runaway_speed
+        from carom.orbits.single_impact import orbits_within_reach
 
         levitation, *rubs = find_equilibria(rotor)
         there = [rub for rub in rubs if rub.status == "admissible"]

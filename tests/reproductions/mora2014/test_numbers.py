@@ -11,8 +11,8 @@ from machines import PAPER, rest_position
 from scipy.optimize import brentq
 
 from carom import find_orbits
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.periods import PeriodCondition
 from carom.reproductions import mora2014
 
 EXPECTED = {

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
 from carom.continuation import Steps
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.propositions import HopfSide, hopf_side
 from carom.reproductions.mora2014.source import machine_at
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.models import Jeffcott
-from carom.orbits import Orbit, find_orbits
+from carom.orbits.single_impact import Orbit, find_orbits
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds

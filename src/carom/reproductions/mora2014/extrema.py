@@ -10,10 +10,10 @@ import numpy as np
 
 from carom.bifurcations import Bifurcation, Numbers, OrbitBranch
 from carom.bifurcations.conditions import grazing_equations
+from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
 from carom.reproductions.mora2014.branches import DAMPINGS, FirstPair
 from carom.reproductions.mora2014.source import machine_at
-from carom.roots import bracketed_root
 
 __all__ = ["Extremum", "ExtremumLine", "RadiusDiagram", "extremum_lines", "radius_diagram", "radius_extrema"]
 

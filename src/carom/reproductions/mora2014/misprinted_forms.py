@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.local import ContactSystem
+from carom.closed_forms.local import ContactSystem
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.orbits import Orbit, find_orbits, period_condition
+from carom.orbits.single_impact import Orbit, find_orbits, period_condition
 from carom.parameters import Parameters
-from carom.periods import PeriodCondition
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.reproductions.mora2014.propositions import fixed_points

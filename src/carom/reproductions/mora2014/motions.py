@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.models import Jeffcott
-from carom.orbits import Orbit, find_orbits
+from carom.orbits.single_impact import Orbit, find_orbits
 from carom.reproductions.mora2014.source import machine_at
 
 __all__ = ["ShownMotion", "shown_motions"]

@@ -127,6 +127,6 @@ def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPl
 
 
 def rub_fold_damping(omega: float = 0.76) -> float:
-    """``γ = ρ√(1 + μ²) − μ(1 − ω²)``, at which the stable and the saddle rub meet (see :mod:`carom.equilibria`)."""
+    """``γ = ρ√(1 + μ²) − μ(1 − ω²)``, at which the stable and the saddle rub meet (see :mod:`carom.closed_forms.equilibria`)."""
     at = machine_at(0.1, omega)
     return float(at.rho * (1.0 + at.mu**2) ** 0.5 - at.mu * (1.0 - at.omega**2))

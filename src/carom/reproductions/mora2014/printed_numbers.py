@@ -8,7 +8,7 @@ from decimal import Decimal
 from typing import Literal
 
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.orbits.single_impact import find_orbits
 from carom.parameters import Machine
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane

@@ -10,9 +10,9 @@ import math
 from dataclasses import dataclass
 
 from carom.bifurcations import Bifurcation, continue_orbit
-from carom.local import ContactSystem, LocalCycle, non_smooth_hopf
+from carom.closed_forms.local import ContactSystem, LocalCycle, non_smooth_hopf
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.orbits.single_impact import find_orbits
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 

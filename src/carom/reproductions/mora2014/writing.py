@@ -37,7 +37,7 @@ def write_paper(
     """
     from carom.plots import save
     from carom.report.directory import filled_at_once
-    from carom.study import as_json
+    from carom.studies import as_json
 
     tell = progress or (lambda share, words: None)
     pictures = figures(found)

@@ -23,7 +23,7 @@ from carom.plots.words import orbit_look, orbit_symbol
 from carom.reproductions.mora2014.drawing.panels import letter
 
 if TYPE_CHECKING:
-    from carom.orbits import Orbit
+    from carom.orbits.single_impact import Orbit
     from carom.reproductions.mora2014.motions import ShownMotion
 
 __all__ = ["figure_2"]

@@ -1,0 +1,227 @@
+"""What happens where levitation meets the wall: classification of boundary equilibria.
+
+With the gap ``g = 1 − |U*|`` between the contact-free equilibrium and the wall, two kinds of motion shrink into it as
+``g → 0``; both grow in proportion to ``|g|``, so the side on which they exist is a sign.
+
+*A synchronous rub.*  Its normal force solves ``|h|²N² + 2 Re(h) N + 1 − |U*|² = 0`` with ``h = H(1 + iμ)`` and the static
+receptance ``H = 1/(ω² − 1 + iγ)`` (:func:`~carom.closed_forms.equilibria.find_equilibria`), so the branch that meets the wall has
+
+    N ≈ −g/Re h = g ρ²/(κ − μγ),      κ = 1 − ω².
+
+If ``κ < μγ``, ``N > 0`` where the contact-free equilibrium is virtual: the rotor goes over from one to the other,
+*persistence*.  The rub is then the larger root, which is stable.  If ``κ > μγ``, both exist on the side where the rotor
+levitates, the rub being a saddle, and neither on the other: a *non-smooth fold*, after which the rotor must leave.
+
+*Orbits with one impact a period*, one for each root ``T`` of ``F₁`` (the non-smooth Hopf bifurcation, Proposition 4.3 of
+the source paper): from ``|1 + q a₁₂ ṙ| = |U*|``,
+
+    ṙ ≈ −g/Re(q a₁₂(T)).
+
+Where ``Re(q a₁₂) < 0`` the orbit (``a``, ``b``) lives on the side where the rotor levitates, and bounds which disturbances
+come back; else (``c``, ``d``) it takes over on the other.  ``F₁`` does not depend on ``ρ``: the orbits are looked up a small
+gap away, reached by moving ``U*`` along its radius as ``ρ`` does, where the general search decides whether they stay inside
+between impacts.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from carom.models import Jeffcott, Subject, model_of
+from carom.orbits.single_impact import Orbit, orbits_within_reach
+from carom.outcome import InputError
+from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
+
+__all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria", "boundary_values"]
+
+SMALL_GAP = 1e-5
+"""Gap at which small orbits are looked at: what is left out is of this order, rounding of ``1e-16/1e-5``."""
+DEGENERATE = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class SmallOrbit:
+    """An orbit with one impact a period that shrinks into the boundary equilibrium.
+
+    Attributes
+    ----------
+    name : str
+        ``"B1,a"`` and so on; see :class:`~carom.orbits.single_impact.Orbit`.
+    period : float
+        In ``1/Ω``; it stays finite as the orbit shrinks.
+    speed_rate : float
+        Radial speed (``c_r Ω``) per clearance of distance between the contact-free equilibrium and the wall.
+    levitating_side : bool
+        Whether it exists where the contact-free equilibrium is inside the wall; else where it is outside.
+    admissible : bool
+        Whether it stays inside the wall between impacts.
+    stable : bool
+    """
+
+    name: str
+    period: float
+    speed_rate: float
+    levitating_side: bool
+    admissible: bool
+    stable: bool
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryEquilibrium:
+    """A contact-free equilibrium that lies on the wall, and what meets it there.
+
+    Attributes
+    ----------
+    gain : {"gamma", "omega"}
+        The parameter that was varied to find it.
+    value : float
+        Of this parameter.
+    parameters : Parameters
+        At the boundary equilibrium.
+    levitates : {"above", "below"}
+        On which side of ``value`` the contact-free equilibrium is inside the wall.
+    kind : {"persistence", "non-smooth fold", "degenerate"}
+        What becomes of the equilibria.
+    force_rate : float
+        Normal force (``m c_r Ω²``) of the synchronous rub per clearance of gap ``1 − |U*|``.
+    orbits : tuple of SmallOrbit
+        Orbits that shrink into it, virtual ones included.
+    complete : bool
+        Whether these are all orbits with one impact a period.
+    """
+
+    gain: Literal["gamma", "omega"]
+    value: float
+    parameters: Parameters
+    levitates: Literal["above", "below"]
+    kind: Literal["persistence", "non-smooth fold", "degenerate"]
+    force_rate: float
+    orbits: tuple[SmallOrbit, ...]
+    complete: bool
+
+    @property
+    def words(self) -> str:
+        """What happens there, in words."""
+        lost = "falls" if self.levitates == "above" else "rises"
+        return f"Where {self.gain} {lost} to {self.value:.7g}, {_EQUILIBRIA[self.kind]} {self._orbits_in_words()}"
+
+    def _orbits_in_words(self) -> str:
+        real = [orbit for orbit in self.orbits if orbit.admissible]
+        sentences = []
+        for inside, side in ((True, "bound its recovery on the side where it levitates"), (False, "take over beyond")):
+            group = [orbit for orbit in real if orbit.levitating_side == inside]
+            if group:
+                listed = ", ".join(f"{orbit.name} ({'stable' if orbit.stable else 'unstable'})" for orbit in group)
+                sentences.append(f"Bouncing orbits that shrink to nothing there {side}: {listed}.")
+        return " ".join(sentences) if sentences else "No bouncing orbit with one impact a period shrinks into it."
+
+
+_EQUILIBRIA = {
+    "persistence": ("levitation goes over into a stable synchronous rub that begins without force (persistence)."),
+    "non-smooth fold": (
+        "levitation meets an unstable synchronous rub and both vanish (non-smooth fold): the rotor must go somewhere else."
+    ),
+    "degenerate": "levitation ends on the wall between the two generic ways, persistence and non-smooth fold.",
+}
+
+
+def boundary_equilibria(machine: Subject, gain: Literal["gamma", "omega"] = "gamma") -> tuple[BoundaryEquilibrium, ...]:
+    """Find where the contact-free equilibrium meets the wall along a gain, and classify what happens.
+
+    ``|U*| = 1`` is ``ρ² = (1 − ω²)² + γ²``, from (3.7) of the source paper.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+    gain : {"gamma", "omega"}
+        The parameter that is varied through positive values, all others fixed.
+
+    Returns
+    -------
+    tuple of BoundaryEquilibrium
+        At most one along ``gamma`` and two along ``omega``, in growing order.
+
+    Raises
+    ------
+    InputError
+        There is no such gain.
+    """
+    rotor = model_of(machine)
+    places = boundary_values(rotor.parameters, gain)
+    return tuple(_classified(rotor.parameters, gain, value, side) for value, side in places)
+
+
+def boundary_values(
+    parameters: Parameters, gain: Literal["gamma", "omega"]
+) -> tuple[tuple[float, Literal["above", "below"]], ...]:
+    """Values of a gain at which the contact-free equilibrium lies on the wall, and on which side of each it is inside.
+
+    ``γ = √(ρ² − (1 − ω²)²)``, and ``ω² = 1 ± √(ρ² − γ²)``.
+
+    Raises
+    ------
+    InputError
+        There is no such gain.
+    """
+    if gain == "gamma":
+        kappa = (1.0 - parameters.omega) * (1.0 + parameters.omega)
+        square = (parameters.rho - kappa) * (parameters.rho + kappa)
+        return ((math.sqrt(square), "above"),) if square > 0.0 else ()
+    if gain != "omega":
+        raise InputError("gain", gain, "one of: gamma, omega")
+    square = (parameters.rho - parameters.gamma) * (parameters.rho + parameters.gamma)
+    if square <= 0.0:
+        return ()
+    width = math.sqrt(square)
+    above = math.sqrt(1.0 + width)
+    return ((math.sqrt(1.0 - width), "below"), (above, "above")) if width < 1.0 else ((above, "above"),)
+
+
+def _classified(
+    parameters: Parameters, gain: Literal["gamma", "omega"], value: float, levitates: Literal["above", "below"]
+) -> BoundaryEquilibrium:
+    at = parameters.replace(**{gain: value})
+    balance = (1.0 - at.omega) * (1.0 + at.omega) - at.mu * at.gamma
+    kind: Literal["persistence", "non-smooth fold", "degenerate"] = "degenerate"
+    if abs(balance) > DEGENERATE:
+        kind = "non-smooth fold" if balance > 0.0 else "persistence"
+    orbits, complete = _small_orbits(at)
+    force_rate = at.rho * at.rho / balance if balance != 0.0 else math.inf
+    return BoundaryEquilibrium(gain, value, at, levitates, kind, force_rate, orbits, complete)
+
+
+def _small_orbits(at: Parameters) -> tuple[tuple[SmallOrbit, ...], bool]:
+    """Orbits near the boundary equilibrium on both sides, and whether all were searched."""
+    if at.gamma <= 0.0:
+        return (), False
+    found = []
+    complete = True
+    for inside in (True, False):
+        orbits = orbits_within_reach(_at_gap(at, SMALL_GAP if inside else -SMALL_GAP))
+        complete = complete and orbits.complete
+        found += [_small_orbit(orbit, inside) for orbit in _smallest(tuple(orbits)) if orbit.radial_speed > 0.0]
+    return tuple(sorted(found, key=lambda orbit: orbit.name)), complete
+
+
+def _at_gap(at: Parameters, gap: float) -> Jeffcott:
+    """Rotor at a boundary equilibrium with its equilibrium moved inward, or outward where the gap is negative."""
+    rho = at.rho * (1.0 - gap)
+    if rho <= DIMENSIONLESS_FIELDS["rho"].highest:
+        return Jeffcott(at.replace(rho=rho))
+    # Beyond the largest unbalance allowed, nearer to resonance: there the small orbits change to first order in the gap.
+    share = 1.0 / (1.0 - gap)
+    return Jeffcott(at.replace(gamma=at.gamma * share, omega=math.sqrt(1.0 + (at.omega**2 - 1.0) * share)))
+
+
+def _smallest(orbits: tuple[Orbit, ...]) -> list[Orbit]:
+    """Of the two orbits of each period the one that shrinks with the gap."""
+    pairs: dict[tuple[str, float], list[Orbit]] = {}
+    for orbit in orbits:
+        pairs.setdefault((orbit.name[0], orbit.period), []).append(orbit)
+    return [min(pair, key=lambda orbit: abs(orbit.radial_speed)) for pair in pairs.values() if len(pair) == 2]
+
+
+def _small_orbit(orbit: Orbit, inside: bool) -> SmallOrbit:
+    return SmallOrbit(orbit.name, orbit.period, orbit.radial_speed / SMALL_GAP, inside, orbit.admissible, orbit.stable)

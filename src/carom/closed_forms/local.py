@@ -1,0 +1,210 @@
+"""Local theory of the non-smooth Hopf bifurcation: cycles that shrink into a boundary equilibrium.
+
+Where the contact-free equilibrium reaches the wall, the motion near it is homogeneous: small impacting cycles have a
+period ``T`` that does not depend on their size, and everything else grows linearly with the distance ``ε`` from the
+bifurcation.  For the general complex system of the source paper (5.1),
+
+    ü + αu̇ + βu = Γ,   |u| < σ,
+
+the cycles follow from the exact conditions of :mod:`carom.orbits.single_impact` by expansion in ``ε``.  With ``K = Γ/β`` the
+equilibrium, ``κ = Re(K'/K)`` the rate at which it leaves the wall, and ``q = (1 + d)(1 + iμ)``:
+
+    F₁(T) = 1 + Re(q a₂₂(T)) = 0,     ṙ' = κσ/Re(q a₁₂),     θ̇' = −Im(q a₂₂) ṙ'/σ,
+    θ₀' = Im(K'/K) − κ Im(q a₁₂)/Re(q a₁₂).
+
+(The text prints the first with a minus sign, and the last display of its section 5 with the sign of ``θ̇`` turned; both
+contradict the exact branches.)
+"""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from carom.closed_forms.periods import PeriodCondition
+from carom.core.flow import fly_all
+from carom.models import System, second_order_system
+from carom.outcome import InputError
+from carom.parameters import Parameters
+
+__all__ = ["ContactSystem", "LocalCycle", "NonSmoothHopf", "cycle_determinant", "non_smooth_hopf"]
+
+ON_WALL = 1e-9
+"""Distance from the wall, in clearances, at which the equilibrium counts as on it."""
+
+
+@dataclass(frozen=True)
+class ContactSystem:
+    """``ü + αu̇ + βu = Γ`` inside ``|u| < σ`` with impacts of restitution ``d`` and friction ``μ``.
+
+    Attributes
+    ----------
+    damping, stiffness, force : complex
+        ``α``, ``β`` and ``Γ``.
+    wall : float
+        ``σ``.
+    friction, restitution : float
+        ``μ`` and ``d``.
+    """
+
+    damping: complex
+    stiffness: complex
+    force: complex
+    wall: float = 1.0
+    friction: float = 0.0
+    restitution: float = 1.0
+
+    @classmethod
+    def of_rotor(cls, parameters: Parameters) -> ContactSystem:
+        """Return the planar rotor in the co-rotating frame, ``α = γ + 2i``, ``β = ω² − 1 + iγ``, ``Γ = ρe^{iφ}``."""
+        return cls(
+            complex(parameters.gamma, 2.0),
+            complex(parameters.omega**2 - 1.0, parameters.gamma),
+            cmath.rect(parameters.rho, parameters.phi),
+            1.0,
+            parameters.mu,
+            parameters.d,
+        )
+
+    @property
+    def equilibrium(self) -> complex:
+        """``K = Γ/β``."""
+        return self.force / self.stiffness
+
+    @cached_property
+    def system(self) -> System:
+        """The same as the kernels see it, in units of ``σ``."""
+        return second_order_system(
+            exponents=self.exponents,
+            equilibrium=self.equilibrium / self.wall,
+            friction=self.friction,
+            restitution=self.restitution,
+            drive=np.inf,
+        )
+
+    @property
+    def exponents(self) -> tuple[complex, complex]:
+        """Roots of ``λ² + αλ + β``, the one with the smaller real part first; the smaller from their product."""
+        split = cmath.sqrt(self.damping**2 - 4.0 * self.stiffness)
+        if (self.damping.conjugate() * split).real < 0.0:
+            split = -split
+        larger = -0.5 * (self.damping + split)
+        smaller = self.stiffness / larger if larger else 0j
+        return (larger, smaller) if larger.real <= smaller.real else (smaller, larger)
+
+
+@dataclass(frozen=True)
+class LocalCycle:
+    """A family of small impacting cycles, to first order in ``ε``.
+
+    Attributes
+    ----------
+    period : float
+        ``T``, the same for all sizes.
+    radial_slope, angular_slope, angle_slope : float
+        ``dṙ/dε``, ``dθ̇/dε`` and ``dθ₀/dε`` of the state just before the impact.
+    criticality : {"subcritical", "supercritical"}
+        Subcritical: the cycles exist on the side where the contact-free equilibrium is admissible.
+    """
+
+    period: float
+    radial_slope: float
+    angular_slope: float
+    angle_slope: float
+    criticality: Literal["subcritical", "supercritical"]
+
+
+@dataclass(frozen=True)
+class NonSmoothHopf:
+    """A non-smooth Hopf point.
+
+    Attributes
+    ----------
+    system : ContactSystem
+        At the bifurcation.
+    leaving : float
+        ``κ``: the equilibrium's distance from the centre grows by ``κσε``, so it is admissible for ``κε < 0``.
+    cycles : tuple of LocalCycle
+        One for each root of ``F₁``; an even number (none or several pairs).
+    """
+
+    system: ContactSystem
+    leaving: float
+    cycles: tuple[LocalCycle, ...]
+
+
+def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoothHopf:
+    """Cycles that are born where an equilibrium reaches the wall.
+
+    Parameters
+    ----------
+    system : ContactSystem
+        At the bifurcation: ``|K| = σ`` to within 1e-9.
+    equilibrium_rate : complex
+        ``dK/dε = (Γ₁ − β₁K)/β``.
+
+    Returns
+    -------
+    NonSmoothHopf
+
+    Raises
+    ------
+    InputError
+        The equilibrium is not on the wall, or the free motion is not damped.
+    """
+    distance = abs(system.equilibrium) / system.wall - 1.0
+    if abs(distance) > ON_WALL:
+        raise InputError("equilibrium", system.equilibrium, f"on the wall |u| = {system.wall:g}")
+    rate = equilibrium_rate / system.equilibrium
+    condition = PeriodCondition(system.system)
+    periods = condition.roots().periods
+    levers = condition.factor * condition.a12(periods)
+    turns = condition.factor * condition.a22(periods)
+    cycles = []
+    for period, lever, turn in zip(periods, levers, turns, strict=True):
+        slope = rate.real * system.wall / lever.real
+        cycles.append(
+            LocalCycle(
+                period=float(period),
+                radial_slope=float(slope),
+                angular_slope=float(-turn.imag * slope / system.wall),
+                angle_slope=float(rate.imag - rate.real * lever.imag / lever.real),
+                criticality="subcritical" if lever.real < 0.0 else "supercritical",
+            )
+        )
+    return NonSmoothHopf(system, float(rate.real), tuple(cycles))
+
+
+def cycle_determinant(system: System, period: float, direction: complex = 1.0) -> float:
+    """``det(reset · e^{MT} − 1)`` of the linearised contact at a boundary equilibrium, for any number of modes.
+
+    With the reset ``1 − b rᵀ`` (``r`` reads the speed along the wall's normal, ``b`` is what a unit of it does to the
+    amplitudes) the determinant lemma gives ``det(e^{MT} − 1) F₁(T)``: its zeros are the periods of the cycles.
+
+    Parameters
+    ----------
+    system : System
+    period : float
+    direction : complex
+        Unit normal of the wall at the equilibrium.  The determinant does not depend on it.
+
+    Returns
+    -------
+    float
+        Of the real map over ``(Re c, Im c)``, shape (2N, 2N).
+    """
+    arrays = system.arrays
+    modes = len(arrays.exponents)
+    units = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
+    arrivals = fly_all(arrays, units, np.full(len(units), float(period)))
+    factor = (1.0 + arrays.restitution[0]) * complex(1.0, arrays.friction[0])
+    columns = []
+    for unit, arrival in zip(units, arrivals, strict=True):
+        speed = (np.conj(direction) * (arrays.rate_rows[0] @ arrival)).real
+        image = arrival - arrays.columns[:, 0] * factor * direction * speed - unit
+        columns.append(np.concatenate([image.real, image.imag]))
+    return float(np.linalg.det(np.array(columns).T))

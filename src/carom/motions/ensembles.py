@@ -1,0 +1,261 @@
+"""Ensembles: many starts followed to where they settle, on all cores."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from numbers import Integral
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.core.advance import INSIDE_ALL
+from carom.core.counter import fresh_counter
+from carom.core.ensemble import MOTION, Task, Tools, follow_each
+from carom.core.lanes import lanes_record
+from carom.core.layout import rub_workspace, workspace
+from carom.models import Jeffcott, Subject, model_of
+from carom.motions.settling import PATIENCE, fresh_memory, longest_time
+from carom.motions.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
+from carom.outcome import InputError, Outcome
+from carom.processors import available_cores
+
+__all__ = ["Endings", "settle_all"]
+
+MOST_EVENTS = 1_000_000
+PORTION = 16_384
+"""Starts of one machine that threads share at a time: some milliseconds to a second of work."""
+FEW = 256
+"""Starts that are not worth a second thread: some for each lane."""
+MODES = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Endings:
+    """Where the motions of an ensemble end; every array has the shape of the starts.
+
+    Attributes
+    ----------
+    outcomes : ndarray of int8
+        Codes of :class:`~carom.outcome.Outcome`.
+    times : ndarray
+        When that was known, in ``1/Ω``.
+    impacts : ndarray of int64
+        Impacts until then.
+    multiplicities : ndarray of int64
+        Impacts in a period of periodic bouncing; zero otherwise (of bouncing: aperiodic).
+    positions, velocities : ndarray of complex
+        State at that time, co-rotating frame; where the end is proven, one on the way there.
+    """
+
+    outcomes: np.ndarray
+    times: np.ndarray
+    impacts: np.ndarray
+    multiplicities: np.ndarray
+    positions: np.ndarray
+    velocities: np.ndarray
+
+    def count(self, outcome: Outcome) -> int:
+        """Return how many motions end so."""
+        return int(np.count_nonzero(self.outcomes == outcome))
+
+    @property
+    def recovered(self) -> np.ndarray:
+        """Which motions come back to levitation for good."""
+        recovered: np.ndarray = self.outcomes == Outcome.LEVITATED
+        return recovered
+
+
+def settle_all(
+    machine: Subject | Sequence[Subject],
+    positions: np.ndarray,
+    velocities: np.ndarray,
+    *,
+    which: np.ndarray | None = None,
+    until: float | None = None,
+    settle: bool = True,
+    patience: int = PATIENCE,
+    max_events: int = MOST_EVENTS,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Endings:
+    """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
+
+    Motions that slide into a neighbourhood of the synchronous rub which is proven to absorb
+    (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirl backward so fast that they are proven to go over to rolling
+    (:func:`~carom.closed_forms.whirl.runaway_speed`), end there; ``simulate`` goes on until they are at the rub or roll.
+
+    The result does not depend on the number of threads, to the last bit: no motion knows of another.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model, or a sequence of them
+        In a sequence: machines of which each start has one.
+    positions, velocities : array_like of complex
+        Starts in the co-rotating frame, of one shape after broadcasting; ``|U| ≤ 1``.
+    which : array_like of int, optional
+        With a sequence: the machine of each start, of the same shape.
+    until : float
+        Time after which a motion that has not settled is given up, in ``1/Ω``; by default
+        :func:`~carom.motions.settling.longest_time` of its machine.
+    settle : bool
+        End each motion as soon as it is known where it ends (criteria in :mod:`carom.core.fate`); otherwise at ``until``.
+    patience : int
+        With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
+    max_events : int
+        Impacts and steps of lasting contact after which a motion is given up.
+    threads : int, optional
+        By default as many as there are cores at hand.
+    progress : callable, optional
+        Called now and then with the share of starts done.
+
+    Returns
+    -------
+    Endings
+
+    Raises
+    ------
+    InputError
+        A start lies outside the wall, is too fast or not finite, ``which`` names no machine, or a limit is no number above 0.
+    """
+    rotors, which = _machines(machine, which)
+    positions, velocities, which = np.broadcast_arrays(
+        np.asarray(positions, complex), np.asarray(velocities, complex), which
+    )
+    _check_starts(positions, velocities)
+    if until is not None and not (np.isfinite(until) and until > 0):
+        raise InputError("until", until, "a finite time above 0, in 1/Omega")
+    for name, number in (("patience", patience), ("max_events", max_events), ("threads", threads)):
+        if number is not None and not (isinstance(number, Integral) and number >= 1):
+            raise InputError(name, number, "a whole number of at least 1")
+    order = slice(None) if len(rotors) == 1 else np.argsort(which, axis=None, kind="stable")
+    motions = _motions(positions.ravel()[order], velocities.ravel()[order])
+    limits = _Limits(until, settle, patience, max_events)
+    threads = threads or available_cores()
+    parts = []
+    for number, portion in _portions(which.ravel()[order], len(rotors)):
+        part = _Part(rotors[number], motions[portion], fresh_counter())
+        parts += [part] * min(threads, 1 + len(part.motions) // FEW)
+    done = 0
+    for finished in _settle_parts(parts, limits, threads):
+        done += finished
+        if progress:
+            progress(done / positions.size)
+    return _endings(motions, order, positions.shape)
+
+
+@dataclass(frozen=True)
+class _Limits:
+    until: float | None
+    settle: bool
+    patience: int
+    max_events: int
+
+
+def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) -> tuple[Sequence[Jeffcott], np.ndarray]:
+    if isinstance(machine, Subject):
+        if which is not None:
+            raise InputError("which", which, "left out where there is one machine")
+        return [model_of(machine)], np.zeros((), np.int64)
+    if which is None:
+        raise InputError("which", which, "the machine of each start, where there are several")
+    rotors = [model_of(one) for one in machine]
+    chosen = np.asarray(which)
+    if not chosen.size:
+        return rotors, chosen.astype(np.int64)
+    if not np.issubdtype(chosen.dtype, np.integer) or chosen.min() < 0 or chosen.max() >= len(rotors):
+        raise InputError("which", chosen, f"whole numbers from 0 to {len(rotors) - 1}")
+    return rotors, chosen
+
+
+def _check_starts(positions: np.ndarray, velocities: np.ndarray) -> None:
+    for name, values in (("position", positions), ("velocity", velocities)):
+        wrong = ~np.isfinite(values)
+        if wrong.any():
+            raise InputError(f"start {name}", values[wrong].flat[0], "finite numbers")
+    fast = np.abs(velocities) > LARGEST_SPEED
+    if fast.any():
+        raise InputError("start velocity", velocities[fast].flat[0], f"a speed up to {LARGEST_SPEED:g}")
+    outside = np.abs(positions) > 1.0 + WALL_TOLERANCE
+    if outside.any():
+        raise InputError("start position", positions[outside].flat[0], "inside the wall, |U| <= 1")
+
+
+def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
+    motions = np.recarray(positions.shape, MOTION)
+    motions.position, motions.velocity = positions, velocities
+    motions.plane = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, 0, INSIDE_ALL)
+    return motions
+
+
+def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
+    """Machine and place of starts, in the order of machines, that make one piece of work."""
+    ends = np.searchsorted(which, np.arange(machines + 1))
+    for machine in range(machines):
+        for first in range(ends[machine], ends[machine + 1], PORTION):
+            yield machine, slice(first, min(first + PORTION, ends[machine + 1]))
+
+
+class _Part(NamedTuple):
+    """A part in the work on some motions of one machine: the counter deals them out to all who have one."""
+
+    rotor: Jeffcott
+    motions: np.ndarray
+    counter: np.record
+
+
+def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator[int]:
+    """Do parts of the work, on this thread if no other is wanted; the number of motions followed in each one done."""
+    if min(threads, len(parts)) == 1:
+        yield from (_settle_part(part, limits) for part in parts)
+        return
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for finished in as_completed([pool.submit(_settle_part, part, limits) for part in parts]):
+                yield finished.result()
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def _settle_part(part: _Part, limits: _Limits) -> int:
+    until = longest_time(part.rotor) if limits.until is None else limits.until
+    task = Task(part.rotor.system.arrays, part.rotor.system.table, until, limits.max_events)
+    memory = fresh_memory(part.rotor, limits.patience if limits.settle else 0, absorb=True)
+    # Uncompiled, a lane that has nothing to divide warns.
+    with np.errstate(all="ignore"):
+        return int(follow_each(task, part.motions, part.counter, _workbench.tools(memory)))
+
+
+class _Workbench(threading.local):
+    """What a thread works with, made once."""
+
+    def __init__(self) -> None:
+        self.lanes, self.work, self.rub = lanes_record(), workspace(MODES), rub_workspace(MODES)
+        self.log, self.amplitudes = EventLog.empty(1, MODES), np.empty(MODES, complex)
+
+    def tools(self, memory: np.record) -> Tools:
+        return Tools(self.lanes, memory, *self.log, self.work, self.rub, self.amplitudes)
+
+
+_workbench = _Workbench()
+
+
+def _endings(motions: np.recarray, order: np.ndarray | slice, shape: tuple[int, ...]) -> Endings:
+    """The endings in the order of the starts."""
+
+    def gather(name: str, kind: type) -> np.ndarray:
+        values: np.ndarray = np.empty(len(motions), kind)
+        values[order] = motions[name]
+        return values.reshape(shape)
+
+    return Endings(
+        outcomes=gather("outcome", np.int8),
+        times=gather("time", float),
+        impacts=gather("impacts", np.int64),
+        multiplicities=gather("multiplicity", np.int64),
+        positions=gather("position", complex),
+        velocities=gather("velocity", complex),
+    )

@@ -1,0 +1,76 @@
+"""Full spectrum of a motion: how much whirls forward and how much backward at each multiple of the shaft speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.motions.trajectories import Trajectory
+from carom.outcome import InputError
+
+__all__ = ["FullSpectrum", "full_spectrum"]
+
+
+@dataclass(frozen=True, eq=False)
+class FullSpectrum:
+    """Amplitudes of the motion in the fixed frame, ``Z(t) = Σ a e^{iνt}``.
+
+    Attributes
+    ----------
+    orders : ndarray, shape (m,)
+        ``ν`` in multiples of the shaft speed: positive whirls forward, negative backward, 1 is synchronous.
+    amplitudes : ndarray of complex, shape (m,)
+        In clearances.  A steady circle of radius ``r`` at an order on the grid shows the amplitude ``r``.
+    resolution : float
+        Distance of two orders that are told apart, four grid steps (Hann window).
+    """
+
+    orders: np.ndarray
+    amplitudes: np.ndarray
+    resolution: float
+
+
+def full_spectrum(
+    trajectory: Trajectory, since: float = 0.0, highest_order: float = 6.0, samples_per_turn: int = 64
+) -> FullSpectrum:
+    """Fourier transform of a motion in the fixed frame over its end, under a Hann window.
+
+    The sampled stretch holds a whole number of shaft turns, so that the multiples of the shaft speed lie on the grid.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    since : float
+        Leave out what comes before, in ``1/Ω``.
+    highest_order : float
+        Largest ``|ν|`` to return.
+    samples_per_turn : int
+        At least twice the highest order; corners of the path (impacts) make aliases that fall with its square.
+
+    Returns
+    -------
+    FullSpectrum
+
+    Raises
+    ------
+    InputError
+        Less than four turns are left, or too few samples for the highest order.
+    """
+    turns = int((trajectory.time - since) / (2 * np.pi))
+    if since < 0.0 or turns < 4:
+        raise InputError("since", since, f"between 0 and four shaft turns before the end at {trajectory.time:g}")
+    if samples_per_turn < 2 * highest_order:
+        raise InputError(
+            "samples_per_turn", samples_per_turn, f"at least {2 * highest_order:g}, twice the highest order"
+        )
+    count = turns * samples_per_turn
+    times = trajectory.time - 2 * np.pi * turns * (1.0 - np.arange(count) / count)
+    window = 1.0 - np.cos(2 * np.pi * np.arange(count) / count)
+    position = trajectory.position(times, "fixed")
+    amplitudes = np.fft.fft(window * position) / count
+    orders = np.fft.fftfreq(count, 1.0 / samples_per_turn)
+    amplitudes = amplitudes * np.exp(-1j * orders * times[0])
+    kept = np.argsort(orders)
+    kept = kept[np.abs(orders[kept]) <= highest_order]
+    return FullSpectrum(orders[kept], amplitudes[kept], 4.0 / turns)

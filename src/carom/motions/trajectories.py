@@ -1,0 +1,375 @@
+"""Motions: a start followed through flights, impacts and lasting contact."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from carom.core.advance import INSIDE_ALL, advance
+from carom.core.closing import PASSES
+from carom.core.fate import doubt
+from carom.core.impact import set_on_wall
+from carom.core.layout import rub_workspace, workspace
+from carom.core.rub import fly_or_rub_all
+from carom.models import Jeffcott, Subject, model_of
+from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
+from carom.motions.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
+from carom.outcome import InputError, Outcome, Phase
+
+__all__ = [
+    "LARGEST_SPEED",
+    "WALL_TOLERANCE",
+    "EventLog",
+    "Kick",
+    "State",
+    "Trajectory",
+    "follow",
+    "kick",
+    "simulate",
+]
+
+LARGEST_SPEED = 1e100
+"""Largest speed of a start: far beyond, the bounds that prove a flight free overflow."""
+WALL_TOLERANCE = 1e-12
+"""A start this near to ``|U| = 1`` lies on the wall."""
+REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
+CHUNK = 4096
+"""Events per kernel call; between calls progress is reported."""
+
+
+@dataclass(frozen=True)
+class State:
+    """A state of the rotor in the co-rotating frame.
+
+    Attributes
+    ----------
+    position, velocity : complex
+        ``U`` in clearances and ``U̇`` in clearances times ``Ω``.
+    """
+
+    position: complex
+    velocity: complex = 0j
+
+
+@dataclass(frozen=True)
+class Kick:
+    """A velocity kick out of the contact-free equilibrium.
+
+    Attributes
+    ----------
+    speed : float
+        Size of the kick in clearances times ``Ω``.
+    angle : float
+        Direction in the co-rotating frame, in rad.
+    """
+
+    speed: float
+    angle: float = 0.0
+
+    def state(self, rotor: Jeffcott) -> State:
+        """Return the state just after the kick."""
+        return State(rotor.equilibrium, cmath.rect(self.speed, self.angle))
+
+
+def kick(speed: float, angle: float = 0.0) -> Kick:
+    """Velocity kick of ``speed`` (in ``c_r Ω``) in direction ``angle`` (rad) out of the contact-free equilibrium."""
+    return Kick(speed, angle)
+
+
+class EventLog(NamedTuple):
+    """Events of a motion as a kernel writes them; see :func:`carom.core.advance.advance`."""
+
+    times: np.ndarray
+    phases: np.ndarray
+    planes: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+
+    @classmethod
+    def empty(cls, size: int, modes: int) -> EventLog:
+        """Room for that many events."""
+        whole = np.empty((2, size), np.int64)
+        return cls(np.empty(size), whole[0], whole[1], *np.empty((2, size, modes), complex))
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """A motion: exact flights and lasting contacts joined by events.
+
+    Attributes
+    ----------
+    rotor : Jeffcott
+    start : State
+    outcome : Outcome
+        Where it settled, or why it was stopped.
+    time : float
+        End of the motion in ``1/Ω``.
+    final : State
+        State at the end.
+    multiplicity : int
+        Impacts in a period if it settled to periodic bouncing; zero otherwise (of bouncing: aperiodic).
+    segment_starts : ndarray, shape (n + 1,)
+        Start time of each segment.  A long contact consists of several.
+    segment_phases : ndarray of :class:`~carom.outcome.Phase`, shape (n + 1,)
+    segment_amplitudes : ndarray of complex, shape (n + 1, N)
+        Mode amplitudes at the start of each segment.
+    arrivals : ndarray of complex, shape (n, N)
+        Mode amplitudes at the end of each segment but the last.
+    """
+
+    rotor: Jeffcott
+    start: State
+    outcome: Outcome
+    time: float
+    final: State
+    multiplicity: int
+    segment_starts: np.ndarray
+    segment_phases: np.ndarray
+    segment_amplitudes: np.ndarray
+    arrivals: np.ndarray
+
+    @cached_property
+    def is_impact(self) -> np.ndarray:
+        """Which of the ``n`` events are impacts, bool, shape (n,)."""
+        flying = self.segment_phases == Phase.FLIGHT
+        struck = (self.arrivals != self.segment_amplitudes[1:]).any(axis=1)
+        return flying[:-1] & flying[1:] & struck
+
+    @cached_property
+    def is_landing(self) -> np.ndarray:
+        """Which of the ``n`` events complete a chatter (the impulses left to it as one), bool, shape (n,)."""
+        flying = self.segment_phases == Phase.FLIGHT
+        return flying[:-1] & ~flying[1:]
+
+    @cached_property
+    def contacts(self) -> ContactLog:
+        """Log of the impacts."""
+        return self.log_of(self.is_impact)
+
+    def log_of(self, events: np.ndarray) -> ContactLog:
+        """Log of chosen events, bool, shape (n,)."""
+        before = self.rotor.system.state(self.arrivals[events])
+        after = self.rotor.system.state(self.segment_amplitudes[1:][events])
+        return ContactLog.from_states(self.rotor, self.segment_starts[1:][events], before, after)
+
+    @cached_property
+    def lasting_contacts(self) -> tuple[LastingContact, ...]:
+        """Stretches of sliding and rolling in the order of time."""
+        changes = np.flatnonzero(np.diff(self.segment_phases)) + 1
+        bounds = [0, *changes, len(self.segment_phases)]
+        ends = np.append(self.segment_starts, self.time)
+        return tuple(
+            LastingContact(Phase(int(self.segment_phases[first])), float(ends[first]), float(ends[last]))
+            for first, last in pairwise(bounds)
+            if self.segment_phases[first] != Phase.FLIGHT
+        )
+
+    def at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """State at given times, exact to rounding; at an impact the state just after it.
+
+        Parameters
+        ----------
+        times : array_like
+            In ``1/Ω``, within 0 … ``time``.
+
+        Returns
+        -------
+        position, velocity : ndarray of complex
+            ``U`` and ``U̇`` in the co-rotating frame, of the shape of ``times``.
+        """
+        amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
+        return self.rotor.system.state(amplitudes)
+
+    def _amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Mode amplitudes and phases at given times."""
+        flat = times.ravel()
+        segment = np.clip(np.searchsorted(self.segment_starts, flat, side="right") - 1, 0, None)
+        phases = self.segment_phases[segment]
+        moved = fly_or_rub_all(
+            self.rotor.system.arrays,
+            0,
+            self.segment_amplitudes[segment],
+            phases,
+            flat - self.segment_starts[segment],
+            rub_workspace(self.segment_amplitudes.shape[1]),
+        )
+        return moved.reshape(*times.shape, moved.shape[1]), phases.reshape(times.shape)
+
+    def forces(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Normal and friction force of lasting contact at given times, in ``m c_r Ω²``; zero in flight.
+
+        Returns
+        -------
+        normal, friction : ndarray
+            The normal force presses the rotor inward; friction is positive along growing angle.
+        """
+        amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
+        arrays = self.rotor.system.arrays
+        position, velocity = self.rotor.system.state(amplitudes)
+        local = position.conj() * np.einsum("...k,k->...", amplitudes, arrays.acceleration_rows[0])
+        push = local.real + np.abs(velocity) ** 2
+        slip_sign = np.where(phases == Phase.FORWARD_SLIP, 1.0, -1.0)
+        grip = np.where(phases == Phase.ROLLING, -local.imag, -slip_sign * arrays.friction[0] * push)
+        touching = phases != Phase.FLIGHT
+        return np.where(touching, push, 0.0), np.where(touching, grip, 0.0)
+
+    def history(self, times: np.ndarray | None = None) -> ContactHistory:
+        """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
+        times = self.sample() if times is None else np.asarray(times, float)
+        _, phases = self._amplitudes_at(times)
+        return ContactHistory.from_states(self.rotor, times, phases, self.at(times), self.forces(times))
+
+    def sample(self, count: int = 2000) -> np.ndarray:
+        """Times for drawing: about ``count`` even ones, every event, and the last instant before each."""
+        events = self.segment_starts[1:]
+        even = np.linspace(0.0, self.time, count)
+        return np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
+
+    def position(self, times: np.ndarray, frame: Literal["rotating", "fixed"] = "rotating") -> np.ndarray:
+        """Position in clearances, ``U`` in the co-rotating or ``Z = U e^{it}`` in the fixed frame.
+
+        Raises
+        ------
+        InputError
+            The frame is another.
+        """
+        if frame not in ("rotating", "fixed"):
+            raise InputError("frame", repr(frame), "must be 'rotating' or 'fixed'")
+        rotating, _ = self.at(times)
+        return rotating if frame == "rotating" else rotating * np.exp(1j * np.asarray(times))
+
+    def radius(self, times: np.ndarray) -> np.ndarray:
+        """Distance from the bearing centre in clearances."""
+        radius: np.ndarray = np.abs(self.at(times)[0])
+        return radius
+
+
+def simulate(
+    machine: Subject,
+    start: State | Kick,
+    until: float | None = None,
+    *,
+    settle: bool = False,
+    stop_at_chatter: bool = False,
+    patience: int = PATIENCE,
+    max_events: int = 1_000_000,
+    progress: Callable[[float], None] | None = None,
+) -> Trajectory:
+    """Follow a start through flights, impacts, sliding and rolling.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+    start : State or Kick
+        On the wall (``|U| = 1`` to within 1e-12) or inside it.
+    until : float, optional
+        Time to follow it, in ``1/Ω``; with ``settle`` by default :func:`~carom.motions.settling.longest_time`.
+    settle : bool
+        End earlier, as soon as it is known where the motion ends (criteria in :mod:`carom.core.fate`).
+    stop_at_chatter : bool
+        End with ``CHATTER`` and the exact state where impacts have accumulated.
+    patience : int
+        With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
+    max_events : int
+        Impacts and steps of lasting contact after which to give up.
+    progress : callable, optional
+        Called now and then with the time reached.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    InputError
+        The start lies outside the wall, or a number is not finite.
+    """
+    rotor = model_of(machine)
+    state = start.state(rotor) if isinstance(start, Kick) else start
+    amplitudes, plane = _checked_start(rotor, state)
+    if until is None and settle:
+        until = longest_time(rotor)
+    if until is None or not (np.isfinite(until) and until > 0):
+        raise InputError("until", until, "a finite time above 0, in 1/Omega")
+    if max_events < 1:
+        raise InputError("max_events", max_events, "a whole number of at least 1")
+    modes = len(amplitudes)
+    recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter)
+    first = amplitudes.copy()
+    logs: list[EventLog] = []
+    reached, events, outcome, phase = 0.0, 0, Outcome.EVENT_LIMIT, int(Phase.FLIGHT)
+    multiplicity = 0
+    while outcome is Outcome.EVENT_LIMIT and events < max_events:
+        log = EventLog.empty(min(CHUNK, max_events - events), modes)
+        outcome, time, count, phase, plane = follow(rotor, amplitudes, until - reached, phase, plane, log, recollection)
+        logs.append(EventLog(reached + log.times[:count], *(part[:count] for part in log[1:])))
+        reached, events = reached + time, events + count
+        if progress:
+            progress(reached)
+        if outcome in REPEATING:
+            multiplicity = multiplicity_of(rotor, amplitudes, int(recollection.period))
+            if multiplicity == PASSES:
+                doubt(recollection)
+                outcome, multiplicity = Outcome.EVENT_LIMIT, 0
+    position, velocity = rotor.system.state(amplitudes)
+    return Trajectory(
+        rotor=rotor,
+        start=state,
+        outcome=outcome,
+        time=until if outcome is Outcome.TIME_REACHED else reached,
+        final=State(complex(position), complex(velocity)),
+        multiplicity=multiplicity,
+        segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
+        segment_phases=np.concatenate([np.zeros(1, np.int64), *(log.phases for log in logs)]),
+        segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
+        arrivals=np.concatenate([log.before for log in logs]),
+    )
+
+
+def follow(
+    rotor: Jeffcott,
+    amplitudes: np.ndarray,
+    until: float,
+    phase: int,
+    plane: int,
+    log: EventLog,
+    recollection: np.record,
+) -> tuple[Outcome, float, int, int, int]:
+    """Advance amplitudes in place until the log is full or the motion ends; see :func:`carom.core.advance.advance`."""
+    modes = len(amplitudes)
+    code, *rest = advance(
+        rotor.system.arrays,
+        rotor.system.table,
+        amplitudes,
+        until,
+        phase,
+        plane,
+        *log,
+        recollection,
+        workspace(modes),
+        rub_workspace(modes),
+    )
+    return Outcome(code), *rest
+
+
+def _checked_start(rotor: Jeffcott, state: State) -> tuple[np.ndarray, int]:
+    """Amplitudes of a start, and the plane it touches or INSIDE_ALL."""
+    for name in ("position", "velocity"):
+        if not cmath.isfinite(getattr(state, name)):
+            raise InputError(f"start {name}", getattr(state, name), "finite numbers")
+    if abs(state.velocity) > LARGEST_SPEED:
+        raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
+    radius = abs(state.position)
+    if radius > 1.0 + WALL_TOLERANCE:
+        raise InputError("start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g})")
+    amplitudes = rotor.system.amplitudes(state.position, state.velocity)
+    if radius < 1.0 - WALL_TOLERANCE:
+        return amplitudes, INSIDE_ALL
+    set_on_wall(rotor.system.arrays, 0, amplitudes)
+    return amplitudes, 0

@@ -1,0 +1,176 @@
+"""Return maps of impacting motion and their derivatives."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.core import variation
+from carom.core.fate import memory
+from carom.core.impact import strike
+from carom.models import Jeffcott, Subject, System, model_of
+from carom.motions.trajectories import EventLog, State, Trajectory, follow, simulate
+from carom.outcome import InputError, Outcome, Phase
+
+__all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "section_jacobian", "stroboscopic_map"]
+
+
+@dataclass(frozen=True)
+class Section:
+    """A state on the wall just before an impact, in the co-rotating frame.
+
+    Attributes
+    ----------
+    angle : float
+        ``θ`` in rad.
+    radial_speed, angular_speed : float
+        ``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω``.
+    """
+
+    angle: float
+    radial_speed: float
+    angular_speed: float
+
+    @classmethod
+    def from_state(cls, position: complex, velocity: complex) -> Section:
+        """Read a state on the wall in polar coordinates."""
+        normal = position / abs(position)
+        local = normal.conjugate() * velocity
+        return cls(cmath.phase(position), local.real, local.imag / abs(position))
+
+    @property
+    def state(self) -> State:
+        """The same state as ``U`` and ``U̇``."""
+        position = cmath.rect(1.0, self.angle)
+        return State(position, complex(self.radial_speed, self.angular_speed) * position)
+
+
+@dataclass(frozen=True, eq=False)
+class ImpactMap:
+    """One application of the impact map ``P_I``: from just before an impact to just before the next.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        ``CONTACT`` if there is a next impact; otherwise why there is none, and ``image`` and ``jacobian`` are ``None``.
+    image : Section or None
+    duration : float
+        Time of flight in ``1/Ω``.
+    jacobian : ndarray or None, shape (3, 3)
+        Derivative of ``(θ, ṙ, θ̇)`` after with respect to before, with the saltation term of the time of impact.
+    """
+
+    outcome: Outcome
+    image: Section | None
+    duration: float
+    jacobian: np.ndarray | None
+
+
+@dataclass(frozen=True, eq=False)
+class StroboscopicMap:
+    """The motion over a fixed time.
+
+    Attributes
+    ----------
+    trajectory : Trajectory
+    jacobian : ndarray, shape (4, 4)
+        Derivative of ``(Re U, Im U, Re U̇, Im U̇)`` at the end with respect to the start, saltation included.
+    """
+
+    trajectory: Trajectory
+    jacobian: np.ndarray
+
+
+def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.0) -> ImpactMap:
+    """Impact map ``P_I`` of the source paper (section 3a), with its derivative.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+    section : Section
+        State just before an impact; ``radial_speed`` above zero.
+    longest_flight : float
+        Time in ``1/Ω`` after which a flight counts as never returning.
+
+    Returns
+    -------
+    ImpactMap
+
+    Raises
+    ------
+    InputError
+        The rotor does not move toward the wall.
+    """
+    rotor = model_of(machine)
+    if not section.radial_speed > 0.0:
+        raise InputError("radial speed", section.radial_speed, "above 0: the rotor must be about to strike the wall")
+    state = section.state
+    amplitudes = rotor.system.amplitudes(state.position, state.velocity)
+    log = EventLog.empty(2, len(amplitudes))
+    bounces = memory(len(amplitudes), stop_at_landing=True)
+    outcome, time, count, *_ = follow(rotor, amplitudes, longest_flight, Phase.FLIGHT, 0, log, bounces)
+    if count < 2:
+        return ImpactMap(Outcome.CLEAR if outcome is Outcome.TIME_REACHED else outcome, None, time, None)
+    position, velocity = rotor.system.state(log.before[1])
+    image = Section.from_state(complex(position), complex(velocity))
+    return ImpactMap(Outcome.CONTACT, image, time, section_jacobian(rotor.system, section, time))
+
+
+def section_jacobian(system: System, section: Section, duration: float) -> np.ndarray:
+    """Derivative of the impact map along a flight of known duration.
+
+    The flight need not stay inside the wall, so it serves virtual orbits too.
+
+    Parameters
+    ----------
+    system : System
+    section : Section
+        State just before the impact that starts the flight.
+    duration : float
+        Time to the next impact in ``1/Ω``.
+
+    Returns
+    -------
+    ndarray, shape (3, 3)
+        Over ``(θ, ṙ, θ̇)``.
+    """
+    position, velocity = section.state.position, section.state.velocity
+    arrays = system.arrays
+    change, _ = strike(position, velocity, arrays.friction[0], arrays.restitution[0], arrays.drive[0])
+    before = system.amplitudes(position, velocity)
+    arrival = system.fly(before + arrays.columns[:, 0] * change, np.asarray(duration))
+    jacobian = np.empty((3, 3))
+    variation.section_jacobian(arrays, np.array([before, arrival]), np.array([duration], float), jacobian)
+    return jacobian
+
+
+def stroboscopic_map(rotor: Jeffcott, state: State, period: float) -> StroboscopicMap:
+    """State after a fixed time and its derivative, through any number of impacts.
+
+    Parameters
+    ----------
+    rotor : Jeffcott
+    state : State
+        Start inside the wall.
+    period : float
+        In ``1/Ω``.
+
+    Returns
+    -------
+    StroboscopicMap
+        Its derivative is meaningless if the trajectory ends in ``CHATTER`` or ``GRAZING``.
+    """
+    trajectory = simulate(rotor, state, period, stop_at_chatter=True)
+    units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
+    directions = np.array([rotor.system.amplitude_change(*unit) for unit in units])
+    delays = np.empty(4)
+    durations = np.diff(np.append(trajectory.segment_starts, trajectory.time))
+    for flight, arrival in enumerate(trajectory.arrivals):
+        variation.carry_to_wall(rotor.system.arrays, 0, durations[flight], arrival, directions, delays)
+        variation.carry_through_impact(rotor.system.arrays, 0, arrival, directions)
+        variation.shift(rotor.system.arrays, trajectory.segment_amplitudes[flight + 1], directions, -delays)
+    directions = rotor.system.fly(directions, np.full(4, durations[-1]))
+    position, velocity = directions @ rotor.system.arrays.rows[0], directions @ rotor.system.arrays.rate_rows[0]
+    return StroboscopicMap(trajectory, np.array([position.real, position.imag, velocity.real, velocity.imag]))

@@ -1,0 +1,400 @@
+"""Single-impact orbits in closed form: all of them, with admissibility and multipliers."""
+
+from __future__ import annotations
+
+import cmath
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import overload
+
+import numpy as np
+
+from carom.closed_forms.periods import PeriodCondition, PeriodRoots
+from carom.core.events import INSIDE, LEAVING, first_crossing
+from carom.core.layout import rub_workspace, workspace
+from carom.core.planar import impact_jacobian
+from carom.core.rub import lift_off
+from carom.models import Jeffcott, Subject, System, model_of
+from carom.motions.trajectories import State, Trajectory, simulate
+from carom.orbits.maps import Section, section_jacobian
+from carom.orbits.stability import Multipliers, multipliers
+from carom.outcome import InputError, Outcome
+
+__all__ = [
+    "Orbit",
+    "OrbitSet",
+    "find_orbits",
+    "longest_within_reach",
+    "orbit_at",
+    "orbits_within_reach",
+    "period_condition",
+    "radial_speeds",
+    "slip_stays_forward",
+]
+
+MOST_RADIANS = 1500.0
+"""How far the fastest mode may turn, or decay, within the longest period of the orbits looked up: some hundred orbits."""
+ARRIVAL_TOLERANCE = 1e-7
+"""Relative difference of the certified first return and the period below which they are the same event."""
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A periodic motion in the co-rotating frame with one impact a period.
+
+    Attributes
+    ----------
+    rotor : Jeffcott
+    name : str
+        ``"B1,d"``: pair 1; ``a``, ``c`` on its shorter period and ``b``, ``d`` on its longer; ``a``, ``b`` with the
+        lower and ``c``, ``d`` with the higher radial speed.  Orbits whose slip runs backward begin with ``R``.
+    period : float
+        In ``1/Ω``.
+    section : Section
+        State just before the impact.
+    slip : {1, -1}
+        Direction of the slip in the impact: forward or backward.
+    multipliers : Multipliers
+        The three non-trivial Floquet multipliers.
+    reason : str
+        Why it is not admissible; empty if it is.
+    """
+
+    rotor: Jeffcott
+    name: str
+    period: float
+    section: Section
+    slip: int
+    multipliers: Multipliers
+    reason: str
+
+    @property
+    def impacts(self) -> int:
+        """Impacts a period."""
+        return 1
+
+    @property
+    def admissible(self) -> bool:
+        """Whether it is a motion of the machine: inside the wall between impacts and with one direction of slip."""
+        return not self.reason
+
+    @property
+    def stable(self) -> bool:
+        """Whether small disturbances die out."""
+        return self.multipliers.stable
+
+    @property
+    def position(self) -> complex:
+        """``U`` at the impact, on the unit circle."""
+        return self.section.state.position
+
+    @property
+    def angle(self) -> float:
+        """``θ`` at the impact in rad."""
+        return self.section.angle
+
+    @property
+    def radial_speed(self) -> float:
+        """``ṙ`` just before the impact in ``c_r Ω``."""
+        return self.section.radial_speed
+
+    @property
+    def angular_speed(self) -> float:
+        """``θ̇`` just before the impact in ``Ω``."""
+        return self.section.angular_speed
+
+    @property
+    def departure(self) -> State:
+        """State just after the impact."""
+        before = self.section.state
+        arrays = self.rotor.system.arrays
+        grip = complex(1.0, self.slip * arrays.friction[0])
+        change = -(1.0 + arrays.restitution[0]) * grip * self.radial_speed * before.position
+        return State(before.position, before.velocity + change)
+
+    def trajectory(self, periods: float = 1.0) -> Trajectory:
+        """Follow an admissible orbit by simulation, from just after an impact."""
+        return simulate(self.rotor, self.departure, periods * self.period)
+
+    def path(self, times: np.ndarray) -> np.ndarray:
+        """Position ``U`` at times since an impact, by the closed form; for virtual orbits too.
+
+        Parameters
+        ----------
+        times : array_like
+            In ``1/Ω``; the orbit repeats after each period.
+        """
+        departure = self.departure
+        start = self.rotor.system.amplitudes(departure.position, departure.velocity)
+        position, _ = self.rotor.system.state(self.rotor.system.fly(start, np.mod(times, self.period)))
+        return position
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitSet(Sequence[Orbit]):
+    """All single-impact orbits of a rotor; look one up by place or by name, ``orbits["B1,d"]``.
+
+    Attributes
+    ----------
+    rotor : Jeffcott
+    members : tuple of Orbit
+    periods : ndarray
+        All roots of ``F₁``.  Each gives up to two orbits.
+    longest_period : float
+        End of the searched range.
+    complete : bool
+        Whether there is provably no other root.
+    slip_stays_forward : bool
+        Whether it is proven that an orbit inside the wall slips forward all through its impacts.  Else orbits with
+        backward slip are listed too, but orbits whose impacts stop the slip are not searched; only a rotor about as small
+        as its clearance can have either.
+    """
+
+    rotor: Jeffcott
+    members: tuple[Orbit, ...]
+    periods: np.ndarray
+    longest_period: float
+    complete: bool
+    slip_stays_forward: bool
+
+    @property
+    def argument(self) -> str:
+        """Why no orbit is missing, in one sentence."""
+        count = len(self.periods)
+        found = f"F1 has {count} root{'' if count == 1 else 's'} for 0 < T <= {self.longest_period:.4g}/Omega"
+        search = f"{found}, isolated by a bound of its second derivative"
+        beyond = "beyond, the decay of the free motion keeps F1 above zero"
+        stopping = "an impact that stopped the slip would send the rotor out of the clearance"
+        return (
+            f"{search}; {beyond if self.complete else 'longer periods were not searched'}; "
+            f"{stopping if self.slip_stays_forward else 'orbits whose impacts stop the slip were not searched'}."
+        )
+
+    def __len__(self) -> int:
+        return len(self.members)
+
+    def __iter__(self) -> Iterator[Orbit]:
+        return iter(self.members)
+
+    @overload
+    def __getitem__(self, key: int | str) -> Orbit: ...
+    @overload
+    def __getitem__(self, key: slice) -> tuple[Orbit, ...]: ...
+    def __getitem__(self, key: int | str | slice) -> Orbit | tuple[Orbit, ...]:
+        if not isinstance(key, str):
+            return self.members[key]
+        for orbit in self.members:
+            if orbit.name == key:
+                return orbit
+        names = ", ".join(orbit.name for orbit in self.members) or "none, there are no orbits"
+        raise InputError("orbit", key, f"one of: {names}")
+
+
+def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
+    """``F₁(T) = 1 + Re(q a₂₂(T))``, whose roots are the periods of single-impact orbits (source paper (4.4))."""
+    rotor = model_of(machine)
+    return PeriodCondition(rotor.system).value(np.asarray(periods, float))
+
+
+def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet:
+    """All orbits with one impact a period, synchronous with the shaft.
+
+    With ``q = (1 + d)(1 + iμ)`` and the return of the flight to its start, ``a₁₂`` and ``a₂₂`` of
+    :mod:`carom.closed_forms.periods`, the conditions of the source paper (4.3)–(4.5) are: the period is a root of
+    ``F₁(T) = 1 + Re(q a₂₂)``; ``|1 + q a₁₂ ṙ|² = |U*|²`` gives two radial speeds; ``U₀ = U*/(1 + q a₁₂ ṙ)`` and
+    ``θ̇ = −Im(q a₂₂) ṙ``.  Orbits whose slip ``s + 1 + θ̇`` is backward solve the same with ``−μ``; they are searched unless the
+    rotor is so large that they cannot stay inside the wall.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+        With positive damping, or with ``longest_period``.
+    longest_period : float, optional
+        Search only periods up to this, in ``1/Ω``.
+
+    Returns
+    -------
+    OrbitSet
+        Virtual orbits included, each with its reason.
+
+    Raises
+    ------
+    InputError
+        Without damping there are infinitely many; give ``longest_period``.
+    """
+    rotor = model_of(machine)
+    condition = PeriodCondition(rotor.system)
+    roots = condition.roots(longest_period)
+    orbits = _orbits_at(rotor, condition, roots, 1)
+    forward_only = slip_stays_forward(rotor)
+    if not forward_only:
+        backward = PeriodCondition(rotor.system, slip=-1)
+        reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
+        orbits += [orbit for orbit in reversed_orbits if _slip_speed(orbit) < 0.0 < orbit.radial_speed]
+    return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, forward_only)
+
+
+def orbits_within_reach(machine: Subject) -> OrbitSet:
+    """All single-impact orbits; with little or no damping, when they are too many, only those of shorter period.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+
+    Returns
+    -------
+    OrbitSet
+        Its ``complete`` and ``argument`` tell whether the list was cut.
+    """
+    rotor = model_of(machine)
+    return find_orbits(rotor, longest_within_reach(rotor))
+
+
+def longest_within_reach(rotor: Jeffcott) -> float | None:
+    """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
+    condition = PeriodCondition(rotor.system)
+    limit = MOST_RADIANS / float(abs(condition.exponents).max())
+    return None if condition.longest_period() <= limit else limit
+
+
+def slip_stays_forward(rotor: Jeffcott) -> bool:
+    """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
+
+    After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in the
+    fixed frame.  There stiffness and unbalance change its velocity by less than ``ρ + ω²`` a time.  So while it stays
+    inside, it has gone back after a time ``τ``, measured along the tangent at the impact, by more than
+    ``b(τ) = s(1 − e^{−γτ})/γ − (ρ + ω²)τ²/2``.  Let ``b`` reach one clearance at ``τ₁ ≤ π``.  A period above ``τ₁`` would take the
+    rotor through the wall, and a shorter one ends at the impact's place turned forward by the angle ``T``, where it cannot
+    be because ``b > 0``.
+    """
+    parameters = rotor.parameters
+    if parameters.mu == 0.0:
+        return True
+    if parameters.gamma <= 0.0:
+        return False
+    times = np.linspace(0.0, np.pi, 200)
+    gone = -parameters.radius_ratio * np.expm1(-parameters.gamma * times) / parameters.gamma
+    return bool((gone - 0.5 * (parameters.rho + parameters.omega**2) * times**2).max() > 1.0)
+
+
+def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, slip: int) -> list[Orbit]:
+    """Orbits at all roots, in the order of their pairs and letters."""
+    slipping = _slipping(rotor.system, slip)
+    levers = condition.factor * condition.a12(roots.periods)
+    turns = condition.factor * condition.a22(roots.periods)
+    # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
+    places = np.arange(len(levers)) + int(roots.starts_below)
+    orbits = []
+    for place, period, lever, turn in zip(places, roots.periods, levers, turns, strict=True):
+        pair, longer = divmod(int(place), 2)
+        for high, speed in enumerate(radial_speeds(rotor, complex(lever))):
+            position = rotor.equilibrium / (1.0 + complex(lever) * speed)
+            section = Section(cmath.phase(position), speed, -float(turn.imag) * speed)
+            jacobian = _jacobian(rotor, slipping, section, float(period), slip)
+            letter = "abcd"[longer + 2 * high]
+            name = f"{'B' if slip > 0 else 'R'}{pair + 1},{letter}"
+            orbits.append((pair, letter, orbit_at(rotor, name, float(period), section, multipliers(jacobian), slip)))
+    return [orbit for *_, orbit in sorted(orbits, key=lambda entry: entry[:2])]
+
+
+def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float, slip: int) -> np.ndarray:
+    """Derivative of the impact map; of an orbit that has shrunk to levitation on the wall, its limit."""
+    if section.radial_speed != 0.0:
+        return section_jacobian(slipping, section, period)
+    parameters = rotor.parameters
+    limit: np.ndarray = impact_jacobian(
+        parameters.gamma, parameters.omega, slip * parameters.mu, parameters.d, period, 0.0
+    )
+    return limit
+
+
+def orbit_at(
+    rotor: Jeffcott, name: str, period: float, section: Section, nontrivial: Multipliers, slip: int = 1
+) -> Orbit:
+    """A known orbit, with the certificate of its admissibility.
+
+    Parameters
+    ----------
+    rotor : Jeffcott
+    name : str
+    period : float
+        In ``1/Ω``.
+    section : Section
+        State just before the impact, to which the flight returns after the period.
+    nontrivial : Multipliers
+    slip : {1, -1}
+        Direction of the slip in the impact: forward or backward.
+
+    Returns
+    -------
+    Orbit
+    """
+    orbit = Orbit(rotor, name, period, section, slip, nontrivial, "")
+    return replace(orbit, reason=_why_virtual(orbit))
+
+
+def _slipping(system: System, slip: int) -> System:
+    """A system whose slip always runs in this direction, as that of an orbit is assumed to."""
+    arrays = system.arrays.copy()
+    arrays.drive[:] = slip * np.inf
+    return replace(system, arrays=arrays)
+
+
+def radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
+    """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; none where they have coalesced.
+
+    ``lever`` is ``q a₁₂``.
+    """
+    square, half = abs(lever) ** 2, lever.real
+    constant = (1.0 - abs(rotor.equilibrium)) * (1.0 + abs(rotor.equilibrium))
+    discriminant = half**2 - square * constant
+    if discriminant < 0.0 or rotor.equilibrium == 0:
+        return ()
+    larger = -(half + np.copysign(np.sqrt(discriminant), half))
+    if larger == 0.0:
+        return (0.0, 0.0)
+    return tuple(sorted((float(larger / square), float(constant / larger))))
+
+
+def _slip_speed(orbit: Orbit) -> float:
+    return float(orbit.rotor.system.arrays.drive[0] + orbit.angular_speed)
+
+
+def _why_virtual(orbit: Orbit) -> str:
+    arrays = orbit.rotor.system.arrays
+    if orbit.radial_speed <= 0.0:
+        return "it would meet the wall from outside (radial speed not above 0)"
+    if arrays.friction[0] > 0.0:
+        slip = orbit.slip * _slip_speed(orbit)
+        if slip < 0.0:
+            return "its slip would run the other way, and friction with it"
+        if arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed >= slip:
+            return "friction would stop the slip during the impact"
+    departure = orbit.departure
+    start = orbit.rotor.system.amplitudes(departure.position, departure.velocity)
+    push = (departure.position.conjugate() * (start @ arrays.acceleration_rows[0])).real + abs(departure.velocity) ** 2
+    if arrays.restitution[0] == 0.0 and push >= 0.0:
+        return "it would stay on the wall: it does not rebound and is pressed outward"
+    code, time = _first_return(orbit.rotor, start, 1.5 * orbit.period)
+    if code == Outcome.CLEAR or abs(time - orbit.period) <= ARRIVAL_TOLERANCE * orbit.period:
+        return ""
+    if code == Outcome.GRAZING:
+        return f"it grazes the wall at t = {time:.6g} after the impact"
+    return f"it would cross the wall at t = {time:.6g}, before its period is over"
+
+
+def _first_return(rotor: Jeffcott, start: np.ndarray, horizon: float) -> tuple[int, float]:
+    """Outcome and time of the first return to the wall of a flight that leaves it after an impact."""
+    arrays, work = rotor.system.arrays, workspace(len(start))
+    if arrays.restitution[0] > 0.0:
+        outcome, time = first_crossing(arrays, rotor.system.table, 0, start, horizon, LEAVING, work)
+        return outcome, time
+    # Without rebound it leaves with no radial speed: its distance from the wall begins with the square of the time.
+    amplitudes = start.copy()
+    aloft, returned = lift_off(arrays, 0, amplitudes, horizon, rub_workspace(len(start)))
+    if aloft == 0.0:
+        return int(Outcome.GRAZING), 0.0
+    if returned:
+        return int(Outcome.CONTACT), aloft
+    outcome, time = first_crossing(arrays, rotor.system.table, 0, amplitudes, horizon - aloft, INSIDE, work)
+    return outcome, aloft + time

@@ -1,0 +1,186 @@
+"""Everything known about one machine at one speed, put together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
+from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
+from carom.closed_forms.equilibria import Equilibrium, find_equilibria
+from carom.models import Jeffcott, Subject, case_of
+from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
+from carom.parameters import Case, Parameters
+from carom.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
+from carom.studies.advice import Advice, advise
+from carom.studies.alone import LevitationAlone, levitation_alone
+from carom.studies.document import study_document
+from carom.studies.orbit_ranges import single_impact_ranges
+from carom.studies.ranges import Gain, Motion, MotionRange, Threshold, contact_free_range, rolling_range, rub_range
+from carom.studies.verdict import Verdict, verdict
+from carom.studies.wording import Wording
+
+__all__ = ["Study", "study"]
+
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Every simple motion of a machine, a sample of disturbances, and what it all means.
+
+    Attributes
+    ----------
+    case : Case
+    rotor : Jeffcott
+    equilibria : tuple of Equilibrium
+        The contact-free one, then the synchronous rubs.
+    orbits : OrbitSet
+        Orbits with one impact a period.
+    ranges : tuple of MotionRange
+        For which damping and which stiffness each motion exists, the other parameters fixed.
+    boundaries : tuple of BoundaryEquilibrium
+        Where, along damping and stiffness, the contact-free motion meets the wall, and what happens there.
+    alone : tuple of LevitationAlone
+        Where along damping and stiffness levitation is the only motion found.
+    advice : tuple of Advice
+        The least change of either that leaves levitation alone, checked; none for a machine that needs no change.
+    attractors : AttractorSet
+        Where simulated disturbances, and starts next to the known motions, end.
+    safe_damping : SafeDamping
+        The damping above which all disturbances came back, found by simulation at other dampings too.
+    fresh : DampingCheck or None
+        Where all disturbances of ``attractors`` came back: many others, at the machine's own damping, counted only.
+    """
+
+    case: Case
+    rotor: Jeffcott
+    equilibria: tuple[Equilibrium, ...]
+    orbits: OrbitSet
+    ranges: tuple[MotionRange, ...]
+    boundaries: tuple[BoundaryEquilibrium, ...]
+    alone: tuple[LevitationAlone, ...]
+    advice: tuple[Advice, ...]
+    attractors: AttractorSet
+    safe_damping: SafeDamping
+    fresh: DampingCheck | None
+
+    @property
+    def rubs(self) -> tuple[Equilibrium, ...]:
+        """The synchronous rubs, virtual ones included."""
+        return self.equilibria[1:]
+
+    @property
+    def levitates(self) -> bool:
+        """Whether the contact-free motion lies inside the wall and is stable."""
+        return self.equilibria[0].status == "admissible" and self.equilibria[0].stable
+
+    @property
+    def zone(self) -> str | None:
+        """Zone of the contact-free amplitude; ``None`` where there is no contact-free motion."""
+        levitation = self.equilibria[0]
+        return None if levitation.status == "virtual" else self.case.zones.zone(min(levitation.radius, 1.0))
+
+    @property
+    def stable_orbits(self) -> tuple[Orbit, ...]:
+        """Orbits on which the machine can stay."""
+        return tuple(orbit for orbit in self.orbits if orbit.admissible and orbit.stable)
+
+    @property
+    def gains(self) -> tuple[Gain, ...]:
+        """The gains along which ranges are known."""
+        return tuple(dict.fromkeys(entry.gain for entry in self.ranges))
+
+    def range_of(self, motion: Motion, gain: Gain) -> MotionRange | None:
+        """Where a motion exists along a gain; ``None`` if that was not found out."""
+        return next((entry for entry in self.ranges if (entry.motion, entry.gain) == (motion, gain)), None)
+
+    def alone_along(self, gain: Gain) -> LevitationAlone | None:
+        """Where along a gain levitation is the only motion found; ``None`` if that was not searched."""
+        return next((entry for entry in self.alone if entry.gain == gain), None)
+
+    @property
+    def thresholds(self) -> tuple[Threshold, ...]:
+        """Values of damping and stiffness at which a motion appears or vanishes."""
+        return tuple(threshold for entry in self.ranges for threshold in entry.thresholds)
+
+    @property
+    def wording(self) -> Wording:
+        """Turns the results of this study into text."""
+        return Wording(self.rotor.scales)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """What it all means, in words."""
+        return verdict(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the study as it is written to ``study.json``."""
+        return study_document(self)
+
+
+def study(machine: Subject, *, progress: Progress | None = None) -> Study:
+    """Study a machine: its simple motions, where they exist, and what becomes of disturbances.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+    progress : callable, optional
+        Called with the share done (0 to 1) and what is done next, in words.
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    InputError
+        The machine is none of these.
+    CaromError
+        Its motions cannot be computed; the message says why.
+
+    Examples
+    --------
+    >>> result = study(load("examples/keogh-cole.toml"))  # doctest: +SKIP
+    >>> print(result.verdict.text)  # doctest: +SKIP
+    """
+    case = case_of(machine)
+    tell = progress or (lambda share, words: None)
+    parameters = case.parameters
+    tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
+    rotor = Jeffcott(parameters)
+    orbits = orbits_within_reach(rotor)
+    tell(0.15, "disturbances")
+    found = find_attractors(rotor, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
+    ranges = _ranges(parameters, lambda share: tell(0.3 + 0.15 * share, "thresholds of damping and stiffness"))
+    tell(0.45, "disturbances where levitation is alone")
+    looked_at = [levitation_alone(parameters, gain, ranges) for gain in _gains(parameters)]
+    alone = tuple(entry for entry in looked_at if entry is not None)
+    tell(0.53, "loss of levitation")
+    boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
+    fresh = try_disturbances(rotor, DisturbanceSet(FRESH, seed=1)) if found.recovered == 1.0 else None
+    safe = least_safe_damping(
+        parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
+    )
+    advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
+    return Study(case, rotor, find_equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe, fresh)
+
+
+def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:
+    found: list[MotionRange] = []
+    gains = _gains(parameters)
+    for place, gain in enumerate(gains):
+
+        def tell(share: float, place: int = place) -> None:
+            progress((place + share) / len(gains))
+
+        found += [contact_free_range(parameters, gain), rub_range(parameters, gain), rolling_range(parameters, gain)]
+        found += single_impact_ranges(parameters, gain, tell)
+    return tuple(found)
+
+
+def _gains(parameters: Parameters) -> tuple[Gain, ...]:
+    """Without damping nothing comes back whatever the stiffness, so stiffness is not looked at then."""
+    return ("gamma", "omega") if parameters.gamma >= 0 else ("gamma",)

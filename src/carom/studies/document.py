@@ -1,0 +1,390 @@
+"""Results as JSON: one place for what ``--json`` prints and what ``study.json`` holds.
+
+Complex numbers are ``[re, im]``.  Times are in ``1/Ω`` and lengths in ``c_r``, in the co-rotating frame, unless the key
+ends in ``_si``; those keys are there where the machine is known.  What is not finite is ``null``.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.attractors import Attractor, AttractorSet, Ending, document_of
+from carom.basins.shares import CONFIDENCE
+from carom.bifurcations.boundary import BoundaryEquilibrium
+from carom.closed_forms.equilibria import Equilibrium
+from carom.motions.trajectories import State, Trajectory
+from carom.orbits.single_impact import Orbit, OrbitSet
+from carom.outcome import Outcome
+from carom.parameters import MACHINE_FIELDS, Parameters, Scales
+from carom.parameters.indentation import indentation_of_force, indentation_of_hit
+from carom.safety import DampingCheck, DampingLimit, SafeDamping
+from carom.studies.advice import Advice
+from carom.studies.alone import LevitationAlone
+from carom.studies.endings import hardest_impulse, largest_all_back, touching
+from carom.studies.loads import rolling_document, wall_document
+from carom.studies.ranges import MotionRange, Span, Threshold
+from carom.studies.verdict import NOT_COVERED
+from carom.studies.wording import Wording
+
+if TYPE_CHECKING:
+    from carom.studies.assembly import Study
+
+__all__ = ["as_json", "orbits_document", "study_document", "trajectory_document"]
+
+
+def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
+    """Write a document as one JSON object: plain types only, ``null`` for what is not finite.
+
+    What is not printable is escaped.
+    """
+    text = json.dumps(_plain(document), indent=indent, ensure_ascii=False, allow_nan=False)
+    if text.replace("\n", "").isprintable():
+        return text
+    return "".join(sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1] for sign in text)
+
+
+def orbits_document(
+    parameters: Parameters, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Any = None
+) -> dict[str, Any]:
+    """Equilibria and periodic orbits."""
+    scales = parameters.scales
+    return {
+        "parameters": parameters.as_dict(),
+        "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
+        "equilibria": [_equilibrium(entry, parameters) for entry in equilibria],
+        "orbits": [_orbit(entry, scales) for entry in orbits],
+        "complete": orbits.complete,
+        "longest_period": orbits.longest_period,
+        "argument": orbits.argument,
+    }
+
+
+def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
+    """One motion, its impacts and its lasting contacts; velocities are those just before the impact."""
+    log = trajectory.contacts
+    impacts = zip(log.time, log.angle, log.radial_speed, log.angular_speed, log.normal_impulse, strict=True)
+    keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
+    document: dict[str, Any] = {
+        "parameters": trajectory.rotor.parameters.as_dict(),
+        "start": _state(trajectory.start),
+        "outcome": trajectory.outcome.label,
+        "meaning": trajectory.outcome.meaning,
+        "multiplicity": trajectory.multiplicity,
+        "time": trajectory.time,
+        "impacts": [dict(zip(keys, map(float, impact), strict=True)) for impact in impacts],
+        "contacts": [
+            {"kind": contact.kind, "phase": contact.phase.label, "start": contact.start, "end": contact.end}
+            for contact in trajectory.lasting_contacts
+        ],
+        "final": _state(trajectory.final),
+    }
+    scales = trajectory.rotor.scales
+    if scales is not None:
+        document["scales_si"] = _scales(scales)
+    return document
+
+
+def study_document(study: Study) -> dict[str, Any]:
+    """Everything a study found."""
+    case, say = study.case, study.wording
+    return {
+        "name": case.name,
+        "carom": version("carom"),
+        **orbits_document(case.parameters, study.equilibria, study.orbits, case.machine),
+        "scales_si": _scales(case.parameters.scales) if case.parameters.scales else None,
+        "zone": study.zone,
+        "zone_limits": list(case.zones.limits),
+        "verdict": {
+            "level": study.verdict.level,
+            "headline": study.verdict.headline,
+            "findings": [{"topic": finding.topic, "text": finding.text} for finding in study.verdict.findings],
+        },
+        "thresholds": [_threshold(entry, say) for entry in study.thresholds],
+        "ranges": [_range(entry) for entry in study.ranges],
+        "boundaries": [_boundary(entry, say) for entry in study.boundaries],
+        "levitation_alone": {gain: _free(study, gain) for gain in study.gains},
+        "levitation_alone_checks": [_alone(entry) for entry in study.alone],
+        "advice": [_advice(entry, say) for entry in study.advice],
+        "attractors": [_attractor(entry, case.parameters) for entry in study.attractors],
+        "rolling": rolling_document(study.rotor),
+        "disturbances": _disturbances(study.attractors, case.parameters)
+        | {"fresh": _check(study.fresh) if study.fresh else None},
+        "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
+        "not_covered": list(NOT_COVERED),
+    }
+
+
+def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
+    scales = parameters.scales
+    document = {
+        "kind": entry.kind,
+        "U": entry.position,
+        "radius": entry.radius,
+        "normal_force": entry.normal_force,
+        "status": entry.status,
+        "stable": entry.stable,
+        "eigenvalues": list(entry.eigenvalues),
+    }
+    if scales is not None:
+        document["radius_si"] = entry.radius * scales.length
+        document["normal_force_si"] = entry.normal_force * scales.force
+        if entry.kind == "rub":
+            document |= wall_document(indentation_of_force(parameters, entry.normal_force))
+    return document
+
+
+def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
+    document = {
+        "name": entry.name,
+        "impacts": entry.impacts,
+        "period": entry.period,
+        "radial_speed": entry.radial_speed,
+        "angle": entry.angle,
+        "angular_speed": entry.angular_speed,
+        "multipliers": list(entry.multipliers.values),
+        "stable": entry.stable,
+        "admissible": entry.admissible,
+        "reason": entry.reason,
+    }
+    if scales is not None:
+        impulse = (1.0 + entry.rotor.parameters.d) * entry.radial_speed
+        document["period_si"] = entry.period * scales.time
+        document["radial_speed_si"] = entry.radial_speed * scales.velocity
+        document["normal_impulse_si"] = impulse * scales.impulse
+        document |= wall_document(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
+    return document
+
+
+def _state(state: State) -> dict[str, complex]:
+    return {"U": state.position, "V": state.velocity}
+
+
+def _scales(scales: Scales) -> dict[str, float]:
+    names = ("length", "time", "velocity", "acceleration", "force", "impulse", "energy", "damping", "stiffness")
+    return {name: getattr(scales, name) for name in names}
+
+
+def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
+    document: dict[str, Any] = {
+        "motion": entry.motion,
+        "kind": entry.edge.kind,
+        "exists": entry.exists,
+        "parameter": entry.gain,
+        "value": entry.edge.value,
+        "period": entry.edge.period,
+        "certified": entry.edge.certified,
+    }
+    if say.scales is not None:
+        document["quantity"] = say.gain_name(entry.gain)
+        document["value_si"] = say.gain_in_si(entry.gain, entry.edge.value)
+    return document
+
+
+def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
+    document: dict[str, Any] = {
+        "parameter": entry.gain,
+        "value": entry.value,
+        "levitates": entry.levitates,
+        "kind": entry.kind,
+        "orbits": [
+            {
+                "name": orbit.name,
+                "levitating_side": orbit.levitating_side,
+                "stable": orbit.stable,
+                "period": orbit.period,
+            }
+            for orbit in entry.orbits
+            if orbit.admissible
+        ],
+        "complete": entry.complete,
+    }
+    if say.scales is not None:
+        document["quantity"] = say.gain_name(entry.gain)
+        document["value_si"] = say.gain_in_si(entry.gain, entry.value)
+    return document
+
+
+def _range(entry: MotionRange) -> dict[str, Any]:
+    return {
+        "motion": entry.motion,
+        "parameter": entry.gain,
+        "spans": [_span(span) for span in entry.spans],
+        "searched": _span(entry.searched) if entry.searched else None,
+        "step": entry.step,
+    }
+
+
+def _span(span: Span) -> list[float]:
+    return [span.low.value, span.high.value]
+
+
+def _free(study: Study, gain: Any) -> list[list[float]] | None:
+    found = study.alone_along(gain)
+    return None if found is None else [_span(span) for span in found.spans]
+
+
+def _alone(entry: LevitationAlone) -> dict[str, Any]:
+    return {
+        "parameter": entry.gain,
+        "spans": [_span(span) for span in entry.spans],
+        "ends": [[span.low.motion or span.low.kind, span.high.motion or span.high.kind] for span in entry.spans],
+        "backward_whirl": [_span(span) for span in entry.whirl],
+        "met": [
+            {"motion": met.motion, "value": met.value, "start": {"U": met.position, "V": met.velocity}}
+            for met in entry.met
+        ],
+        "values": list(entry.values),
+        "disturbances": entry.disturbances,
+        "on_the_wall": entry.rim,
+        "seed": entry.seed,
+        "fastest": entry.fastest,
+    }
+
+
+def _advice(entry: Advice, say: Wording) -> dict[str, Any]:
+    document: dict[str, Any] = {
+        "parameter": entry.gain,
+        "value": entry.value,
+        "change": entry.change,
+        "levitation_alone": entry.alone,
+        "margin": entry.margin,
+        "disturbances": entry.returned.total,
+        "recovered": entry.returned.count,
+        "share_low": entry.returned.low,
+        "share_high": entry.returned.high,
+        "seed": entry.seed,
+        "fastest": entry.fastest,
+    }
+    if say.scales is not None:
+        document["quantity"] = say.gain_name(entry.gain)
+        document["value_si"] = say.gain_in_si(entry.gain, entry.value)
+        document["fastest_si"] = entry.fastest * say.scales.velocity
+    return document
+
+
+def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
+    scales = parameters.scales
+    document: dict[str, Any] = {
+        "name": entry.name,
+        "outcome": entry.outcome.label,
+        "settled": entry.settled,
+        "multiplicity": entry.multiplicity,
+        "period": entry.period,
+        "whirl": entry.whirl,
+        "count": entry.count,
+        "share": entry.share,
+        "known_starts": entry.known,
+        "largest_impulse": entry.largest_impulse,
+        "largest_force": entry.largest_force,
+        **document_of(entry.survival),
+    }
+    if scales is not None:
+        document["largest_impulse_si"] = entry.largest_impulse * scales.impulse
+        document["largest_force_si"] = entry.largest_force * scales.force
+        hit = indentation_of_hit(parameters, entry.largest_impulse / (1.0 + parameters.d))
+        document |= wall_document(max(hit, indentation_of_force(parameters, entry.largest_force)))
+    return document
+
+
+def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]:
+    scales = parameters.scales
+    touched, smallest = touching(found), found.smallest_unrecovered_kick
+    document = {
+        "seed": found.sample.seed if found.sample else None,
+        "fastest": found.fastest,
+        "patience": found.patience,
+        "words": found.words(),
+        "count": len(found.disturbances),
+        "recovered": _recovered(found.disturbances),
+        "touching": len(touched),
+        "touching_recovered": _recovered(touched),
+        "smallest_unrecovered_kick": smallest,
+        "smallest_unrecovered_kick_bracket": [largest_all_back(found), smallest],
+        "irregular_transient": document_of(found.transient) if found.transient else None,
+        "starts": [_ending(ending) for ending in found.endings],
+    }
+    if scales is not None:
+        document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
+        document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
+        document |= wall_document(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
+    return document
+
+
+def _recovered(endings: tuple[Ending, ...]) -> int:
+    return sum(ending.outcome is Outcome.LEVITATED for ending in endings)
+
+
+def _ending(entry: Ending) -> dict[str, Any]:
+    return {
+        "kind": entry.start.kind,
+        "start": _state(entry.start.state),
+        "attractor": entry.attractor,
+        "time": entry.time,
+        "impacts": entry.impacts,
+        "hardest_impulse": entry.hardest_impulse,
+    }
+
+
+def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
+    limits = {
+        "within_reach": safe.within_reach,
+        "at_all": safe.at_all,
+        "rub": safe.rub,
+        "orbits": safe.orbits,
+        "simulated": safe.simulated,
+        "rolling": safe.rolling,
+    }
+    documents = {name: _limit(limit, scales) if limit else None for name, limit in limits.items()}
+    faster = safe.faster
+    return {
+        **documents,
+        "lowest": safe.lowest,
+        "highest": safe.highest,
+        "disturbances": safe.sample.count,
+        "seed": safe.sample.seed,
+        "fastest": safe.sample.fastest,
+        "checked": [check.gamma for check in safe.checks],
+        "share_below": safe.share_below if safe.checks else None,
+        "confidence": CONFIDENCE,
+        "faster": _check(faster) if faster else None,
+    }
+
+
+def _check(check: DampingCheck) -> dict[str, Any]:
+    tried = check.sample
+    return {
+        "gamma": check.gamma,
+        "fastest": tried.fastest,
+        "seed": tried.seed,
+        "count": tried.count,
+        "lost": check.lost,
+        "share_below": check.share_below,
+    }
+
+
+def _limit(limit: DampingLimit, scales: Scales | None) -> dict[str, Any]:
+    document = {"motion": limit.motion, "gamma": limit.gamma, "above": limit.above, "evidence": limit.evidence}
+    if scales is not None:
+        document["gamma_si"] = limit.gamma * scales.damping
+        document["above_si"] = limit.above * scales.damping
+    return document
+
+
+def _plain(value: Any) -> Any:
+    """Only what JSON knows."""
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(entry) for entry in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, complex):
+        return [_plain(value.real), _plain(value.imag)]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value

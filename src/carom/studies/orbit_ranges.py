@@ -1,0 +1,110 @@
+"""For which damping, and for which stiffness, orbits with one impact a period can happen: by search."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from carom.bifurcations import Window, WindowEnd, orbit_windows, vary
+from carom.models import Jeffcott
+from carom.orbits.single_impact import Orbit, longest_within_reach, orbits_within_reach
+from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
+from carom.studies.ranges import Edge, Gain, MotionRange, Span
+
+__all__ = ["single_impact_ranges"]
+
+FINEST_STEP = {"gamma": 0.1, "omega": 0.05}
+"""Relative step of the values at which all orbits are looked for."""
+NEARBY = 1e-6
+"""Relative distance from an edge at which the certified orbits must agree with it."""
+
+Progress = Callable[[float], None]
+
+
+def single_impact_ranges(
+    parameters: Parameters, gain: Gain, progress: Progress | None = None
+) -> tuple[MotionRange, ...]:
+    """Where single-impact orbits are motions of the machine (:func:`~carom.bifurcations.orbit_windows`).
+
+    Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a
+    quarter of the machine's own to four times it.
+
+    Parameters
+    ----------
+    parameters : Parameters
+    gain : {"gamma", "omega"}
+        The one that is varied.
+    progress : callable, optional
+        Called with the share done, 0 to 1.
+
+    Returns
+    -------
+    tuple of MotionRange
+        Of all admissible orbits, and of the stable ones.  Empty where no search is possible: stiffness without damping,
+        or with so little of it that the orbits are too many to list.
+    """
+    values = _values(parameters, gain)
+    if values is None:
+        return ()
+    searched, step = Span(Edge(values[0]), Edge(values[-1])), values[1] / values[0] - 1.0
+    if parameters.rho == 0.0:  # a balanced rotor has no such orbit
+        return tuple(
+            MotionRange(motion, gain, (), searched, step) for motion in ("single-impact", "stable-single-impact")
+        )
+    windows = orbit_windows(parameters, gain, values, progress)
+    spans = [
+        tuple(_span(parameters, gain, window, stable) for window in found)
+        for found, stable in ((windows.possible, False), (windows.stable, True))
+    ]
+    return (
+        MotionRange("single-impact", gain, spans[0], searched, step),
+        MotionRange("stable-single-impact", gain, spans[1], searched, step),
+    )
+
+
+def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
+    """Values to look at, in geometric progression, at all of which the list of orbits is complete."""
+    if gain == "omega":
+        lowest, highest = 0.5 * parameters.omega, 2.0 * parameters.omega
+    else:
+        lowest = min(0.02 * max(1.0, parameters.omega), 0.5 * parameters.gamma if parameters.gamma > 0 else 1.0)
+        highest = 8.0 * max(1.0, parameters.omega, parameters.gamma)
+        while lowest < 0.1 * highest and not _can_search(parameters.replace(gamma=lowest)):
+            lowest *= 2.0
+        highest = min(highest, DIMENSIONLESS_FIELDS[gain].highest)
+        # A soft rotor is so far overdamped there that one of its exponents hardly decays.
+        while highest > 4.0 * max(lowest, parameters.gamma) and not _can_search(parameters.replace(gamma=highest)):
+            highest *= 0.5
+    limits = DIMENSIONLESS_FIELDS[gain]
+    lowest, highest = max(lowest, limits.lowest), min(highest, limits.highest)
+    ends = [parameters.replace(**{gain: value}) for value in (lowest, highest)]
+    if lowest >= highest or not all(_can_search(end) for end in ends):
+        return None
+    steps = math.ceil(math.log(highest / lowest) / math.log1p(FINEST_STEP[gain]))
+    values: list[float] = np.geomspace(lowest, highest, steps + 1).tolist()
+    return values
+
+
+def _can_search(parameters: Parameters) -> bool:
+    return parameters.gamma > 0.0 and longest_within_reach(Jeffcott(parameters)) is None
+
+
+def _span(parameters: Parameters, gain: Gain, window: Window, stable: bool) -> Span:
+    return Span(_edge(parameters, gain, window.low, 1.0, stable), _edge(parameters, gain, window.high, -1.0, stable))
+
+
+def _edge(parameters: Parameters, gain: Gain, end: WindowEnd, inward: float, stable: bool) -> Edge:
+    """Turn the end of a window into an edge; it is certified if the orbits close by agree on both sides."""
+    if not end.kind:
+        return Edge(end.value)
+    there = [
+        any(_counts(orbit, stable) for orbit in orbits_within_reach(Jeffcott(vary(parameters, gain, place))))
+        for place in (end.value * (1.0 + inward * NEARBY), end.value * (1.0 - inward * NEARBY))
+    ]
+    return Edge(end.value, end.kind, end.period, certified=there == [True, False])
+
+
+def _counts(orbit: Orbit, stable: bool) -> bool:
+    return orbit.admissible and (orbit.stable or not stable)

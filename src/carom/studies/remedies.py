@@ -1,0 +1,99 @@
+"""Where levitation alone is left and what is advised, in words."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from carom.studies.advice import WANTED
+from carom.studies.endings import ending_words
+from carom.studies.wording import counted, listed, number
+
+if TYPE_CHECKING:
+    from carom.studies.advice import Advice
+    from carom.studies.alone import LevitationAlone
+    from carom.studies.assembly import Study
+    from carom.studies.ranges import Gain
+
+__all__ = ["advice_lines", "alone_sentences", "check_words"]
+
+
+def alone_sentences(study: Study, gain: Gain) -> list[str]:
+    """Where along a gain levitation is alone, and what that rests on."""
+    say, name = study.wording, study.wording.gain_name(gain)
+    found, orbits = study.alone_along(gain), study.range_of("single-impact", gain)
+    if found is None or orbits is None:
+        return [f"Which {name} would leave levitation alone was not found out."]
+    met = _met(study, found)
+    if not found.spans:
+        return [f"No {name} in the range searched leaves levitation alone{met}."]
+    where = say.where(gain, found.spans, orbits.searched)
+    aside = ", backward whirl aside," if _rolls(study, gain) else ""
+    tried = f"{found.disturbances + found.rim:,} disturbances"
+    rests = f"no rub and no orbit with one impact a period exists there{met}"
+    simulated = f"simulated at each of {counted(len(found.values), 'value')} of {name} there"
+    return [
+        f"Levitation alone{aside} is left {where}: {rests}.",
+        f"{tried} of up to {say.velocity(found.fastest)} were {simulated}: {_came_back(study, found)}.",
+    ]
+
+
+def _rolls(study: Study, gain: Gain) -> bool:
+    rolling = study.range_of("rolling", gain)
+    return rolling is not None and bool(rolling.spans)
+
+
+def _met(study: Study, found: LevitationAlone) -> str:
+    """Where other motions that were met cut the ranges back."""
+    say = study.wording
+    ends = {(edge.motion, edge.value) for span in found.spans for edge in (span.low, span.high) if edge.motion}
+    parts = [f"{ending_words(motion)} was met beyond {say.gain(found.gain, value)}" for motion, value in sorted(ends)]
+    return f" ({listed(parts)}, where neither orbit nor rub is known)" if parts else ""
+
+
+def _came_back(study: Study, found: LevitationAlone) -> str:
+    if not found.whirl:
+        return "all came back"
+    if not found.calm:
+        return "some got into backward whirl, at every value; all others came back"
+    whirl = study.wording.where(found.gain, found.whirl, None)
+    return f"some got into backward whirl ({whirl}), all others came back"
+
+
+def advice_lines(study: Study) -> list[str]:
+    """What is advised, the least change first, and how it was checked; one paragraph or none."""
+    if not study.advice:
+        return []
+    sentences = [_advised(study, advice, first=place == 0) for place, advice in enumerate(study.advice)]
+    return [" ".join(sentences)]
+
+
+def _advised(study: Study, advice: Advice, *, first: bool) -> str:
+    say = study.wording
+    name, value = say.gain_name(advice.gain), say.gain(advice.gain, advice.value)
+    what = f"{name} = {value}" if say.scales is None else f"a {name} of {value}"
+    own = f"{number(advice.change, 3)} times this machine's"
+    if math.isinf(advice.change):
+        own = "this machine has none"
+    if advice.alone:
+        start = "The least change found that leaves levitation alone is" if first else "The other gain would do it with"
+        own += f", {number(100.0 * advice.margin, 2)} % beyond the end of the range"
+    else:
+        share = f"brings back {number(100.0 * WANTED, 3)} %"
+        start = f"No value searched leaves levitation alone; the least change found that {share} is"
+        start = start if first else "The other gain would do it with"
+    return f"{start} {what} ({own}). {_capital(check_words(study, advice))}."
+
+
+def check_words(study: Study, advice: Advice) -> str:
+    """How an advised value was checked: the fresh disturbances, their largest speed, and how many came back."""
+    returned = advice.returned
+    sample = f"{number(returned.total, 6)} fresh disturbances of up to {study.wording.velocity(advice.fastest)}"
+    if returned.count == returned.total:
+        return f"all of {sample} came back (so at least {number(100.0 * returned.low, 4)} % do, with 95 % confidence)"
+    low, high = (number(100.0 * share, 4) for share in (returned.low, returned.high))
+    return f"{number(returned.count, 6)} of {sample} came back ({low} to {high} % do, with 95 % confidence)"
+
+
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]

@@ -1,0 +1,279 @@
+"""The tables of a study, as text: what a terminal and a report show alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from carom.closed_forms.equilibria import Equilibrium
+from carom.orbits.single_impact import Orbit, OrbitSet
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
+from carom.parameters.indentation import indentation_of_force, indentation_of_hit
+from carom.studies.endings import ending_words, kick_sizes
+from carom.studies.ranges import Edge, Motion
+from carom.studies.remedies import check_words
+from carom.studies.wording import Wording, no_rigid_wall, number
+
+if TYPE_CHECKING:
+    from carom.attractors import Attractor, AttractorSet
+    from carom.studies.assembly import Study
+
+__all__ = [
+    "MotionRow",
+    "ThresholdRow",
+    "ValueRow",
+    "dimensionless_rows",
+    "kick_rows",
+    "machine_rows",
+    "motion_rows",
+    "range_rows",
+    "simple_motion_rows",
+    "threshold_rows",
+]
+
+
+@dataclass(frozen=True)
+class ValueRow:
+    """A parameter: symbol, words and value with its unit."""
+
+    symbol: str
+    words: str
+    value: str
+
+
+@dataclass(frozen=True)
+class MotionRow:
+    """A motion of the machine.
+
+    Attributes
+    ----------
+    name : str
+    state : str
+        ``"stable"``, ``"unstable"``, ``"not possible"``, ``"seen"`` (met by disturbances, its stability not computed),
+        ``"transient"`` (it ends) or ``"undecided"`` (given up).
+    period : str
+    size : str
+        Radius of a steady motion, or radial speed of the impacts.
+    impulse : str
+        Normal impulse of an impact.
+    force : str
+        Force of lasting contact, or mean force of impacts.
+    trials : str
+        How many disturbances ended there.
+    remark : str
+    """
+
+    name: str
+    state: str
+    period: str = ""
+    size: str = ""
+    impulse: str = ""
+    force: str = ""
+    trials: str = ""
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class ThresholdRow:
+    """A value of damping or stiffness at which a motion appears or vanishes."""
+
+    motion: str
+    exists: str
+    quantity: str
+    value: str
+    dimensionless: str
+    what: str
+
+
+MOTIONS: dict[Motion, str] = {
+    "contact-free": "contact-free levitation",
+    "rub": "synchronous rub",
+    "single-impact": "orbits with one impact a period",
+    "stable-single-impact": "stable orbits with one impact a period",
+    "rolling": "rolling backward whirl",
+}
+"""Names of the motions whose ranges are known."""
+
+_EVENTS = {
+    "boundary-equilibrium": "the contact-free motion reaches the wall",
+    "rub-fold": "a stable and an unstable rub meet (fold)",
+    "fold": "two orbits meet (fold)",
+    "speed-fold": "two orbits of one period meet (fold)",
+    "grazing": "an orbit grazes the wall between its impacts",
+    "non-smooth-hopf": "an orbit shrinks into levitation on the wall (non-smooth Hopf)",
+    "slip-stop": "friction begins to stop the slip in the impacts of an orbit",
+    "contact-onset": "an orbit begins to stay on the wall after its impact",
+    "period-doubling": "an orbit loses its stability (period doubling)",
+    "neimark-sacker": "an orbit loses its stability (Neimark-Sacker)",
+    "vanishing-period": "the period of an orbit shrinks to zero",
+    "rolling-limit": "friction just keeps the rotor rolling at every angle",
+}
+
+
+def machine_rows(case: Case) -> list[ValueRow]:
+    """The machine in SI units; empty where only dimensionless numbers are known."""
+    if case.machine is None:
+        return []
+    return [
+        ValueRow(field.symbol, field.words, f"{number(getattr(case.machine, name), 6)} {field.unit}".strip())
+        for name, field in MACHINE_FIELDS.items()
+    ]
+
+
+def dimensionless_rows(case: Case) -> list[ValueRow]:
+    """The dimensionless parameters."""
+    return [
+        ValueRow(field.symbol, field.words, f"{getattr(case.parameters, name):.9g}")
+        for name, field in DIMENSIONLESS_FIELDS.items()
+    ]
+
+
+def motion_rows(study: Study, most_virtual: int = 8) -> list[MotionRow]:
+    """All motions: steady ones, orbits, and what else disturbances ended in.
+
+    Parameters
+    ----------
+    study : Study
+    most_virtual : int
+        Orbits that are not possible are left out if there are more of them.
+    """
+    rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors, most_virtual)
+    simple = {"levitation", "synchronous rub", *(orbit.name for orbit in study.orbits)}
+    others = [member for member in study.attractors if member.name not in simple]
+    return rows + [_seen(study.wording, member, study.attractors, study.rotor.parameters) for member in others]
+
+
+def simple_motion_rows(
+    equilibria: tuple[Equilibrium, ...],
+    orbits: OrbitSet,
+    say: Wording,
+    found: AttractorSet | None = None,
+    most_virtual: int = 8,
+) -> list[MotionRow]:
+    """Equilibria and orbits; with the number of disturbances that ended there, if any were simulated."""
+    rows = []
+    for entry in equilibria:
+        name = "levitation" if entry.kind == "contact-free" else "synchronous rub" if entry.stable else ""
+        rows.append(_steady(entry, say, _share(found, name), orbits.rotor.parameters))
+    virtual = [orbit for orbit in orbits if not orbit.admissible]
+    shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]
+    return rows + [_bounce(orbit, say, _share(found, orbit.name)) for orbit in shown]
+
+
+def _share(found: AttractorSet | None, name: str) -> str:
+    if found is None or name not in found or not found[name].count:
+        return ""
+    return f"{found[name].count} of {len(found.disturbances)}"
+
+
+def _steady(entry: Equilibrium, say: Wording, share: str, parameters: Parameters) -> MotionRow:
+    contact_free = entry.kind == "contact-free"
+    name = MOTIONS[entry.kind]
+    size = f"r = {say.radius(entry.radius)}" if contact_free else ""
+    if entry.status == "virtual":
+        remark = "would lie outside the wall" if contact_free else "the wall would have to pull"
+        return MotionRow(name, "not possible", size=size, trials=share, remark=remark)
+    touches = "touches the wall without force" if entry.status == "boundary" else ""
+    return MotionRow(
+        name,
+        "stable" if entry.stable else "unstable",
+        size=size,
+        force="" if contact_free else say.force(entry.normal_force),
+        trials=share,
+        remark=touches or no_rigid_wall(indentation_of_force(parameters, entry.normal_force)),
+    )
+
+
+def _bounce(orbit: Orbit, say: Wording, share: str) -> MotionRow:
+    name, period, size = f"orbit {orbit.name}", say.time(orbit.period), say.velocity(orbit.radial_speed)
+    if not orbit.admissible:
+        return MotionRow(name, "not possible", period, size, remark=orbit.reason)
+    impulse = (1.0 + orbit.rotor.parameters.d) * orbit.radial_speed
+    grows = "" if orbit.stable else f"disturbances grow {orbit.multipliers.instability}"
+    return MotionRow(
+        name,
+        "stable" if orbit.stable else "unstable",
+        period,
+        size,
+        say.impulse(impulse),
+        f"{say.force(impulse / orbit.period)} mean",
+        share,
+        "; ".join(filter(None, (grows, no_rigid_wall(indentation_of_hit(orbit.rotor.parameters, orbit.radial_speed))))),
+    )
+
+
+def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Parameters) -> MotionRow:
+    impulse, force = member.largest_impulse, member.largest_force
+    lasts = member.survival.words if member.survival else ""
+    indentation = max(
+        indentation_of_force(parameters, force), indentation_of_hit(parameters, impulse / (1.0 + parameters.d))
+    )
+    known = "" if member.count else "from a start next to it"
+    return MotionRow(
+        ending_words(member.name),
+        "transient" if member.transient else "seen" if member.settled else "undecided",
+        period=say.time(member.period) if member.period else "",
+        impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
+        force=say.force(force) if force > 0 else "",
+        trials=_share(found, member.name),
+        remark="; ".join(filter(None, (lasts, known, no_rigid_wall(indentation)))),
+    )
+
+
+def threshold_rows(study: Study) -> list[ThresholdRow]:
+    """Every threshold of damping and stiffness."""
+    say = study.wording
+    rows = []
+    for entry in study.thresholds:
+        what = _EVENTS.get(entry.edge.kind, f"an orbit ends ({entry.edge.kind})") + (
+            "" if entry.edge.certified else " (located, but not confirmed by the orbits close by)"
+        )
+        rows.append(
+            ThresholdRow(
+                MOTIONS[entry.motion],
+                entry.exists,
+                say.gain_name(entry.gain),
+                say.gain(entry.gain, entry.edge.value) if say.scales else "",
+                f"{'γ' if entry.gain == 'gamma' else 'ω'} = {_digits(entry.edge)}",
+                what,
+            )
+        )
+    return rows
+
+
+def _digits(edge: Edge) -> str:
+    return f"{edge.value:.8g}"
+
+
+def range_rows(study: Study) -> list[tuple[str, ...]]:
+    """For each motion, where it exists along each gain of ``study.gains``; last, where levitation alone is left, and what is advised."""
+    say = study.wording
+    rows = []
+    for motion, name in MOTIONS.items():
+        cells = []
+        for gain in study.gains:
+            entry = study.range_of(motion, gain)
+            cells.append(say.where(gain, entry.spans, entry.searched) if entry else "not searched")
+        rows.append((name, *cells))
+    return [*rows, *_alone_rows(study)]
+
+
+def _alone_rows(study: Study) -> list[tuple[str, ...]]:
+    """Where levitation alone is left, what is advised, and how that was checked."""
+    say = study.wording
+    alone, advised = [], []
+    for gain in study.gains:
+        found, orbits = study.alone_along(gain), study.range_of("single-impact", gain)
+        alone.append(say.where(gain, found.spans, orbits.searched) if found and orbits else "not found out")
+        advice = next((entry for entry in study.advice if entry.gain == gain), None)
+        advised.append(f"{say.gain(gain, advice.value)}, where {check_words(study, advice)}" if advice else "none")
+    return [("levitation alone, backward whirl aside", *alone), ("advised", *advised)]
+
+
+def kick_rows(study: Study) -> list[tuple[str, str, str]]:
+    """For each size of kick: how many directions came back, and where the others ended."""
+    rows = []
+    for size in kick_sizes(study.attractors):
+        lost = [f"{count} {ending_words(name)}" for name, count in size.lost.items()]
+        rows.append((study.wording.velocity(size.speed), f"{size.recovered} of {size.directions}", ", ".join(lost)))
+    return rows

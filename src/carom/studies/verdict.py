@@ -1,0 +1,118 @@
+"""The verdict of a study in words: what the machine does, what may hold it, what would change that, what is unknown.
+
+It never promises that a machine recovers.  Disturbances are samples, and motions that none of them meets may exist, so
+the best verdict is that everything tried came back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from carom.closed_forms.whirl import rolling
+from carom.outcome import Outcome
+from carom.studies.findings import FINDINGS, names_of, stable_rub
+from carom.studies.wording import listed
+
+if TYPE_CHECKING:
+    from carom.studies.assembly import Study
+
+__all__ = ["NOT_COVERED", "Finding", "Level", "Verdict", "verdict"]
+
+Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
+
+NOT_COVERED = (
+    "Disturbances other than those simulated. They are samples: one between them, or a larger one, may end elsewhere.",
+    (
+        "Periodic motions with two or more impacts a period, bouncing that never repeats, and motions that alternate "
+        "between bounces and lasting contact. They are named only if a simulated disturbance ended in one."
+    ),
+    "A touchdown bearing that moves, turns or gives way: the wall is rigid, so the load of an impact is an impulse.",
+    "Changes of speed, gravity, a rotor that bends or tilts, and controllers that do more than a spring and a damper.",
+)
+"""What a study does not cover."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A part of the verdict; each line of its text is a paragraph."""
+
+    topic: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a study says.
+
+    Attributes
+    ----------
+    level : {"no-contact-free-motion", "may-not-come-back", "all-tried-came-back"}
+        The verdict for programs.
+    headline : str
+    findings : tuple of Finding
+    """
+
+    level: Level
+    headline: str
+    findings: tuple[Finding, ...]
+
+    @property
+    def text(self) -> str:
+        """All of it as plain text."""
+        return "\n\n".join([self.headline, *(f"{finding.topic}: {finding.text}" for finding in self.findings)])
+
+
+def verdict(study: Study) -> Verdict:
+    """Put a study in words."""
+    findings = [Finding(topic, write(study)) for topic, write in FINDINGS.items()]
+    findings.append(Finding("Not covered", "\n".join(NOT_COVERED)))
+    level, headline = _headline(study)
+    return Verdict(level, headline, tuple(findings))
+
+
+def _headline(study: Study) -> tuple[Level, str]:
+    levitation = study.equilibria[0]
+    if levitation.status != "admissible":
+        what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
+        return (
+            "no-contact-free-motion",
+            f"It cannot run without contact: its whirl from unbalance {what} the wall of the touchdown bearing.",
+        )
+    if not levitation.stable:
+        return "no-contact-free-motion", "Its levitation is not damped: a disturbance does not die out."
+    holds = _what_may_hold(study)
+    if holds:
+        return (
+            "may-not-come-back",
+            f"It levitates without contact, but after a touch it may not come back: {listed(holds)}.",
+        )
+    text = f"It levitates without contact and came back from every disturbance tried, of up to {_fastest(study)}."
+    if rolling(study.rotor).holds:
+        text = f"{text[:-1]}; only backward whirl is known to be able to hold it."
+    return "all-tried-came-back", f"{text} That is no guarantee: see what is not covered."
+
+
+def _fastest(study: Study) -> str:
+    """Largest speed of the disturbances tried."""
+    return study.wording.velocity(study.attractors.fastest)
+
+
+def _what_may_hold(study: Study) -> list[str]:
+    holds = []
+    if any(rub.status != "virtual" for rub in study.rubs):
+        holds.append("a stable synchronous rub exists" if stable_rub(study) else "a synchronous rub exists")
+    if study.stable_orbits:
+        holds.append(f"it can bounce for ever ({names_of(list(study.stable_orbits))})")
+    tried = study.attractors.disturbances
+    lost = sum(ending.outcome is not Outcome.LEVITATED for ending in tried)
+    if lost:
+        share = f"{lost} of {len(tried)}" if lost < len(tried) else f"any of the {lost}"
+        holds.append(f"it did not come back from {share} disturbances of up to {_fastest(study)}")
+    elif study.fresh is not None and study.fresh.lost:
+        holds.append(
+            f"it did not come back from {study.fresh.lost} of {study.fresh.sample.count:,} disturbances of up to {_fastest(study)}"
+        )
+    if not study.orbits.complete and not study.stable_orbits:
+        holds.append("not all of its periodic motions could be searched")
+    return holds

@@ -1,0 +1,165 @@
+"""Numbers in an engineer's words: SI units where the machine is known, units of the equations where it is not."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from carom.parameters import Scales
+from carom.parameters.indentation import gives_way
+from carom.studies.ranges import Gain, Span
+
+__all__ = ["Wording", "counted", "listed", "no_rigid_wall", "number"]
+
+_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+_GAIN_WORDS: dict[Gain, str] = {"gamma": "damping", "omega": "stiffness"}
+
+
+def number(value: float, digits: int = 4) -> str:
+    """Write a number with this many significant digits and thousands apart: ``1,400``, ``0.0725``, ``2.38e9``."""
+    if value == 0:
+        return "0"
+    if not math.isfinite(value):
+        return str(value)
+    rounded = float(f"{value:.{digits - 1}e}")
+    if not 1e-4 <= abs(rounded) < 1e8:
+        mantissa, exponent = f"{rounded:.{digits - 1}e}".split("e")
+        return f"{float(mantissa):g}e{int(exponent)}"
+    decimals = max(0, digits - 1 - math.floor(math.log10(abs(rounded))))
+    text = f"{rounded:,.{decimals}f}"
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def counted(count: int, noun: str) -> str:
+    """``1 orbit``, ``2 orbits``."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def listed(items: list[str]) -> str:
+    """``a``, ``a and b``, ``a, b and c``."""
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
+
+
+def no_rigid_wall(indentation: float) -> str:
+    """Say that a rigid wall is no model, for a load under which solid steel gives way by this many clearances; else nothing."""
+    if not gives_way(indentation):
+        return ""
+    share = f"{number(100.0 * indentation, 2)} %" if indentation < 10.0 else f"{number(indentation, 2)} times"
+    what = "of the clearance" if indentation < 10.0 else "the clearance"
+    return f"a rigid wall is no model there: even solid steel gives way by at least {share} {what}"
+
+
+@dataclass(frozen=True)
+class Wording:
+    """Turns dimensionless results into text.
+
+    Parameters
+    ----------
+    scales : Scales or None
+        Without them results keep the units of the equations: ``c_r``, ``1/Ω``, ``m c_r Ω²``.
+    """
+
+    scales: Scales | None
+
+    def length(self, value: float) -> str:
+        """A length given in ``c_r``."""
+        return self._quantity(value, "length", "m", "c_r")
+
+    def radius(self, value: float) -> str:
+        """A radius in both units, for example ``0.955 c_r (0.668 mm)``."""
+        share = f"{number(value, 3)} c_r"
+        return share if self.scales is None else f"{share} ({self.length(value)})"
+
+    def time(self, value: float) -> str:
+        """A time given in ``1/Ω``."""
+        return f"{number(value, 3)}/Ω" if self.scales is None else self._quantity(value, "time", "s", "")
+
+    def velocity(self, value: float) -> str:
+        """A velocity given in ``c_r Ω``."""
+        return self._quantity(value, "velocity", "m/s", "c_r Ω")
+
+    def force(self, value: float) -> str:
+        """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as loads of bearings are told in N."""
+        if self.scales is not None and abs(value) * self.scales.force >= 1e5:
+            return _with_prefix(value * self.scales.force, "N", least=1.0)
+        return self._plain(value, "force", "N", "m c_r Ω²")
+
+    def impulse(self, value: float) -> str:
+        """An impulse given in ``m c_r Ω``."""
+        return self._plain(value, "impulse", "N s", "m c_r Ω")
+
+    def power(self, value: float) -> str:
+        """A power given in ``m c_r² Ω³``."""
+        if self.scales is None:
+            return f"{number(value, 3)} m c_r² Ω³"
+        return _with_prefix(value * self.scales.power, "W", least=1.0)
+
+    def per_second(self, period: float) -> str:
+        """How often something of this period, in ``1/Ω``, happens."""
+        if self.scales is None:
+            return f"{number(2.0 * math.pi / period, 3)} times a turn"
+        return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
+
+    def gain(self, gain: Gain, value: float) -> str:
+        """Damping or stiffness given as ``gamma`` or ``omega``, with its unit; a bare number where the machine is not known."""
+        if self.scales is None:
+            return number(value)
+        return f"{number(self.gain_in_si(gain, value))} {self.gain_unit(gain)}"
+
+    def gain_in_si(self, gain: Gain, value: float) -> float:
+        """Damping in N s/m or stiffness in N/m; needs scales."""
+        if self.scales is None:
+            return math.nan
+        return value * self.scales.damping if gain == "gamma" else value**2 * self.scales.stiffness
+
+    def gain_unit(self, gain: Gain) -> str:
+        """Unit of :meth:`gain_in_si`."""
+        return "N s/m" if gain == "gamma" else "N/m"
+
+    def gain_name(self, gain: Gain) -> str:
+        """``damping`` or ``stiffness``; the dimensionless name where the machine is not known."""
+        return gain if self.scales is None else _GAIN_WORDS[gain]
+
+    def where(self, gain: Gain, spans: tuple[Span, ...], searched: Span | None = None) -> str:
+        """Say for which values of a gain something holds: ``below 3,408 N s/m``."""
+        if not spans:
+            return f"for no value{self._looked_at(gain, searched)}"
+        low, high = (searched.low.value, searched.high.value) if searched else (0.0, math.inf)
+        parts = []
+        for span in spans:
+            from_start, to_end = span.low.value <= low, span.high.value >= high
+            if from_start and to_end:
+                return f"for every value{self._looked_at(gain, searched)}"
+            if from_start:
+                parts.append(f"below {self.gain(gain, span.high.value)}")
+            elif to_end:
+                parts.append(f"above {self.gain(gain, span.low.value)}")
+            else:
+                parts.append(f"from {self.gain(gain, span.low.value)} to {self.gain(gain, span.high.value)}")
+        return " and ".join(parts)
+
+    def _looked_at(self, gain: Gain, searched: Span | None) -> str:
+        if searched is None:
+            return ""
+        return f" searched ({self.gain(gain, searched.low.value)} to {self.gain(gain, searched.high.value)})"
+
+    def _quantity(self, value: float, scale: str, unit: str, own_unit: str) -> str:
+        if self.scales is None:
+            return f"{number(value, 3)} {own_unit}"
+        return _with_prefix(value * getattr(self.scales, scale), unit)
+
+    def _plain(self, value: float, scale: str, unit: str, own_unit: str) -> str:
+        if self.scales is None:
+            return f"{number(value, 3)} {own_unit}"
+        return f"{number(value * getattr(self.scales, scale), 3)} {unit}"
+
+
+def _with_prefix(value: float, unit: str, least: float = 0.1) -> str:
+    """Three digits and the first prefix that leaves at least ``least``: ``0.668 mm`` rather than ``668 µm``."""
+    size = abs(value)
+    if size == 0:
+        return f"0 {unit}"
+    for factor, prefix in _PREFIXES:
+        if size >= least * factor:
+            return f"{number(value / factor, 3)} {prefix}{unit}"
+    return f"{number(value, 3)} {unit}"

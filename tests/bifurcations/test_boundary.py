@@ -1,0 +1,167 @@
+"""Classification of boundary equilibria, against the equilibria and orbits on both sides and against simulation."""
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from carom.bifurcations.boundary import SMALL_GAP, boundary_equilibria
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.periods import PeriodCondition
+from carom.models import Jeffcott
+from carom.motions.trajectories import State, simulate
+from carom.orbits.single_impact import find_orbits
+from carom.outcome import InputError, Outcome
+from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
+
+SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+machines = st.builds(
+    Parameters,
+    gamma=st.floats(0.05, 1.0),
+    omega=st.floats(0.3, 1.7),
+    rho=st.floats(0.05, 1.0),
+    phi=st.floats(-3.0, 3.0),
+    mu=st.floats(0.0, 0.6),
+    d=st.floats(0.3, 0.95),
+    radius_ratio=st.just(50.0),
+)
+
+
+def at_gap(boundary, gap):
+    """Rotor whose contact-free equilibrium is that far inside the wall, along the gain that was varied."""
+    step = 1e-7 * boundary.value
+    gap_rate = (gap_of(boundary, boundary.value + step) - gap_of(boundary, boundary.value - step)) / (2.0 * step)
+    return rotor_at(boundary, boundary.value + gap / gap_rate)
+
+
+def rotor_at(boundary, value):
+    return Jeffcott(boundary.parameters.replace(**{boundary.gain: value}))
+
+
+def gap_of(boundary, value):
+    return 1.0 - abs(rotor_at(boundary, value).equilibrium)
+
+
+@settings(max_examples=60, deadline=None)
+@given(parameters=machines, gain=st.sampled_from(["gamma", "omega"]))
+def test_equilibria_on_both_sides_are_as_classified(parameters, gain):
+    for boundary in boundary_equilibria(Jeffcott(parameters), gain):
+        at = boundary.parameters
+        assume(abs(1.0 / boundary.force_rate) > 0.05 and at.gamma > 0.05)
+        # Where the gain only touches the boundary, a gap is not proportional to a change of the gain.
+        assume(abs(1.0 - at.omega) > 0.05 and at.omega > 0.05)
+        for gap in (1e-6, -1e-6):
+            rotor = at_gap(boundary, gap)
+            levitation, *rubs = find_equilibria(rotor)
+            exact = 1.0 - abs(rotor.equilibrium)
+            small = min(rubs, key=lambda rub: abs(rub.normal_force))
+
+            assert exact == pytest.approx(gap, rel=1e-2)
+            assert (levitation.status == "admissible") == (gap > 0.0)
+            assert small.normal_force == pytest.approx(boundary.force_rate * exact, rel=1e-3)
+            if boundary.kind == "persistence":
+                assert (small.status == "admissible") == small.stable == (gap < 0.0)
+            else:
+                assert boundary.kind == "non-smooth fold"
+                assert (small.status == "admissible") == (gap > 0.0)
+                assert not small.stable
+
+
+@pytest.mark.jit_only
+@settings(max_examples=25, deadline=None)
+@given(parameters=machines)
+def test_side_of_small_orbits_follows_from_the_linearised_condition(parameters):
+    for boundary in boundary_equilibria(Jeffcott(parameters.replace(gamma=0.3 * parameters.gamma)), "omega"):
+        condition = PeriodCondition(Jeffcott(boundary.parameters).system)
+        for orbit in boundary.orbits:
+            lever = condition.factor * complex(condition.a12(orbit.period))
+            # The next order of |1 + q a₁₂ ṙ| = |U*|, relative to the first.
+            next_order = SMALL_GAP * (abs(lever) / lever.real) ** 2
+            assume(next_order < 0.05)
+            gap = 1.0 if orbit.levitating_side else -1.0
+
+            assert orbit.levitating_side == (lever.real < 0.0)
+            assert (orbit.name[-1] in "ab") == orbit.levitating_side
+            assert orbit.speed_rate == pytest.approx(-gap / lever.real, rel=next_order + 1e-6)
+
+
+def test_source_machine_loses_levitation_in_a_non_smooth_fold_with_two_unstable_cycles():
+    (boundary,) = boundary_equilibria(Jeffcott(SOURCE))
+
+    assert boundary.value == pytest.approx(0.0724686787, abs=5e-11)
+    assert boundary.levitates == "above"
+    assert boundary.kind == "non-smooth fold"
+    found = [(orbit.name, orbit.levitating_side, orbit.admissible, orbit.stable) for orbit in boundary.orbits]
+    assert found == [("B1,a", True, True, False), ("B1,b", True, True, False)]
+    assert boundary.complete
+    assert "B1,a (unstable), B1,b (unstable)" in boundary.words
+
+
+def test_small_orbits_of_the_source_machine_are_those_near_the_boundary():
+    (boundary,) = boundary_equilibria(Jeffcott(SOURCE))
+    rotor = at_gap(boundary, 1e-4)
+    orbits = find_orbits(rotor)
+
+    for orbit in boundary.orbits:
+        near = orbits[orbit.name]
+        assert near.admissible
+        assert near.period == pytest.approx(orbit.period, rel=1e-2)
+        assert near.radial_speed == pytest.approx(orbit.speed_rate * (1.0 - abs(rotor.equilibrium)), rel=1e-2)
+    virtual = find_orbits(at_gap(boundary, -1e-4))
+    assert not any(virtual[orbit.name].admissible for orbit in boundary.orbits)
+
+
+@pytest.mark.jit_only
+def test_persistence_with_a_stable_cycle_above_the_critical_speed_ratio():
+    below, above = boundary_equilibria(Jeffcott(SOURCE), "omega")
+
+    assert (below.kind, below.levitates) == ("non-smooth fold", "below")
+    assert (above.kind, above.levitates) == ("persistence", "above")
+    stable = [orbit for orbit in above.orbits if orbit.stable]
+    assert [orbit.name for orbit in stable] == ["B1,d"]
+    assert not stable[0].levitating_side
+    # The rotor really goes over: from the boundary equilibrium to the small rub or the small orbit.
+    rotor = at_gap(above, -1e-3)
+    rub = next(rub for rub in find_equilibria(rotor)[1:] if rub.stable)
+    resting = simulate(rotor, State(rub.position * (1.0 - 1e-9)), 1e5, settle=True)
+    bouncing = simulate(rotor, find_orbits(rotor)["B1,d"].departure, 1e5, settle=True)
+    assert resting.outcome is Outcome.FORWARD_RUB
+    assert rub.normal_force < 1e-3
+    assert (bouncing.outcome, bouncing.multiplicity) == (Outcome.BOUNCING, 1)
+    assert bouncing.contacts.radial_speed[-1] == pytest.approx(1e-3 * stable[0].speed_rate, rel=2e-2)
+
+
+def test_machine_that_levitates_with_any_damping_has_no_boundary():
+    assert boundary_equilibria(Jeffcott(SOURCE.replace(omega=2.0))) == ()
+    assert boundary_equilibria(Jeffcott(SOURCE.replace(gamma=0.5)), "omega") == ()
+
+
+def test_soft_bearing_has_one_boundary_along_stiffness():
+    (boundary,) = boundary_equilibria(Jeffcott(SOURCE.replace(rho=1.2)), "omega")
+
+    assert boundary.levitates == "above"
+
+
+def test_undamped_rotor_is_classified_without_its_orbits():
+    boundaries = boundary_equilibria(Jeffcott(SOURCE.replace(gamma=0.0)), "omega")
+
+    assert [boundary.kind for boundary in boundaries] == ["non-smooth fold", "persistence"]
+    assert not any(boundary.orbits or boundary.complete for boundary in boundaries)
+
+
+@pytest.mark.parametrize("gain", ["gamma", "omega"])
+def test_largest_unbalance_allowed_is_classified_too(gain):
+    """A gap away from the boundary, where small orbits are looked up, the unbalance must not leave its range."""
+    highest = DIMENSIONLESS_FIELDS["rho"].highest
+    (boundary,) = boundary_equilibria(Jeffcott(SOURCE.replace(rho=highest)), gain)
+    (lower,) = boundary_equilibria(Jeffcott(SOURCE.replace(rho=0.999 * highest)), gain)
+
+    assert (boundary.kind, boundary.levitates) == ("persistence", "above")
+    assert boundary.value == pytest.approx(lower.value, rel=2e-3)
+    assert boundary.force_rate == pytest.approx(lower.force_rate, rel=5e-3)
+    assert [orbit.name for orbit in boundary.orbits] == [orbit.name for orbit in lower.orbits]
+
+
+def test_unknown_gain_is_named():
+    with pytest.raises(InputError, match="gain = rho: one of: gamma, omega"):
+        boundary_equilibria(Jeffcott(SOURCE), "rho")

@@ -1,0 +1,264 @@
+"""Equilibria against the closed forms of the planar rotor and against integration of the sliding equation."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from machines import PAPER, flight_matrix, random_parameters, rest_position
+from scipy.integrate import solve_ivp
+
+from carom import Equilibrium, Parameters, find_equilibria
+from carom.models import Jeffcott
+from carom.motions.trajectories import State, simulate
+
+BOUNDARY_DAMPING = math.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)
+RUB_FOLD = PAPER.rho * math.hypot(1.0, PAPER.mu) - PAPER.mu * (1.0 - PAPER.omega**2)
+
+
+def found(parameters: Parameters) -> tuple[Equilibrium, tuple[Equilibrium, ...]]:
+    first, *rubs = find_equilibria(Jeffcott(parameters))
+    return first, tuple(rubs)
+
+
+# ------------------------------------------------------------------------------------------------ contact-free
+
+
+def test_contact_free_equilibrium_solves_the_equation_of_motion():
+    random = np.random.default_rng(20)
+    for _ in range(50):
+        parameters = random_parameters(random)
+        equilibrium, _ = found(parameters)
+        assert equilibrium.kind == "contact-free"
+        assert equilibrium.normal_force == 0.0
+        assert equilibrium.position == pytest.approx(rest_position(parameters), rel=1e-13)
+        assert equilibrium.radius == pytest.approx(abs(rest_position(parameters)), rel=1e-13)
+        assert equilibrium.angle == pytest.approx(np.angle(rest_position(parameters)), abs=1e-13)
+        assert equilibrium.stable
+        # A double exponent is conditioned like a square root.
+        expected = np.linalg.eigvals(flight_matrix(parameters))
+        np.testing.assert_allclose(np.poly(equilibrium.eigenvalues), np.poly(expected), atol=1e-12)
+
+
+@pytest.mark.parametrize("distance", [1e-3, 1e-6, 1e-10])
+def test_contact_free_status_changes_at_the_boundary_damping(distance):
+    assert found(PAPER.replace(gamma=BOUNDARY_DAMPING * (1.0 + distance)))[0].status == "admissible"
+    assert found(PAPER.replace(gamma=BOUNDARY_DAMPING * (1.0 - distance)))[0].status == "virtual"
+
+
+def test_on_the_boundary():
+    assert found(PAPER.replace(gamma=BOUNDARY_DAMPING))[0].status == "boundary"
+    assert found(PAPER.replace(omega=1.0, gamma=PAPER.rho))[0].status == "boundary"
+
+
+def test_without_damping_the_contact_free_equilibrium_is_not_stable():
+    assert not found(PAPER.replace(gamma=0.0))[0].stable
+    assert not found(PAPER.replace(gamma=-0.1))[0].stable
+
+
+# ------------------------------------------------------------------------------------------------------- rubs
+
+
+def rub_angles(parameters: Parameters) -> list[float]:
+    """Both ``x`` with ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, as ``√(1 + μ²) ρ sin(x + arctan μ)``."""
+    if parameters.rho == 0.0:
+        return []
+    share = -(parameters.gamma + parameters.mu * (1.0 - parameters.omega**2)) / (
+        parameters.rho * math.hypot(1.0, parameters.mu)
+    )
+    if abs(share) > 1.0:
+        return []
+    turn = math.atan(parameters.mu)
+    return [math.asin(share) - turn, math.pi - math.asin(share) - turn]
+
+
+def normal_force(parameters: Parameters, angle: float, speed: float = 0.0) -> float:
+    """``N = ρ cos x + (1 + θ̇)² − ω²`` at ``x = θ − φ``."""
+    return parameters.rho * math.cos(angle) + (1.0 + speed) ** 2 - parameters.omega**2
+
+
+def sliding(parameters: Parameters, angle: float, speed: float) -> float:
+    """``θ̈`` of a rotor that slides forward along the wall."""
+    friction = parameters.mu * normal_force(parameters, angle, speed)
+    return -parameters.gamma * (1.0 + speed) - parameters.rho * math.sin(angle) - friction
+
+
+def test_rubs_are_where_the_closed_form_puts_them():
+    random = np.random.default_rng(21)
+    seen = {0: 0, 2: 0}
+    statuses = set()
+    for _ in range(300):
+        parameters = random_parameters(random, gamma=float(10 ** random.uniform(-2, 0.3)))
+        expected = {np.round(np.exp(1j * x), 9): x for x in rub_angles(parameters)}
+        _, rubs = found(parameters)
+        assert len(rubs) == len(expected)
+        seen[len(rubs)] += 1
+        for rub in rubs:
+            turned = rub.position * np.exp(-1j * parameters.phi)
+            nearest = min(expected.values(), key=lambda x: abs(np.exp(1j * x) - turned))
+            # The angle is conditioned like 1/cos(x + arctan μ), and like the square root of rounding at the fold.
+            assert abs(np.exp(1j * nearest) - turned) < 1e-9
+            force = normal_force(parameters, np.angle(turned))
+            assert rub.kind == "rub"
+            assert rub.radius == pytest.approx(1.0, abs=1e-15)
+            assert rub.normal_force == pytest.approx(force, abs=1e-9 * (1.0 + parameters.omega**2))
+            assert rub.status == ("admissible" if force > 0 else "virtual")
+            assert abs(sliding(parameters, np.angle(turned), 0.0)) < 1e-9 * (1.0 + parameters.gamma)
+            statuses.add(rub.status)
+    assert min(seen.values()) > 30
+    assert statuses == {"admissible", "virtual"}
+
+
+@pytest.mark.parametrize("distance", [1e-3, 1e-6, 1e-10])
+def test_rubs_meet_in_a_fold(distance):
+    _, rubs = found(PAPER.replace(gamma=RUB_FOLD * (1.0 - distance)))
+    stable, saddle = rubs
+    assert stable.stable
+    assert not saddle.stable
+    # They part like the square root of the distance.
+    assert abs(stable.position - saddle.position) == pytest.approx(
+        2.0 * math.sqrt(2.0 * distance * RUB_FOLD / PAPER.rho), rel=0.1
+    )
+    assert found(PAPER.replace(gamma=RUB_FOLD * (1.0 + distance)))[1] == ()
+
+
+def test_a_rub_becomes_the_contact_free_equilibrium_at_the_boundary():
+    """Its normal force vanishes there: persistence or a non-smooth fold of the boundary equilibrium."""
+    contact_free, rubs = found(PAPER.replace(gamma=BOUNDARY_DAMPING))
+    rub = min(rubs, key=lambda rub: abs(rub.normal_force))
+    assert rub.status == "boundary"
+    assert rub.position == pytest.approx(contact_free.position, abs=1e-12)
+
+
+def test_stability_along_the_wall_is_that_of_the_sliding_equation():
+    """``δθ̈ + (γ + 2μ)δθ̇ + ρ(cos x − μ sin x)δθ = 0``, from the derivatives of ``θ̈`` and ``N`` at rest."""
+    random = np.random.default_rng(22)
+    stabilities = []
+    for _ in range(200):
+        parameters = random_parameters(random, gamma=float(10 ** random.uniform(-2, 0.3)))
+        for rub in found(parameters)[1]:
+            x = np.angle(rub.position * np.exp(-1j * parameters.phi))
+            stiffness = parameters.rho * (math.cos(x) - parameters.mu * math.sin(x))
+            polynomial = [1.0, parameters.gamma + 2.0 * parameters.mu, stiffness]
+            scale = 1.0 + np.abs(polynomial).max()
+            np.testing.assert_allclose(np.poly(rub.eigenvalues), polynomial, atol=1e-9 * scale)
+            assert rub.stable == (stiffness > 0 and rub.normal_force > 0 and parameters.d < 1.0)
+            stabilities.append(rub.stable)
+    assert 20 < sum(stabilities) < len(stabilities) - 20
+
+
+def test_a_lossless_wall_makes_no_rub_stable():
+    """With ``d = 1`` bounces off the wall do not die out."""
+    assert not any(rub.stable for rub in found(PAPER.replace(d=1.0))[1])
+
+
+@pytest.mark.parametrize("gamma", [0.05, 0.1, 0.2, 0.36])
+def test_sliding_motion_goes_to_the_stable_rub_and_leaves_the_saddle(gamma):
+    parameters = PAPER.replace(gamma=gamma)
+    stable, saddle = found(parameters)[1]
+
+    def rate(_: float, state: np.ndarray) -> list[float]:
+        return [state[1], sliding(parameters, state[0], state[1])]
+
+    target = stable.angle - parameters.phi
+    start = [saddle.angle - parameters.phi, 0.0]
+    nudge = 1e-6 * np.sign(np.sin(target - start[0]))
+    start[0] += nudge
+    brief = solve_ivp(rate, (0.0, 1.0), start, rtol=1e-12, atol=1e-14).y[:, -1]
+    # Close to the saddle the disturbance follows its exponents, second-order terms being smaller by 1e-6.
+    slow, fast = sorted(saddle.eigenvalues.real)
+    share = nudge / (slow - fast)
+    predicted = share * (slow * math.exp(fast) - fast * math.exp(slow))
+    assert brief[0] - (start[0] - nudge) == pytest.approx(predicted, rel=1e-4)
+    late = solve_ivp(rate, (0.0, 400.0), start, rtol=1e-10, atol=1e-12).y[:, -1]
+    assert abs(np.exp(1j * (late[0] - target)) - 1.0) < 1e-7
+    assert abs(late[1]) < 1e-7
+
+
+def test_a_simulated_rotor_stays_at_its_stable_rub():
+    rotor = Jeffcott(PAPER.replace(gamma=0.2))
+    stable = find_equilibria(rotor)[1]
+    end = simulate(rotor, State(stable.position), 200.0).final
+    assert end.position == pytest.approx(stable.position, abs=1e-9)
+
+
+# ----------------------------------------------------------------------------------------------------- corners
+
+
+@pytest.mark.parametrize(
+    "gamma", [1.52, 1.52 * (1 + 1e-9), 1.52 * (1 - 1e-9), 4.0], ids=["critical", "above", "below", "over"]
+)
+def test_critical_and_strong_damping(gamma):
+    """A heavy unbalance keeps its rubs there."""
+    parameters = PAPER.replace(gamma=gamma, rho=6.0)
+    contact_free, rubs = found(parameters)
+    assert contact_free.stable
+    assert len(rubs) == 2
+    angles = [np.exp(1j * (x + parameters.phi)) for x in rub_angles(parameters)]
+    for rub in rubs:
+        assert min(abs(rub.position - angle) for angle in angles) < 1e-12
+        x = np.angle(rub.position * np.exp(-1j * parameters.phi))
+        stiffness = parameters.rho * (math.cos(x) - parameters.mu * math.sin(x))
+        np.testing.assert_allclose(np.poly(rub.eigenvalues), [1.0, gamma + 2.0 * parameters.mu, stiffness], atol=1e-11)
+
+
+def test_a_balanced_rotor_rests_in_the_middle_and_has_no_rub():
+    contact_free, rubs = found(PAPER.replace(rho=0.0))
+    assert contact_free.position == 0.0
+    assert contact_free.status == "admissible"
+    assert rubs == ()
+
+
+@pytest.mark.parametrize("omega", [0.76, 1.2])
+@pytest.mark.parametrize("gamma", [0.0, 0.1])
+@pytest.mark.parametrize("phi", [0.0, 0.21, -3.0])
+def test_the_middle_has_no_sign(omega, gamma, phi):
+    position = found(PAPER.replace(rho=0.0, omega=omega, gamma=gamma, phi=phi))[0].position
+    assert [math.copysign(1.0, part) for part in (position.real, position.imag)] == [1.0, 1.0]
+
+
+@pytest.mark.parametrize("omega", [0.76, 1.2])
+@pytest.mark.parametrize(("gamma", "mu"), [(0.0, 0.0), (0.0, 0.15), (0.1, 0.0)])
+def test_a_balanced_rotor_has_no_isolated_rub(omega, gamma, mu):
+    """Without any force along the wall it may rest at every angle; no two of these places are its rubs."""
+    parameters = PAPER.replace(rho=0.0, omega=omega, gamma=gamma, mu=mu)
+    assert found(parameters)[1] == ()
+    if gamma == mu == 0.0 and omega < 1.0:
+        # Pressed outward with N = 1 − ω², and at rest wherever it is put.
+        for place in np.exp(1j * np.linspace(0.0, 6.0, 7)):
+            motion = simulate(Jeffcott(parameters), State(place), 50.0)
+            assert motion.final.position == pytest.approx(place, abs=1e-13)
+            assert motion.forces(np.array([25.0]))[0] == pytest.approx(1.0 - omega**2, abs=1e-13)
+
+
+@pytest.mark.parametrize("rho", [1e-300, 1e-200, 1e-17])
+def test_the_least_unbalance_singles_out_two_places(rho):
+    """Without damping and friction a rub lies where the unbalance points, ``sin x = 0``, however small it is."""
+    _, rubs = found(PAPER.replace(rho=rho, gamma=0.0, mu=0.0))
+    assert len(rubs) == 2
+    for rub in rubs:
+        assert math.sin(rub.angle - PAPER.phi) == pytest.approx(0.0, abs=1e-12)
+        assert rub.normal_force == pytest.approx(1.0 - PAPER.omega**2, abs=1e-12)
+        assert not rub.stable
+
+
+def test_without_damping_and_friction_no_rub_attracts():
+    """Along the wall it is a pendulum: exponents ``±i√ρ`` and ``±√ρ``, whatever rounding makes of their real parts."""
+    random = np.random.default_rng(22)
+    for _ in range(200):
+        parameters = random_parameters(random, gamma=0.0, mu=0.0)
+        for rub in found(parameters)[1]:
+            assert not rub.stable
+            assert not rub.attracts_sliding
+            np.testing.assert_allclose(np.abs(rub.eigenvalues), math.sqrt(parameters.rho), rtol=1e-6, atol=1e-12)
+
+
+def test_a_hardly_unbalanced_rub_lies_on_the_wall():
+    """The direction comes out of a small difference; the radius must not."""
+    parameters = PAPER.replace(rho=1e-8, mu=0.0, gamma=3e-9)
+    _, rubs = found(parameters)
+    assert len(rubs) == 2
+    for rub in rubs:
+        assert rub.radius == pytest.approx(1.0, abs=1e-15)
+        assert math.sin(rub.angle - parameters.phi) == pytest.approx(-0.3, abs=1e-6)

@@ -1,0 +1,288 @@
+"""Closed forms of backward whirl and of the synchronous rub, against simulated motions and against the source machine."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.whirl import rolling, rub_limit, runaway_speed
+from carom.models import Jeffcott
+from carom.motions.ensembles import settle_all
+from carom.motions.trajectories import State, simulate
+from carom.outcome import Outcome, Phase
+from carom.parameters import Parameters, Scales
+
+SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+
+damped = st.builds(
+    Parameters,
+    gamma=st.one_of(st.just(1e-6), st.floats(1e-3, 2.0)),
+    omega=st.floats(0.2, 2.0),
+    rho=st.floats(0.0, 2.0),
+    phi=st.floats(-3.0, 3.0),
+    mu=st.floats(0.05, 0.8),
+    d=st.floats(0.0, 0.95),
+    radius_ratio=st.floats(2.0, 60.0),
+)
+
+
+def on_wall(angle: float, whirl: float) -> State:
+    """On the wall at an angle, with the whirl speed 1 + θ' of the fixed frame."""
+    position = complex(math.cos(angle), math.sin(angle))
+    return State(position, 1j * (whirl - 1.0) * position)
+
+
+def whirl_speeds(motion, count=400):
+    position, velocity = motion.at(np.linspace(0.0, motion.time, count))
+    return 1.0 + (position.conj() * velocity).imag / np.abs(position) ** 2
+
+
+# ------------------------------------------------------------------------------------------------ runaway
+
+
+@pytest.mark.jit_only
+@settings(max_examples=60, deadline=None)
+@given(parameters=damped, angle=st.floats(-3.2, 3.2), share=st.floats(0.001, 0.999))
+def test_whirl_beyond_the_certain_speed_gains_speed_until_it_rolls(parameters, angle, share):
+    rotor = Jeffcott(parameters)
+    runaway = runaway_speed(rotor)
+    assume(runaway.certain * 1.001 < runaway.rolling_speed)
+    speed = runaway.certain + share * (runaway.rolling_speed - runaway.certain)
+
+    motion = simulate(rotor, on_wall(angle, -speed), 1e4, settle=True)
+
+    assert motion.outcome is Outcome.ROLLING
+    slides = [contact for contact in motion.lasting_contacts if contact.phase is not Phase.ROLLING]
+    assert {contact.phase for contact in slides} <= {Phase.FORWARD_SLIP}
+    assert not motion.is_impact.any()
+    speeds = -whirl_speeds(motion)
+    assert (np.diff(speeds) > -1e-9 * speeds[:-1]).all()
+
+
+@pytest.mark.jit_only
+@settings(max_examples=40, deadline=None)
+@given(parameters=damped, angle=st.floats(-3.2, 3.2))
+def test_rotor_faster_than_rolling_slows_to_it_where_rolling_holds(parameters, angle):
+    rotor = Jeffcott(parameters)
+    assume(runaway_speed(rotor).reaches_rolling)
+
+    motion = simulate(rotor, on_wall(angle, -1.3 * parameters.radius_ratio), 1e4, settle=True)
+
+    assert motion.outcome is Outcome.ROLLING
+    assert motion.segment_phases[1] == Phase.BACKWARD_SLIP
+
+
+def test_bound_is_reached_at_the_worst_angle():
+    # At sin x + μ cos x = −√(1 + μ²) the whirl at the certain speed neither gains nor loses.
+    rotor = Jeffcott(SOURCE)
+    worst = SOURCE.phi + math.atan2(-1.0, -SOURCE.mu)
+    speed = runaway_speed(rotor).certain
+
+    def gain(angle, whirl_speed):
+        motion = simulate(rotor, on_wall(angle, -whirl_speed), 1e-5)
+        return -(whirl_speeds(motion, 2)[1] + whirl_speed) / 1e-5
+
+    assert abs(gain(worst, speed)) < 1e-4
+    assert gain(worst, 0.99 * speed) < -1e-3
+    assert gain(worst + math.pi, 0.99 * speed) > 0.1
+
+
+def test_average_threshold_is_the_simulated_one_without_unbalance():
+    rotor = Jeffcott(SOURCE.replace(rho=0.0, gamma=0.3))
+    threshold = runaway_speed(rotor).average
+
+    outcomes = [
+        simulate(rotor, on_wall(0.0, -factor * threshold), 1e4, settle=True).outcome for factor in (0.999, 1.001)
+    ]
+
+    assert outcomes == [Outcome.LEVITATED, Outcome.ROLLING]
+    assert runaway_speed(rotor).certain == pytest.approx(threshold, rel=1e-15)
+
+
+def test_without_friction_nothing_runs_away():
+    runaway = runaway_speed(Jeffcott(SOURCE.replace(mu=0.0)))
+
+    assert runaway.certain == runaway.average == math.inf
+    assert not runaway.reaches_rolling
+
+
+@pytest.mark.parametrize("gamma", [-0.5, -1e-9, 0.0, 1e-9, 0.5, 50.0])
+def test_threshold_solves_its_equation_for_either_sign_of_damping(gamma):
+    rotor = Jeffcott(SOURCE.replace(gamma=gamma))
+    speed = runaway_speed(rotor).average
+
+    assert 0.15 * (speed**2 - 0.76**2) == pytest.approx(gamma * speed, abs=1e-12 * (1.0 + speed**2))
+
+
+# ------------------------------------------------------------------------------------------------ rolling
+
+
+@pytest.mark.jit_only
+@settings(max_examples=60, deadline=None)
+@given(parameters=damped, angle=st.floats(-3.2, 3.2))
+def test_forces_of_rolling(parameters, angle):
+    rotor = Jeffcott(parameters)
+    roll = rolling(rotor)
+    assume(roll.holds)
+
+    motion = simulate(rotor, on_wall(angle, -roll.speed), 2.0 * roll.period)
+
+    assert {contact.phase for contact in motion.lasting_contacts} == {Phase.ROLLING}
+    normal, friction = motion.forces(np.linspace(0.0, motion.time, 2001))
+    # 1000 samples a turn miss extremes by at most ρ(π/1000)²/2; forces are differences of terms of the size of s².
+    rounding = 1e-11 * roll.speed**2
+    missed = parameters.rho * 5e-6 + rounding
+    assert normal.min() == pytest.approx(roll.least_force, abs=missed)
+    assert normal.max() == pytest.approx(roll.largest_force, abs=missed)
+    assert np.abs(friction).max() == pytest.approx(roll.largest_friction, abs=missed)
+    assert (np.abs(friction) - roll.needed_friction * normal).max() <= rounding
+
+
+@settings(max_examples=60, deadline=None)
+@given(parameters=damped)
+def test_limits_of_rolling_are_one_condition(parameters):
+    roll = rolling(Jeffcott(parameters))
+    assume(roll.least_force > 0.0 and abs(parameters.mu - roll.needed_friction) > 1e-9)
+
+    assert roll.holds == (parameters.gamma < roll.largest_damping)
+    assert roll.holds == runaway_speed(Jeffcott(parameters)).reaches_rolling
+    assert roll.largest_damping <= roll.damping_bound
+
+
+@pytest.mark.parametrize(("factor", "rolls_on"), [(0.9999, True), (1.0001, False)])
+def test_rolling_ends_at_the_largest_damping(factor, rolls_on):
+    parameters = SOURCE.replace(radius_ratio=5.0, rho=1.0, gamma=0.3)
+    limit = rolling(Jeffcott(parameters)).largest_damping
+    rotor = Jeffcott(parameters.replace(gamma=factor * limit))
+
+    motion = simulate(rotor, on_wall(0.0, -5.0), 2.0 * rolling(rotor).period)
+
+    phases = {contact.phase for contact in motion.lasting_contacts}
+    assert phases == ({Phase.ROLLING} if rolls_on else {Phase.ROLLING, Phase.FORWARD_SLIP})
+    assert rolling(rotor).holds == rolls_on
+
+
+@pytest.mark.jit_only
+def test_interrupted_rolling_lives_between_the_limits_only():
+    parameters = SOURCE.replace(radius_ratio=5.0, rho=1.0)
+    roll = rolling(Jeffcott(parameters))
+    lasting = {}
+    for share in (0.1, 1.001):
+        gamma = roll.largest_damping + share * (roll.damping_bound - roll.largest_damping)
+        motion = simulate(Jeffcott(parameters.replace(gamma=gamma)), on_wall(0.0, -5.0), 1e3)
+        lasting[share] = {contact.phase for contact in motion.lasting_contacts if contact.end > 990.0}
+
+    assert lasting[0.1] == {Phase.ROLLING, Phase.FORWARD_SLIP}
+    assert Phase.ROLLING not in lasting[1.001]
+
+
+@settings(max_examples=60, deadline=None)
+@given(parameters=damped)
+def test_rolling_ends_at_the_largest_stiffness(parameters):
+    limit = rolling(Jeffcott(parameters)).largest_stiffness
+    assume(limit > 0.01)
+
+    assert rolling(Jeffcott(parameters.replace(omega=limit * (1 - 1e-9)))).holds
+    assert not rolling(Jeffcott(parameters.replace(omega=limit * (1 + 1e-9)))).holds
+
+
+def test_friction_from_which_rolling_holds():
+    needed = rolling(Jeffcott(SOURCE)).needed_friction
+
+    assert not rolling(Jeffcott(SOURCE.replace(mu=needed * (1 - 1e-12)))).holds
+    assert rolling(Jeffcott(SOURCE.replace(mu=needed * (1 + 1e-12)))).holds
+
+
+def test_rotor_that_would_leave_the_wall_cannot_roll():
+    roll = rolling(Jeffcott(SOURCE.replace(radius_ratio=0.8, rho=0.5, mu=5.0)))
+
+    assert roll.least_force < 0.0
+    assert roll.needed_friction == math.inf
+    assert not roll.holds
+
+
+def test_rolling_of_the_source_machine_in_newtons():
+    roll = rolling(Jeffcott(SOURCE))
+
+    assert roll.largest_force * SCALES.force == pytest.approx(3.8775e6, rel=1e-4)
+    assert roll.largest_damping * SCALES.damping == pytest.approx(7.881e4, rel=1e-3)
+    assert runaway_speed(Jeffcott(SOURCE)).certain * SCALES.velocity == pytest.approx(0.2869, rel=1e-3)
+
+
+# ------------------------------------------------------------------------------------------------ synchronous rub
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    omega=st.floats(0.2, 1.8),
+    rho=st.floats(0.01, 2.0),
+    mu=st.floats(0.0, 0.8),
+    share=st.floats(0.001, 2.0),
+)
+def test_stable_rub_exists_exactly_below_its_limit(omega, rho, mu, share):
+    parameters = Parameters(gamma=1.0, omega=omega, rho=rho, phi=0.0, mu=mu, d=0.5, radius_ratio=10.0)
+    limit = rub_limit(Jeffcott(parameters))
+    assume(abs(share - 1.0) > 1e-6)
+    gamma = share * limit if limit > 0.0 else share
+    assume(abs(omega - 1.0) + gamma > 1e-6)
+
+    rubs = find_equilibria(Jeffcott(parameters.replace(gamma=gamma)))[1:]
+
+    assert any(rub.stable for rub in rubs) == (gamma < limit)
+    assert any(rub.status == "admissible" for rub in rubs) == (gamma < limit)
+
+
+def test_rub_limit_of_the_source_machine():
+    limit = rub_limit(Jeffcott(SOURCE))
+
+    assert limit == pytest.approx(0.3700060, abs=5e-8)
+    assert limit * SCALES.damping == pytest.approx(3408.0, abs=0.5)
+
+
+@pytest.mark.jit_only
+def test_no_backward_whirl_repeats_beyond_the_bound_of_damping():
+    """Random rotors, small ones that could lose contact while they roll among them, from all speeds of backward whirl."""
+    random = np.random.default_rng(11)
+    kept = 0
+    for case in range(40):
+        speed, omega, mu = random.uniform(0.3, 6.0), random.uniform(0.1, 1.2), random.uniform(0.05, 0.8)
+        machine = SOURCE.replace(
+            omega=omega, mu=mu, rho=random.uniform(0.0, 2.0), d=random.uniform(0.0, 0.9), radius_ratio=speed
+        )
+        bound = rolling(Jeffcott(machine)).damping_bound
+        places = np.exp(1j * random.uniform(0.0, 2.0 * math.pi, 50))
+        whirl = -random.uniform(0.0, 2.0 * speed, 50)
+        for factor in (0.3, 1.001):
+            rotor = Jeffcott(machine.replace(gamma=max(factor * bound, 0.02)))
+            outcomes = settle_all(rotor, places, 1j * (whirl - 1.0) * places, until=2e3).outcomes
+            held = np.isin(outcomes, (Outcome.ROLLING, Outcome.BACKWARD_WHIRL)).sum()
+            kept += held if factor < 1.0 else 0
+            assert factor < 1.0 or held == 0, (case, machine)
+    assert kept > 100
+
+
+@pytest.mark.jit_only
+def test_sliding_forward_goes_over_to_the_rub_or_leaves_the_wall():
+    """Whatever repeats while it slides forward is the synchronous rub (``docs/theory/lasting-contact.md``)."""
+    random = np.random.default_rng(12)
+    slid = 0
+    for _ in range(150):
+        machine = SOURCE.replace(
+            gamma=random.uniform(0.01, 1.0),
+            omega=random.uniform(0.0, 0.9),
+            rho=random.uniform(0.2, 1.5),
+            mu=random.uniform(0.0, 0.8),
+        )
+        rotor = Jeffcott(machine)
+        motion = simulate(rotor, on_wall(random.uniform(-3.0, 3.0), random.uniform(0.0, 3.0)), 3e3)
+        last = motion.lasting_contacts[-1] if motion.lasting_contacts else None
+        if last is None or last.phase is not Phase.FORWARD_SLIP or last.start > 500.0 or last.end < motion.time:
+            continue
+        slid += 1
+        assert abs(motion.final.velocity) < 1e-6
+        assert min(abs(motion.final.position - entry.position) for entry in find_equilibria(rotor)) < 1e-6
+    assert slid > 40

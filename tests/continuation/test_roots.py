@@ -1,0 +1,33 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carom.continuation.roots import bracketed_root, sign_change
+from carom.outcome import CaromError
+
+
+def test_bracketed_root():
+    functions = (np.cos, lambda x: x**9 - 1e-3, lambda x: np.expm1(20 * (x - 0.7)), lambda x: np.cbrt(x - 1.1))
+    for function in functions:
+        root = bracketed_root(function, 0.0, 2.0)
+        assert function(root - 1e-14) * function(root + 1e-14) <= 0.0
+    assert bracketed_root(lambda x: x, 0.0, 1.0) == 0.0
+    assert bracketed_root(lambda x: x - 1.0, 0.0, 1.0) == 1.0
+    with pytest.raises(CaromError, match="no sign change"):
+        bracketed_root(np.cosh, -1.0, 1.0)
+
+
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_sign_change_next_to_where_a_function_begins(mirror):
+    ends = sorted((0.0, 2.0 * mirror))
+
+    def beginning(x):
+        return mirror * x - 0.3 if mirror * x > 0.29999 else np.nan
+
+    low, high = sign_change(beginning, *ends)
+    assert beginning(low) * beginning(high) < 0.0
+    assert sign_change(lambda x: beginning(x) + 0.1, *ends) is None
+    assert sign_change(np.cosh, *ends) is None
+    assert sign_change(lambda x: np.nan, *ends) is None
+    assert sign_change(lambda x: x - mirror, *ends) == tuple(ends)

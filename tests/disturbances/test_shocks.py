@@ -1,0 +1,117 @@
+"""The levitating rotor through a half-sine shock of its housing, against a general solver in the fixed frame."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from machines import PAPER, rest_position, strike
+from scipy.integrate import solve_ivp
+
+import carom
+from carom.disturbances.shocks import states_after_shocks
+from carom.outcome import InputError
+
+pytestmark = pytest.mark.jit_only
+
+
+def followed(parameters, peak, duration, direction):
+    """State at the end of the pulse by DOP853 in the fixed frame, impacts one by one; and how many there were."""
+    gamma, omega = parameters.gamma, parameters.omega
+
+    def rate(time, state):
+        place, speed = complex(state[0], state[1]), complex(state[2], state[3])
+        push = parameters.rho * cmath.exp(1j * (time + parameters.phi))
+        push -= peak * math.sin(math.pi * time / duration) * cmath.rect(1.0, direction)
+        force = push - gamma * speed - omega**2 * place
+        return [speed.real, speed.imag, force.real, force.imag]
+
+    def wall(time, state):
+        return math.hypot(state[0], state[1]) - 1.0
+
+    wall.terminal, wall.direction = True, 1.0
+    place, time, impacts = rest_position(parameters), 0.0, 0
+    speed = 1j * place
+    while time < duration:
+        state = [place.real, place.imag, speed.real, speed.imag]
+        found = solve_ivp(rate, (time, duration), state, method="DOP853", rtol=1e-12, atol=1e-13, events=wall)
+        time = float(found.t[-1])
+        place, speed = complex(*found.y[:2, -1]), complex(*found.y[2:, -1])
+        if found.status == 1:
+            impacts += 1
+            local = speed * place.conjugate() / abs(place)
+            # The law of contact takes the angular speed of the co-rotating frame.
+            radial, angular = strike(parameters, local.real, local.imag - 1.0)
+            place /= abs(place)
+            speed = complex(radial, angular + 1.0) * place
+    turn = cmath.exp(-1j * duration)
+    return place * turn, (speed - 1j * place) * turn, impacts
+
+
+def after(parameters, peak, duration, direction):
+    found = states_after_shocks(carom.Jeffcott(parameters), np.array([peak]), duration, np.array([direction]))
+    return complex(found[0][0]), complex(found[1][0]), bool(found[2][0])
+
+
+@pytest.mark.parametrize("gamma", [0.0, 0.1, 2 * 0.76, 6.0])
+@pytest.mark.parametrize(("peak", "duration", "direction"), [(0.05, 1.3, 0.3), (0.2, 0.4, 2.0), (0.04, 9.0, 4.0)])
+def test_without_contact(gamma, peak, duration, direction):
+    machine = PAPER.replace(rho=0.1, gamma=gamma)
+    place, speed, impacts = followed(machine, peak, duration, direction)
+    assert impacts == 0
+    position, velocity, undecided = after(machine, peak, duration, direction)
+    assert position == pytest.approx(place, abs=1e-10)
+    assert velocity == pytest.approx(speed, abs=1e-10)
+    assert not undecided
+
+
+@pytest.mark.parametrize(("peak", "duration", "direction"), [(6.0, 1.3, 0.3), (1.5, 2.5, 2.0), (4.0, 2.0, 4.0)])
+def test_with_impacts_during_the_pulse(peak, duration, direction):
+    machine = PAPER.replace(rho=0.2, gamma=0.3)
+    place, speed, impacts = followed(machine, peak, duration, direction)
+    assert impacts >= 1
+    position, velocity, _ = after(machine, peak, duration, direction)
+    assert position == pytest.approx(place, abs=1e-8)
+    assert velocity == pytest.approx(speed, abs=1e-8)
+
+
+@pytest.mark.parametrize(("peak", "duration", "direction"), [(16.0, 1.0, 0.0), (8.0, 3.0, 0.0), (16.0, 3.0, 1.0)])
+def test_pressed_to_the_wall_when_the_pulse_ends(peak, duration, direction):
+    """A hard pulse and little rebound: the rotor slides along the wall at its end, and starts from there."""
+    machine = PAPER.replace(rho=0.2, gamma=0.3, d=0.1)
+    position, velocity, undecided = after(machine, peak, duration, direction)
+    assert abs(position) == pytest.approx(1.0, abs=1e-15)
+    assert (position.conjugate() * velocity).real == pytest.approx(0.0, abs=1e-12)
+    assert not undecided
+    found = carom.simulate(carom.Jeffcott(machine), carom.State(position, velocity), 1.0)
+    assert found.outcome is carom.Outcome.TIME_REACHED
+
+
+def test_a_short_shock_is_a_kick():
+    """With the velocity change 2âT/π kept, the shock goes over into a kick against its direction."""
+    machine = PAPER.replace(rho=0.2)
+    rest, change = rest_position(machine), 0.3
+    apart = []
+    for duration in (1e-2, 1e-3):
+        position, velocity, _ = after(machine, math.pi * change / (2.0 * duration), duration, 0.7)
+        apart.append(abs(velocity + cmath.rect(change, 0.7)) + abs(position - rest))
+    assert apart[1] < 2e-3
+    assert apart[0] / apart[1] == pytest.approx(10.0, rel=0.05)
+
+
+def test_undamped_resonance_is_refused():
+    machine = PAPER.replace(rho=0.1, gamma=0.0)
+    with pytest.raises(InputError, match="duration"):
+        after(machine, 0.1, math.pi / machine.omega, 0.0)
+
+
+def test_a_shock_knows_of_no_other():
+    machine = carom.Jeffcott(PAPER.replace(rho=0.2, gamma=0.3, d=0.3))
+    peaks, directions = np.linspace(0.1, 12.0, 9), np.linspace(0.0, 6.0, 9)
+    together = states_after_shocks(machine, peaks, 1.7, directions)
+    for place in range(9):
+        alone = states_after_shocks(machine, peaks[place : place + 1], 1.7, directions[place : place + 1])
+        for one, all_ in zip(alone, together, strict=True):
+            assert one[0] == all_[place]

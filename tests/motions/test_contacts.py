@@ -1,0 +1,318 @@
+"""What the touchdown bearing gets: the log of impacts, its units, and the forces of lasting contact at every instant."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from compilation import sized
+from drawn_motions import EVENTS, MANY
+from hypothesis import given
+from hypothesis import strategies as st
+from machines import PAPER
+
+from carom.closed_forms.equilibria import find_equilibria
+from carom.models import Jeffcott
+from carom.motions.contacts import LastingContact, polar
+from carom.motions.ledger import energy_ledger
+from carom.motions.trajectories import State, Trajectory, kick, simulate
+from carom.outcome import Phase
+from carom.parameters import Parameters, Scales
+
+START = State(0.3 + 0.1j, 0.9 - 0.4j)
+SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+EPSILON = 2.0**-52
+INSTANTS = sized(400, 12)
+
+
+@pytest.fixture(scope="module")
+def motion():
+    return simulate(Jeffcott(PAPER), START, 30.0)
+
+
+class TestContactLog:
+    def test_states_before_and_after(self, motion):
+        log = motion.contacts
+        position, velocity = motion.at(log.time)
+        assert np.allclose(log.angle, np.angle(position), rtol=0, atol=1e-14)
+        assert np.allclose(log.radial_speed_after, (position.conj() * velocity).real, rtol=0, atol=1e-13)
+        assert np.allclose(log.angular_speed_after, (position.conj() * velocity).imag, rtol=0, atol=1e-13)
+        assert np.all(log.radial_speed > 0)
+        assert np.allclose(log.radial_speed_after, -PAPER.d * log.radial_speed, rtol=1e-12, atol=0)
+
+    def test_impulses_and_slip(self, motion):
+        log = motion.contacts
+        assert np.allclose(log.normal_impulse, (1.0 + PAPER.d) * log.radial_speed, rtol=1e-12, atol=0)
+        assert np.allclose(log.slip_before, PAPER.radius_ratio + 1.0 + log.angular_speed, rtol=1e-15, atol=0)
+        assert np.allclose(log.slip_after - log.slip_before, log.tangential_impulse, rtol=0, atol=1e-13)
+        assert not log.sticks.any()
+        assert np.allclose(log.tangential_impulse, -PAPER.mu * log.normal_impulse, rtol=0, atol=1e-13)
+
+    def test_slip_that_stops(self):
+        rotor = Jeffcott(PAPER.replace(mu=2.0, radius_ratio=0.5))
+        log = simulate(rotor, State(0.2, 3.0 + 1.0j), 20.0).contacts
+        assert log.sticks.any()
+        assert np.allclose(log.slip_after[log.sticks], 0.0, rtol=0, atol=1e-14)
+
+    def test_si_units(self, motion):
+        log = motion.contacts
+        columns = log.in_si(SCALES)
+        expected = {
+            "time": (log.time / 184.2, "s"),
+            "angle": (log.angle, "rad"),
+            "radial_speed": (log.radial_speed * 0.7e-3 * 184.2, "m/s"),
+            "angular_speed": (log.angular_speed * 184.2, "rad/s"),
+            "radial_speed_after": (log.radial_speed_after * 0.7e-3 * 184.2, "m/s"),
+            "angular_speed_after": (log.angular_speed_after * 184.2, "rad/s"),
+            "normal_impulse": (log.normal_impulse * 50.0 * 0.7e-3 * 184.2, "N s"),
+            "tangential_impulse": (log.tangential_impulse * 50.0 * 0.7e-3 * 184.2, "N s"),
+            "slip_before": (log.slip_before * 0.7e-3 * 184.2, "m/s"),
+            "slip_after": (log.slip_after * 0.7e-3 * 184.2, "m/s"),
+            "sticks": (log.sticks, "1"),
+            "contact_work": (log.contact_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
+            "drive_work": (log.drive_work * 50.0 * (0.7e-3 * 184.2) ** 2, "J"),
+        }
+        assert columns.keys() == expected.keys()
+        for name, (values, unit) in expected.items():
+            assert np.allclose(columns[name][0], values, rtol=1e-14, atol=0), name
+            assert columns[name][1] == unit, name
+
+    def test_dataset(self, motion):
+        log = motion.contacts
+        plain, si = log.to_dataset(), log.to_dataset(SCALES)
+        assert dict(plain.sizes) == {"impact": len(log)}
+        assert plain["time"].attrs == {"units": "1/Omega", "long_name": "time of impact"}
+        assert si["normal_impulse"].attrs["units"] == "N s"
+        assert plain["contact_work"].attrs["units"] == "m c_r^2 Omega^2"
+        for name in plain:
+            assert plain[name].attrs["long_name"]
+            assert np.array_equal(plain[name].values, getattr(log, name))
+
+    def test_an_empty_log(self):
+        motion = simulate(Jeffcott(PAPER.replace(gamma=0.3, rho=0.1)), kick(0.0), 5.0)
+        assert len(motion.contacts) == 0
+        assert motion.contacts.to_dataset().sizes["impact"] == 0
+        assert motion.sample(10).shape == (10,)
+
+    def test_works_follow_from_speeds_and_impulses_in_si_units(self, motion):
+        """Joules are newton seconds times metres per second, kilograms times its square."""
+        si = {name: values for name, (values, _) in motion.contacts.in_si(SCALES).items()}
+        radial, radial_after = si["radial_speed"], si["radial_speed_after"]
+        assert np.allclose(si["normal_impulse"], SCALES.mass * (radial - radial_after), rtol=1e-12, atol=0)
+        along = SCALES.clearance * (si["angular_speed_after"] - si["angular_speed"])
+        assert np.allclose(si["tangential_impulse"], SCALES.mass * along, rtol=1e-9, atol=0)
+        normal = -0.5 * si["normal_impulse"] * (radial + radial_after)
+        friction = 0.5 * si["tangential_impulse"] * (si["slip_before"] + si["slip_after"])
+        assert np.allclose(si["contact_work"], normal + friction, rtol=1e-12, atol=0)
+        surface = PAPER.radius_ratio * SCALES.velocity
+        assert np.allclose(si["drive_work"], -surface * si["tangential_impulse"], rtol=1e-12, atol=0)
+
+    @pytest.mark.parametrize("scales", [None, SCALES])
+    def test_a_dataset_keeps_its_units_in_a_file(self, motion, scales, tmp_path):
+        xarray = pytest.importorskip("xarray")
+        table = motion.contacts.to_dataset(scales)
+        table.to_netcdf(tmp_path / "contacts.nc", engine="h5netcdf")
+        with xarray.open_dataset(tmp_path / "contacts.nc", engine="h5netcdf", decode_times=False) as read:
+            assert set(read) == set(table)
+            for name in table:
+                assert np.array_equal(read[name].values.astype(table[name].dtype), table[name].values), name
+                assert read[name].attrs["units"] == table[name].attrs["units"]
+                assert read[name].attrs["long_name"] == table[name].attrs["long_name"]
+
+
+def test_polar_speeds_do_not_depend_on_the_angle():
+    angles = np.linspace(-3.0, 3.0, 7)
+    normals = np.exp(1j * angles)
+    angle, radial, angular = polar(normals, (0.4 - 1.3j) * normals)
+    assert np.allclose(angle, angles, rtol=0, atol=1e-15)
+    assert np.allclose(radial, 0.4, rtol=0, atol=1e-15)
+    assert np.allclose(angular, -1.3, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("phase", "kind"), [(Phase.FORWARD_SLIP, "slide"), (Phase.BACKWARD_SLIP, "slide"), (Phase.ROLLING, "roll")]
+)
+def test_kinds_of_lasting_contact(phase, kind):
+    assert LastingContact(phase, 1.0, 2.0).kind == kind
+
+
+# ------------------------------------------------------------------------------------------------ force histories
+
+
+def test_force_at_the_synchronous_rub_in_newtons():
+    """At rest in the co-rotating frame the wall carries ``N``, and friction ``μN`` against the spin."""
+    rotor = Jeffcott(PAPER)
+    rub = next(entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable)
+    resting = simulate(rotor, State(rub.position), 20.0)
+    normal, friction = resting.forces(np.linspace(0.0, 20.0, 50))
+    assert np.allclose(normal, rub.normal_force, rtol=1e-9, atol=0)
+    assert np.allclose(friction, -PAPER.mu * rub.normal_force, rtol=1e-9, atol=0)
+    # ρ sin x + μρ cos x = −γ − μ(1 − ω²) and N = ρ cos x + 1 − ω², by hand.
+    kappa = 1.0 - PAPER.omega**2
+    x = math.asin(-(PAPER.gamma + PAPER.mu * kappa) / (PAPER.rho * math.hypot(1.0, PAPER.mu))) - math.atan(PAPER.mu)
+    newtons = SCALES.mass * SCALES.clearance * SCALES.speed**2 * (PAPER.rho * math.cos(x) + kappa)
+    assert SCALES.force * normal[0] == pytest.approx(newtons, rel=1e-9)
+
+
+@pytest.mark.jit_only
+def test_a_history_holds_forces_slip_and_powers_in_contact_only():
+    parameters = PAPER.replace(gamma=0.2, d=0.5)
+    motion = simulate(Jeffcott(parameters), START, 40.0)
+    history = motion.history()
+    touching = history.phase != Phase.FLIGHT
+    assert np.array_equal(history.time, motion.sample())
+    assert touching.any()
+    assert not touching.all()
+    normal, friction = motion.forces(history.time)
+    position, velocity = motion.at(history.time)
+    assert np.array_equal(history.normal_force, normal)
+    assert np.array_equal(history.friction_force, friction)
+    assert np.allclose(history.angle, np.angle(position), rtol=0, atol=1e-15)
+    assert np.all(history.gap >= -1e-12)
+    assert np.all(np.abs(history.gap[touching]) <= 1e-12)
+    assert np.allclose(
+        history.slip[touching], parameters.radius_ratio + 1.0 + (position.conj() * velocity).imag[touching]
+    )
+    for values in (
+        history.normal_force,
+        history.friction_force,
+        history.slip,
+        history.friction_power,
+        history.drive_power,
+    ):
+        assert not values[~touching].any()
+        assert values[touching].all()
+    assert np.all(history.friction_power[touching] < 0.0)
+
+
+def test_powers_of_a_history_sum_to_the_works_of_the_ledger():
+    """Sliding at the synchronous rub, where both are steady: ``−μN(s + 1)`` lost as heat and ``μNs`` from the drive."""
+    rotor = Jeffcott(PAPER)
+    rub = next(entry for entry in find_equilibria(rotor) if entry.kind == "rub" and entry.stable)
+    resting = simulate(rotor, State(rub.position), 20.0)
+    history, ledger = resting.history(np.linspace(0.0, 20.0, 11)), energy_ledger(resting)
+    for power, work, slip in (
+        (history.friction_power, ledger.friction, -PAPER.radius_ratio - 1.0),
+        (history.drive_power, ledger.drive, PAPER.radius_ratio),
+    ):
+        assert np.allclose(power, PAPER.mu * rub.normal_force * slip, rtol=1e-9, atol=0)
+        assert work[-1] == pytest.approx(20.0 * power[0], rel=1e-9)
+    si = history.in_si(SCALES)
+    watts = si["friction_force"][0] * si["slip"][0]
+    assert np.allclose(si["friction_power"][0], watts, rtol=1e-12, atol=0)
+    assert [si[name][1] for name in ("normal_force", "slip", "friction_power", "gap", "time")] == [
+        "N",
+        "m/s",
+        "W",
+        "m",
+        "s",
+    ]
+
+
+@pytest.mark.parametrize("scales", [None, SCALES])
+def test_a_history_goes_to_a_file(scales, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    motion = simulate(Jeffcott(PAPER.replace(gamma=0.2, d=0.5)), START, 40.0)
+    table = motion.history(np.linspace(0.0, 40.0, 300)).to_dataset(scales)
+    table.to_netcdf(tmp_path / "history.nc", engine="h5netcdf")
+    with xarray.open_dataset(tmp_path / "history.nc", engine="h5netcdf", decode_times=False) as read:
+        assert read["phase"].attrs["flag_meanings"] == "flight forward_slip backward_slip rolling"
+        assert read["phase"].attrs["flag_values"].tolist() == [0, 1, 2, 3]
+        assert read["normal_force"].attrs["units"] == ("N" if scales else "m c_r Omega^2")
+        assert np.array_equal(read["normal_force"].values, table["normal_force"].values)
+        assert np.array_equal(read["time"].values, table["time"].values)
+
+
+@pytest.mark.jit_only
+def test_impulses_and_forces_add_up_to_the_change_of_momentum():
+    """Over a touchdown with bounces, sliding and flight: ``U̇`` integrates all forces, those of the wall among them.
+
+    ``d/dt (U̇ + 2iU) = −γU̇ − (ω² − 1 + iγ)U + ρe^{iφ}`` plus the contact force ``(−N + iF)e^{iθ}`` and impulses.
+    """
+    parameters = PAPER.replace(gamma=0.2, d=0.5)
+    motion = simulate(Jeffcott(parameters), START, 40.0)
+    assert motion.lasting_contacts
+    assert len(motion.contacts) > 5
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    edges = np.unique(np.concatenate([motion.segment_starts, np.linspace(0.0, 40.0, 400)]))
+    half = 0.5 * np.diff(edges)
+    times = (edges[:-1] + half)[:, None] + half[:, None] * nodes
+    position, velocity = motion.at(times)
+    normal, friction = motion.forces(times)
+    stiffness = complex(parameters.omega**2 - 1.0, parameters.gamma)
+    force = cmath.rect(parameters.rho, parameters.phi) - parameters.gamma * velocity - stiffness * position
+    force += (-normal + 1j * friction) * position
+    supplied = (half[:, None] * weights * force).sum()
+    for events in (motion.is_impact, motion.is_landing):
+        log = motion.log_of(events)
+        supplied += ((-log.normal_impulse + 1j * log.tangential_impulse) * np.exp(1j * log.angle)).sum()
+    change = motion.final.velocity - START.velocity + 2j * (motion.final.position - START.position)
+    assert change == pytest.approx(complex(supplied), abs=1e-12)
+
+
+# ------------------------------------------------------------------------------------------------ at every instant
+
+
+@st.composite
+def rubbing(draw, phase: Phase):
+    """A machine and a start that goes on in this phase: pressed, and slipping this way or rolling."""
+    ratio = draw(st.floats(3.7, 60.0))
+    parameters = Parameters(
+        gamma=draw(st.one_of(st.just(0.0), st.floats(1e-3, 3.0))),
+        # Not at resonance, where positions are summed from large terms.
+        omega=draw(st.one_of(st.floats(0.2, 0.9), st.floats(1.1, 2.5))),
+        rho=draw(st.one_of(st.just(0.0), st.floats(1e-3, 1.2))),
+        phi=draw(st.floats(-math.pi, math.pi)),
+        mu=draw(st.floats(1e-3, 1.0) if phase is not Phase.ROLLING else st.floats(0.5, 2.0)),
+        d=draw(st.floats(0.0, 0.99)),
+        radius_ratio=ratio,
+    )
+    # |W| above √(ω² + ρ) presses at every angle.
+    fast = math.sqrt(parameters.omega**2 + parameters.rho) + draw(st.floats(0.01, 3.0))
+    whirl = {Phase.FORWARD_SLIP: fast, Phase.BACKWARD_SLIP: -ratio - draw(st.floats(0.01, 5.0)), Phase.ROLLING: -ratio}
+    position = cmath.rect(1.0, draw(st.floats(-math.pi, math.pi)))
+    return parameters, State(position, 1j * (whirl[phase] - 1.0) * position)
+
+
+def check_every_instant(motion: Trajectory) -> None:
+    """Contact presses, friction stays in its cone and never pushes with the slip, and the rotor neither leaves nor enters."""
+    parameters = motion.rotor.parameters
+    for stretch in motion.lasting_contacts:
+        times = np.linspace(stretch.start, stretch.end, INSTANTS, endpoint=False)
+        normal, friction = motion.forces(times)
+        position, velocity = motion.at(times)
+        local = position.conj() * velocity
+        slip = parameters.radius_ratio + 1.0 + local.imag
+        speed = 1.0 + np.abs(velocity)
+        # Forces are sums of terms of the size of the accelerations; a time is known to a spacing of doubles.
+        rounding = (64 * EPSILON + 4 * np.spacing(stretch.end) * speed) * (
+            speed**2 + parameters.omega**2 + parameters.rho
+        )
+        assert np.abs(np.abs(position) - 1.0).max() <= 1e-12
+        assert np.all(np.abs(local.real) <= 64 * EPSILON * speed)
+        assert np.all(normal >= -rounding)
+        assert np.all(np.abs(friction) <= parameters.mu * normal * (1.0 + 4 * EPSILON) + rounding)
+        # The slip is a sum of speeds: at the ends of a stretch it is zero to their rounding.
+        slip_rounding = 64 * EPSILON * speed
+        assert np.all(friction * slip <= rounding * np.abs(slip) + np.abs(friction) * slip_rounding)
+        if stretch.phase is Phase.ROLLING:
+            assert np.all(np.abs(slip) <= slip_rounding)
+        else:
+            direction = 1.0 if stretch.phase is Phase.FORWARD_SLIP else -1.0
+            assert np.all(direction * slip >= -slip_rounding - rounding)
+            assert np.all(np.abs(friction + direction * parameters.mu * normal) <= rounding)
+
+
+@pytest.mark.parametrize("phase", [Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING])
+@MANY
+@given(data=st.data())
+def test_the_law_of_contact_holds_at_every_instant(phase, data):
+    parameters, start = data.draw(rubbing(phase))
+    motion = simulate(Jeffcott(parameters), start, 8.0, max_events=EVENTS)
+    first = motion.lasting_contacts[0]
+    assert first.start == 0.0
+    if phase is not Phase.ROLLING:
+        assert first.phase is phase
+    check_every_instant(motion)

@@ -1,0 +1,175 @@
+"""Many motions in one call end as each does alone, whatever the threads."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from compilation import COMPILED
+
+import carom
+from carom.motions.ensembles import Endings, settle_all
+from carom.outcome import InputError, Outcome
+
+SAME = ("outcomes", "times", "impacts", "multiplicities", "positions", "velocities")
+
+
+MANY = 40 if COMPILED else 4
+
+
+def starts(count: int, seed: int = 3) -> tuple[np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    positions = np.sqrt(rng.uniform(0, 1, count)) * np.exp(2j * np.pi * rng.uniform(0, 1, count))
+    positions[::7] /= np.abs(positions[::7])
+    velocities = 2 * np.sqrt(rng.uniform(0, 1, count)) * np.exp(2j * np.pi * rng.uniform(0, 1, count))
+    return positions, velocities
+
+
+def assert_same(first: Endings, second: Endings) -> None:
+    for name in SAME:
+        np.testing.assert_array_equal(getattr(first, name), getattr(second, name), err_msg=name)
+
+
+@pytest.fixture
+def machine() -> carom.Parameters:
+    return carom.Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+
+@pytest.mark.jit_only
+def test_impacts_of_motions_that_come_to_levitate_are_counted(machine):
+    """Also those since a lane was last looked at."""
+    rotor = carom.Jeffcott(machine.replace(rho=0.2))
+    positions, velocities = starts(100)
+    together = settle_all(rotor, positions, velocities)
+    levitated = np.flatnonzero(together.outcomes == Outcome.LEVITATED)
+    assert (together.impacts[levitated] > 1).sum() > 5
+    for place in levitated:
+        alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 2e5, settle=True)
+        assert together.impacts[place] == len(alone.contacts)
+
+
+@pytest.mark.parametrize("until", [1e-3, 1.0, 2.9, 3.1, 50.0])
+def test_what_levitates_is_known_to_however_short_the_time(machine, until):
+    rotor = carom.Jeffcott(machine)
+    at_rest = carom.State(rotor.equilibrium, 0j)
+    alone = carom.simulate(rotor, at_rest, until, settle=True)
+    together = settle_all(rotor, at_rest.position, at_rest.velocity, until=until)
+    assert together.outcomes == alone.outcome == Outcome.LEVITATED
+
+
+def test_speeds_that_overflow_are_refused(machine):
+    rotor = carom.Jeffcott(machine)
+    with pytest.raises(carom.InputError, match=r"^start velocity.*1e\+100"):
+        settle_all(rotor, [0.0, 0.1], [1.0, 1e120j])
+    with pytest.raises(carom.InputError, match=r"^start velocity.*1e\+100"):
+        carom.simulate(rotor, carom.State(0.0, 1e120), 1.0)
+    assert settle_all(rotor, 0.1, 1e99).outcomes not in (Outcome.LEVITATED, Outcome.TIME_REACHED)
+
+
+@pytest.mark.jit_only
+def test_each_ends_as_it_does_alone(machine):
+    rotor = carom.Jeffcott(machine)
+    positions, velocities = starts(24 if COMPILED else 2)
+    together = settle_all(rotor, positions, velocities)
+    for place in range(len(positions)):
+        alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 2e5, settle=True)
+        assert together.outcomes[place] == alone.outcome
+        assert together.multiplicities[place] == alone.multiplicity
+        # The last digits differ, and with them by how many impacts a state has come near to itself.
+        recurs = alone.outcome in (Outcome.BOUNCING, Outcome.MIXED)
+        assert together.impacts[place] == pytest.approx(len(alone.contacts), abs=3 if recurs else 0)
+    assert len(np.unique(together.outcomes)) == 3 or not COMPILED
+
+
+@pytest.mark.parametrize("restitution", [0.95, 0.5, 0.0])
+def test_each_moves_as_it_does_alone(machine, restitution):
+    rotor = carom.Jeffcott(machine.replace(d=restitution))
+    positions, velocities = starts(MANY)
+    together = settle_all(rotor, positions, velocities, until=20.0, settle=False)
+    for place in range(len(positions)):
+        alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 20.0)
+        assert together.outcomes[place] == alone.outcome == Outcome.TIME_REACHED
+        assert together.impacts[place] == len(alone.contacts)
+        assert together.positions[place] == pytest.approx(alone.final.position, abs=1e-9)
+        assert together.velocities[place] == pytest.approx(alone.final.velocity, abs=1e-9)
+
+
+def test_threads_and_company_change_nothing(machine):
+    rotor = carom.Jeffcott(machine)
+    positions, velocities = starts(MANY)
+    one = settle_all(rotor, positions, velocities, threads=1)
+    assert_same(one, settle_all(rotor, positions, velocities, threads=3))
+    half = settle_all(rotor, positions[::2], velocities[::2])
+    for name in SAME:
+        np.testing.assert_array_equal(getattr(one, name)[::2], getattr(half, name), err_msg=name)
+
+
+@pytest.mark.jit_only
+def test_starts_may_have_machines_of_their_own(machine):
+    rotors = [carom.Jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
+    positions, velocities = starts(MANY)
+    which = np.arange(MANY) % 3
+    mixed = settle_all(rotors, positions, velocities, which=which)
+    for number, rotor in enumerate(rotors):
+        alone = settle_all(rotor, positions[which == number], velocities[which == number])
+        for name in SAME:
+            np.testing.assert_array_equal(getattr(mixed, name)[which == number], getattr(alone, name), err_msg=name)
+
+
+def test_arrays_keep_their_shape(machine):
+    endings = settle_all(carom.Jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
+    assert endings.outcomes.shape == endings.velocities.shape == (2, 3)
+    assert endings.count(Outcome.LEVITATED) == endings.recovered.sum()
+
+
+@pytest.mark.parametrize("shape", [(0,), (0, 3), (3, 0)])
+@pytest.mark.parametrize("threads", [1, 3, None])
+def test_no_start_is_no_ending(machine, shape, threads):
+    none = np.empty(shape)
+    several = [carom.Jeffcott(machine), carom.Jeffcott(machine.replace(gamma=0.4))]
+    for endings in (
+        settle_all(several[0], none, 0.1j, threads=threads),
+        settle_all(several, none, none, which=none, threads=threads),
+        settle_all(several, none, none, which=np.empty(shape, np.int32), threads=threads),
+        settle_all([], none, none, which=none, threads=threads),
+    ):
+        assert [getattr(endings, name).shape for name in SAME] == [shape] * len(SAME)
+        assert endings.outcomes.dtype == np.int8
+        assert endings.recovered.shape == shape
+        assert endings.count(Outcome.LEVITATED) == 0
+
+
+def test_without_settling_motions_reach_the_time(machine):
+    endings = settle_all(carom.Jeffcott(machine), *starts(8), until=5.0, settle=False)
+    assert (endings.outcomes == Outcome.TIME_REACHED).all()
+    np.testing.assert_array_equal(endings.times, 5.0)
+
+
+def test_progress_ends_at_one(machine):
+    told: list[float] = []
+    settle_all(carom.Jeffcott(machine), *starts(8), until=5.0, progress=told.append)
+    assert told[-1] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"positions": [0.1, 1.5]}, "start position = .*inside the wall"),
+        ({"positions": [0.1, np.nan]}, "start position = .*finite"),
+        ({"velocities": [np.inf, 0.0]}, "start velocity = .*finite"),
+        ({"until": -1.0}, "until = -1.0"),
+        ({"max_events": 0}, "max_events = 0"),
+        ({"max_events": 2.5}, "max_events = 2.5"),
+        ({"patience": 0}, "patience = 0"),
+        ({"threads": 0}, "threads = 0"),
+        ({"which": [0, 0]}, "which = "),
+    ],
+)
+def test_bad_input_is_named(machine, changes, words):
+    arguments = {"positions": [0.1, 0.2], "velocities": [0.0, 0.0], **changes}
+    with pytest.raises(InputError, match=words):
+        settle_all(carom.Jeffcott(machine), **arguments)
+
+
+def test_a_start_needs_a_machine_that_exists(machine):
+    with pytest.raises(InputError, match="whole numbers from 0 to 0"):
+        settle_all([carom.Jeffcott(machine)], [0.1], [0.0], which=np.array([1]))

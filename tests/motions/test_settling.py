@@ -1,0 +1,142 @@
+"""Motions of ensembles end where their end is proven, and nothing else changes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from machines import PAPER
+from sliding_motions import ahead_of, assert_slides_to_the_rub
+
+import carom
+from carom.basins.motions import name_motions
+from carom.closed_forms.absorbing import rub_neighbourhood
+from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.core.fate import absorbed
+from carom.motions.ensembles import settle_all
+from carom.motions.settling import fresh_memory
+from carom.motions.trajectories import State, simulate
+from carom.outcome import Outcome
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_kernel_knows_the_same_states(seed):
+    """All round the wall, and up to the level but for rounding."""
+    rng = np.random.default_rng(seed)
+    machine = PAPER.replace(
+        gamma=float(rng.uniform(0.02, 0.3)),
+        mu=float(rng.choice([0.0, rng.uniform(0.0, 0.5)])),
+        rho=float(rng.uniform(0.5, 1.2)),
+        phi=float(rng.uniform(-3.0, 3.0)),
+    )
+    rotor = carom.Jeffcott(machine)
+    found, recollection = rub_neighbourhood(rotor), fresh_memory(rotor, 1, absorb=True)
+    angles, rates = rng.uniform(-math.pi, math.pi, 5000), rng.uniform(-1.0, 1.0, 5000)
+    # Some to within a few parts in a million of the level, to both sides.
+    share = np.sqrt(found.level / found.value(angles[2500:], rates[2500:]))
+    rates[2500:] *= share * (1.0 + rng.uniform(-3e-6, 3e-6, 2500))
+    known = [absorbed(recollection, np.exp(1j * angle), rate) for angle, rate in zip(angles, rates, strict=True)]
+    values = found.value(angles, rates)
+    clear = np.abs(values / found.level - 1.0) > 1e-8
+    assert clear.mean() > 0.9
+    np.testing.assert_array_equal(np.array(known)[clear], (values < found.level)[clear])
+    assert found.contains(angles[known], rates[known]).all()
+    assert not absorbed(fresh_memory(rotor, 1), np.exp(1j * found.angle), 0.0)
+
+
+@pytest.fixture(params=[0.2, 0.3])
+def rotor(request):
+    return carom.Jeffcott(PAPER.replace(gamma=request.param))
+
+
+def sliding(found, times_level, seed):
+    """Sliding states of a multiple of the level."""
+    rng = np.random.default_rng(seed)
+    angles = found.angle + rng.uniform(-0.3, 0.3, 200)
+    room = 2.0 * (times_level * found.level - found.value(angles, np.zeros(200)))
+    angles, room = angles[room > 0.0], room[room > 0.0]
+    ahead = np.array(ahead_of(found, angles))
+    rates = np.sqrt(room * np.exp(-2.0 * found.friction * ahead)) * rng.choice([-1.0, 1.0], len(room))
+    positions = np.exp(1j * angles)
+    return positions, 1j * rates * positions
+
+
+def test_an_ensemble_ends_a_motion_inside_at_once_and_outside_later(rotor):
+    found = rub_neighbourhood(rotor)
+    for times_level, at_once in ((0.999, True), (1.001, False)):
+        starts = sliding(found, times_level, seed=5)
+        assert len(starts[0]) > 50
+        endings = settle_all(rotor, *starts)
+        np.testing.assert_array_equal(endings.times == 0.0, at_once)
+        if at_once:
+            assert (endings.outcomes == Outcome.FORWARD_RUB).all()
+            np.testing.assert_allclose(endings.positions, starts[0], atol=1e-15)
+            np.testing.assert_allclose(endings.velocities, starts[1], atol=1e-15)
+
+
+def settled_both_ways(rotor, count, seed, monkeypatch):
+    """Endings with proofs and without: they differ in nothing but when and where they were known."""
+    rng = np.random.default_rng(seed)
+    turns = np.exp(2j * np.pi * rng.uniform(0.0, 1.0, (2, count)))
+    starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
+    proven = settle_all(rotor, *starts)
+    monkeypatch.setattr(
+        "carom.motions.ensembles.fresh_memory", lambda rotor, patience, absorb: fresh_memory(rotor, patience)
+    )
+    followed = settle_all(rotor, *starts)
+    for name in ("outcomes", "impacts", "multiplicities"):
+        np.testing.assert_array_equal(getattr(proven, name), getattr(followed, name), err_msg=name)
+    return proven, followed
+
+
+def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch):
+    proven, followed = settled_both_ways(rotor, 400, 11, monkeypatch)
+    rubs = proven.outcomes == Outcome.FORWARD_RUB
+    assert rubs.sum() > 300
+    assert (proven.times[rubs] < followed.times[rubs]).all()
+    rolls = proven.outcomes == Outcome.ROLLING
+    assert (proven.times[rolls] < followed.times[rolls]).all()
+    others = ~(rubs | rolls)
+    np.testing.assert_array_equal(proven.times[others], followed.times[others])
+    names = [name_motions(rotor, endings.outcomes, endings) for endings in (proven, followed)]
+    np.testing.assert_array_equal(names[0][0], names[1][0])
+    assert names[0][1] == names[1][1]
+    assert "synchronous rub" in names[0][1]
+    found = rub_neighbourhood(rotor)
+    for place in np.flatnonzero(rubs)[:30]:
+        assert_slides_to_the_rub(rotor, found, State(proven.positions[place], proven.velocities[place]))
+
+
+def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
+    endings = settle_all(rotor, *sliding(rub_neighbourhood(rotor), 0.9, seed=6))
+    endings.velocities[0] = 0.9j * endings.positions[0]
+    named, names = name_motions(rotor, endings.outcomes, endings)
+    assert [names[index] for index in named[:3]] == ["drifting rub", "synchronous rub", "synchronous rub"]
+
+
+@pytest.mark.parametrize("gamma", [0.05, 0.1])
+def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkeypatch):
+    rotor, count = carom.Jeffcott(PAPER.replace(gamma=gamma)), 600
+    proven, followed = settled_both_ways(rotor, count, 12, monkeypatch)
+    rolls = np.flatnonzero(proven.outcomes == Outcome.ROLLING)
+    assert len(rolls) > 0.05 * count
+    assert (proven.times[rolls] < followed.times[rolls]).all()
+    whirl = -1.0 - (proven.positions.conjugate() * proven.velocities)[rolls].imag
+    assert (whirl > runaway_speed(rotor).certain).all()
+    for place in rolls[:10]:
+        state = State(proven.positions[place], proven.velocities[place])
+        onward = simulate(rotor, state, 1e4, settle=True)
+        assert onward.outcome is Outcome.ROLLING
+        assert not len(onward.contacts)
+
+
+def test_no_runaway_where_rolling_does_not_hold():
+    machine = PAPER.replace(gamma=1.05 * rolling(carom.Jeffcott(PAPER)).largest_damping)
+    assert fresh_memory(carom.Jeffcott(machine), 1, absorb=True).runaway == math.inf
+    assert fresh_memory(carom.Jeffcott(PAPER), 1).runaway == math.inf
+    assert fresh_memory(carom.Jeffcott(PAPER), 1, absorb=True).runaway == pytest.approx(
+        runaway_speed(carom.Jeffcott(PAPER)).certain, rel=1e-8
+    )

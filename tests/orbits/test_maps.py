@@ -1,0 +1,308 @@
+"""Impact and stroboscopic maps against simulation, matrix exponentials, many digits and finite differences."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from compilation import sized
+from machines import PAPER, ExactMotion, fly, path, random_parameters, rest_position, strike
+
+from carom import (
+    InputError,
+    Outcome,
+    Parameters,
+    Section,
+    State,
+    find_equilibria,
+    find_orbits,
+    impact_map,
+    simulate,
+)
+from carom.models import Jeffcott
+from carom.orbits.maps import stroboscopic_map
+
+LONGEST = 60.0
+"""Of random flights: most that return do so earlier."""
+
+
+def random_section(random: np.random.Generator) -> Section:
+    return Section(float(random.uniform(-3, 3)), float(10 ** random.uniform(-1.5, 0.3)), float(random.normal()))
+
+
+def coordinates(section: Section) -> np.ndarray:
+    return np.array([section.angle, section.radial_speed, section.angular_speed])
+
+
+def turned(angle: float) -> float:
+    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+
+
+def rebound(parameters: Parameters, section: Section) -> tuple[complex, complex]:
+    radial, angular = strike(parameters, section.radial_speed, section.angular_speed)
+    position = cmath.rect(1.0, section.angle)
+    return position, complex(radial, angular) * position
+
+
+def test_section_and_state_are_the_same_thing():
+    random = np.random.default_rng(30)
+    for _ in range(20):
+        section = random_section(random)
+        state = section.state
+        assert abs(state.position) == pytest.approx(1.0, abs=1e-15)
+        back = Section.from_state(state.position, state.velocity)
+        np.testing.assert_allclose(coordinates(back), coordinates(section), atol=1e-14)
+        # dr/dt and dθ/dt by a short straight step.
+        step = 1e-7
+        moved = state.position + step * state.velocity
+        assert (abs(moved) - 1.0) / step == pytest.approx(section.radial_speed, abs=1e-5)
+        assert turned(cmath.phase(moved) - section.angle) / step == pytest.approx(section.angular_speed, abs=1e-5)
+
+
+# ------------------------------------------------------------------------------------------------- impact map
+
+
+def test_image_agrees_with_matrix_exponential_and_is_the_first_arrival():
+    random = np.random.default_rng(31)
+    outcomes = []
+    count = sized(70, 70, 200)
+    for _ in range(count):
+        parameters = random_parameters(random)
+        rotor = Jeffcott(parameters)
+        section = random_section(random)
+        mapped = impact_map(rotor, section, LONGEST)
+        outcomes.append(mapped.outcome)
+        if mapped.outcome is not Outcome.CONTACT:
+            assert mapped.image is None
+            assert mapped.jacobian is None
+            continue
+        position, velocity = rebound(parameters, section)
+        end, speed = fly(parameters, position, velocity, mapped.duration)
+        image = mapped.image.state
+        size = 1.0 + abs(velocity) + abs(rest_position(parameters))
+        # The time of a slow arrival is less certain than the place.
+        assert abs(end - image.position) < 1e-10 * size
+        assert abs(speed - image.velocity) < 1e-10 * size
+        assert mapped.image.radial_speed > 0.0
+        if abs(parameters.gamma / parameters.omega - 2.0) > 1e-3 and parameters.d > 0.0:
+            times = np.linspace(0.0, mapped.duration, 1000)[1:-1]
+            assert (np.abs(path(parameters, position, velocity, times)) < 1.0 + 1e-10).all()
+    assert outcomes.count(Outcome.CONTACT) > 0.3 * count
+    assert outcomes.count(Outcome.CLEAR) > 0.1 * count
+
+
+def test_image_agrees_with_simulation():
+    random = np.random.default_rng(32)
+    for _ in range(40):
+        parameters = random_parameters(random, d=float(random.uniform(0.3, 1.0)))
+        rotor = Jeffcott(parameters)
+        section = random_section(random)
+        mapped = impact_map(rotor, section, LONGEST)
+        if mapped.outcome is not Outcome.CONTACT:
+            continue
+        # A start on the wall with outward speed strikes at once.
+        contacts = simulate(rotor, section.state, mapped.duration * 1.001).contacts
+        np.testing.assert_allclose(contacts.time[:2], [0.0, mapped.duration], rtol=1e-12)
+        found = [contacts.angle[1], contacts.radial_speed[1], contacts.angular_speed[1]]
+        np.testing.assert_allclose(found, coordinates(mapped.image), atol=1e-12)
+
+
+def test_jacobian_agrees_with_many_digits():
+    random = np.random.default_rng(33)
+    compared = 0
+    with mpmath.workdps(40):
+        for _ in range(80):
+            parameters = random_parameters(random, radius_ratio=50.0)
+            section = random_section(random)
+            mapped = impact_map(Jeffcott(parameters), section, LONGEST)
+            if mapped.outcome is not Outcome.CONTACT or parameters.gamma == 2.0 * parameters.omega:
+                continue
+            exact = ExactMotion(parameters).jacobian(tuple(coordinates(section)), 1, mapped.duration)
+            # What rounding does to the arrival is magnified by one over its speed.
+            size = np.abs(exact).max() * (1.0 + 1e-3 / mapped.image.radial_speed)
+            np.testing.assert_allclose(mapped.jacobian, exact, rtol=0, atol=1e-10 * size)
+            compared += 1
+    assert compared > 25
+
+
+def differences(rotor, section: Section, step: float) -> np.ndarray:
+    """Central differences of the map, extrapolated to the fourth order."""
+
+    def image(point: np.ndarray) -> np.ndarray:
+        return coordinates(impact_map(rotor, Section(*point)).image)
+
+    def central(move: float) -> np.ndarray:
+        at = coordinates(section)
+        columns = []
+        for direction in move * np.eye(3):
+            change = image(at + direction) - image(at - direction)
+            change[0] = turned(change[0])
+            columns.append(change / (2.0 * move))
+        return np.array(columns).T
+
+    return (4.0 * central(step / 2) - central(step)) / 3.0
+
+
+@pytest.mark.parametrize(("ratio", "sticks"), [(57.0, False), (0.3, True)])
+def test_jacobian_agrees_with_differences(ratio, sticks):
+    """On both sides of the slip limit: with a small rough rotor friction stops the slip."""
+    random = np.random.default_rng(34)
+    compared = 0
+    count = sized(75, 75, 150)
+    for _ in range(count):
+        parameters = random_parameters(random, radius_ratio=ratio, gamma=0.1, mu=1.0, d=float(random.uniform(0.2, 1.0)))
+        rotor = Jeffcott(parameters)
+        section = random_section(random)
+        mapped = impact_map(rotor, section, LONGEST)
+        grip = parameters.mu * (1.0 + parameters.d) * section.radial_speed
+        slip = abs(ratio + 1.0 + section.angular_speed)
+        if mapped.outcome is not Outcome.CONTACT or mapped.image.radial_speed < 0.1:
+            continue
+        if (grip > slip) != sticks or abs(grip - slip) < 0.02 or section.radial_speed < 0.05:
+            continue
+        jacobian = differences(rotor, section, 1e-3)
+        np.testing.assert_allclose(mapped.jacobian, jacobian, rtol=0, atol=1e-5 * (1.0 + np.abs(jacobian).max()))
+        if sticks:
+            # All slips end alike: nothing remembers the angular speed.
+            np.testing.assert_allclose(mapped.jacobian[:, 2], 0.0, atol=1e-14)
+        compared += 1
+    assert compared > 0.1 * count
+
+
+def test_never_to_return():
+    """Strong damping, and an impact on the side from which all forces point inward."""
+    mapped = impact_map(Jeffcott(PAPER.replace(gamma=1.0)), Section(PAPER.phi + math.pi, 0.1, 0.0))
+    assert mapped.outcome is Outcome.CLEAR
+    assert mapped.image is None
+    assert mapped.duration == 1000.0
+
+
+def test_longest_flight():
+    rotor = Jeffcott(PAPER)
+    section = find_orbits(rotor)["B1,d"].section
+    assert impact_map(rotor, section, longest_flight=2.8).outcome is Outcome.CLEAR
+    assert impact_map(rotor, section, longest_flight=2.9).outcome is Outcome.CONTACT
+
+
+def test_chatter():
+    """Pressed outward, the smallest bounces do not count one by one."""
+    parameters = PAPER.replace(gamma=0.05, d=0.5)
+    rotor = Jeffcott(parameters)
+    rub = find_equilibria(rotor)[1]
+    assert rub.status == "admissible"
+    assert impact_map(rotor, Section(rub.angle, 1e-9, 0.0)).outcome is Outcome.CHATTER
+    assert impact_map(rotor, Section(rub.angle, 1e-3, 0.0)).outcome is Outcome.CONTACT
+
+
+def test_between_hit_and_miss_lies_grazing():
+    """A flight that touches the wall within rounding is said to graze; neighbours on either side hit there, or pass."""
+    parameters = PAPER.replace(gamma=0.06)
+    rotor = Jeffcott(parameters)
+
+    def flight(speed: float):
+        return impact_map(rotor, Section(0.4, 0.6, speed))
+
+    # Bisect on the time of arrival, which jumps where the first of two maxima of r leaves the wall.
+    low, high = grazing_bracket(flight)
+    outcomes = [flight(float(speed)).outcome for speed in np.linspace(low, high, 60)]
+    assert Outcome.GRAZING in outcomes
+    before, after = flight(low - 1e-9), flight(high + 1e-9)
+    assert {before.outcome, after.outcome} == {Outcome.CONTACT}
+    assert abs(before.duration - after.duration) > 0.1
+    early = min(before, after, key=lambda mapped: mapped.duration)
+    assert early.image.radial_speed < 1e-3
+
+
+def grazing_bracket(flight) -> tuple[float, float]:
+    speeds = np.linspace(-3.0, 1.0, 400)
+    durations = np.array([flight(float(speed)).duration for speed in speeds])
+    jump = int(np.argmax(np.abs(np.diff(durations))))
+    low, high = float(speeds[jump]), float(speeds[jump + 1])
+    first = flight(low).duration
+    while high - low > 4e-15:
+        middle = 0.5 * (low + high)
+        if abs(flight(middle).duration - first) < 0.05 + 0.5 * abs(durations[jump + 1] - durations[jump]):
+            low = middle
+        else:
+            high = middle
+    return low - 1e-14, high + 1e-14
+
+
+@pytest.mark.parametrize("speed", [0.0, -0.1, math.nan])
+def test_only_a_rotor_that_meets_the_wall_is_mapped(speed):
+    with pytest.raises(InputError, match=r"radial speed = .*above 0"):
+        impact_map(Jeffcott(PAPER), Section(0.0, speed, 0.0))
+
+
+# -------------------------------------------------------------------------------------------- stroboscopic map
+
+
+def final_state(rotor, state: np.ndarray, period: float) -> np.ndarray:
+    end = simulate(rotor, State(complex(state[0], state[1]), complex(state[2], state[3])), period).final
+    return np.array([end.position.real, end.position.imag, end.velocity.real, end.velocity.imag])
+
+
+def state_differences(rotor, start: State, period: float, step: float) -> np.ndarray:
+    at = np.array([start.position.real, start.position.imag, start.velocity.real, start.velocity.imag])
+
+    def central(move: float) -> np.ndarray:
+        ends = [final_state(rotor, at + way, period) - final_state(rotor, at - way, period) for way in move * np.eye(4)]
+        return np.array(ends).T / (2.0 * move)
+
+    return (4.0 * central(step / 2) - central(step)) / 3.0
+
+
+@pytest.mark.parametrize(
+    ("period", "impacts"), [(0.5, 0), (3.0, 1), (20.0, 10)], ids=["no impact", "one impact", "many impacts"]
+)
+def test_stroboscopic_jacobian_agrees_with_differences(period, impacts):
+    rotor = Jeffcott(PAPER)
+    start = State(0.3 + 0.1j, 0.5 - 0.2j)
+    mapped = stroboscopic_map(rotor, start, period)
+    assert len(mapped.trajectory.contacts) == impacts
+    assert mapped.trajectory.outcome is Outcome.TIME_REACHED
+    jacobian = state_differences(rotor, start, period, 1e-4)
+    np.testing.assert_allclose(mapped.jacobian, jacobian, atol=1e-6 * np.abs(jacobian).max())
+
+
+def test_stroboscopic_jacobian_through_stopped_slip():
+    parameters = PAPER.replace(radius_ratio=0.3, mu=1.0)
+    rotor = Jeffcott(parameters)
+    start = State(0.3 + 0.1j, 0.9 - 0.2j)
+    mapped = stroboscopic_map(rotor, start, 10.0)
+    assert mapped.trajectory.contacts.sticks.any()
+    jacobian = state_differences(rotor, start, 10.0, 1e-4)
+    np.testing.assert_allclose(mapped.jacobian, jacobian, atol=1e-6 * (1.0 + np.abs(jacobian).max()))
+
+
+def test_stroboscopic_jacobian_of_free_flight_is_the_matrix_exponential():
+    mapped = stroboscopic_map(Jeffcott(PAPER), State(0.1j, 0.05 + 0j), 0.7)
+    columns = []
+    for unit in ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j)):
+        end, speed = fly(PAPER.replace(rho=0.0), *unit, 0.7)
+        columns.append([end.real, end.imag, speed.real, speed.imag])
+    np.testing.assert_allclose(mapped.jacobian, np.array(columns).T, atol=1e-13)
+
+
+@pytest.mark.parametrize("name", ["B1,a", "B1,b", "B1,c", "B1,d"])
+@pytest.mark.parametrize("share", [0.2, 0.7])
+def test_over_a_period_the_eigenvalues_are_the_multipliers_and_one(name, share):
+    """One for a shift along the orbit; wherever on the orbit one starts."""
+    rotor = Jeffcott(PAPER)
+    orbit = find_orbits(rotor)[name]
+    motion = orbit.trajectory(1.0)
+    position, velocity = motion.at(np.array([share * orbit.period]))
+    mapped = stroboscopic_map(rotor, State(complex(position[0]), complex(velocity[0])), orbit.period)
+    assert len(mapped.trajectory.contacts) == 1
+    found, expected = np.poly(mapped.jacobian), np.poly([1.0, *orbit.multipliers.values])
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * np.abs(expected).max() / orbit.radial_speed)
+
+
+def test_stroboscopic_map_stops_at_chatter():
+    parameters = PAPER.replace(gamma=0.05, d=0.5)
+    mapped = stroboscopic_map(Jeffcott(parameters), State(0.5 + 0.0j, 0.1j), 500.0)
+    assert mapped.trajectory.outcome is Outcome.CHATTER
+    assert mapped.trajectory.time < 500.0

@@ -1,0 +1,388 @@
+"""A study as a whole: what it finds, and that its words promise nothing."""
+
+import dataclasses
+import json
+import math
+
+import pytest
+from studies import study_once
+
+from carom.outcome import InputError, Outcome
+from carom.parameters import Case, Machine, Parameters, Scales, Zones
+from carom.studies import NOT_COVERED, as_json, free_spans, study
+from carom.studies.summaries import kick_rows, machine_rows, motion_rows, range_rows, threshold_rows
+
+SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+QUIET = SOURCE.replace(gamma=0.5, mu=0.0)
+"""Damped enough that no rub and no bounce is left, with too little friction to roll."""
+REAL = Machine(
+    mass="50 kg",
+    damping="1400 N s/m",
+    stiffness="9.8e5 N/m",
+    eccentricity="0.3 mm",
+    clearance="0.7 mm",
+    rotor_radius="40 mm",
+    speed="184.2 rad/s",
+    unbalance_phase="0.21 rad",
+    friction=0.15,
+    restitution=0.95,
+)
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.fixture(scope="module")
+def real():
+    return study_once(Case("real", REAL.parameters, REAL, Zones()))
+
+
+@pytest.fixture(scope="module")
+def quiet():
+    return study_once(QUIET)
+
+
+def finding(result, topic):
+    return next(entry.text for entry in result.verdict.findings if entry.topic == topic)
+
+
+# ------------------------------------------------------------------------------------------------ what is found
+
+
+def test_real_machine(real):
+    assert real.levitates
+    assert real.zone == "D"
+    assert [orbit.name for orbit in real.stable_orbits] == ["B1,d"]
+    values = {(entry.motion, entry.gain, entry.exists): entry.edge.value for entry in real.thresholds}
+    scales = REAL.scales
+    assert values["rub", "gamma", "below"] * scales.damping == pytest.approx(3408.0, abs=0.5)
+    assert values["single-impact", "gamma", "below"] * scales.damping == pytest.approx(1639.6, abs=0.1)
+    assert values["contact-free", "gamma", "above"] * scales.damping == pytest.approx(671.0, abs=0.5)
+    assert {"levitation", "synchronous rub", "B1,d", "rolling"} <= {member.name for member in real.attractors}
+    assert real.safe_damping.within_reach.above * scales.damping == pytest.approx(3408.0, abs=0.5)
+
+
+def test_subjects_of_any_kind_give_the_same():
+    machine = REAL.replace(damping="6000 N s/m", friction=0.0)
+    results = [study(subject).to_dict() for subject in (machine, Case("real", machine.parameters, machine, Zones()))]
+
+    assert results[0] | {"name": "real"} == results[1]
+    with pytest.raises(InputError, match=r"carom\.Machine"):
+        study("keogh-cole.toml")
+
+
+def test_si_and_dimensionless_give_the_same_motion(real):
+    bare = study(dataclasses.replace(REAL.parameters, scales=None))
+
+    assert [orbit.period for orbit in bare.orbits] == [orbit.period for orbit in real.orbits]
+    assert [(e.attractor, e.time) for e in bare.attractors.endings] == [
+        (e.attractor, e.time) for e in real.attractors.endings
+    ]
+    assert bare.ranges == real.ranges
+
+
+def test_levitation_alone_is_what_the_other_ranges_leave(real):
+    for gain in ("gamma", "omega"):
+        free = free_spans(real.ranges, gain)
+        searched = real.range_of("single-impact", gain).searched
+        for step in range(200):
+            value = searched.low.value + (searched.high.value - searched.low.value) * (step + 0.5) / 200
+            alone = real.range_of("contact-free", gain).exists_at(value) and not any(
+                real.range_of(motion, gain).exists_at(value) for motion in ("rub", "single-impact")
+            )
+            assert any(value in span for span in free) == alone
+        # Simulation found nothing that would cut them back.
+        assert real.alone_along(gain).spans == free
+
+
+def test_advice_names_the_change_and_how_it_was_checked(real):
+    text = finding(real, "What would change it")
+
+    assert "orbits with one impact a period are possible below 2,376,000 N/m" in text
+    assert "Levitation alone, backward whirl aside, is left above 2,376,000 N/m" in text
+    assert (
+        "1,096 disturbances of up to 0.258 m/s were simulated at each of 16 values of damping there: all came back"
+        in text
+    )
+    assert (
+        "The least change found that leaves levitation alone is a stiffness of 2,495,000 N/m (2.55 times this machine's, "
+        "5 % beyond the end of the range). All of 2,000 fresh disturbances of up to 0.258 m/s came back"
+    ) in text
+    assert "The other gain would do it with a damping of 3,578 N s/m (2.56 times" in text
+    first, second = real.to_dict()["advice"]
+    assert (first["quantity"], second["quantity"]) == ("stiffness", "damping")
+    assert first["recovered"] == first["disturbances"] == 2000
+    assert first["seed"] not in (0, real.safe_damping.sample.seed)  # nor that of any other sample of the study
+
+
+def test_progress_never_goes_back():
+    told = []
+    study(QUIET, progress=lambda share, words: told.append((share, words)))
+
+    shares = [share for share, _ in told]
+    assert shares == sorted(shares)
+    assert shares[0] >= 0.0
+    assert shares[-1] <= 1.0
+    assert all(words for _, words in told)
+
+
+# ------------------------------------------------------------------------------------------------ words
+
+
+def test_verdict_of_the_real_machine_in_units(real):
+    text = real.verdict.text
+
+    assert real.verdict.level == "may-not-come-back"
+    for words in ("0.955 c_r (0.668 mm)", "zone D", "901 N", "3,408 N s/m", "1,640 N s/m", "1,400 N s/m", "B1,d"):
+        assert words in text
+    assert "2,376,000 N/m" in text
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        SOURCE,
+        SOURCE.replace(gamma=0.05),
+        pytest.param(SOURCE.replace(rho=0.0), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=0.0), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(d=0.0), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=0.25), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=0.4), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=-0.1), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(d=1.0), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(mu=0.0), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=0.3, omega=1.3), marks=pytest.mark.deep),
+        pytest.param(SOURCE.replace(gamma=5.0, omega=0.3), marks=pytest.mark.deep),
+    ],
+)
+def test_words_never_promise_recovery(parameters):
+    result = study_once(parameters)
+    verdict, tried = result.verdict, result.attractors.disturbances
+    something_holds = (
+        any(rub.status == "admissible" for rub in result.rubs)
+        or bool(result.stable_orbits)
+        or any(ending.outcome is not Outcome.LEVITATED for ending in tried)
+    )
+
+    if something_holds:
+        assert verdict.level != "all-tried-came-back"
+    if verdict.level == "all-tried-came-back":
+        assert "no guarantee" in verdict.headline
+    assert finding(result, "Not covered").split("\n") == list(NOT_COVERED)
+    assert "nan" not in verdict.text
+    assert "inf " not in verdict.text
+    assert f"{len(tried)} disturbances (seed 0): " in finding(result, "Disturbances tried")
+    # Many others are tried where all of these came back.
+    assert (result.fresh is not None) == all(ending.outcome is Outcome.LEVITATED for ending in tried)
+
+
+def test_best_verdict_is_still_no_guarantee(quiet):
+    assert quiet.verdict.level == "all-tried-came-back"
+    assert {ending.outcome for ending in quiet.attractors.disturbances} == {Outcome.LEVITATED}
+    assert "no guarantee" in quiet.verdict.headline
+    assert (quiet.fresh.lost, quiet.fresh.sample.count) == (0, 10_000)
+    assert "so did 10,000 others of the same kinds: with 95 % confidence fewer than 1 in 3,300 are lost" in finding(
+        quiet, "Disturbances tried"
+    )
+    assert "No synchronous rub exists" in finding(quiet, "Rub")
+
+
+def test_machine_that_cannot_levitate():
+    result = study_once(SOURCE.replace(gamma=0.05))
+
+    assert result.verdict.level == "no-contact-free-motion"
+    assert result.zone is None
+    assert "cannot run without contact" in finding(result, "Levitation")
+
+
+def test_machine_on_the_boundary():
+    result = study_once(SOURCE.replace(gamma=math.sqrt((3 / 7) ** 2 - (1 - 0.76**2) ** 2)))
+
+    assert result.equilibria[0].status == "boundary"
+    assert result.verdict.level == "no-contact-free-motion"
+    assert "touches the wall" in finding(result, "Levitation")
+
+
+@pytest.mark.deep
+def test_undamped_machine_says_what_was_not_searched():
+    result = study_once(SOURCE.replace(gamma=0.0, rho=0.1))
+
+    assert not result.orbits.complete
+    assert "may be more" in finding(result, "Bouncing")
+    assert "does not die out" in finding(result, "Levitation")
+    assert result.range_of("single-impact", "omega") is None
+    assert "was not found out" in finding(result, "What would change it")
+
+
+def test_boundary_sentences_name_the_nearest_loss(real):
+    text = finding(real, "Levitation")
+
+    assert "damping falls to 671 N s/m or stiffness rises to 1,017,000 N/m" in text
+    assert "2,376,000" not in text
+
+
+# ------------------------------------------------------------------------------------------------ tables
+
+
+def test_tables_hold_every_motion(real):
+    names = [row.name for row in motion_rows(real)]
+
+    assert names[:3] == ["contact-free levitation", "synchronous rub", "synchronous rub"]
+    assert {f"orbit {orbit.name}" for orbit in real.orbits} <= set(names)
+    assert "rolling backward whirl" in names
+    shares = [int(row.trials.split(" of ")[0]) for row in motion_rows(real) if row.trials]
+    assert sum(shares) == len(real.attractors.disturbances)
+
+
+def test_thresholds_have_both_units(real):
+    rows = threshold_rows(real)
+
+    assert len(rows) == len(real.thresholds)
+    assert any(row.value == "3,408 N s/m" and row.dimensionless == "γ = 0.37001594" for row in rows)
+    assert {row.quantity for row in rows} == {"damping", "stiffness"}
+    alone, advised = range_rows(real)[-2:]
+    assert alone[1:] == ("above 3,408 N s/m", "above 2,376,000 N/m")
+    assert advised[2].startswith("2,495,000 N/m, where all of 2,000 fresh disturbances of up to 0.258 m/s came back")
+
+
+def test_kicks_by_size(real):
+    rows = kick_rows(real)
+
+    assert [row[0] for row in rows][:3] == ["1.29 mm/s", "2.32 mm/s", "4.19 mm/s"]
+    assert rows[0][1:] == ("12 of 12", "")
+    assert rows[-1][1] == "0 of 12"
+
+
+def test_dimensionless_case_has_no_machine_table():
+    result = study_once(SOURCE)
+
+    assert machine_rows(result.case) == []
+    assert "Gamma (this machine: 0.1)" in finding(result, "What would change it")
+    assert all(row.value == "" for row in threshold_rows(result))
+
+
+# ------------------------------------------------------------------------------------------------ JSON
+
+EQUILIBRIUM_KEYS = {"kind", "U", "radius", "normal_force", "status", "stable"}
+ORBIT_KEYS = {
+    "name",
+    "impacts",
+    "period",
+    "radial_speed",
+    "angle",
+    "angular_speed",
+    "multipliers",
+    "stable",
+    "admissible",
+    "reason",
+}
+
+
+def strict(text):
+    def refuse(name):
+        raise ValueError(name)
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_json_has_the_stable_keys(real):
+    document = strict(as_json(real.to_dict()))
+
+    assert set(document["parameters"]) == {"gamma", "omega", "rho", "phi", "mu", "d", "radius_ratio"}
+    assert len(document["equilibria"]) == 3
+    for entry in document["equilibria"]:
+        assert set(entry) >= EQUILIBRIUM_KEYS
+        assert len(entry["U"]) == 2
+    assert {entry["status"] for entry in document["equilibria"]} <= {"admissible", "boundary", "virtual"}
+    for entry in document["orbits"]:
+        assert set(entry) >= ORBIT_KEYS
+        assert [len(value) for value in entry["multipliers"]] == [2, 2, 2]
+    assert document["machine_si"]["damping"] == 1400.0
+    disturbances = document["disturbances"]
+    smallest = disturbances["smallest_unrecovered_kick"]
+    assert disturbances["smallest_unrecovered_kick_si"] == pytest.approx(smallest * 0.7e-3 * 184.2, rel=1e-14)
+    assert sum(entry["count"] for entry in document["attractors"]) == disturbances["count"] == 200
+    assert document["safe_damping"]["within_reach"]["motion"] == "synchronous rub"
+    assert document["verdict"]["level"] == real.verdict.level
+
+
+def test_json_values_are_those_of_the_study(real):
+    document = strict(as_json(real.to_dict()))
+    orbit = real.orbits["B1,d"]
+    (entry,) = [entry for entry in document["orbits"] if entry["name"] == "B1,d"]
+
+    assert entry["period"] == orbit.period
+    assert entry["period_si"] == pytest.approx(orbit.period / 184.2, rel=1e-15)
+    assert entry["normal_impulse_si"] == pytest.approx(1.95 * orbit.radial_speed * 50 * 0.7e-3 * 184.2, rel=1e-14)
+    assert document["equilibria"][1]["normal_force_si"] == pytest.approx(900.8, abs=0.1)
+    rub = next(entry for entry in document["thresholds"] if entry["motion"] == "rub" and entry["parameter"] == "gamma")
+    assert rub["value_si"] == pytest.approx(rub["value"] * 50 * 184.2, rel=1e-15)
+    assert rub["exists"] == "below"
+
+
+def test_json_has_nothing_that_is_not_finite(real):
+    # The contact-free range has an infinite end.
+    document = strict(as_json(real.to_dict()))
+
+    (entry,) = [e for e in document["ranges"] if e["motion"] == "contact-free" and e["parameter"] == "gamma"]
+    assert entry["spans"][0][1] is None
+    assert strict(as_json({"a": [math.nan, -math.inf, complex(1.0, math.inf)]})) == {"a": [None, None, [1.0, None]]}
+
+
+def test_json_without_scales_has_no_si_values():
+    document = study_once(SOURCE).to_dict()
+
+    def keys(value):
+        if isinstance(value, dict):
+            yield from value
+            for entry in value.values():
+                yield from keys(entry)
+        elif isinstance(value, list):
+            for entry in value:
+                yield from keys(entry)
+
+    assert document["machine_si"] is None
+    assert document["scales_si"] is None
+    assert {key for key in keys(document) if key.endswith("_si")} == {"machine_si", "scales_si"}
+
+
+def test_scales_alone_give_si_units_too():
+    result = study_once(dataclasses.replace(QUIET, scales=Scales(50.0, 0.7e-3, 184.2)))
+
+    assert "N s/m" in result.verdict.text
+    assert result.to_dict()["scales_si"]["force"] == pytest.approx(1187.5, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        pytest.param({"gamma": 1e3}, marks=pytest.mark.deep),
+        {"gamma": 1e3, "omega": 1e3},
+        pytest.param({"omega": 1e3}, marks=pytest.mark.deep),
+        pytest.param({"mu": 10.0}, marks=pytest.mark.deep),
+    ],
+)
+def test_machine_at_the_end_of_the_allowed_range_has_a_study(changes):
+    # The damping searched must not leave the range that parameters may have.
+    result = study_once(SOURCE.replace(**changes))
+
+    assert result.safe_damping.highest <= 1e3
+    assert result.levitates
+
+
+@pytest.mark.jit_only
+def test_few_that_came_back_do_not_hide_what_many_others_do():
+    """Rolling takes 1 in 500 disturbances of this machine, none of the 200 that are listed."""
+    machine = Parameters(
+        gamma=0.4, omega=0.557251, rho=0.137942, phi=-0.797449, mu=0.472273, d=0.363411, radius_ratio=1.882414
+    )
+    result = study(machine)
+
+    assert all(ending.outcome is Outcome.LEVITATED for ending in result.attractors.disturbances)
+    assert result.fresh.lost > 5
+    assert result.verdict.level == "may-not-come-back"
+    assert f"{result.fresh.lost} of 10,000 disturbances of up to 2 c_r Ω" in result.verdict.headline
+    assert f"but of 10,000 others of the same kinds {result.fresh.lost} did not" in finding(
+        result, "Disturbances tried"
+    )
+    assert all(advice.value > result.safe_damping.simulated.gamma for advice in result.advice if advice.gain == "gamma")
+    assert "All fresh disturbances came back above 0.507" in finding(result, "What would change it")

@@ -1,0 +1,27 @@
+"""What a study says of the completeness of its orbits."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+
+import carom
+from carom.studies.findings import _bouncing
+
+
+@pytest.mark.parametrize(
+    ("radius_ratio", "longest", "words"),
+    [
+        (400 / 7, None, "it is proven that no other orbit with one impact a period exists"),
+        (0.5, None, "orbits whose impacts stop it"),
+        (400 / 7, 5.0, "there may be more such orbits"),
+    ],
+)
+def test_completeness_is_claimed_only_where_it_is_proven(radius_ratio, longest, words):
+    parameters = carom.Parameters(
+        gamma=0.3, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=radius_ratio
+    )
+    orbits = carom.find_orbits(carom.Jeffcott(parameters), longest)
+    study = SimpleNamespace(orbits=orbits, stable_orbits=(), wording=SimpleNamespace(time=lambda time: f"{time}"))
+    assert words in _bouncing(study)

@@ -1,0 +1,84 @@
+"""What became of disturbances: counts against the endings themselves."""
+
+import pytest
+
+from carom.attractors import find_attractors
+from carom.models import Jeffcott
+from carom.motions.trajectories import simulate
+from carom.outcome import Outcome
+from carom.parameters import Parameters
+from carom.studies.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, shown_example, touching
+
+SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+pytestmark = pytest.mark.jit_only
+
+
+@pytest.fixture(scope="module")
+def found():
+    return find_attractors(Jeffcott(SOURCE))
+
+
+@pytest.mark.parametrize(
+    ("attractor", "phrase"),
+    [
+        ("B1,d", "bouncing on B1,d"),
+        ("irregular bouncing", "in irregular bouncing"),
+        ("levitation", "in contact-free levitation"),
+        ("rolling", "in rolling backward whirl"),
+        ("unresolved: time-reached", "unresolved: time-reached"),
+    ],
+)
+def test_endings_follow_a_verb(attractor, phrase):
+    assert ending_phrase(attractor) == phrase
+
+
+def test_kick_sizes_hold_every_kick_once(found):
+    sizes = kick_sizes(found)
+    kicks = [ending for ending in found.disturbances if ending.start.kind == "kick"]
+
+    assert sum(size.directions for size in sizes) == len(kicks)
+    assert [size.speed for size in sizes] == sorted({size.speed for size in sizes})
+    assert sum(size.recovered for size in sizes) == sum(ending.outcome is Outcome.LEVITATED for ending in kicks)
+    assert all(size.recovered + sum(size.lost.values()) == size.directions for size in sizes)
+    assert next(size.speed for size in sizes if size.lost) == pytest.approx(found.smallest_unrecovered_kick, rel=1e-9)
+
+
+def test_touching_are_those_whose_motion_reaches_the_wall(found):
+    touched = touching(found)
+
+    for ending in found.disturbances:
+        motion = simulate(found.rotor, ending.start.state, max(ending.time, 1.0))
+        assert (ending in touched) == bool(len(motion.contacts) or motion.lasting_contacts)
+
+
+def test_hardest_impulse_is_that_of_its_motion(found):
+    hardest = max(found.disturbances, key=lambda ending: ending.hardest_impulse)
+    motion = simulate(found.rotor, hardest.start.state, hardest.time)
+
+    assert hardest_impulse(found) == pytest.approx(motion.contacts.normal_impulse.max(), rel=1e-12)
+
+
+def test_example_has_contact_where_there_is_one_with_contact(found):
+    for member in found:
+        example = shown_example(found, member)
+        assert example.attractor == member.name
+        if member.count:
+            assert example.start.disturbance
+        touched = [ending for ending in touching(found) if ending.attractor == member.name]
+        assert not touched or example in touched
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("levitation", "contact-free levitation"),
+        ("B1,d", "bouncing on B1,d"),
+        ("R12,a", "bouncing on R12,a"),
+        ("rolling", "rolling backward whirl"),
+        ("2-impact bouncing", "2-impact bouncing"),
+        ("unresolved: grazing", "unresolved: grazing"),
+    ],
+)
+def test_words(name, words):
+    assert ending_words(name) == words

@@ -1,0 +1,91 @@
+"""Numbers in words."""
+
+import math
+
+import pytest
+
+from carom.parameters import Scales
+from carom.studies.ranges import Edge, Span
+from carom.studies.wording import Wording, counted, listed, number
+
+SI = Wording(Scales(mass=50.0, clearance=0.7e-3, speed=184.2))
+PLAIN = Wording(None)
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (0.0, 4, "0"),
+        (1400.0, 4, "1,400"),
+        (3407.84, 4, "3,408"),
+        (980000.0, 4, "980,000"),
+        (2375862.1, 4, "2,376,000"),
+        (0.0728524, 3, "0.0729"),
+        (-0.15, 3, "-0.15"),
+        (999.96, 4, "1,000"),
+        (1e-5, 3, "1e-5"),
+        (5.4363e9, 4, "5.436e9"),
+        (math.inf, 4, "inf"),
+        (12.0, 3, "12"),
+    ],
+)
+def test_number(value, digits, text):
+    assert number(value, digits) == text
+
+
+def test_lists_and_counts():
+    assert listed(["a"]) == "a"
+    assert listed(["a", "b", "c"]) == "a, b and c"
+    assert counted(1, "orbit") == "1 orbit"
+    assert counted(0, "orbit") == "0 orbits"
+
+
+def test_quantities_with_units():
+    assert SI.radius(0.954806) == "0.955 c_r (0.668 mm)"
+    assert SI.length(0.0452) == "31.6 µm"
+    assert SI.time(2.328416) == "12.6 ms"
+    assert SI.velocity(0.05) == "6.45 mm/s"
+    assert SI.force(0.75853) == "901 N"
+    assert SI.force(3265.0) == "3.88 MN"
+    assert SI.impulse(1.4359) == "9.26 N s"
+    assert SI.power(0.11378 * 58.142857) == "1.01 kW"
+    assert SI.per_second(2.328416) == "79.1 times a second"
+    assert SI.gain("gamma", 0.37001594) == "3,408 N s/m"
+    assert SI.gain("omega", 0.76) == "979,900 N/m"
+
+
+def test_quantities_without_scales_keep_the_units_of_the_equations():
+    assert PLAIN.radius(0.955) == "0.955 c_r"
+    assert PLAIN.time(2.5) == "2.5/Ω"
+    assert PLAIN.velocity(0.05) == "0.05 c_r Ω"
+    assert PLAIN.force(0.75853) == "0.759 m c_r Ω²"
+    assert PLAIN.power(2.0) == "2 m c_r² Ω³"
+    assert PLAIN.per_second(math.pi) == "2 times a turn"
+    assert PLAIN.gain("gamma", 0.37001594) == "0.37"
+    assert math.isnan(PLAIN.gain_in_si("gamma", 0.1))
+
+
+def span(low, high):
+    return Span(Edge(low), Edge(high))
+
+
+@pytest.mark.parametrize(
+    ("spans", "searched", "text"),
+    [
+        ((), None, "for no value"),
+        ((), span(0.1, 8.0), "for no value searched (0.1 to 8)"),
+        ((span(0.0, math.inf),), None, "for every value"),
+        ((span(0.1, 8.0),), span(0.1, 8.0), "for every value searched (0.1 to 8)"),
+        ((span(0.0, 0.37),), None, "below 0.37"),
+        ((span(0.1, 0.37),), span(0.1, 8.0), "below 0.37"),
+        ((span(0.07, math.inf),), None, "above 0.07"),
+        ((span(0.0, 0.7), span(1.2, math.inf)), None, "below 0.7 and above 1.2"),
+        ((span(0.2, 0.7),), span(0.1, 8.0), "from 0.2 to 0.7"),
+    ],
+)
+def test_where(spans, searched, text):
+    assert PLAIN.where("gamma", spans, searched) == text
+
+
+def test_where_in_si():
+    assert SI.where("gamma", (span(0.0, 0.37001594),)) == "below 3,408 N s/m"
