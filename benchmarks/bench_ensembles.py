@@ -13,7 +13,7 @@ import pytest
 from against_peers.bouncing import HeyokaFlights, ScipyFlights, bounces
 from workload import MOST_IMPACTS, UNTIL, source_paper_machine
 
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.processors import available_cores
 
 GAMMAS = (0.1, 0.15)
@@ -23,12 +23,12 @@ LANE_BLOCKS = ("3", "0.8", "1")
 
 
 def follow(rotor, starts, threads=1, **limits):
-    endings = settle_all(rotor, starts[:, 0], starts[:, 1], threads=threads, **limits)
+    endings = settle(rotor, starts[:, 0], starts[:, 1], threads=threads, **limits)
     return int(endings.impacts.sum())
 
 
 def bounce(rotor, starts, threads=1):
-    return follow(rotor, starts, threads, settle=False, until=UNTIL, max_events=MOST_IMPACTS)
+    return follow(rotor, starts, threads, patience=0, until=UNTIL, max_events=MOST_IMPACTS)
 
 
 def hand_written(program, gamma):

@@ -26,7 +26,7 @@ import numpy as np
 import carom
 rotor = carom.Jeffcott(carom.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
 carom.simulate(rotor, carom.kick(0.3), 20.0, settle=True)
-carom.settle_all(rotor, np.array([0.1 + 0j]), np.array([0.5 + 0j]))
+carom.settle(rotor, np.array([0.1 + 0j]), np.array([0.5 + 0j]))
 """
 _SHOCK = """
 import carom

@@ -65,7 +65,7 @@ if TYPE_CHECKING:
     from carom.disturbances import kick_grid as kick_grid
     from carom.models import Jeffcott as Jeffcott
     from carom.motions.ensembles import Endings as Endings
-    from carom.motions.ensembles import settle_all as settle_all
+    from carom.motions.ensembles import settle as settle
     from carom.motions.ledger import EnergyLedger as EnergyLedger
     from carom.motions.ledger import energy_ledger as energy_ledger
     from carom.motions.trajectories import State as State
@@ -91,8 +91,8 @@ if TYPE_CHECKING:
     from carom.parameters import Scales as Scales
     from carom.parameters import Zones as Zones
     from carom.parameters import load as load
-    from carom.safety import SafeDamping as SafeDamping
-    from carom.safety import least_safe_damping as least_safe_damping
+    from carom.studies.safety import SafeDamping as SafeDamping
+    from carom.studies.safety import least_safe_damping as least_safe_damping
     from carom.studies import study as study
     from carom.sweeps import SweepPlan as SweepPlan
     from carom.sweeps import load_sweep as load_sweep
@@ -134,7 +134,7 @@ _HOMES = {
     "Rolling": "closed_forms.whirl",
     "Jeffcott": "models",
     "Runaway": "closed_forms.whirl",
-    "SafeDamping": "safety",
+    "SafeDamping": "studies.safety",
     "Sample": "disturbances",
     "Scales": "parameters",
     "Section": "orbits.maps",
@@ -162,7 +162,7 @@ _HOMES = {
     "integrity": "basins",
     "kick": "motions.trajectories",
     "least_gain_change": "basins",
-    "least_safe_damping": "safety",
+    "least_safe_damping": "studies.safety",
     "load": "parameters",
     "load_sweep": "sweeps",
     "multipliers": "orbits.stability",
@@ -174,7 +174,7 @@ _HOMES = {
     "rub_neighbourhood": "closed_forms.absorbing",
     "run_sweep": "sweeps",
     "runaway_speed": "closed_forms.whirl",
-    "settle_all": "motions.ensembles",
+    "settle": "motions.ensembles",
     "simulate": "motions.trajectories",
     "find_orbits": "orbits",
     "smallest_loss": "basins",

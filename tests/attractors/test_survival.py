@@ -11,7 +11,7 @@ from machines import PAPER
 from carom.attractors import survival as module
 from carom.attractors.survival import LOOK, Survival, document_of, follow_out, measure_survival, still_irregular
 from carom.models import Jeffcott
-from carom.motions.ensembles import Endings, settle_all
+from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 
 
@@ -29,7 +29,7 @@ def ensemble(multiplicities, outcomes, impacts=0):
 
 
 def mortal(half_life, seed):
-    """Stands in for ``settle_all``: irregular motions that die by chance, each impact with one probability."""
+    """Stands in for ``settle``: irregular motions that die by chance, each impact with one probability."""
     random = np.random.default_rng(seed)
 
     def settle(rotor, positions, velocities, *, patience, threads=None):
@@ -43,7 +43,7 @@ def mortal(half_life, seed):
 def test_the_interval_holds_the_half_life_as_often_as_it_says(monkeypatch, half_life):
     inside = 0
     for seed in range(100):
-        monkeypatch.setattr(module, "settle_all", mortal(half_life, seed))
+        monkeypatch.setattr(module, "settle", mortal(half_life, seed))
         found = measure_survival(None, np.ones(7, complex), np.ones(7, complex), impacts=20_000)
         assert found.transient
         low, high = found.interval
@@ -53,7 +53,7 @@ def test_the_interval_holds_the_half_life_as_often_as_it_says(monkeypatch, half_
 
 
 def test_what_never_dies_is_told_with_how_many_were_followed_for_how_long(monkeypatch):
-    monkeypatch.setattr(module, "settle_all", mortal(math.inf, 0))
+    monkeypatch.setattr(module, "settle", mortal(math.inf, 0))
     found = measure_survival(None, np.ones(300, complex), np.ones(300, complex), impacts=20_000)
     assert (found.motions, found.impacts, found.died, found.transient) == (200, 20_000, 0, False)
     # 4000 looks without a death: with twenty deaths in that time one would be missed once in e^20, with three once in 20.
@@ -75,7 +75,7 @@ def test_half_life_is_told_with_two_digits():
 
 
 def test_motions_that_all_die_at_once_have_a_short_life(monkeypatch):
-    monkeypatch.setattr(module, "settle_all", mortal(1.0, 0))
+    monkeypatch.setattr(module, "settle", mortal(1.0, 0))
     found = measure_survival(None, np.ones(1, complex), np.ones(1, complex), impacts=20_000)
     assert (found.died, found.transient) == (200, True)
     assert found.interval[0] <= found.half_life <= found.interval[1] < LOOK
@@ -86,7 +86,7 @@ def test_motions_given_up_have_neither_died_nor_lasted(monkeypatch):
         count = len(positions)
         return ensemble(np.zeros(count, int), np.full(count, Outcome.GRAZING))
 
-    monkeypatch.setattr(module, "settle_all", settle)
+    monkeypatch.setattr(module, "settle", settle)
     found = measure_survival(None, np.ones(1, complex), np.ones(1, complex), impacts=20_000)
     assert (found.motions, found.died, found.half_life) == (0, 0, None)
     assert found.interval == (0.0, math.inf)
@@ -97,7 +97,7 @@ def test_motions_of_an_ensemble_are_followed_to_where_they_end():
     rotor = Jeffcott(PAPER.replace(gamma=0.08))
     random = np.random.default_rng(0)
     points = np.sqrt(random.random((2, 80))) * np.exp(2j * np.pi * random.random((2, 80)))
-    early = settle_all(rotor, points[0], 0.5 * points[1], patience=1500)
+    early = settle(rotor, points[0], 0.5 * points[1], patience=1500)
     going = still_irregular(early)
     assert going.sum() > 20
     late, found = follow_out(rotor, early, impacts=20_000)

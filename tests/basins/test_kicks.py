@@ -66,7 +66,7 @@ def test_no_kick_of_an_independent_sample_below_it_is_lost():
     rng = np.random.default_rng(8)
     speeds = found.size * 0.998 * np.sqrt(rng.random(4000))
     starts = carom.VelocityKick().starts(rotor, speeds, rng.uniform(0.0, 2.0 * math.pi, 4000))
-    assert carom.settle_all(rotor, starts.positions, starts.velocities).recovered.all()
+    assert carom.settle(rotor, starts.positions, starts.velocities).recovered.all()
 
 
 def test_a_finer_scan_finds_no_smaller_one():
@@ -137,13 +137,13 @@ def test_fresh_samples_do_not_break_the_bracket(kind, machine):
     count = 500 if kind == "shock" else 2000
     sizes = random.uniform(0.0, found.all_back, count)
     positions, velocities, possible = starts_of(kind, rotor, sizes, random.uniform(0.0, 2.0 * math.pi, count))
-    outcomes = carom.settle_all(rotor, positions[possible], velocities[possible]).outcomes
+    outcomes = carom.settle(rotor, positions[possible], velocities[possible]).outcomes
     gone = (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
     # None is lost below what is proven harmless, and no more than the stated share above it.
     assert not gone[sizes[possible] <= found.harmless].any()
     assert gone.mean() <= found.share_below
     position, velocity, _ = starts_of(kind, rotor, np.array([found.size]), np.array([found.angle]))
-    assert carom.settle_all(rotor, position, velocity).outcomes[0] == found.outcome
+    assert carom.settle(rotor, position, velocity).outcomes[0] == found.outcome
 
 
 def test_fresh_starts_bring_the_smallest_loss_down():
@@ -167,9 +167,9 @@ def test_releases_from_contact():
     random = np.random.default_rng(5)
     sizes = random.uniform(0.0, found.all_back, 1000) * random.choice([-1.0, 1.0], 1000)
     positions, velocities, _ = starts_of("release", rotor, sizes, random.uniform(0.0, 2.0 * math.pi, 1000))
-    assert (~carom.settle_all(rotor, positions, velocities).recovered).mean() <= found.share_below
+    assert (~carom.settle(rotor, positions, velocities).recovered).mean() <= found.share_below
     place, moving, _ = starts_of("release", rotor, np.array([-found.size]), np.array([found.angle]))
-    assert carom.settle_all(rotor, place, moving).outcomes[0] == found.outcome
+    assert carom.settle(rotor, place, moving).outcomes[0] == found.outcome
 
 
 def test_a_machine_that_always_comes_back_has_no_smallest_loss():

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling, rub_limit, runaway_speed
 from carom.models import Jeffcott
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.motions.trajectories import State, simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters, Scales
@@ -258,7 +258,7 @@ def test_no_backward_whirl_repeats_beyond_the_bound_of_damping():
         whirl = -random.uniform(0.0, 2.0 * speed, 50)
         for factor in (0.3, 1.001):
             rotor = Jeffcott(machine.replace(gamma=max(factor * bound, 0.02)))
-            outcomes = settle_all(rotor, places, 1j * (whirl - 1.0) * places, until=2e3).outcomes
+            outcomes = settle(rotor, places, 1j * (whirl - 1.0) * places, until=2e3).outcomes
             held = np.isin(outcomes, (Outcome.ROLLING, Outcome.BACKWARD_WHIRL)).sum()
             kept += held if factor < 1.0 else 0
             assert factor < 1.0 or held == 0, (case, machine)

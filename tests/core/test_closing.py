@@ -11,7 +11,7 @@ from carom.attractors import find_attractors
 from carom.core.closing import least_period
 from carom.core.fate import memory
 from carom.models import Jeffcott
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.motions.settling import _tools, closed_orbit
 from carom.motions.trajectories import State, simulate
 from carom.orbits.single_impact import find_orbits
@@ -58,7 +58,7 @@ def assert_closes(rotor, position, velocity, impacts):
 def test_an_orbit_with_three_impacts_is_told_so_however_it_is_reached():
     rotor = Jeffcott(SPIRALLING)
     positions, velocities = drawn_starts(np.random.default_rng(1), 24)
-    ends = settle_all(rotor, positions, velocities)
+    ends = settle(rotor, positions, velocities)
     bouncing = np.flatnonzero(ends.outcomes == Outcome.BOUNCING)
     assert len(bouncing) > 12
     assert set(ends.multiplicities[bouncing]) == {3}
@@ -77,7 +77,7 @@ def test_next_to_a_period_doubling_one_impact_is_told_from_two(away):
     rotor = Jeffcott(PAPER.replace(gamma=DOUBLING + away))
     leaving = find_orbits(rotor)["B1,d"].departure
     faster = leaving.velocity * np.array([0.9999, 1.0001])
-    ends = settle_all(rotor, np.full(2, leaving.position), faster)
+    ends = settle(rotor, np.full(2, leaving.position), faster)
     assert ends.multiplicities.tolist() == [1 if away > 0.0 else 2] * 2
     alone = [simulate(rotor, State(leaving.position, complex(speed)), 2e5, settle=True) for speed in faster]
     assert [motion.multiplicity for motion in alone] == [1 if away > 0.0 else 2] * 2
@@ -138,9 +138,9 @@ def test_a_motion_that_only_passes_by_an_orbit_goes_on():
     start = State(-0.9376157591840666 - 0.049885059556011j, 1.1903963754385933 + 0.6414778990507444j)
     orbit = next(orbit for orbit in find_orbits(rotor) if orbit.name == "B1,d")
     assert not orbit.stable
-    together = settle_all(rotor, np.array([start.position]), np.array([start.velocity]))
+    together = settle(rotor, np.array([start.position]), np.array([start.velocity]))
     # In double precision a motion may stay on the orbit itself for ever: that is no end either.
-    on_orbit = settle_all(rotor, np.array([orbit.departure.position]), np.array([orbit.departure.velocity]))
+    on_orbit = settle(rotor, np.array([orbit.departure.position]), np.array([orbit.departure.velocity]))
     alone = simulate(rotor, start, settle=True)
     assert (alone.outcome, alone.multiplicity) == (together.outcomes[0], together.multiplicities[0])
     assert np.abs(alone.contacts.radial_speed - orbit.radial_speed).min() < 1e-7
@@ -159,7 +159,7 @@ def test_no_number_is_named_where_no_orbit_closes():
     )  # fmt: skip
     positions = np.array([-0.9529923594883638 + 0.27279210388634423j, 0.6602592005764265 + 0.1451056352397193j])
     velocities = np.array([1.5912335089848553 - 0.33757891694966446j, -0.8325178172900114 - 0.9984458821653093j])
-    ends = settle_all(Jeffcott(parameters), positions, velocities)
+    ends = settle(Jeffcott(parameters), positions, velocities)
     assert set(ends.outcomes) <= set(REPEATING)
     assert ends.multiplicities.tolist() == [0, 0]
 
@@ -171,7 +171,7 @@ def test_elastic_bounces_that_become_ever_lower_are_no_orbit(friction):
     parameters = Parameters(0.125, 0.1, 1.7, 3.06, friction, 1.0, 0.98)
     rotor, random = Jeffcott(parameters), np.random.default_rng(8)
     positions, velocities = drawn_starts(random, 12)
-    together = settle_all(rotor, positions, velocities)
+    together = settle(rotor, positions, velocities)
     low = 0
     for index, start in enumerate(zip(positions, velocities, strict=True)):
         alone = simulate(rotor, State(*start), settle=True)
@@ -199,7 +199,7 @@ def test_all_that_end_on_an_orbit_agree_how_many_impacts_it_has(seed):
     while machines < sized(50, 1):
         rotor = Jeffcott(_drawn_machine(random))
         positions, velocities = drawn_starts(random, 24)
-        ends = settle_all(rotor, positions, velocities)
+        ends = settle(rotor, positions, velocities)
         several = np.flatnonzero(np.isin(ends.outcomes, REPEATING) & (ends.multiplicities > 1))
         if not len(several):
             continue

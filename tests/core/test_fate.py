@@ -25,7 +25,7 @@ from carom.core.fate import (
 )
 from carom.core.layout import rotor_record, workspace
 from carom.models import Jeffcott
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.motions.trajectories import State, simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
@@ -414,7 +414,7 @@ def test_hardly_damped_motions_settle_alike_both_ways(gamma, omega):
     rotor = Jeffcott(PAPER.replace(gamma=gamma, omega=omega, rho=0.0857, d=0.7))
     random = np.random.default_rng(1)
     points = np.sqrt(random.random((2, 8))) * np.exp(2j * np.pi * random.random((2, 8)))
-    together = settle_all(rotor, points[0], 2.0 * points[1])
+    together = settle(rotor, points[0], 2.0 * points[1])
     for place in range(8):
         alone = simulate(rotor, State(points[0, place], 2.0 * points[1, place]), settle=True)
         assert alone.outcome is Outcome.LEVITATED

@@ -7,7 +7,7 @@ import pytest
 from compilation import COMPILED
 
 import carom
-from carom.motions.ensembles import Endings, settle_all
+from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
 
 SAME = ("outcomes", "times", "impacts", "multiplicities", "positions", "velocities")
@@ -39,7 +39,7 @@ def test_impacts_of_motions_that_come_to_levitate_are_counted(machine):
     """Also those since a lane was last looked at."""
     rotor = carom.Jeffcott(machine.replace(rho=0.2))
     positions, velocities = starts(100)
-    together = settle_all(rotor, positions, velocities)
+    together = settle(rotor, positions, velocities)
     levitated = np.flatnonzero(together.outcomes == Outcome.LEVITATED)
     assert (together.impacts[levitated] > 1).sum() > 5
     for place in levitated:
@@ -52,24 +52,24 @@ def test_what_levitates_is_known_to_however_short_the_time(machine, until):
     rotor = carom.Jeffcott(machine)
     at_rest = carom.State(rotor.equilibrium, 0j)
     alone = carom.simulate(rotor, at_rest, until, settle=True)
-    together = settle_all(rotor, at_rest.position, at_rest.velocity, until=until)
+    together = settle(rotor, at_rest.position, at_rest.velocity, until=until)
     assert together.outcomes == alone.outcome == Outcome.LEVITATED
 
 
 def test_speeds_that_overflow_are_refused(machine):
     rotor = carom.Jeffcott(machine)
     with pytest.raises(carom.InputError, match=r"^start velocity.*1e\+100"):
-        settle_all(rotor, [0.0, 0.1], [1.0, 1e120j])
+        settle(rotor, [0.0, 0.1], [1.0, 1e120j])
     with pytest.raises(carom.InputError, match=r"^start velocity.*1e\+100"):
         carom.simulate(rotor, carom.State(0.0, 1e120), 1.0)
-    assert settle_all(rotor, 0.1, 1e99).outcomes not in (Outcome.LEVITATED, Outcome.TIME_REACHED)
+    assert settle(rotor, 0.1, 1e99).outcomes not in (Outcome.LEVITATED, Outcome.TIME_REACHED)
 
 
 @pytest.mark.jit_only
 def test_each_ends_as_it_does_alone(machine):
     rotor = carom.Jeffcott(machine)
     positions, velocities = starts(24 if COMPILED else 2)
-    together = settle_all(rotor, positions, velocities)
+    together = settle(rotor, positions, velocities)
     for place in range(len(positions)):
         alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 2e5, settle=True)
         assert together.outcomes[place] == alone.outcome
@@ -84,7 +84,7 @@ def test_each_ends_as_it_does_alone(machine):
 def test_each_moves_as_it_does_alone(machine, restitution):
     rotor = carom.Jeffcott(machine.replace(d=restitution))
     positions, velocities = starts(MANY)
-    together = settle_all(rotor, positions, velocities, until=20.0, settle=False)
+    together = settle(rotor, positions, velocities, until=20.0, patience=0)
     for place in range(len(positions)):
         alone = carom.simulate(rotor, carom.State(positions[place], velocities[place]), 20.0)
         assert together.outcomes[place] == alone.outcome == Outcome.TIME_REACHED
@@ -96,9 +96,9 @@ def test_each_moves_as_it_does_alone(machine, restitution):
 def test_threads_and_company_change_nothing(machine):
     rotor = carom.Jeffcott(machine)
     positions, velocities = starts(MANY)
-    one = settle_all(rotor, positions, velocities, threads=1)
-    assert_same(one, settle_all(rotor, positions, velocities, threads=3))
-    half = settle_all(rotor, positions[::2], velocities[::2])
+    one = settle(rotor, positions, velocities, threads=1)
+    assert_same(one, settle(rotor, positions, velocities, threads=3))
+    half = settle(rotor, positions[::2], velocities[::2])
     for name in SAME:
         np.testing.assert_array_equal(getattr(one, name)[::2], getattr(half, name), err_msg=name)
 
@@ -108,15 +108,15 @@ def test_starts_may_have_machines_of_their_own(machine):
     rotors = [carom.Jeffcott(machine.replace(gamma=gamma)) for gamma in (0.6, 0.4, 0.8)]
     positions, velocities = starts(MANY)
     which = np.arange(MANY) % 3
-    mixed = settle_all(rotors, positions, velocities, which=which)
+    mixed = settle(rotors, positions, velocities, which=which)
     for number, rotor in enumerate(rotors):
-        alone = settle_all(rotor, positions[which == number], velocities[which == number])
+        alone = settle(rotor, positions[which == number], velocities[which == number])
         for name in SAME:
             np.testing.assert_array_equal(getattr(mixed, name)[which == number], getattr(alone, name), err_msg=name)
 
 
 def test_arrays_keep_their_shape(machine):
-    endings = settle_all(carom.Jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
+    endings = settle(carom.Jeffcott(machine), 0.1j, np.full((2, 3), 0.01))
     assert endings.outcomes.shape == endings.velocities.shape == (2, 3)
     assert endings.count(Outcome.LEVITATED) == endings.recovered.sum()
 
@@ -127,10 +127,10 @@ def test_no_start_is_no_ending(machine, shape, threads):
     none = np.empty(shape)
     several = [carom.Jeffcott(machine), carom.Jeffcott(machine.replace(gamma=0.4))]
     for endings in (
-        settle_all(several[0], none, 0.1j, threads=threads),
-        settle_all(several, none, none, which=none, threads=threads),
-        settle_all(several, none, none, which=np.empty(shape, np.int32), threads=threads),
-        settle_all([], none, none, which=none, threads=threads),
+        settle(several[0], none, 0.1j, threads=threads),
+        settle(several, none, none, which=none, threads=threads),
+        settle(several, none, none, which=np.empty(shape, np.int32), threads=threads),
+        settle([], none, none, which=none, threads=threads),
     ):
         assert [getattr(endings, name).shape for name in SAME] == [shape] * len(SAME)
         assert endings.outcomes.dtype == np.int8
@@ -139,14 +139,14 @@ def test_no_start_is_no_ending(machine, shape, threads):
 
 
 def test_without_settling_motions_reach_the_time(machine):
-    endings = settle_all(carom.Jeffcott(machine), *starts(8), until=5.0, settle=False)
+    endings = settle(carom.Jeffcott(machine), *starts(8), until=5.0, patience=0)
     assert (endings.outcomes == Outcome.TIME_REACHED).all()
     np.testing.assert_array_equal(endings.times, 5.0)
 
 
 def test_progress_ends_at_one(machine):
     told: list[float] = []
-    settle_all(carom.Jeffcott(machine), *starts(8), until=5.0, progress=told.append)
+    settle(carom.Jeffcott(machine), *starts(8), until=5.0, progress=told.append)
     assert told[-1] == 1.0
 
 
@@ -159,7 +159,8 @@ def test_progress_ends_at_one(machine):
         ({"until": -1.0}, "until = -1.0"),
         ({"max_events": 0}, "max_events = 0"),
         ({"max_events": 2.5}, "max_events = 2.5"),
-        ({"patience": 0}, "patience = 0"),
+        ({"patience": -1}, "patience = -1"),
+        ({"patience": 0}, "until = None"),
         ({"threads": 0}, "threads = 0"),
         ({"which": [0, 0]}, "which = "),
     ],
@@ -167,9 +168,9 @@ def test_progress_ends_at_one(machine):
 def test_bad_input_is_named(machine, changes, words):
     arguments = {"positions": [0.1, 0.2], "velocities": [0.0, 0.0], **changes}
     with pytest.raises(InputError, match=words):
-        settle_all(carom.Jeffcott(machine), **arguments)
+        settle(carom.Jeffcott(machine), **arguments)
 
 
 def test_a_start_needs_a_machine_that_exists(machine):
     with pytest.raises(InputError, match="whole numbers from 0 to 0"):
-        settle_all([carom.Jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
+        settle([carom.Jeffcott(machine)], [0.1], [0.0], which=np.array([1]))

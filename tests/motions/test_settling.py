@@ -14,7 +14,7 @@ from carom.basins.motions import name_motions
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.fate import absorbed
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.motions.settling import fresh_memory
 from carom.motions.trajectories import State, simulate
 from carom.outcome import Outcome
@@ -69,7 +69,7 @@ def test_an_ensemble_ends_a_motion_inside_at_once_and_outside_later(rotor):
     for times_level, at_once in ((0.999, True), (1.001, False)):
         starts = sliding(found, times_level, seed=5)
         assert len(starts[0]) > 50
-        endings = settle_all(rotor, *starts)
+        endings = settle(rotor, *starts)
         np.testing.assert_array_equal(endings.times == 0.0, at_once)
         if at_once:
             assert (endings.outcomes == Outcome.FORWARD_RUB).all()
@@ -82,11 +82,11 @@ def settled_both_ways(rotor, count, seed, monkeypatch):
     rng = np.random.default_rng(seed)
     turns = np.exp(2j * np.pi * rng.uniform(0.0, 1.0, (2, count)))
     starts = np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[0], 2.0 * np.sqrt(rng.uniform(0.0, 1.0, count)) * turns[1]
-    proven = settle_all(rotor, *starts)
+    proven = settle(rotor, *starts)
     monkeypatch.setattr(
         "carom.motions.ensembles.fresh_memory", lambda rotor, patience, absorb: fresh_memory(rotor, patience)
     )
-    followed = settle_all(rotor, *starts)
+    followed = settle(rotor, *starts)
     for name in ("outcomes", "impacts", "multiplicities"):
         np.testing.assert_array_equal(getattr(proven, name), getattr(followed, name), err_msg=name)
     return proven, followed
@@ -111,7 +111,7 @@ def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch)
 
 
 def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
-    endings = settle_all(rotor, *sliding(rub_neighbourhood(rotor), 0.9, seed=6))
+    endings = settle(rotor, *sliding(rub_neighbourhood(rotor), 0.9, seed=6))
     endings.velocities[0] = 0.9j * endings.positions[0]
     named, names = name_motions(rotor, endings.outcomes, endings)
     assert [names[index] for index in named[:3]] == ["drifting rub", "synchronous rub", "synchronous rub"]

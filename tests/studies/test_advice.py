@@ -11,7 +11,7 @@ from studies import study_once
 
 from carom.attractors import DisturbanceSet
 from carom.models import Jeffcott
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.studies.advice import CHECKED, STEP, WANTED, advise
 from carom.studies.orbit_ranges import single_impact_ranges
 from carom.studies.remedies import advice_lines
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.jit_only
 
 def returned(parameters, count, seed):
     rotor = Jeffcott(parameters)
-    ends = settle_all(rotor, *DisturbanceSet(count, seed).states(rotor))
+    ends = settle(rotor, *DisturbanceSet(count, seed).states(rotor))
     return np.count_nonzero(ends.recovered) / count
 
 

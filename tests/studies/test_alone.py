@@ -9,7 +9,7 @@ from machines import random_parameters
 from carom.attractors import DisturbanceSet, motion_name
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import Outcome
 from carom.parameters import Machine, Parameters
@@ -35,7 +35,7 @@ def ranges_of(parameters, gain):
 
 
 def ends_of(rotor, count, seed):
-    return settle_all(rotor, *DisturbanceSet(count, seed).states(rotor))
+    return settle(rotor, *DisturbanceSet(count, seed).states(rotor))
 
 
 def known_motions(rotor):
@@ -74,7 +74,7 @@ def check_outside(parameters, found):
                     if m.motion == edge.motion and 0 <= outward * (m.value / edge.value - 1) < 2e-3
                 ]
                 rotor = Jeffcott(parameters.replace(**{found.gain: one.value}))
-                ends = settle_all(rotor, one.position, one.velocity)
+                ends = settle(rotor, one.position, one.velocity)
                 assert motion_name(Outcome(int(ends.outcomes)), int(ends.multiplicities)) == one.motion
             elif edge.kind:
                 rotor = Jeffcott(parameters.replace(**{found.gain: edge.value * (1 + outward * 2e-6)}))

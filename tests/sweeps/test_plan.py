@@ -116,11 +116,11 @@ def test_basins_count_every_possible_start():
 
 @pytest.mark.jit_only
 def test_the_smallest_kick_that_is_lost_and_its_direction():
-    from carom import Outcome, settle_all
+    from carom import Outcome, settle
 
     plan = basins_plan(starts=40, damping=(0.1, 0.2))
     (starts,) = plan.task._batches(_rotor(plan), plan.seed_of((0, 0)))
-    outcomes = settle_all(_rotor(plan), starts.positions, starts.velocities).outcomes
+    outcomes = settle(_rotor(plan), starts.positions, starts.velocities).outcomes
     gone = starts.velocities[~np.isin(outcomes, (Outcome.LEVITATED, Outcome.GRAZING))]
     smallest = gone[np.abs(gone).argmin()]
     found = plan.task.evaluate(plan.case_at((0, 0)), plan.seed_of((0, 0)))

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from carom.models import Jeffcott
-from carom.motions.ensembles import Endings, settle_all
+from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 
 __all__ = ["Survival", "document_of", "follow_out", "measure_survival", "still_irregular"]
@@ -145,7 +145,7 @@ def measure_survival(
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
     looks, left = [], []
     for _ in range(1 + max(1, impacts // LOOK)):
-        ends = settle_all(rotor, positions, velocities, patience=LOOK, threads=threads)
+        ends = settle(rotor, positions, velocities, patience=LOOK, threads=threads)
         alive = still_irregular(ends)
         # A motion that was given up has not left, nor can it be followed on.
         lost = int(np.count_nonzero(ends.outcomes < Outcome.LEVITATED))
@@ -193,7 +193,7 @@ def follow_out(
         if not len(irregular) or len(irregular) * span > AFFORDABLE:
             break
         there = whole["positions"][irregular], whole["velocities"][irregular]
-        further = settle_all(rotor, *there, patience=span, threads=threads)
+        further = settle(rotor, *there, patience=span, threads=threads)
         for name, values in vars(further).items():
             whole[name][irregular] = values + (whole[name][irregular] if name in ("times", "impacts") else 0)
         irregular = irregular[still_irregular(further)]

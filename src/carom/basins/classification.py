@@ -16,7 +16,7 @@ from carom.basins.motions import name_motions
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Sample, Starts
 from carom.models import Jeffcott, Subject, model_of
-from carom.motions.ensembles import MOST_EVENTS, Endings, settle_all
+from carom.motions.ensembles import MOST_EVENTS, Endings, settle
 from carom.motions.settling import PATIENCE, longest_time
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
@@ -266,7 +266,7 @@ def follow(rotor: Jeffcott, starts: Starts, **limits: Any) -> Endings:
             "one that is possible: out of levitation inside the wall (|U*| < 1), or a start inside the wall",
         )
     chosen = starts.exists & ~starts.undecided
-    found = settle_all(rotor, starts.positions[chosen], starts.velocities[chosen], **limits)
+    found = settle(rotor, starts.positions[chosen], starts.velocities[chosen], **limits)
     whole = {}
     for name, values in vars(found).items():
         whole[name] = np.zeros(chosen.shape, values.dtype)

@@ -19,7 +19,7 @@ from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.models import Jeffcott, Subject, model_of
-from carom.motions.ensembles import MOST_EVENTS, settle_all
+from carom.motions.ensembles import MOST_EVENTS, settle
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
@@ -229,7 +229,7 @@ def measured(
                 if starts is not None
             ]
             positions, velocities, machines = (np.concatenate(parts) for parts in zip(*picked, strict=True))
-            ends = settle_all([chunk[p][0] for p in able], positions, velocities, which=machines, **limits).outcomes
+            ends = settle([chunk[p][0] for p in able], positions, velocities, which=machines, **limits).outcomes
             for machine, (place, starts, which) in enumerate(zip(able, sets, chosen, strict=True)):
                 if starts is None:
                     continue

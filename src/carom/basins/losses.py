@@ -25,7 +25,7 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.models import Jeffcott, Subject, model_of
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.outcome import InputError, Outcome
 
 __all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_kick"]
@@ -333,7 +333,7 @@ class _Search:
         chosen = starts.exists & ~starts.undecided
         outcomes = np.full(chosen.shape, Outcome.GRAZING, np.int8)
         if chosen.any():
-            followed = settle_all(self.rotor, starts.positions[chosen], starts.velocities[chosen], threads=self.threads)
+            followed = settle(self.rotor, starts.positions[chosen], starts.velocities[chosen], threads=self.threads)
             outcomes[chosen] = followed.outcomes
         self.tried += int(chosen.sum())
         return outcomes, lost(outcomes)

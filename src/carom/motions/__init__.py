@@ -11,7 +11,7 @@
 """
 
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
-from carom.motions.ensembles import Endings, settle_all
+from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.settling import PATIENCE, ClosedOrbit, closed_orbit
 from carom.motions.spectrum import FullSpectrum, full_spectrum
@@ -33,6 +33,6 @@ __all__ = [
     "energy_ledger",
     "full_spectrum",
     "kick",
-    "settle_all",
+    "settle",
     "simulate",
 ]

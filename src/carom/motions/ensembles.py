@@ -22,7 +22,7 @@ from carom.motions.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
 from carom.outcome import InputError, Outcome
 from carom.processors import available_cores
 
-__all__ = ["Endings", "settle_all"]
+__all__ = ["Endings", "settle"]
 
 MOST_EVENTS = 1_000_000
 PORTION = 16_384
@@ -68,14 +68,13 @@ class Endings:
         return recovered
 
 
-def settle_all(
+def settle(
     machine: Subject | Sequence[Subject],
     positions: np.ndarray,
     velocities: np.ndarray,
     *,
     which: np.ndarray | None = None,
     until: float | None = None,
-    settle: bool = True,
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
@@ -100,10 +99,9 @@ def settle_all(
     until : float
         Time after which a motion that has not settled is given up, in ``1/Ω``; by default
         :func:`~carom.motions.settling.longest_time` of its machine.
-    settle : bool
-        End each motion as soon as it is known where it ends (criteria in :mod:`carom.core.fate`); otherwise at ``until``.
     patience : int
-        With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
+        Impacts without recurrence after which bouncing counts as aperiodic.  With 0 motions go on to ``until``, wherever
+        they settle; otherwise each ends as soon as it is known where it does (criteria in :mod:`carom.core.fate`).
     max_events : int
         Impacts and steps of lasting contact after which a motion is given up.
     threads : int, optional
@@ -125,14 +123,14 @@ def settle_all(
         np.asarray(positions, complex), np.asarray(velocities, complex), which
     )
     _check_starts(positions, velocities)
-    if until is not None and not (np.isfinite(until) and until > 0):
+    if (until is None and patience == 0) or (until is not None and not (np.isfinite(until) and until > 0)):
         raise InputError("until", until, "a finite time above 0, in 1/Omega")
-    for name, number in (("patience", patience), ("max_events", max_events), ("threads", threads)):
-        if number is not None and not (isinstance(number, Integral) and number >= 1):
-            raise InputError(name, number, "a whole number of at least 1")
+    for name, number, least in (("patience", patience, 0), ("max_events", max_events, 1), ("threads", threads, 1)):
+        if number is not None and not (isinstance(number, Integral) and number >= least):
+            raise InputError(name, number, f"a whole number of at least {least}")
     order = slice(None) if len(rotors) == 1 else np.argsort(which, axis=None, kind="stable")
     motions = _motions(positions.ravel()[order], velocities.ravel()[order])
-    limits = _Limits(until, settle, patience, max_events)
+    limits = _Limits(until, patience, max_events)
     threads = threads or available_cores()
     parts = []
     for number, portion in _portions(which.ravel()[order], len(rotors)):
@@ -149,7 +147,6 @@ def settle_all(
 @dataclass(frozen=True)
 class _Limits:
     until: float | None
-    settle: bool
     patience: int
     max_events: int
 
@@ -223,7 +220,7 @@ def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator
 def _settle_part(part: _Part, limits: _Limits) -> int:
     until = longest_time(part.rotor) if limits.until is None else limits.until
     task = Task(part.rotor.system.arrays, part.rotor.system.table, until, limits.max_events)
-    memory = fresh_memory(part.rotor, limits.patience if limits.settle else 0, absorb=True)
+    memory = fresh_memory(part.rotor, limits.patience, absorb=True)
     # Uncompiled, a lane that has nothing to divide warns.
     with np.errstate(all="ignore"):
         return int(follow_each(task, part.motions, part.counter, _workbench.tools(memory)))

@@ -19,7 +19,7 @@ import numpy as np
 from carom.attractors import DisturbanceSet, motion_name
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott
-from carom.motions.ensembles import Endings, settle_all
+from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.studies.ranges import Edge, Gain, MotionRange, Span, free_spans, outside
@@ -169,7 +169,7 @@ class _Trial:
         return worst
 
     def _follow(self, rotor: Jeffcott, value: float, positions: np.ndarray, velocities: np.ndarray) -> Kind:
-        ends = settle_all(rotor, positions, velocities)
+        ends = settle(rotor, positions, velocities)
         whirls = np.isin(ends.outcomes, WHIRL)
         lost_to: dict[Kind, np.ndarray] = {"other": ~ends.recovered & ~whirls, "whirl": whirls}
         for kind, chosen in lost_to.items():

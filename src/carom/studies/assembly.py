@@ -13,7 +13,7 @@ from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
-from carom.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
+from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document

@@ -162,10 +162,10 @@ def _plain(value: Any) -> Any:
 
 def _follow(rotor: Jeffcott, starts: Starts) -> tuple[np.ndarray, int]:
     """Outcomes of the starts that exist, and their impacts."""
-    from carom.motions.ensembles import settle_all
+    from carom.motions.ensembles import settle
 
     decided = starts.exists & ~starts.undecided
-    endings = settle_all(rotor, starts.positions[decided], starts.velocities[decided], threads=1)
+    endings = settle(rotor, starts.positions[decided], starts.velocities[decided], threads=1)
     outcomes = np.full(decided.shape, Outcome.GRAZING, np.int8)
     outcomes[decided] = endings.outcomes
     return outcomes[starts.exists], int(endings.impacts.sum())

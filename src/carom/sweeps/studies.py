@@ -162,7 +162,7 @@ class StudyTask:
         }
 
     def _damping(self, rotor: Jeffcott, seed: int) -> dict[str, Any]:
-        from carom.safety import DampingLimit, least_safe_damping
+        from carom.studies.safety import DampingLimit, least_safe_damping
 
         safe = least_safe_damping(rotor.parameters, seed=seed, count=max(self.disturbances, 1), threads=1)
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import settle_all
+from carom import settle
 from carom.core.layout import LANE_NODES, LANES, LEVELS, OCTET
 from carom.models import Jeffcott
 
@@ -29,7 +29,7 @@ SHORT, STRONGLY_DAMPED = "0.1 20.0", "0.3 200000.0"
 SCRIPT = f"""
 import sys
 import numpy as np
-from carom import Jeffcott, settle_all
+from carom import Jeffcott, settle
 from carom.core.ensemble import follow_each
 from carom.core.layout import LANES, WIDTH
 from lane_programs import program
@@ -39,7 +39,7 @@ given, found = np.load(sys.argv[1]), {{}}
 for case in ({SHORT!r}, {STRONGLY_DAMPED!r}):
     damping, until = map(float, case.split())
     rotor = Jeffcott(PAPER.replace(gamma=damping))
-    endings = settle_all(rotor, given["positions"], given["velocities"], until=until, threads=1)
+    endings = settle(rotor, given["positions"], given["velocities"], until=until, threads=1)
     found |= {{f"{{case}} {{name}}": values for name, values in vars(endings).items()}}
 look_up = program("row, few, places, levels, out, first", [
     "store(out[0], first, take(row, load(places, first)))", "store(out[1], first, choose(few, load(levels, first)))",
@@ -94,7 +94,7 @@ def found(given, tmp_path_factory):
 @pytest.mark.parametrize("case", [SHORT, STRONGLY_DAMPED])
 def test_motions_are_the_same(given, found, case):
     damping, until = map(float, case.split())
-    here = settle_all(Jeffcott(PAPER.replace(gamma=damping)), given["positions"], given["velocities"], until=until)
+    here = settle(Jeffcott(PAPER.replace(gamma=damping)), given["positions"], given["velocities"], until=until)
     for name in ("outcomes", "impacts", "multiplicities"):
         np.testing.assert_array_equal(found[f"{case} {name}"], getattr(here, name), err_msg=name)
     np.testing.assert_allclose(found[f"{case} times"], here.times, rtol=1e-9)

@@ -8,10 +8,10 @@ from carom.attractors import DisturbanceSet, find_attractors
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import Jeffcott
-from carom.motions.ensembles import settle_all
+from carom.motions.ensembles import settle
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
-from carom.safety import least_safe_damping
+from carom.studies.safety import least_safe_damping
 
 pytestmark = pytest.mark.jit_only
 
@@ -38,7 +38,7 @@ def safe():
 
 def lost(parameters, gamma, count, seed, fastest=2.0):
     rotor = Jeffcott(parameters.replace(gamma=gamma))
-    return count - settle_all(rotor, *DisturbanceSet(count, seed, fastest).states(rotor)).count(Outcome.LEVITATED)
+    return count - settle(rotor, *DisturbanceSet(count, seed, fastest).states(rotor)).count(Outcome.LEVITATED)
 
 
 def test_synchronous_rub_sets_the_damping_of_the_source_machine(safe):

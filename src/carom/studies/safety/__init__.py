@@ -7,8 +7,8 @@
 ==============  ==============================================================================================
 """
 
-from carom.safety.limits import DampingLimit, SafeDamping
-from carom.safety.losses import DampingCheck, try_disturbances
-from carom.safety.search import FRESH, least_safe_damping
+from carom.studies.safety.limits import DampingLimit, SafeDamping
+from carom.studies.safety.losses import DampingCheck, try_disturbances
+from carom.studies.safety.search import FRESH, least_safe_damping
 
 __all__ = ["FRESH", "DampingCheck", "DampingLimit", "SafeDamping", "least_safe_damping", "try_disturbances"]

@@ -16,7 +16,7 @@ from carom.attractors import DisturbanceSet
 from carom.basins.motions import name_motions
 from carom.basins.shares import CONFIDENCE, Share
 from carom.models import Jeffcott
-from carom.motions.ensembles import Endings, settle_all
+from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 
@@ -67,7 +67,7 @@ class DampingCheck:
 
 def try_disturbances(rotor: Jeffcott, sample: DisturbanceSet, threads: int | None = None) -> DampingCheck:
     """Follow disturbances, every one of them, and count those that do not come back."""
-    endings = settle_all(rotor, *sample.states(rotor), threads=threads)
+    endings = settle(rotor, *sample.states(rotor), threads=threads)
     return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
 
 
@@ -212,7 +212,7 @@ class Losses:
         """Follow starts; those that did not come back, if there are any."""
         if not len(kicked):
             return None
-        endings = settle_all(rotor, positions, velocities, threads=self.threads)
+        endings = settle(rotor, positions, velocities, threads=self.threads)
         lost = endings.outcomes != Outcome.LEVITATED
         gamma = rotor.parameters.gamma
         if gamma <= explained:

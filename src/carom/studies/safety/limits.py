@@ -13,7 +13,7 @@ from carom.closed_forms.whirl import Runaway
 from carom.models import Jeffcott
 from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
-from carom.safety.losses import DampingCheck
+from carom.studies.safety.losses import DampingCheck
 
 __all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "unsettled_words", "within_reach"]
 

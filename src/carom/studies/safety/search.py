@@ -14,8 +14,8 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-from carom.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping, within_reach
-from carom.safety.losses import DampingCheck, Loss, Losses
+from carom.studies.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping, within_reach
+from carom.studies.safety.losses import DampingCheck, Loss, Losses
 
 __all__ = ["FRESH", "least_safe_damping"]
 

@@ -7,8 +7,8 @@ from carom.attractors import DisturbanceSet
 from carom.closed_forms.whirl import runaway_speed
 from carom.models import Jeffcott
 from carom.parameters import Parameters, Scales
-from carom.safety import DampingCheck, DampingLimit, SafeDamping
-from carom.safety.limits import rounded_up, share_words
+from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
+from carom.studies.safety.limits import rounded_up, share_words
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
