@@ -17,7 +17,7 @@ STARTS = 4000
 def test_basin(benchmark, who, gamma):
     """Positions even over the clearance, speeds up to 2; one thread."""
     rotor = source_paper_machine(gamma)
-    plan = carom.Sample(carom.AnyState(2.0), STARTS, seed=1)
+    plan = carom.disturbances.Sample(carom.disturbances.AnyState(2.0), STARTS, seed=1)
     found = map_basins(rotor, plan, threads=1)
     assert found.unresolved == 0
     benchmark.group = "a basin"
@@ -27,9 +27,9 @@ def test_basin(benchmark, who, gamma):
 
 def test_smallest_kick(benchmark):
     rotor = source_paper_machine(0.152)
-    found = carom.smallest_unrecovered_kick(rotor, threads=1)
+    found = carom.basins.smallest_unrecovered_kick(rotor, threads=1)
     benchmark.group = "the smallest kick that is lost"
-    benchmark(carom.smallest_unrecovered_kick, rotor, threads=1)
+    benchmark(carom.basins.smallest_unrecovered_kick, rotor, threads=1)
     benchmark.extra_info.update(who="carom", unit="kick tried", units=found.tried)
 
 

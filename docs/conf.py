@@ -49,7 +49,7 @@ nb_render_markdown_format = "myst"
 autosummary_generate = True
 # Names that differ in case only, for file systems that do not tell them apart.
 autosummary_filename_map = {
-    "carom.Rolling": "carom.Rolling-class",
+    "carom.closed_forms.Rolling": "carom.closed_forms.Rolling-class",
     "carom.bifurcations.Axis": "carom.bifurcations.Axis-class",
 }
 autodoc_typehints = "none"

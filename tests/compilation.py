@@ -24,7 +24,7 @@ DEEP = COMPILED and os.environ.get("CAROM_DEEP", "") not in ("", "0")
 _FLIGHT = """
 import numpy as np
 import carom
-rotor = carom.Jeffcott(carom.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
+rotor = carom.models.Jeffcott(carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
 carom.simulate(rotor, carom.kick(0.3), 20.0, settle=True)
 carom.settle(rotor, np.array([0.1 + 0j]), np.array([0.5 + 0j]))
 """
@@ -32,7 +32,7 @@ _SHOCK = """
 import carom
 from carom.basins import basins
 from carom.disturbances import BaseShock, Grid
-rotor = carom.Jeffcott(carom.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
+rotor = carom.models.Jeffcott(carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
 basins(rotor, Grid(BaseShock(1.0, 0.7), (2, 2)))
 """
 

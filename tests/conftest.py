@@ -42,7 +42,7 @@ def pytest_sessionstart(session):
 @pytest.fixture(scope="session")
 def corner():
     """Map of a part of the source paper's plane: most of its curves pass no line through the machine."""
-    plane = carom.Plane("gamma", "omega", (0.025, 0.1), (0.19, 0.765))
+    plane = carom.bifurcations.Plane("gamma", "omega", (0.025, 0.1), (0.19, 0.765))
     return carom.map_regions(PAPER, plane, grid=sized(8, 6))
 
 

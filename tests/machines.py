@@ -13,7 +13,7 @@ import mpmath
 import numpy as np
 from scipy.linalg import expm
 
-from carom import Parameters
+from carom.parameters import Parameters
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 """The machine of the source paper at a damping in the middle of its range."""

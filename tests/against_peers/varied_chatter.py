@@ -10,10 +10,10 @@ import sys
 
 import numba
 
-from carom import Parameters
 from carom.core import advance
 from carom.models import Jeffcott
 from carom.motions.trajectories import State, simulate
+from carom.parameters import Parameters
 
 
 def main(case: dict) -> list[list[float]]:

@@ -17,7 +17,7 @@ from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 
-SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(gamma=0.152, scales=SCALES)
 KICKS = Grid(VelocityKick.in_si(SCALES, 0.02), (10, 10))
 RANGES = ((7.0e5, 1.4e6), (500.0, 4500.0))
@@ -35,7 +35,7 @@ def test_each_node_is_the_basin_of_its_machine(found):
     for i, stiffness in enumerate(found.dataset["stiffness"].values):
         for k, damping in enumerate(found.dataset["damping"].values):
             machine = vary(vary(MACHINE, "stiffness", stiffness), "damping", damping)
-            rotor = carom.Jeffcott(machine)
+            rotor = carom.models.Jeffcott(machine)
             node = found.dataset.isel(stiffness=i, damping=k)
             assert levitates[i, k] == (abs(rotor.equilibrium) < 1.0)
             if not levitates[i, k]:
@@ -61,7 +61,7 @@ def test_each_node_is_the_basin_of_its_machine(found):
 
 def test_the_present_machine(found):
     assert found.present == pytest.approx((MACHINE.omega**2 * SCALES.stiffness, 0.152 * SCALES.damping))
-    share = map_basins(carom.Jeffcott(MACHINE), KICKS).share_recovered
+    share = map_basins(carom.models.Jeffcott(MACHINE), KICKS).share_recovered
     assert found.present_share == share
 
 
@@ -78,7 +78,7 @@ def test_the_least_change_is_enough_and_half_of_it_is_not(found):
     for part in (1.0, 0.97):
         values = [now * (1.0 + part * relative) for now, relative in zip(found.present, change.changes, strict=True)]
         machine = vary(vary(MACHINE, "stiffness", values[0]), "damping", values[1])
-        shares.append(map_basins(carom.Jeffcott(machine), KICKS).share_recovered.fraction)
+        shares.append(map_basins(carom.models.Jeffcott(machine), KICKS).share_recovered.fraction)
     assert shares[0] == change.share.fraction >= 0.95
     assert shares[1] < 0.95
     assert change.values == pytest.approx(
@@ -99,7 +99,7 @@ def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
     slow = vary(vary(MACHINE, "speed", 120.0), "damping", 3000.0)
     plan = Grid(VelocityKick.in_si(slow.scales, 0.02), (10, 10))
     assert plan.model.fastest != pytest.approx(KICKS.model.fastest, rel=0.1)
-    share = map_basins(carom.Jeffcott(slow), plan).share_recovered
+    share = map_basins(carom.models.Jeffcott(slow), plan).share_recovered
     assert found.dataset["recovered"].values[0, 0] == pytest.approx(share.fraction, abs=0.011)
 
 

@@ -24,7 +24,7 @@ def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
     """The largest deviation is that of the flight itself, whatever the direction; the bound is not wasteful."""
     machine = PAPER.replace(gamma=gamma, rho=0.2)
     rest = rest_position(machine)
-    speed = harmless_kick(carom.Jeffcott(machine))
+    speed = harmless_kick(carom.models.Jeffcott(machine))
     times = np.linspace(0.0, 12.0, 4001)
     farthest = 0.0
     for angle in np.linspace(0.0, 2.0 * math.pi, 61):
@@ -36,7 +36,7 @@ def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
 
 def test_critical_damping_is_the_limit_of_both_sides():
     speeds = [
-        harmless_kick(carom.Jeffcott(PAPER.replace(rho=0.1, gamma=2.0 * 0.76 * factor)))
+        harmless_kick(carom.models.Jeffcott(PAPER.replace(rho=0.1, gamma=2.0 * 0.76 * factor)))
         for factor in (1 - 1e-7, 1, 1 + 1e-7)
     ]
     assert speeds == pytest.approx([speeds[1]] * 3, rel=1e-6)
@@ -44,11 +44,11 @@ def test_critical_damping_is_the_limit_of_both_sides():
 
 @pytest.mark.parametrize("changes", [{"gamma": -0.01, "rho": 0.1}, {"gamma": 0.05}])
 def test_nothing_is_harmless_without_damped_levitation(changes):
-    assert harmless_kick(carom.Jeffcott(PAPER.replace(**changes))) == 0.0
+    assert harmless_kick(carom.models.Jeffcott(PAPER.replace(**changes))) == 0.0
 
 
 def test_the_smallest_kick_is_lost_and_a_smaller_one_is_not():
-    rotor = carom.Jeffcott(MACHINE)
+    rotor = carom.models.Jeffcott(MACHINE)
     found = smallest_unrecovered_kick(rotor, 1.0)
     assert found.harmless < found.recovered < found.size
     assert found.size - found.recovered <= 1.001e-3 * found.size
@@ -61,28 +61,28 @@ def test_the_smallest_kick_is_lost_and_a_smaller_one_is_not():
 
 
 def test_no_kick_of_an_independent_sample_below_it_is_lost():
-    rotor = carom.Jeffcott(MACHINE)
+    rotor = carom.models.Jeffcott(MACHINE)
     found = smallest_unrecovered_kick(rotor, 1.0)
     rng = np.random.default_rng(8)
     speeds = found.size * 0.998 * np.sqrt(rng.random(4000))
-    starts = carom.VelocityKick().starts(rotor, speeds, rng.uniform(0.0, 2.0 * math.pi, 4000))
+    starts = carom.disturbances.VelocityKick().starts(rotor, speeds, rng.uniform(0.0, 2.0 * math.pi, 4000))
     assert carom.settle(rotor, starts.positions, starts.velocities).recovered.all()
 
 
 def test_a_finer_scan_finds_no_smaller_one():
-    rotor = carom.Jeffcott(MACHINE)
+    rotor = carom.models.Jeffcott(MACHINE)
     found, finer = (smallest_unrecovered_kick(rotor, 1.0, directions=count, speeds=count) for count in (48, 200))
     assert found.size == pytest.approx(finer.size, rel=3e-3)
 
 
 def test_a_machine_that_always_comes_back():
-    assert smallest_unrecovered_kick(carom.Jeffcott(PAPER.replace(gamma=0.6, rho=0.1)), 0.5) is None
+    assert smallest_unrecovered_kick(carom.models.Jeffcott(PAPER.replace(gamma=0.6, rho=0.1)), 0.5) is None
 
 
 @pytest.mark.parametrize("duration", [0.02, 0.7, 4.0])
 def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
     """Followed in the fixed frame by a general solver through the pulse and after it, in many directions."""
-    peak = harmless_shock(carom.Jeffcott(MACHINE), duration)
+    peak = harmless_shock(carom.models.Jeffcott(MACHINE), duration)
     gamma, omega, rest = MACHINE.gamma, MACHINE.omega, abs(rest_position(MACHINE))
 
     def rate(time, state):
@@ -100,10 +100,10 @@ def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
 
 def models(machine):
     return {
-        "kick": carom.VelocityKick(0.4),
+        "kick": carom.disturbances.VelocityKick(0.4),
         "shock": carom.BaseShock(1.0, 0.9),
-        "step": carom.UnbalanceStep(0.3),
-        "release": carom.ContactRelease("fixed"),
+        "step": carom.disturbances.UnbalanceStep(0.3),
+        "release": carom.disturbances.ContactRelease("fixed"),
     }
 
 
@@ -127,7 +127,7 @@ def starts_of(kind, rotor, sizes, angles):
 @pytest.mark.parametrize("machine", [MACHINE, PAPER.replace(gamma=0.1521)], ids=["far", "example"])
 def test_fresh_samples_do_not_break_the_bracket(kind, machine):
     """What is said of the bracket, tried with starts that the search has not seen."""
-    rotor = carom.Jeffcott(machine)
+    rotor = carom.models.Jeffcott(machine)
     scan = 24 if kind == "shock" else 48
     found = smallest_loss(rotor, models(machine)[kind], directions=scan, sizes=scan)
     assert found.kind == kind
@@ -148,18 +148,18 @@ def test_fresh_samples_do_not_break_the_bracket(kind, machine):
 
 def test_fresh_starts_bring_the_smallest_loss_down():
     """A scan of four directions and sizes misses where the basin is near; what is drawn below it finds it."""
-    rotor = carom.Jeffcott(MACHINE)
-    coarse, fine = (smallest_loss(rotor, carom.VelocityKick(0.4), directions=n, sizes=n) for n in (4, 96))
+    rotor = carom.models.Jeffcott(MACHINE)
+    coarse, fine = (smallest_loss(rotor, carom.disturbances.VelocityKick(0.4), directions=n, sizes=n) for n in (4, 96))
     assert coarse.size == pytest.approx(fine.size, rel=3e-3)
 
 
 def test_releases_from_contact():
     """At rest all are lost; with more damping none is up to a speed, and then the whirl that is lost is backward."""
-    lost = smallest_loss(carom.Jeffcott(PAPER.replace(gamma=0.1521)), carom.ContactRelease("fixed"))
+    lost = smallest_loss(carom.models.Jeffcott(PAPER.replace(gamma=0.1521)), carom.disturbances.ContactRelease("fixed"))
     assert (lost.size, lost.all_back, lost.outcome) == (0.0, None, Outcome.BOUNCING)
     machine = PAPER.replace(gamma=0.5, mu=0.6)
-    rotor = carom.Jeffcott(machine)
-    found = smallest_loss(rotor, carom.ContactRelease("rolling"))
+    rotor = carom.models.Jeffcott(machine)
+    found = smallest_loss(rotor, carom.disturbances.ContactRelease("rolling"))
     assert found.harmless == 0.0
     assert found.largest == FASTEST
     assert 0.0 < found.all_back < found.size
@@ -175,39 +175,39 @@ def test_releases_from_contact():
 def test_a_machine_that_always_comes_back_has_no_smallest_loss():
     machine = PAPER.replace(gamma=0.6, rho=0.1)
     for kind, model in models(machine).items():
-        found = smallest_loss(carom.Jeffcott(machine), model, directions=24, sizes=24)
+        found = smallest_loss(carom.models.Jeffcott(machine), model, directions=24, sizes=24)
         assert (found.kind, found.size, found.outcome, found.angle) == (kind, None, None, None)
         assert found.all_back == found.largest
 
 
 def test_disturbances_without_a_size():
     with pytest.raises(InputError, match="one with a size"):
-        smallest_loss(carom.Jeffcott(MACHINE), StateSlice())
+        smallest_loss(carom.models.Jeffcott(MACHINE), StateSlice())
 
 
 @pytest.mark.parametrize("gamma", [0.0, 0.1, 1.0, 4.0])
 def test_harmless_steps_do_not_bring_the_rotor_to_the_wall(gamma):
     machine = PAPER.replace(gamma=gamma, rho=0.2)
-    rotor = carom.Jeffcott(machine)
+    rotor = carom.models.Jeffcott(machine)
     size = harmless_step(rotor)
     times = np.linspace(0.0, 15.0, 3001)
     for angle in np.linspace(0.0, 2.0 * math.pi, 25):
         place, velocity, _ = starts_of("step", rotor, np.array([size]), np.array([angle]))
         assert np.abs(path(machine, complex(place[0]), complex(velocity[0]), times)).max() <= 1.0
-    assert harmless_step(carom.Jeffcott(PAPER.replace(gamma=0.05))) == 0.0
+    assert harmless_step(carom.models.Jeffcott(PAPER.replace(gamma=0.05))) == 0.0
 
 
 @pytest.mark.parametrize("fastest", [0.0, -1.0, math.nan, math.inf])
 def test_speeds_that_make_no_sense(fastest):
     with pytest.raises(InputError, match="fastest"):
-        smallest_unrecovered_kick(carom.Jeffcott(MACHINE), fastest)
+        smallest_unrecovered_kick(carom.models.Jeffcott(MACHINE), fastest)
 
 
 def test_no_levitation():
     with pytest.raises(InputError, match="levitation"):
-        smallest_unrecovered_kick(carom.Jeffcott(PAPER.replace(gamma=0.05)))
+        smallest_unrecovered_kick(carom.models.Jeffcott(PAPER.replace(gamma=0.05)))
 
 
 def test_unstable_levitation():
     with pytest.raises(InputError, match="gamma"):
-        smallest_unrecovered_kick(carom.Jeffcott(PAPER.replace(gamma=-0.01, rho=0.1)))
+        smallest_unrecovered_kick(carom.models.Jeffcott(PAPER.replace(gamma=-0.01, rho=0.1)))

@@ -13,7 +13,7 @@ from scipy.stats import binomtest
 import carom
 from carom.basins import Share, basin_entropy, integrity, map_basins
 from carom.basins.entropy import entropies
-from carom.basins.integrity import _distances, safe_size
+from carom.basins.integrity_measures import _distances, safe_size
 from carom.disturbances import AnyState, ContactRelease, Grid, KickPlane, Sample, StateSlice, VelocityKick
 from carom.outcome import InputError
 
@@ -58,10 +58,10 @@ def test_the_safe_size_is_the_last_one_tried_before_the_first_loss():
 @pytest.mark.jit_only
 def test_integrity_of_kicks_agrees_between_pictures():
     """By size and direction, and in the plane, the ball about levitation is the same to the width of the cells."""
-    rotor = carom.Jeffcott(MACHINE)
+    rotor = carom.models.Jeffcott(MACHINE)
     rings = integrity(map_basins(rotor, Grid(VelocityKick(1.0), (80, 90))))
     plane = integrity(map_basins(rotor, Grid(KickPlane(1.0), (80, 80))))
-    smallest = carom.smallest_unrecovered_kick(rotor, 1.0)
+    smallest = carom.basins.smallest_unrecovered_kick(rotor, 1.0)
     assert rings.local == pytest.approx(smallest.size, abs=1.5 / 80)
     assert plane.local == pytest.approx(smallest.size, abs=3.0 / 80)
     assert plane.largest >= plane.local - 2.0 / 80
@@ -70,7 +70,7 @@ def test_integrity_of_kicks_agrees_between_pictures():
 
 @pytest.mark.jit_only
 def test_integrity_of_positions_and_samples():
-    rotor = carom.Jeffcott(MACHINE)
+    rotor = carom.models.Jeffcott(MACHINE)
     found = integrity(map_basins(rotor, Grid(StateSlice(), (60, 60))))
     assert 0.0 < found.local <= 1.0 - abs(rotor.equilibrium)
     assert found.largest >= found.local - 1.0 / 60
@@ -124,7 +124,7 @@ def test_entropy_needs_room_for_a_box():
 
 @pytest.mark.jit_only
 def test_entropy_is_for_grids():
-    rotor = carom.Jeffcott(MACHINE)
+    rotor = carom.models.Jeffcott(MACHINE)
     with pytest.raises(InputError, match="sample"):
         basin_entropy(map_basins(rotor, Sample(VelocityKick(1.0), 10)))
     found = basin_entropy(map_basins(rotor, Grid(VelocityKick(1.0), (20, 20))))

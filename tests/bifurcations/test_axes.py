@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import InputError, Machine
+from carom import Machine
 from carom.bifurcations import value_of, vary
+from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Scales
 
 MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))

@@ -7,13 +7,14 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
-from carom import InputError, find_orbits, simulate
+from carom import find_orbits, simulate
 from carom.bifurcations import OrbitBranch, continue_orbit
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
 from carom.models import Jeffcott
 from carom.motions.trajectories import State
 from carom.orbits.maps import Section, impact_map
+from carom.outcome import InputError
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import InputError, find_orbits
+from carom import find_orbits
 from carom.bifurcations import KINDS, Curve, Plane, continue_curve, continue_orbit
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
+from carom.outcome import InputError
 
 PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
 

@@ -9,10 +9,11 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
-from carom import InputError, Machine, find_equilibria, find_orbits
+from carom import Machine, find_equilibria, find_orbits
 from carom.bifurcations import Plane, axis, find_bifurcations, map_regions, motions_at, value_of
 from carom.bifurcations.curves import STEPS
 from carom.models import Jeffcott
+from carom.outcome import InputError
 from carom.parameters import Scales
 
 

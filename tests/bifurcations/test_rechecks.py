@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Parameters, find_equilibria, find_orbits, simulate
+from carom import find_equilibria, find_orbits, simulate
 from carom.bifurcations import Diagram, Numbers, Plane, SpecialValue, find_bifurcations, map_regions, vary
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
@@ -18,6 +18,7 @@ from carom.motions.trajectories import State
 from carom.orbits.maps import Section, impact_map, section_jacobian
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Phase
+from carom.parameters import Parameters
 
 pytestmark = pytest.mark.jit_only
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Plane, find_orbits, map_regions
+from carom import find_orbits, map_regions
+from carom.bifurcations import Plane
 from carom.models import Jeffcott
 
 PLANE = Plane("rho", "gamma", (0.2, 0.25), (0.15, 0.19))

@@ -9,7 +9,7 @@ from machines import PAPER
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from carom import InputError, find_orbits, simulate
+from carom import find_orbits, simulate
 from carom.bifurcations import (
     Plane,
     RubbingBranch,
@@ -22,7 +22,7 @@ from carom.bifurcations import (
 )
 from carom.bifurcations.lift_offs import lift_off_state, next_lift_off
 from carom.models import Jeffcott
-from carom.outcome import Phase
+from carom.outcome import InputError, Phase
 
 DEAD = PAPER.replace(omega=0.76, rho=0.1, mu=0.3, d=0.0)
 """Impacts without rebound."""

@@ -9,9 +9,11 @@ import pytest
 from machines import PAPER, flight_matrix, random_parameters, rest_position
 from scipy.integrate import solve_ivp
 
-from carom import Equilibrium, Parameters, find_equilibria
+from carom import find_equilibria
+from carom.closed_forms import Equilibrium
 from carom.models import Jeffcott
 from carom.motions.trajectories import State, simulate
+from carom.parameters import Parameters
 
 BOUNDARY_DAMPING = math.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)
 RUB_FOLD = PAPER.rho * math.hypot(1.0, PAPER.mu) - PAPER.mu * (1.0 - PAPER.omega**2)

@@ -12,11 +12,12 @@ import pytest
 from machines import PAPER, flight_matrix
 from scipy.linalg import expm
 
-from carom import InputError, find_orbits
+from carom import find_orbits
 from carom.closed_forms.local import ContactSystem, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.layout import rotor_record
 from carom.models import Jeffcott, System
+from carom.outcome import InputError
 
 BOUNDARY = PAPER.replace(gamma=float(np.sqrt(PAPER.rho**2 - (1.0 - PAPER.omega**2) ** 2)))
 

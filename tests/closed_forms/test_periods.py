@@ -10,9 +10,11 @@ from flint import acb, arb, ctx
 from machines import PAPER, exact_return, flight_matrix, random_parameters
 from scipy.linalg import expm
 
-from carom import CaromError, InputError, Parameters, period_condition
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
+from carom.orbits import period_condition
+from carom.outcome import CaromError, InputError
+from carom.parameters import Parameters
 
 CRITICAL = 2.0 * 0.76
 DAMPINGS = {

@@ -13,7 +13,6 @@ from compilation import sized
 from machines import PAPER, fly, random_parameters
 from scipy.integrate import solve_ivp
 
-from carom import Parameters
 from carom.core.flow import acceleration, displacement, fly_all, velocity
 from carom.core.layout import ORDER, rotor_record, rub_workspace
 from carom.core.rub import (
@@ -32,6 +31,7 @@ from carom.core.rub import (
 )
 from carom.models import Jeffcott
 from carom.outcome import Phase
+from carom.parameters import Parameters
 
 FLIGHT, FORWARD, BACKWARD, ROLLING = Phase.FLIGHT, Phase.FORWARD_SLIP, Phase.BACKWARD_SLIP, Phase.ROLLING
 SIGN = {FORWARD: 1, BACKWARD: -1}

@@ -25,7 +25,7 @@ from carom.disturbances import (
 )
 from carom.outcome import InputError
 
-SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 QUIET = PAPER.replace(rho=0.2)
 GROUNDED = PAPER.replace(gamma=0.05)
 """Its equilibrium lies outside the wall."""
@@ -33,7 +33,7 @@ GROUNDED = PAPER.replace(gamma=0.05)
 
 @pytest.fixture
 def rotor():
-    return carom.Jeffcott(QUIET)
+    return carom.models.Jeffcott(QUIET)
 
 
 def test_kicks_are_those_of_simulate(rotor):
@@ -53,7 +53,7 @@ def test_a_radial_kick_points_away_from_the_centre(rotor):
 
 
 def test_nothing_can_be_kicked_out_of_levitation_where_there_is_none():
-    grounded = carom.Jeffcott(GROUNDED)
+    grounded = carom.models.Jeffcott(GROUNDED)
     assert abs(rest_position(GROUNDED)) > 1.0
     for model in (VelocityKick(), KickPlane(), BaseShock(1.0, 0.5)):
         assert not Grid(model, (3, 3)).starts(grounded).exists.any()
@@ -93,7 +93,7 @@ def test_a_slice_keeps_to_the_clearance(rotor):
 
 def test_states_are_even_over_both_discs():
     sample = Sample(AnyState(1.5), 20_000, seed=4)
-    starts = sample.starts(carom.Jeffcott(QUIET))
+    starts = sample.starts(carom.models.Jeffcott(QUIET))
     for values, radius in ((starts.positions, 1.0), (starts.velocities, 1.5)):
         assert np.abs(values).max() <= radius
         # A quarter of the area lies within half the radius; five standard errors.
@@ -127,7 +127,7 @@ def test_si_numbers_go_through_the_scales():
 
 
 def test_rescaling_keeps_what_happens_in_si():
-    other = carom.Scales(mass=80.0, clearance=0.3e-3, speed=400.0)
+    other = carom.parameters.Scales(mass=80.0, clearance=0.3e-3, speed=400.0)
     shock = BaseShock.in_si(SCALES, g=20.0, milliseconds=3.0)
     again = shock.rescaled(SCALES, other)
     expected = BaseShock.in_si(other, g=20.0, milliseconds=3.0)
@@ -140,7 +140,7 @@ def test_rescaling_keeps_what_happens_in_si():
 def test_the_plane_of_kicks_by_its_short_name():
     plan = kick_grid(radial=8, tangential=6, fastest=0.4)
     assert plan == Grid(KickPlane(0.4), (8, 6))
-    assert plan.starts(carom.Jeffcott(QUIET)).positions.shape == (8, 6)
+    assert plan.starts(carom.models.Jeffcott(QUIET)).positions.shape == (8, 6)
 
 
 @pytest.mark.parametrize(

@@ -51,7 +51,7 @@ def followed(parameters, peak, duration, direction):
 
 
 def after(parameters, peak, duration, direction):
-    found = states_after_shocks(carom.Jeffcott(parameters), np.array([peak]), duration, np.array([direction]))
+    found = states_after_shocks(carom.models.Jeffcott(parameters), np.array([peak]), duration, np.array([direction]))
     return complex(found[0][0]), complex(found[1][0]), bool(found[2][0])
 
 
@@ -85,8 +85,8 @@ def test_pressed_to_the_wall_when_the_pulse_ends(peak, duration, direction):
     assert abs(position) == pytest.approx(1.0, abs=1e-15)
     assert (position.conjugate() * velocity).real == pytest.approx(0.0, abs=1e-12)
     assert not undecided
-    found = carom.simulate(carom.Jeffcott(machine), carom.State(position, velocity), 1.0)
-    assert found.outcome is carom.Outcome.TIME_REACHED
+    found = carom.simulate(carom.models.Jeffcott(machine), carom.State(position, velocity), 1.0)
+    assert found.outcome is carom.outcome.Outcome.TIME_REACHED
 
 
 def test_a_short_shock_is_a_kick():
@@ -108,7 +108,7 @@ def test_undamped_resonance_is_refused():
 
 
 def test_a_shock_knows_of_no_other():
-    machine = carom.Jeffcott(PAPER.replace(rho=0.2, gamma=0.3, d=0.3))
+    machine = carom.models.Jeffcott(PAPER.replace(rho=0.2, gamma=0.3, d=0.3))
     peaks, directions = np.linspace(0.1, 12.0, 9), np.linspace(0.0, 6.0, 9)
     together = states_after_shocks(machine, peaks, 1.7, directions)
     for place in range(9):

@@ -16,10 +16,10 @@ import numpy as np
 import pytest
 from compilation import sized
 
-from carom import Parameters
 from carom.models import Jeffcott
 from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import Phase
+from carom.parameters import Parameters
 
 MACHINES = 50
 STARTS = sized(60, 1, 2000)

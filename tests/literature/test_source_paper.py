@@ -17,9 +17,11 @@ from machines import PAPER, flight_matrix, rest_position
 from scipy.linalg import expm
 from scipy.optimize import bisect, brentq, minimize_scalar
 
-from carom import Orbit, OrbitSet, Scales, State, find_equilibria, find_orbits, period_condition, simulate
+from carom import State, find_equilibria, find_orbits, simulate
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
+from carom.orbits import Orbit, OrbitSet, period_condition
+from carom.parameters import Scales
 
 FINE = {"xtol": 1e-15, "rtol": 1e-14}
 

@@ -10,9 +10,9 @@ import carom
 from carom.motions.ledger import energy_ledger
 
 
-def _rotor(gamma: float) -> carom.Jeffcott:
-    return carom.Jeffcott(
-        carom.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+def _rotor(gamma: float) -> carom.models.Jeffcott:
+    return carom.models.Jeffcott(
+        carom.parameters.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
     )
 
 
@@ -26,11 +26,11 @@ def test_energy_closes_over_ten_thousand_impacts():
 @pytest.mark.parametrize(
     ("gamma", "start", "phases"),
     [
-        (0.2, carom.State(0.2 + 0.1j, 0.5 + 0.3j), {carom.Phase.FORWARD_SLIP}),
+        (0.2, carom.State(0.2 + 0.1j, 0.5 + 0.3j), {carom.outcome.Phase.FORWARD_SLIP}),
         pytest.param(
             0.07,
             carom.State(0.2 + 0.1j, 0.3j),
-            {carom.Phase.FORWARD_SLIP, carom.Phase.ROLLING},
+            {carom.outcome.Phase.FORWARD_SLIP, carom.outcome.Phase.ROLLING},
             marks=pytest.mark.jit_only,
         ),
         (0.4, carom.State(0.2 + 0.1j, 0.5 + 0.3j), set()),
@@ -54,14 +54,14 @@ def test_a_missing_account_would_show():
 
 
 def test_a_rotor_at_rest_has_nothing_to_account_for():
-    centred = carom.Parameters(gamma=0.1, omega=0.76, rho=0.0, phi=0.0, mu=0.15, d=0.95, radius_ratio=57.0)
-    ledger = energy_ledger(carom.simulate(carom.Jeffcott(centred), carom.State(0j, 0j), until=10.0))
+    centred = carom.parameters.Parameters(gamma=0.1, omega=0.76, rho=0.0, phi=0.0, mu=0.15, d=0.95, radius_ratio=57.0)
+    ledger = energy_ledger(carom.simulate(carom.models.Jeffcott(centred), carom.State(0j, 0j), until=10.0))
     assert not ledger.energy.any()
     assert ledger.imbalance == 0.0
 
 
 def test_energies_in_joules():
-    scales = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+    scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
     table, plain = ledger.to_dataset(scales), ledger.to_dataset()
     assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(

@@ -32,7 +32,7 @@ def test_the_kernel_knows_the_same_states(seed):
         rho=float(rng.uniform(0.5, 1.2)),
         phi=float(rng.uniform(-3.0, 3.0)),
     )
-    rotor = carom.Jeffcott(machine)
+    rotor = carom.models.Jeffcott(machine)
     found, recollection = rub_neighbourhood(rotor), fresh_memory(rotor, 1, absorb=True)
     angles, rates = rng.uniform(-math.pi, math.pi, 5000), rng.uniform(-1.0, 1.0, 5000)
     # Some to within a few parts in a million of the level, to both sides.
@@ -49,7 +49,7 @@ def test_the_kernel_knows_the_same_states(seed):
 
 @pytest.fixture(params=[0.2, 0.3])
 def rotor(request):
-    return carom.Jeffcott(PAPER.replace(gamma=request.param))
+    return carom.models.Jeffcott(PAPER.replace(gamma=request.param))
 
 
 def sliding(found, times_level, seed):
@@ -119,7 +119,7 @@ def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
 
 @pytest.mark.parametrize("gamma", [0.05, 0.1])
 def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkeypatch):
-    rotor, count = carom.Jeffcott(PAPER.replace(gamma=gamma)), 600
+    rotor, count = carom.models.Jeffcott(PAPER.replace(gamma=gamma)), 600
     proven, followed = settled_both_ways(rotor, count, 12, monkeypatch)
     rolls = np.flatnonzero(proven.outcomes == Outcome.ROLLING)
     assert len(rolls) > 0.05 * count
@@ -134,9 +134,9 @@ def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkey
 
 
 def test_no_runaway_where_rolling_does_not_hold():
-    machine = PAPER.replace(gamma=1.05 * rolling(carom.Jeffcott(PAPER)).largest_damping)
-    assert fresh_memory(carom.Jeffcott(machine), 1, absorb=True).runaway == math.inf
-    assert fresh_memory(carom.Jeffcott(PAPER), 1).runaway == math.inf
-    assert fresh_memory(carom.Jeffcott(PAPER), 1, absorb=True).runaway == pytest.approx(
-        runaway_speed(carom.Jeffcott(PAPER)).certain, rel=1e-8
+    machine = PAPER.replace(gamma=1.05 * rolling(carom.models.Jeffcott(PAPER)).largest_damping)
+    assert fresh_memory(carom.models.Jeffcott(machine), 1, absorb=True).runaway == math.inf
+    assert fresh_memory(carom.models.Jeffcott(PAPER), 1).runaway == math.inf
+    assert fresh_memory(carom.models.Jeffcott(PAPER), 1, absorb=True).runaway == pytest.approx(
+        runaway_speed(carom.models.Jeffcott(PAPER)).certain, rel=1e-8
     )

@@ -9,9 +9,9 @@ import carom
 from carom.motions.spectrum import full_spectrum
 
 
-def _rotor(gamma: float) -> carom.Jeffcott:
-    return carom.Jeffcott(
-        carom.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+def _rotor(gamma: float) -> carom.models.Jeffcott:
+    return carom.models.Jeffcott(
+        carom.parameters.Parameters(gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
     )
 
 
@@ -40,7 +40,7 @@ def test_an_orbit_whirls_at_the_shaft_speed_and_multiples_of_its_impact_rate_bes
 
 def test_too_short_a_motion_is_refused():
     motion = carom.simulate(_rotor(0.1), carom.kick(0.3), until=20.0)
-    with pytest.raises(carom.InputError, match="four shaft turns"):
+    with pytest.raises(carom.outcome.InputError, match="four shaft turns"):
         full_spectrum(motion)
-    with pytest.raises(carom.InputError, match="samples_per_turn"):
+    with pytest.raises(carom.outcome.InputError, match="samples_per_turn"):
         full_spectrum(carom.simulate(_rotor(0.1), carom.kick(0.3), until=60.0), samples_per_turn=8)

@@ -11,19 +11,12 @@ import pytest
 from compilation import sized
 from machines import PAPER, ExactMotion, fly, path, random_parameters, rest_position, strike
 
-from carom import (
-    InputError,
-    Outcome,
-    Parameters,
-    Section,
-    State,
-    find_equilibria,
-    find_orbits,
-    impact_map,
-    simulate,
-)
+from carom import State, find_equilibria, find_orbits, simulate
 from carom.models import Jeffcott
+from carom.orbits import Section, impact_map
 from carom.orbits.maps import stroboscopic_map
+from carom.outcome import InputError, Outcome
+from carom.parameters import Parameters
 
 LONGEST = 60.0
 """Of random flights: most that return do so earlier."""

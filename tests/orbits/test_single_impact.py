@@ -24,19 +24,11 @@ from machines import (
 from scipy.linalg import expm
 from scipy.optimize import brentq, fsolve
 
-from carom import (
-    InputError,
-    Orbit,
-    OrbitSet,
-    Outcome,
-    Parameters,
-    Section,
-    State,
-    find_orbits,
-    impact_map,
-    simulate,
-)
+from carom import State, find_orbits, simulate
 from carom.models import Jeffcott
+from carom.orbits import Orbit, OrbitSet, Section, impact_map
+from carom.outcome import InputError, Outcome
+from carom.parameters import Parameters
 
 SETS = sized(80, 80, 200)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom import multipliers
+from carom.orbits import multipliers
 
 
 def matrix_with(values: list[complex], seed: int = 0) -> np.ndarray:

@@ -11,11 +11,11 @@ import carom
 
 
 def _motions(gamma: float) -> SimpleNamespace:
-    scales = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-    parameters = carom.Parameters(
+    scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+    parameters = carom.parameters.Parameters(
         gamma=gamma, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=scales
     )
-    rotor = carom.Jeffcott(parameters)
+    rotor = carom.models.Jeffcott(parameters)
     return SimpleNamespace(
         rotor=rotor, orbits=carom.find_orbits(rotor), equilibria=carom.find_equilibria(rotor), scales=scales
     )

@@ -26,15 +26,15 @@ from carom.outcome import InputError, Outcome
 
 pytestmark = pytest.mark.jit_only
 
-SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-MACHINE = carom.Parameters(
+SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+MACHINE = carom.parameters.Parameters(
     gamma=0.15, omega=0.76, rho=0.3, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=SCALES
 )
 
 
 @pytest.fixture(scope="module")
 def rotor():
-    return carom.Jeffcott(MACHINE)
+    return carom.models.Jeffcott(MACHINE)
 
 
 def painted(figure):
@@ -138,7 +138,7 @@ def test_hatching_covers_its_cells_to_their_rim(rotor, plan):
 
 
 def test_without_scales_units_are_those_of_the_equations():
-    rotor = carom.Jeffcott(MACHINE.replace(scales=None))
+    rotor = carom.models.Jeffcott(MACHINE.replace(scales=None))
     figure = plots.basin(map_basins(rotor, Grid(VelocityKick(1.0), (5, 6))))
     assert r"c_\mathrm{r}\Omega" in figure.axes[1].get_xlabel()
 

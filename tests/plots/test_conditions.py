@@ -11,7 +11,7 @@ from carom import plots
 
 def _drawn(case, longest=None):
     periods = np.linspace(1e-3, longest or case.orbits.longest_period, 3000)
-    return plots.period_condition(case.orbits, periods, carom.period_condition(case.rotor, periods))
+    return plots.period_condition(case.orbits, periods, carom.orbits.period_condition(case.rotor, periods))
 
 
 def _names(axes):
@@ -59,7 +59,7 @@ def test_bound_far_away_is_told_in_words(damped, read):
 def test_no_claim_beyond_an_unfinished_search(damped, read):
     orbits = carom.find_orbits(damped.rotor, longest_period=5.0)
     periods = np.linspace(1e-3, 5.0, 500)
-    figure = plots.period_condition(orbits, periods, carom.period_condition(damped.rotor, periods))
+    figure = plots.period_condition(orbits, periods, carom.orbits.period_condition(damped.rotor, periods))
     words = read.legend(figure)
     assert any(text.startswith("not searched beyond") for text in words)
     assert not any(text.startswith("no root") for text in words)
@@ -72,11 +72,11 @@ def test_no_roots(quiet, read):
 
 
 def test_many_roots_names_do_not_crowd(damped):
-    rotor = carom.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
+    rotor = carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
     orbits = carom.find_orbits(rotor)
     assert len(orbits.periods) > 10
     periods = np.linspace(1e-3, orbits.longest_period, 2000)
-    (axes,) = plots.period_condition(orbits, periods, carom.period_condition(rotor, periods)).axes
+    (axes,) = plots.period_condition(orbits, periods, carom.orbits.period_condition(rotor, periods)).axes
     physical = {orbit.period for orbit in orbits if orbit.admissible}
     assert len(axes.texts) == len(physical)
 

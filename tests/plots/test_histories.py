@@ -30,7 +30,7 @@ def test_axes_tell_both_units(bouncing, damped):
 
 def test_without_scales_no_second_axes(damped):
     parameters = damped.rotor.parameters.replace(scales=None)
-    motion = carom.simulate(carom.Jeffcott(parameters), carom.kick(0.35), until=20.0)
+    motion = carom.simulate(carom.models.Jeffcott(parameters), carom.kick(0.35), until=20.0)
     (axes,) = plots.radius(motion).axes
     assert axes.child_axes == []
     assert axes.get_xlabel() == r"time $t$ (units of $1/\Omega$)"
@@ -47,7 +47,7 @@ def test_near_the_wall_the_gap_is_told_in_micrometres(damped):
 
 
 def test_zones_lie_between_their_limits(bouncing, read):
-    zones = carom.Zones((0.2, 0.35, 0.6))
+    zones = carom.parameters.Zones((0.2, 0.35, 0.6))
     figure = plots.radius(bouncing, zones=zones)
     (axes,) = figure.axes
     bands = {patch.get_gid(): patch for patch in axes.patches if (patch.get_gid() or "").startswith("zone")}

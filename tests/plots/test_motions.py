@@ -119,7 +119,9 @@ def test_motion_without_its_transient(bouncing, read):
 
 @pytest.mark.parametrize("since", [-1.0, 60.1, float("nan")])
 def test_transient_longer_than_the_motion(bouncing, since):
-    with pytest.raises(carom.InputError, match=r"since = .*: a time from 0 to the end of the motion at 60/Omega"):
+    with pytest.raises(
+        carom.outcome.InputError, match=r"since = .*: a time from 0 to the end of the motion at 60/Omega"
+    ):
         plots.motion(bouncing, since=since)
 
 

@@ -67,7 +67,7 @@ def test_virtual_orbits_are_faint(weak, read):
 
 
 def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
-    rotor = carom.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
+    rotor = carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
     orbits = carom.find_orbits(rotor)
     virtual = sum(not orbit.admissible for orbit in orbits)
     figure = plots.equilibria_and_orbits(carom.find_equilibria(rotor), orbits)

@@ -13,15 +13,15 @@ from carom.studies.endings import KickSize
 from carom.studies.findings import _backward_whirl, _smallest_kick
 from carom.studies.ranges import rolling_range
 
-SCALES = carom.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-SOURCE = carom.Parameters(
+SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+SOURCE = carom.parameters.Parameters(
     gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7, scales=SCALES
 )
 
 
-def said_of(parameters: carom.Parameters) -> str:
+def said_of(parameters: carom.parameters.Parameters) -> str:
     study = SimpleNamespace(
-        rotor=carom.Jeffcott(parameters),
+        rotor=carom.models.Jeffcott(parameters),
         wording=Wording(parameters.scales),
         case=SimpleNamespace(parameters=parameters),
     )
@@ -30,7 +30,7 @@ def said_of(parameters: carom.Parameters) -> str:
 
 def test_two_limits_of_rolling_are_told_apart():
     text = said_of(SOURCE)
-    roll, say = rolling(carom.Jeffcott(SOURCE)), Wording(SCALES)
+    roll, say = rolling(carom.models.Jeffcott(SOURCE)), Wording(SCALES)
     every_angle, bound = say.gain("gamma", roll.largest_damping), say.gain("gamma", roll.damping_bound)
     assert every_angle != bound
     assert (
@@ -44,7 +44,7 @@ def test_two_limits_of_rolling_are_told_apart():
 
 def test_a_balanced_rotor_has_one_limit_of_rolling():
     parameters = SOURCE.replace(rho=0.0)
-    roll = rolling(carom.Jeffcott(parameters))
+    roll = rolling(carom.models.Jeffcott(parameters))
     assert roll.largest_damping == pytest.approx(roll.damping_bound, rel=1e-15)
     text = said_of(parameters)
     assert "rules that out. It surely gets there" in text
@@ -62,10 +62,10 @@ def test_a_wall_of_steel_would_not_bear_it():
         in said_of(SOURCE)
     )
     # A rotor that turns slowly rolls with a force that steel bears; of a machine that is not known nothing is said.
-    slow = SOURCE.replace(scales=carom.Scales(mass=50.0, clearance=0.7e-3, speed=20.0))
+    slow = SOURCE.replace(scales=carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=20.0))
     assert "rigid wall" not in said_of(slow)
     assert "rigid wall" not in said_of(SOURCE.replace(scales=None))
-    fast = SOURCE.replace(scales=carom.Scales(mass=50.0, clearance=0.7e-3, speed=3e4))
+    fast = SOURCE.replace(scales=carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=3e4))
     assert "times the clearance" in said_of(fast)
 
 

@@ -78,7 +78,7 @@ def test_study_tells_what_the_functions_tell(source_paper):
     task = StudyTask(24, True, source_paper.zones.limits, has_scales=False)
     seed = np.random.SeedSequence(3)
     found = task.evaluate(source_paper, seed)
-    rotor = carom.Jeffcott(source_paper.parameters)
+    rotor = carom.models.Jeffcott(source_paper.parameters)
     attractors = carom.find_attractors(rotor, seed=int(seed.generate_state(1)[0]), count=24)
 
     assert found.keys() == {variable.name for variable in task.variables}
@@ -103,7 +103,7 @@ def test_si_variables_are_there_with_scales(keogh_cole):
 
 @pytest.mark.jit_only
 def test_basins_count_every_possible_start():
-    from carom import Outcome
+    from carom.outcome import Outcome
 
     plan = basins_plan(starts=40)
     found = plan.task.evaluate(plan.case_at((0, 0)), plan.seed_of((0, 0)))
@@ -116,7 +116,8 @@ def test_basins_count_every_possible_start():
 
 @pytest.mark.jit_only
 def test_the_smallest_kick_that_is_lost_and_its_direction():
-    from carom import Outcome, settle
+    from carom import settle
+    from carom.outcome import Outcome
 
     plan = basins_plan(starts=40, damping=(0.1, 0.2))
     (starts,) = plan.task._batches(_rotor(plan), plan.seed_of((0, 0)))

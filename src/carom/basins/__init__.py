@@ -20,7 +20,7 @@ from carom.basins.changes import GainChange, least_gain_change
 from carom.basins.classification import Basin, map_basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
-from carom.basins.integrity import Integrity, integrity
+from carom.basins.integrity_measures import Integrity, integrity
 from carom.basins.kicks import harmless_kick, harmless_shock, harmless_step
 from carom.basins.losses import SmallestLoss, smallest_loss, smallest_unrecovered_kick
 from carom.basins.shares import Share

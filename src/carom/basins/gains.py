@@ -13,7 +13,7 @@ import numpy as np
 
 from carom.basins.dataset import NO_START, plan_of, provenance
 from carom.basins.entropy import entropies
-from carom.basins.integrity import safe_size
+from carom.basins.integrity_measures import safe_size
 from carom.basins.kicks import smallest_lost
 from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis

@@ -1,6 +1,7 @@
 """Bifurcations of equilibria and single-impact orbits: branches, diagrams, curves in two parameters, regions."""
 
 from carom.bifurcations.axes import Axis, Numbers, axis, value_of, vary
+from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.cells import Region
 from carom.bifurcations.changes import UnexplainedChange
@@ -21,6 +22,7 @@ __all__ = [
     "AttractorSample",
     "Axis",
     "Bifurcation",
+    "BoundaryEquilibrium",
     "Codimension2Point",
     "Curve",
     "Diagram",
@@ -40,6 +42,7 @@ __all__ = [
     "Window",
     "WindowEnd",
     "axis",
+    "boundary_equilibria",
     "continue_curve",
     "continue_onset",
     "continue_orbit",

@@ -150,7 +150,7 @@ class Parameters:
             allowed = f"must differ from 0 by {_RESONANCE:g} or more where omega = 1 (undamped resonance)"
             raise InputError("gamma", self.gamma, allowed)
         if not isinstance(self.scales, Scales | None):
-            raise InputError("scales", shown(self.scales), "must be a carom.Scales, or None")
+            raise InputError("scales", shown(self.scales), "must be a carom.parameters.Scales, or None")
 
     def replace(self, /, **changes: Any) -> Parameters:
         """Return a copy with other values.

@@ -13,12 +13,12 @@ from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
-from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document
 from carom.studies.orbit_ranges import single_impact_ranges
 from carom.studies.ranges import Gain, Motion, MotionRange, Threshold, contact_free_range, rolling_range, rub_range
+from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
 

@@ -22,12 +22,12 @@ from carom.orbits.single_impact import Orbit, OrbitSet
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
-from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone
 from carom.studies.endings import hardest_impulse, largest_all_back, touching
 from carom.studies.loads import rolling_document, wall_document
 from carom.studies.ranges import MotionRange, Span, Threshold
+from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.studies.verdict import NOT_COVERED
 from carom.studies.wording import Wording
 

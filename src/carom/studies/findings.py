@@ -8,10 +8,10 @@ from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.outcome import Outcome
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
-from carom.studies.safety.limits import DampingLimit, rounded_up, share_words, unsettled_words
 from carom.studies.endings import KickSize, ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
 from carom.studies.ranges import Gain, Motion
 from carom.studies.remedies import advice_lines, alone_sentences
+from carom.studies.safety.limits import DampingLimit, rounded_up, share_words, unsettled_words
 from carom.studies.wording import counted, listed, no_rigid_wall, number
 
 if TYPE_CHECKING:

@@ -263,7 +263,7 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     -------
     xarray.Dataset
         Over the axes of the sweep, read when needed; ``status`` tells which points were computed.  A chunk of which a file is
-        damaged or missing raises an :class:`~carom.InputError` that names it when it is read.
+        damaged or missing raises an :class:`~carom.outcome.InputError` that names it when it is read.
 
     Raises
     ------

@@ -29,7 +29,8 @@ SHORT, STRONGLY_DAMPED = "0.1 20.0", "0.3 200000.0"
 SCRIPT = f"""
 import sys
 import numpy as np
-from carom import Jeffcott, settle
+from carom import settle
+from carom.models import Jeffcott
 from carom.core.ensemble import follow_each
 from carom.core.layout import LANES, WIDTH
 from lane_programs import program

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import InputError, find_orbits
+from carom import find_orbits
 from carom.models import Jeffcott
+from carom.outcome import InputError
 from carom.reproductions.mora2014.propositions import fixed_points, hopf_side, simultaneous_folds
 
 

@@ -9,9 +9,10 @@ import pytest
 from machines import PAPER
 from scipy.optimize import brentq, minimize_scalar
 
-from carom import find_equilibria, find_orbits, period_condition
+from carom import find_equilibria, find_orbits
 from carom.bifurcations import motions_at
 from carom.models import Jeffcott
+from carom.orbits import period_condition
 from carom.reproductions import mora2014
 
 

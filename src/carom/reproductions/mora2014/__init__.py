@@ -19,7 +19,6 @@
 """
 
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
-from carom.reproductions.mora2014.claims import Claim, claims
 from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.extrema import (
     Extremum,
@@ -44,6 +43,7 @@ from carom.reproductions.mora2014.plane import DampingStiffnessPlane, NamedRegio
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
 from carom.reproductions.mora2014.reproduction import Periods, Reproduction, reproduce
 from carom.reproductions.mora2014.source import machine_at
+from carom.reproductions.mora2014.statements import Claim, claims
 from carom.reproductions.mora2014.writing import write_paper
 
 __all__ = [

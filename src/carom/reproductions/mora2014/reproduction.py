@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
-from carom.reproductions.mora2014.claims import Claim, claims
 from carom.reproductions.mora2014.extrema import RadiusDiagram, radius_diagram
 from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
 from carom.reproductions.mora2014.motions import ShownMotion, shown_motions
@@ -20,6 +19,7 @@ from carom.reproductions.mora2014.periods import (
 )
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
+from carom.reproductions.mora2014.statements import Claim, claims
 
 __all__ = ["Periods", "Reproduction", "reproduce"]
 

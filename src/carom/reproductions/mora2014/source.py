@@ -41,7 +41,7 @@ def machine_at(gamma: float, omega: float = 0.76) -> Parameters:
 
     Returns
     -------
-    carom.Parameters
+    carom.parameters.Parameters
     """
     return Parameters(
         gamma=gamma,

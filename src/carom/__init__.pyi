@@ -1,0 +1,37 @@
+from carom import attractors as attractors
+from carom import basins as basins
+from carom import bifurcations as bifurcations
+from carom import closed_forms as closed_forms
+from carom import disturbances as disturbances
+from carom import models as models
+from carom import motions as motions
+from carom import orbits as orbits
+from carom import outcome as outcome
+from carom import parameters as parameters
+from carom import plots as plots
+from carom import report as report
+from carom import reproductions as reproductions
+from carom import studies as studies
+from carom import sweeps as sweeps
+from carom.attractors import find_attractors as find_attractors
+from carom.basins import map_basins as map_basins
+from carom.basins import map_gains as map_gains
+from carom.bifurcations import continue_curve as continue_curve
+from carom.bifurcations import continue_orbit as continue_orbit
+from carom.bifurcations import find_bifurcations as find_bifurcations
+from carom.bifurcations import map_regions as map_regions
+from carom.closed_forms import find_equilibria as find_equilibria
+from carom.disturbances import BaseShock as BaseShock
+from carom.disturbances import Grid as Grid
+from carom.motions import State as State
+from carom.motions import kick as kick
+from carom.motions import settle as settle
+from carom.motions import simulate as simulate
+from carom.orbits import find_orbits as find_orbits
+from carom.parameters import Machine as Machine
+from carom.parameters import load as load
+from carom.studies import study as study
+from carom.sweeps import open_sweep as open_sweep
+from carom.sweeps import run_sweep as run_sweep
+
+__version__: str
