@@ -328,9 +328,9 @@ def nothing_computed(monkeypatch):
     for home, name in (
         ("cli.simulate", "_follow"),
         ("cli.basins", "_follow"),
-        ("equilibria", "equilibria"),
-        ("bifurcations", "bifurcation_diagram"),
-        ("bifurcations", "region_map"),
+        ("closed_forms.equilibria", "find_equilibria"),
+        ("bifurcations", "find_bifurcations"),
+        ("bifurcations", "map_regions"),
     ):
         monkeypatch.setattr(import_module(f"carom.{home}"), name, accepted)
 

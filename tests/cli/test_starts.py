@@ -71,7 +71,7 @@ def test_from_may_be_above_to(monkeypatch, dimensionless, ends):
         given.append((name, interval))
         raise InputError("stop", None, "here")
 
-    monkeypatch.setattr("carom.bifurcations.bifurcation_diagram", stop)
+    monkeypatch.setattr("carom.bifurcations.find_bifurcations", stop)
     main(["bifurcations", dimensionless, "--along", "gamma", "--from", ends[0], "--to", ends[1]])
 
     assert given == [("gamma", (0.1, 0.4))]

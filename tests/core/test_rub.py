@@ -365,7 +365,7 @@ def test_without_slip_the_cone_decides():
             continue
         slips = FORWARD if pull > 0 else BACKWARD
         for factor, expected in ((0.5, slips), (1 - 1e-6, slips), (1.0, ROLLING), (1 + 1e-6, ROLLING), (3.0, ROLLING)):
-            rotor = Jeffcott(parameters.replace(mu=factor * abs(pull) / push)).arrays
+            rotor = Jeffcott(parameters.replace(mu=factor * abs(pull) / push)).system.arrays
             amplitudes = on_wall(parameters, angle, -drive)
             assert next_phase(rotor, 0, amplitudes, slips) == expected
 
@@ -664,19 +664,19 @@ def test_a_rotor_of_four_modes_stays_on_the_wall(seed, phase):
     sign = {**SIGN, ROLLING: 0}[phase]
     rotor = CoupledRotor(seed, friction=0.2, drive=3.0)
     state = rotor.start(0.3, {FORWARD: 2.5, BACKWARD: -7.0, ROLLING: -3.0}[phase])
-    amplitudes, work, time = rotor.system.amplitudes(state), rub_workspace(4), 0.0
+    amplitudes, work, time = rotor.amplitudes(state), rub_workspace(4), 0.0
     for _ in range(12):
-        rub_series(rotor.system.arrays, 0, amplitudes, phase, work)
+        rub_series(rotor.arrays, 0, amplitudes, phase, work)
         step = rub_step(work)
         push = work.push @ step ** np.arange(ORDER + 1)
         sum_series(work, step, amplitudes)
-        rest_on_wall(rotor.system.arrays, 0, amplitudes, phase == ROLLING)
+        rest_on_wall(rotor.arrays, 0, amplitudes, phase == ROLLING)
         time += step
     expected = solve_ivp(rotor.motion, (0.0, time), state, "DOP853", args=(sign,), rtol=1e-13, atol=1e-13).y[:, -1]
-    position, speed = displacement(rotor.system.arrays, 0, amplitudes), velocity(rotor.system.arrays, 0, amplitudes)
+    position, speed = displacement(rotor.arrays, 0, amplitudes), velocity(rotor.arrays, 0, amplitudes)
     assert abs(abs(position) - 1.0) < 4e-15
     assert abs((position.conjugate() * speed).real) < 1e-14
     assert position == pytest.approx(rotor.row @ expected[:2], abs=1e-10)
     assert speed == pytest.approx(rotor.row @ expected[2:], abs=1e-9)
-    assert np.abs(amplitudes - rotor.system.amplitudes(expected)).max() < 1e-9
+    assert np.abs(amplitudes - rotor.amplitudes(expected)).max() < 1e-9
     assert push == pytest.approx(rotor.push(expected), abs=1e-9)

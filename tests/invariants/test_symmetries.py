@@ -78,7 +78,7 @@ def test_machines_with_the_same_parameters_move_alike(machine, start, scales):
     back = physical.parameters
     for name, value in machine.as_dict().items():
         assert getattr(back, name) == pytest.approx(value, rel=8 * EPSILON, abs=1e-300)
-    again = simulate(Jeffcott(physical), start, UNTIL, max_events=EVENTS)
+    again = simulate(physical, start, UNTIL, max_events=EVENTS)
     assume(len(nominal.segment_starts) == len(again.segment_starts))
     size = 10.0 + machine.radius_ratio
     error = np.abs(states(again, times) - states(nominal, times)).max(initial=0.0)

@@ -8,7 +8,7 @@ from machines import PAPER
 
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import Scales
+from carom.parameters import Machine, Scales
 
 
 def test_rotors_of_the_same_parameters_are_one():
@@ -30,6 +30,12 @@ def test_equilibrium_solves_the_equation():
     equilibrium = Jeffcott(PAPER).equilibrium
     force = PAPER.rho * np.exp(1j * PAPER.phi)
     assert complex(PAPER.omega**2 - 1.0, PAPER.gamma) * equilibrium == pytest.approx(force, abs=1e-15)
+
+
+def test_a_machine_is_not_taken_for_its_parameters():
+    machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+    with pytest.raises(InputError, match=r"parameters = .*must be carom\.parameters\.Parameters"):
+        Jeffcott(machine)
 
 
 def test_scales_are_those_of_the_parameters():

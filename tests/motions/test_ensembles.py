@@ -162,7 +162,7 @@ def test_progress_ends_at_one(machine):
         ({"max_events": 0}, "max_events = 0"),
         ({"max_events": 2.5}, "max_events = 2.5"),
         ({"patience": -1}, "patience = -1"),
-        ({"patience": 0}, "until = None"),
+        ({"patience": 0}, "until = nothing given"),
         ({"threads": 0}, "threads = 0"),
         ({"which": [0, 0]}, "which = "),
     ],

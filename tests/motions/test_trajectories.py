@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from machines import PAPER, fly, strike
 
-from carom import trajectories
 from carom.models import Jeffcott
+from carom.motions import trajectories
 from carom.motions.trajectories import Kick, State, kick, simulate
 from carom.outcome import InputError, Outcome, Phase
 

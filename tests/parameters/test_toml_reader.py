@@ -15,7 +15,7 @@ REAL = (Path(__file__).parents[2] / "examples" / "keogh-cole.toml").read_text(en
 def error_of(tmp_path):
     """The input error of a machine file with this content, and of settings; every line of it is printable."""
 
-    def load(content, *settings, name="rotor.toml"):
+    def read(content, *settings, name="rotor.toml"):
         path = tmp_path / name
         path.write_text(content, encoding="utf-8")
         with pytest.raises(InputError) as caught:
@@ -23,7 +23,7 @@ def error_of(tmp_path):
         assert all(line.isprintable() for line in str(caught.value).split("\n"))
         return caught.value
 
-    return load
+    return read
 
 
 @pytest.mark.parametrize(

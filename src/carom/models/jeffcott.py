@@ -9,6 +9,7 @@ from typing import Any
 
 from carom.core.planar import planar_exponents
 from carom.models.system import System, second_order_system
+from carom.outcome import InputError, shown
 from carom.parameters import Parameters, Scales
 
 __all__ = ["Jeffcott"]
@@ -25,6 +26,11 @@ class Jeffcott:
     ----------
     parameters : Parameters
 
+    Raises
+    ------
+    InputError
+        They are none.
+
     References
     ----------
     .. [1] Mora, Budd, Glendinning, Keogh, "Non-smooth Hopf-type bifurcations arising from impact–friction contact
@@ -32,6 +38,10 @@ class Jeffcott:
     """
 
     parameters: Parameters
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.parameters, Parameters):
+            raise InputError("parameters", shown(self.parameters), "must be carom.parameters.Parameters")
 
     @cached_property
     def system(self) -> System:

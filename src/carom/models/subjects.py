@@ -26,7 +26,9 @@ def model_of(subject: Subject) -> Jeffcott:
         return Jeffcott(subject.parameters)
     if isinstance(subject, Parameters):
         return Jeffcott(subject)
-    raise InputError("machine", shown(subject), "a Machine, a Case, Parameters or a model")
+    raise InputError(
+        "machine", shown(subject), "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
+    )
 
 
 def case_of(subject: Subject) -> Case:
