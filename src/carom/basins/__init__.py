@@ -1,19 +1,19 @@
 """Where disturbances go: basins of attraction, what share of them comes back, and which gains bring back more.
 
-==================  ==================================================================================
-``classification``  :func:`basins` and the frozen :class:`Basin`
-``dataset``         their endings with coordinates, units and how to make them again
-``motions``         names of the motions that starts end on
-``store``           netCDF files, whole or not at all
-``shares``          shares with their confidence intervals
-``kicks``           disturbances that provably never reach the wall
-``losses``          from which size on kicks, shocks, steps and releases are lost
-``integrity``       the largest ball of starts that all come back
-``entropy``         basin entropy and boundary basin entropy
-``gains``           all that against two parameters: gain maps
-``changes``         the least change of both that brings back a wanted share
-``document``        results as JSON
-==================  ==================================================================================
+======================  ==================================================================================
+``classification``      :func:`map_basins` and the frozen :class:`Basin`
+``dataset``             their endings with coordinates, units and how to make them again
+``motions``             names of the motions that starts end on
+``store``               netCDF files, whole or not at all
+``shares``              shares with their confidence intervals
+``kicks``               disturbances that provably never reach the wall
+``losses``              from which size on kicks, shocks, steps and releases are lost
+``integrity_measures``  the largest ball of starts that all come back
+``entropy``             basin entropy and boundary basin entropy
+``gains``               all that against two parameters: gain maps
+``changes``             the least change of both that brings back a wanted share
+``document``            results as JSON
+======================  ==================================================================================
 """
 
 from carom.basins.changes import GainChange, least_gain_change
