@@ -15,6 +15,7 @@ from carom.motions.settling import closed_orbit
 from carom.motions.trajectories import Trajectory
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Outcome, Phase
+from carom.results import Result
 
 __all__ = ["Cycle", "Whirl", "cycle_of", "forces_on", "orbit_of", "same_cycle", "whirl_of"]
 
@@ -27,8 +28,8 @@ TURNS = 10.0
 """Turns of the shaft over which a motion without a period is judged."""
 
 
-@dataclass(frozen=True, eq=False)
-class Cycle:
+@dataclass(frozen=True, eq=False, repr=False)
+class Cycle(Result):
     """What a settled motion repeats.
 
     Attributes

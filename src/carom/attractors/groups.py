@@ -13,12 +13,13 @@ from carom.attractors.survival import Survival
 from carom.motions.trajectories import State, Trajectory
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Outcome
+from carom.results import Result
 
 __all__ = ["Attractor", "Groups", "motion_name"]
 
 
-@dataclass(frozen=True, eq=False)
-class Attractor:
+@dataclass(frozen=True, eq=False, repr=False)
+class Attractor(Result):
     """A motion that starts end on; or, if ``settled`` is false, why it is not known where they end.
 
     Attributes

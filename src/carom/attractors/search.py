@@ -15,12 +15,13 @@ from carom.motions.settling import PATIENCE
 from carom.motions.trajectories import Kick, State
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
+from carom.results import Result, in_a_line
 
 __all__ = ["AttractorSet", "find_attractors"]
 
 
-@dataclass(frozen=True, eq=False)
-class AttractorSet:
+@dataclass(frozen=True, eq=False, repr=False)
+class AttractorSet(Result):
     """Every attractor found; look one up by name, ``found["B1,d"]``.
 
     Attributes
@@ -41,6 +42,17 @@ class AttractorSet:
     endings: tuple[Ending, ...]
     sample: DisturbanceSet | None
     patience: int
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Each motion that was met, and how many starts ended on it."""
+        return [
+            ("rotor", in_a_line(self.rotor)),
+            ("starts", str(len(self.endings))),
+            *(
+                (member.name, f"{member.count} disturbances, {member.known} starts next to it")
+                for member in self.members
+            ),
+        ]
 
     def __len__(self) -> int:
         return len(self.members)

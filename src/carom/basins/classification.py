@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from carom.motions.ensembles import MOST_EVENTS, Endings, settle
 from carom.motions.settling import PATIENCE, longest_time
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
+from carom.results import Result
 
 if TYPE_CHECKING:
     import os
@@ -42,8 +43,8 @@ CRITERIA = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Basin:
+@dataclass(frozen=True, eq=False, repr=False)
+class Basin(Result):
     """Where each of many disturbances ends.
 
     Attributes
@@ -57,6 +58,14 @@ class Basin:
         ``1/Ω``; coordinates ending in ``_si`` are there where the machine is known.  Attributes hold what it takes to
         do it again: parameters, disturbance, seed, criteria, versions.
     """
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "parameters",
+        "coordinates",
+        "starts",
+        "fractions",
+        "unresolved",
+    )
 
     dataset: xarray.Dataset
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from carom.motions.ensembles import MOST_EVENTS, settle
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
+from carom.results import Result
 
 if TYPE_CHECKING:
     import os
@@ -37,8 +38,8 @@ CHUNK = 50_000
 """Starts that are in memory at a time, about."""
 
 
-@dataclass(frozen=True, eq=False)
-class GainMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class GainMap(Result):
     """Measures of recoverability against two parameters.
 
     Attributes
@@ -51,6 +52,13 @@ class GainMap:
         ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
         ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back.
     """
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "parameters",
+        "axes",
+        "present",
+        "present_share",
+    )
 
     dataset: xarray.Dataset
 

@@ -33,6 +33,7 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
+from carom.results import Result
 
 __all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria", "boundary_values"]
 
@@ -41,8 +42,8 @@ SMALL_GAP = 1e-5
 DEGENERATE = 1e-12
 
 
-@dataclass(frozen=True, eq=False)
-class SmallOrbit:
+@dataclass(frozen=True, eq=False, repr=False)
+class SmallOrbit(Result):
     """An orbit with one impact a period that shrinks into the boundary equilibrium.
 
     Attributes
@@ -68,8 +69,8 @@ class SmallOrbit:
     stable: bool
 
 
-@dataclass(frozen=True, eq=False)
-class BoundaryEquilibrium:
+@dataclass(frozen=True, eq=False, repr=False)
+class BoundaryEquilibrium(Result):
     """A contact-free equilibrium that lies on the wall, and what meets it there.
 
     Attributes

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from carom.bifurcations.conditions import (
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
 from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
+from carom.results import Result
 
 __all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]
 
@@ -40,8 +42,8 @@ WATCHED = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Bifurcation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Bifurcation(Result):
     """A special point of a branch.
 
     Attributes
@@ -81,8 +83,8 @@ class Bifurcation:
         return orbit_of(self.numbers, self.name.partition(",")[0], self.period, self.radial_speed)
 
 
-@dataclass(frozen=True, eq=False)
-class OrbitBranch:
+@dataclass(frozen=True, eq=False, repr=False)
+class OrbitBranch(Result):
     """Single-impact orbits along a parameter, admissible and virtual ones.
 
     Attributes
@@ -100,6 +102,16 @@ class OrbitBranch:
     stops : tuple of two str
         Why it ends at either end; see :class:`~carom.continuation.Branch`.
     """
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "parameter",
+        "pair",
+        "values",
+        "period",
+        "radial_speed",
+        "special",
+        "stops",
+    )
 
     axis: Axis
     pair: str

@@ -12,6 +12,7 @@ from carom.bifurcations.changes import Stand
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.planes import Plane
 from carom.parameters import Parameters
+from carom.results import Result
 
 __all__ = ["Region", "regions_between"]
 
@@ -22,8 +23,8 @@ BETWEEN = 12
 """Points looked at between two groups of grid points with the same motions."""
 
 
-@dataclass(frozen=True, eq=False)
-class Region:
+@dataclass(frozen=True, eq=False, repr=False)
+class Region(Result):
     """A connected set of grid points with the same motions.
 
     Attributes

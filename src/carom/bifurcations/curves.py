@@ -17,6 +17,7 @@ from carom.bifurcations.steady import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.models import Subject, model_of
 from carom.outcome import InputError
+from carom.results import Result
 
 __all__ = ["KINDS", "Codimension2Point", "Curve", "continue_curve"]
 
@@ -54,8 +55,8 @@ class Codimension2Point:
     admissible: bool
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
+@dataclass(frozen=True, eq=False, repr=False)
+class Curve(Result):
     """A curve of one bifurcation.
 
     Attributes

@@ -25,6 +25,7 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.single_impact import Orbit, find_orbits
 from carom.outcome import InputError
 from carom.parameters import Parameters
+from carom.results import Result, in_a_line
 
 __all__ = ["Diagram", "find_bifurcations"]
 
@@ -40,8 +41,8 @@ LONGEST_PERIOD = 60.0
 """Periods above, in ``1/Ω``, are not searched where damping is so weak that there would be hundreds of pairs."""
 
 
-@dataclass(frozen=True, eq=False)
-class Diagram:
+@dataclass(frozen=True, eq=False, repr=False)
+class Diagram(Result):
     """All equilibria and single-impact orbits along one parameter.
 
     Attributes
@@ -71,6 +72,15 @@ class Diagram:
     points: tuple[SpecialValue, ...]
     attractors: tuple[AttractorSample, ...] = ()
     disturbances: DisturbanceSet | None = None
+
+    def rows(self) -> list[tuple[str, str]]:
+        """The motions, and each special point."""
+        low, high = self.interval
+        return [
+            (self.parameter, f"from {low:.6g} to {high:.6g}"),
+            ("orbits", in_a_line(tuple(dict.fromkeys(name for branch in self.orbits for name in branch.names)))),
+            *((f"{point.value:.6g}", f"{point.kind}, {point.branch}") for point in self.points),
+        ]
 
     @property
     def parameter(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from carom.bifurcations.survey import Survey
 from carom.models import Subject, model_of
 from carom.outcome import CaromError
 from carom.parameters import Parameters
+from carom.results import Result
 
 __all__ = ["RegionMap", "map_regions"]
 
@@ -28,8 +30,8 @@ SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
 """Distance in widths of the plane, and relative difference of periods, below which codimension-2 points are the same."""
 
 
-@dataclass(frozen=True, eq=False)
-class RegionMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class RegionMap(Result):
     """Curves, codimension-2 points and regions of a plane.
 
     Attributes
@@ -47,6 +49,15 @@ class RegionMap:
     lost : tuple of str
         Curves that could not be followed, each with the reason.
     """
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "plane",
+        "curves",
+        "regions",
+        "present_motions",
+        "unexplained",
+        "lost",
+    )
 
     plane: Plane
     curves: tuple[Curve, ...]

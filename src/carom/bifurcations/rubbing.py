@@ -30,6 +30,7 @@ from carom.models import Jeffcott
 from carom.motions.trajectories import State, Trajectory, simulate
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
+from carom.results import Result
 
 __all__ = [
     "RubbingBranch",
@@ -52,8 +53,8 @@ FINEST = 1e-11
 """Relative step of the parameter at which the search for the end of a branch is over."""
 
 
-@dataclass(frozen=True, eq=False)
-class RubbingOrbit:
+@dataclass(frozen=True, eq=False, repr=False)
+class RubbingOrbit(Result):
     """A periodic motion with one stretch of lasting contact a period.
 
     Attributes
@@ -105,8 +106,8 @@ class RubbingPoint:
     place: float
 
 
-@dataclass(frozen=True, eq=False)
-class RubbingBranch:
+@dataclass(frozen=True, eq=False, repr=False)
+class RubbingBranch(Result):
     """Periodic motions with one stretch of lasting contact, along a parameter.
 
     Attributes

@@ -13,6 +13,7 @@ from carom.models import Jeffcott
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
+from carom.results import Result
 
 __all__ = ["VALUES", "AttractorSample", "sample_attractors"]
 
@@ -24,8 +25,8 @@ TRANSIENT = "irregular transient"
 BOUNCES = (Outcome.BOUNCING, Outcome.MIXED)
 
 
-@dataclass(frozen=True, eq=False)
-class AttractorSample:
+@dataclass(frozen=True, eq=False, repr=False)
+class AttractorSample(Result):
     """An attractor at one value of the parameter.
 
     Attributes

@@ -13,6 +13,7 @@ from carom.closed_forms.whirl import rolling
 from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
 from carom.parameters import Parameters
+from carom.results import Result
 
 __all__ = [
     "EquilibriumBranch",
@@ -60,8 +61,8 @@ class SpecialValue:
     detail: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class EquilibriumBranch:
+@dataclass(frozen=True, eq=False, repr=False)
+class EquilibriumBranch(Result):
     """Equilibria of one kind along the parameter; ``nan`` where there is none.
 
     Attributes
@@ -80,8 +81,8 @@ class EquilibriumBranch:
     stable: np.ndarray
 
 
-@dataclass(frozen=True, eq=False)
-class RollingBranch:
+@dataclass(frozen=True, eq=False, repr=False)
+class RollingBranch(Result):
     """Rolling round the bearing in backward whirl (:mod:`carom.closed_forms.whirl`) along the parameter.
 
     Attributes

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from carom.models import Jeffcott, Subject, model_of
+from carom.results import Result
 
 __all__ = ["Equilibrium", "find_equilibria"]
 
@@ -20,8 +21,8 @@ NEUTRAL = 64 * np.finfo(float).eps
 """Rounding error of the exponents along the wall, relative to the largest."""
 
 
-@dataclass(frozen=True, eq=False)
-class Equilibrium:
+@dataclass(frozen=True, eq=False, repr=False)
+class Equilibrium(Result):
     """A synchronous motion: at rest in the co-rotating frame, a circle in the fixed one.
 
     Attributes

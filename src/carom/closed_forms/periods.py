@@ -30,6 +30,7 @@ import numpy as np
 
 from carom.models import System
 from carom.outcome import CaromError, InputError
+from carom.results import Result
 
 __all__ = ["PeriodCondition", "PeriodRoots"]
 
@@ -60,8 +61,8 @@ ROUNDING = 16 * np.finfo(float).eps
 """Rounding error of a sum relative to the moduli of its terms."""
 
 
-@dataclass(frozen=True, eq=False)
-class PeriodRoots:
+@dataclass(frozen=True, eq=False, repr=False)
+class PeriodRoots(Result):
     """All roots of ``F₁`` on ``0 < T ≤ longest_period``.
 
     Attributes

@@ -8,6 +8,8 @@ from typing import Literal
 
 import numpy as np
 
+from carom.results import Result
+
 __all__ = ["Branch", "SpecialPoint", "Steps", "StopReason", "Watch"]
 
 StopReason = Literal["parameter limit", "end of domain", "closed loop", "step too small", "most points"]
@@ -59,8 +61,8 @@ class Watch:
     ends_branch: bool = False
 
 
-@dataclass(frozen=True, eq=False)
-class SpecialPoint:
+@dataclass(frozen=True, eq=False, repr=False)
+class SpecialPoint(Result):
     """A located zero of a watched function.
 
     Attributes
@@ -78,8 +80,8 @@ class SpecialPoint:
     place: float
 
 
-@dataclass(frozen=True, eq=False)
-class Branch:
+@dataclass(frozen=True, eq=False, repr=False)
+class Branch(Result):
     """A curve of solutions in the order of arclength.
 
     Attributes

@@ -10,12 +10,13 @@ import numpy as np
 from carom.core.flow import fly_all
 from carom.core.layout import rotor_record
 from carom.core.table import flight_table
+from carom.results import Result
 
 __all__ = ["System", "second_order_system"]
 
 
-@dataclass(frozen=True, eq=False)
-class System:
+@dataclass(frozen=True, eq=False, repr=False)
+class System(Result):
     """Modes, contact planes and contact law of a rotor, ready for the kernels; what follows from them is computed.
 
     A state is given by the ``n`` coordinates of the rotor and their rates; of a rotor with one coordinate they are plain

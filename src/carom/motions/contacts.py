@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.models import Jeffcott
 from carom.outcome import Phase
+from carom.results import Result
 
 if TYPE_CHECKING:
     import xarray
@@ -41,7 +42,7 @@ class LastingContact:
         return "roll" if self.phase is Phase.ROLLING else "slide"
 
 
-class Table:
+class Table(Result):
     """Columns with units, one entry each along a dimension.
 
     ``columns`` holds the name of each, the property of :class:`~carom.parameters.Scales` that turns it into SI units (empty
@@ -71,7 +72,7 @@ class Table:
         return xarray.Dataset(columns)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactLog(Table):
     """Impacts of a motion, one entry each, in the order of time.
 
@@ -165,7 +166,7 @@ class ContactLog(Table):
         return len(self.time)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactHistory(Table):
     """Forces and slip of lasting contact at chosen times.
 

@@ -17,10 +17,11 @@ from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
 from carom.models import Jeffcott, Subject, model_of
+from carom.motions.processors import available_cores
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time
 from carom.motions.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
 from carom.outcome import InputError, Outcome
-from carom.processors import available_cores
+from carom.results import Result
 
 __all__ = ["Endings", "settle"]
 
@@ -32,8 +33,8 @@ FEW = 256
 MODES = 2
 
 
-@dataclass(frozen=True, eq=False)
-class Endings:
+@dataclass(frozen=True, eq=False, repr=False)
+class Endings(Result):
     """Where the motions of an ensemble end; every array has the shape of the starts.
 
     Attributes
@@ -56,6 +57,14 @@ class Endings:
     multiplicities: np.ndarray
     positions: np.ndarray
     velocities: np.ndarray
+
+    def rows(self) -> list[tuple[str, str]]:
+        """How many motions end in each way."""
+        codes, counts = np.unique(self.outcomes, return_counts=True)
+        return [
+            ("motions", str(self.outcomes.size)),
+            *((Outcome(int(code)).label, str(count)) for code, count in zip(codes, counts, strict=True)),
+        ]
 
     def count(self, outcome: Outcome) -> int:
         """Return how many motions end so."""

@@ -18,7 +18,7 @@ LONGEST_PIECE = 1.5
 """Longest stretch, in ``1/max|λ|``, that one Gauss rule integrates; its error is below rounding."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class EnergyLedger(Table):
     """Running energies of a motion in the fixed frame, in ``m c_r² Ω²``.
 

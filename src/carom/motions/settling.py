@@ -14,6 +14,7 @@ from carom.core.closing import ATTRACTS, OPEN, close, least_period
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.models import Jeffcott
+from carom.results import Result
 
 __all__ = ["PATIENCE", "ClosedOrbit", "closed_orbit", "fresh_memory", "longest_time", "multiplicity_of"]
 
@@ -31,8 +32,8 @@ MODES = 2
 """Modes of the rotors whose orbits are closed here."""
 
 
-@dataclass(frozen=True, eq=False)
-class ClosedOrbit:
+@dataclass(frozen=True, eq=False, repr=False)
+class ClosedOrbit(Result):
     """A periodic orbit, closed to rounding.
 
     Attributes

@@ -8,12 +8,13 @@ import numpy as np
 
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
+from carom.results import Result
 
 __all__ = ["FullSpectrum", "full_spectrum"]
 
 
-@dataclass(frozen=True, eq=False)
-class FullSpectrum:
+@dataclass(frozen=True, eq=False, repr=False)
+class FullSpectrum(Result):
     """Amplitudes of the motion in the fixed frame, ``Z(t) = Σ a e^{iνt}``.
 
     Attributes

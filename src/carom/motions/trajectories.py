@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Literal, NamedTuple
+from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
 from carom.outcome import InputError, Outcome, Phase
+from carom.results import Result
 
 __all__ = [
     "LARGEST_SPEED",
@@ -98,8 +99,8 @@ class EventLog(NamedTuple):
         return cls(np.empty(size), whole[0], whole[1], *np.empty((2, size, modes), complex))
 
 
-@dataclass(frozen=True, eq=False)
-class Trajectory:
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory(Result):
     """A motion: exact flights and lasting contacts joined by events.
 
     Attributes
@@ -122,6 +123,17 @@ class Trajectory:
     arrivals : ndarray of complex, shape (n, N)
         Mode amplitudes at the end of each segment but the last.
     """
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "rotor",
+        "start",
+        "outcome",
+        "time",
+        "final",
+        "multiplicity",
+        "contacts",
+        "lasting_contacts",
+    )
 
     rotor: Jeffcott
     start: State

@@ -13,6 +13,7 @@ from carom.core.impact import strike
 from carom.models import Jeffcott, Subject, System, model_of
 from carom.motions.trajectories import EventLog, State, Trajectory, follow, simulate
 from carom.outcome import InputError, Outcome, Phase
+from carom.results import Result
 
 __all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "section_jacobian", "stroboscopic_map"]
 
@@ -47,8 +48,8 @@ class Section:
         return State(position, complex(self.radial_speed, self.angular_speed) * position)
 
 
-@dataclass(frozen=True, eq=False)
-class ImpactMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class ImpactMap(Result):
     """One application of the impact map ``P_I``: from just before an impact to just before the next.
 
     Attributes
@@ -68,8 +69,8 @@ class ImpactMap:
     jacobian: np.ndarray | None
 
 
-@dataclass(frozen=True, eq=False)
-class StroboscopicMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class StroboscopicMap(Result):
     """The motion over a fixed time.
 
     Attributes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import overload
+from typing import ClassVar, overload
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from carom.motions.trajectories import State, Trajectory, simulate
 from carom.orbits.maps import Section, section_jacobian
 from carom.orbits.stability import Multipliers, multipliers
 from carom.outcome import InputError, Outcome
+from carom.results import Result, in_a_line
 
 __all__ = [
     "Orbit",
@@ -38,8 +39,8 @@ ARRIVAL_TOLERANCE = 1e-7
 """Relative difference of the certified first return and the period below which they are the same event."""
 
 
-@dataclass(frozen=True, eq=False)
-class Orbit:
+@dataclass(frozen=True, eq=False, repr=False)
+class Orbit(Result):
     """A periodic motion in the co-rotating frame with one impact a period.
 
     Attributes
@@ -59,6 +60,18 @@ class Orbit:
     reason : str
         Why it is not admissible; empty if it is.
     """
+
+    shown: ClassVar[tuple[str, ...]] = (
+        "rotor",
+        "name",
+        "period",
+        "radial_speed",
+        "angle",
+        "angular_speed",
+        "stable",
+        "admissible",
+        "reason",
+    )
 
     rotor: Jeffcott
     name: str
@@ -130,8 +143,8 @@ class Orbit:
         return position
 
 
-@dataclass(frozen=True, eq=False)
-class OrbitSet(Sequence[Orbit]):
+@dataclass(frozen=True, eq=False, repr=False)
+class OrbitSet(Result, Sequence[Orbit]):
     """All single-impact orbits of a rotor; look one up by place or by name, ``orbits["B1,d"]``.
 
     Attributes
@@ -156,6 +169,14 @@ class OrbitSet(Sequence[Orbit]):
     longest_period: float
     complete: bool
     slip_stays_forward: bool
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Each orbit, and whether these are all."""
+        told = []
+        for orbit in self:
+            words = f"{'stable' if orbit.stable else 'unstable'}, {orbit.reason or 'admissible'}"
+            told.append((orbit.name, f"period {orbit.period:.6g}, radial speed {orbit.radial_speed:.6g}, {words}"))
+        return [("rotor", in_a_line(self.rotor)), *told, ("complete", in_a_line(self.complete))]
 
     @property
     def argument(self) -> str:

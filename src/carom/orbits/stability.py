@@ -6,11 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.results import Result
+
 __all__ = ["Multipliers", "multipliers"]
 
 
-@dataclass(frozen=True, eq=False)
-class Multipliers:
+@dataclass(frozen=True, eq=False, repr=False)
+class Multipliers(Result):
     """Floquet multipliers of a periodic orbit on a section: the non-trivial ones.
 
     Attributes

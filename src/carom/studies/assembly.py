@@ -13,6 +13,7 @@ from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
+from carom.results import Result, in_a_line
 from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document
@@ -27,8 +28,8 @@ __all__ = ["Study", "study"]
 Progress = Callable[[float, str], None]
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+@dataclass(frozen=True, eq=False, repr=False)
+class Study(Result):
     """Every simple motion of a machine, a sample of disturbances, and what it all means.
 
     Attributes
@@ -66,6 +67,17 @@ class Study:
     attractors: AttractorSet
     safe_damping: SafeDamping
     fresh: DampingCheck | None
+
+    def rows(self) -> list[tuple[str, str]]:
+        """The machine, its motions, and the first sentences of the verdict."""
+        return [
+            ("case", self.case.name),
+            ("rotor", in_a_line(self.rotor)),
+            ("levitates", in_a_line(self.levitates)),
+            ("orbits", in_a_line(tuple(self.orbits))),
+            ("attractors", in_a_line(self.attractors.members)),
+            ("verdict", self.verdict.headline),
+        ]
 
     @property
     def rubs(self) -> tuple[Equilibrium, ...]:

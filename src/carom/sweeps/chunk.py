@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.core.target import processor
 from carom.outcome import CaromError
+from carom.results import Result
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status
 
@@ -36,8 +37,8 @@ class Failure:
     error: str
 
 
-@dataclass(frozen=True, eq=False)
-class Chunk:
+@dataclass(frozen=True, eq=False, repr=False)
+class Chunk(Result):
     """What was found out about the points of a chunk.
 
     Attributes

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from carom.motions.processors import available_cores
 from carom.outcome import InputError
-from carom.processors import available_cores
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.store import SweepStore

@@ -10,6 +10,7 @@ from carom.models import Jeffcott
 from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.propositions import HopfSide, hopf_side
 from carom.reproductions.mora2014.source import machine_at
+from carom.results import Result
 
 __all__ = ["FirstPair", "first_pair"]
 
@@ -20,8 +21,8 @@ NEGATIVE = -0.52
 STEPS = Steps(first=0.005, largest=0.02)
 
 
-@dataclass(frozen=True, eq=False)
-class FirstPair:
+@dataclass(frozen=True, eq=False, repr=False)
+class FirstPair(Result):
     """All branches of ``B1,a`` to ``B1,d``, and the local theory at their birth.
 
     Attributes

@@ -14,6 +14,7 @@ from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
 from carom.reproductions.mora2014.branches import DAMPINGS, FirstPair
 from carom.reproductions.mora2014.source import machine_at
+from carom.results import Result
 
 __all__ = ["Extremum", "ExtremumLine", "RadiusDiagram", "extremum_lines", "radius_diagram", "radius_extrema"]
 
@@ -42,8 +43,8 @@ class Extremum:
     highest: bool
 
 
-@dataclass(frozen=True, eq=False)
-class ExtremumLine:
+@dataclass(frozen=True, eq=False, repr=False)
+class ExtremumLine(Result):
     """One extremum of the radius along a stretch of a branch of orbits.
 
     Attributes
@@ -61,8 +62,8 @@ class ExtremumLine:
     highest: np.ndarray
 
 
-@dataclass(frozen=True, eq=False)
-class RadiusDiagram:
+@dataclass(frozen=True, eq=False, repr=False)
+class RadiusDiagram(Result):
     """Extrema of the radius of all four orbits, and the radius of levitation.
 
     Attributes

@@ -9,6 +9,7 @@ import numpy as np
 from carom.models import Jeffcott
 from carom.orbits.single_impact import Orbit, find_orbits
 from carom.reproductions.mora2014.source import machine_at
+from carom.results import Result
 
 __all__ = ["ShownMotion", "shown_motions"]
 
@@ -16,8 +17,8 @@ TURNS = 2.0
 """Turns of the shaft over which levitation is drawn."""
 
 
-@dataclass(frozen=True, eq=False)
-class ShownMotion:
+@dataclass(frozen=True, eq=False, repr=False)
+class ShownMotion(Result):
     """A periodic motion of the machine.
 
     Attributes

@@ -14,6 +14,7 @@ from carom.models import Jeffcott
 from carom.orbits.single_impact import Orbit, find_orbits
 from carom.reproductions.mora2014.propositions import hopf_side
 from carom.reproductions.mora2014.source import machine_at
+from carom.results import Result
 
 __all__ = ["Birth", "PeriodFunction", "PeriodPair", "birth", "period_functions", "period_pairs"]
 
@@ -25,8 +26,8 @@ AWAY = 0.01
 """Distance in damping from the birth at which the small orbits are drawn."""
 
 
-@dataclass(frozen=True, eq=False)
-class PeriodFunction:
+@dataclass(frozen=True, eq=False, repr=False)
+class PeriodFunction(Result):
     """``F₁`` over the period at one damping (figure 3a).
 
     Attributes
@@ -43,8 +44,8 @@ class PeriodFunction:
     roots: np.ndarray
 
 
-@dataclass(frozen=True, eq=False)
-class PeriodPair:
+@dataclass(frozen=True, eq=False, repr=False)
+class PeriodPair(Result):
     """A pair of roots of ``F₁`` along the damping, from one over their fold to the other (figure 3b).
 
     Attributes
@@ -65,8 +66,8 @@ class PeriodPair:
     fold: tuple[float, float]
 
 
-@dataclass(frozen=True, eq=False)
-class Birth:
+@dataclass(frozen=True, eq=False, repr=False)
+class Birth(Result):
     """The equilibrium and the two orbits that shrink into it, on one side of the non-smooth Hopf point (figure 3c).
 
     Attributes

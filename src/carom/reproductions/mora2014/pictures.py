@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 from carom.reproductions.mora2014.reproduction import Reproduction, reproduce
+from carom.results import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,8 +16,8 @@ if TYPE_CHECKING:
 __all__ = ["Picture", "figures"]
 
 
-@dataclass(frozen=True, eq=False)
-class Picture:
+@dataclass(frozen=True, eq=False, repr=False)
+class Picture(Result):
     """A figure to draw.
 
     Attributes

@@ -8,6 +8,7 @@ from carom.bifurcations import Codimension2Point, Curve, Motions, Plane, continu
 from carom.continuation import Steps
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.source import machine_at
+from carom.results import Result
 
 __all__ = ["DampingStiffnessPlane", "NamedRegion", "damping_stiffness_plane", "four_curves"]
 
@@ -51,8 +52,8 @@ class NamedRegion:
     words: str
 
 
-@dataclass(frozen=True, eq=False)
-class DampingStiffnessPlane:
+@dataclass(frozen=True, eq=False, repr=False)
+class DampingStiffnessPlane(Result):
     """Curves and regions of the plane of ``γ`` and ``ω``.
 
     Attributes

@@ -20,12 +20,13 @@ from carom.reproductions.mora2014.periods import (
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
 from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
 from carom.reproductions.mora2014.statements import Claim, claims
+from carom.results import Result
 
 __all__ = ["Periods", "Reproduction", "reproduce"]
 
 
-@dataclass(frozen=True, eq=False)
-class Periods:
+@dataclass(frozen=True, eq=False, repr=False)
+class Periods(Result):
     """What figure 3 shows.
 
     Attributes
@@ -40,8 +41,8 @@ class Periods:
     births: tuple[Birth, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class Reproduction:
+@dataclass(frozen=True, eq=False, repr=False)
+class Reproduction(Result):
     """The source paper, computed.
 
     Attributes

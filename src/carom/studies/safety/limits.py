@@ -13,6 +13,7 @@ from carom.closed_forms.whirl import Runaway
 from carom.models import Jeffcott
 from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
+from carom.results import Result
 from carom.studies.safety.losses import DampingCheck
 
 __all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "unsettled_words", "within_reach"]
@@ -58,8 +59,8 @@ class DampingLimit:
         return not self.motion.startswith(("irregular", "unresolved"))
 
 
-@dataclass(frozen=True, eq=False)
-class SafeDamping:
+@dataclass(frozen=True, eq=False, repr=False)
+class SafeDamping(Result):
     """How much damping it takes that no contact motion survives, the other parameters as they are.
 
     Attributes

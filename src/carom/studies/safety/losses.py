@@ -19,6 +19,7 @@ from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 from carom.parameters import Parameters
+from carom.results import Result
 
 __all__ = ["DampingCheck", "Loss", "Losses", "try_disturbances"]
 
@@ -71,8 +72,8 @@ def try_disturbances(rotor: Jeffcott, sample: DisturbanceSet, threads: int | Non
     return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
 
 
-@dataclass(frozen=True, eq=False)
-class Loss:
+@dataclass(frozen=True, eq=False, repr=False)
+class Loss(Result):
     """Starts that were lost at one damping.
 
     Attributes

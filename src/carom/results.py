@@ -1,0 +1,126 @@
+"""Results as text: what an interpreter or a notebook shows of them, in a few lines however large they are."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence, Set, Sized
+from enum import Enum
+from html import escape
+from numbers import Complex
+from typing import ClassVar
+
+import numpy as np
+
+__all__ = ["Result", "in_a_line"]
+
+WIDEST = 120
+"""Characters of a line, the name before it aside."""
+FEW = 4
+"""Numbers of an array that are shown one by one."""
+DIGITS = 6
+
+
+class Result:
+    """What a function found: a frozen dataclass that is shown by its attributes, large ones by their size.
+
+    ``shown`` names the attributes to show, properties among them; where it is empty, all fields are.
+    """
+
+    shown: ClassVar[tuple[str, ...]] = ()
+
+    def __repr__(self) -> str:
+        rows = self.rows()
+        width = max((len(name) for name, _ in rows), default=0)
+        return "\n".join([type(self).__name__, *(f"  {name:<{width}}  {text}".rstrip() for name, text in rows)])
+
+    def _repr_html_(self) -> str:
+        """The same as a table, for notebooks."""
+        cells = "".join(
+            f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
+            for name, text in self.rows()
+        )
+        return f"<table><caption>{type(self).__name__}</caption>{cells}</table>"
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Words, and what is shown beside them: by default names of attributes and their values."""
+        names = self.shown or tuple(field.name for field in dataclasses.fields(self))  # type: ignore[arg-type]
+        values = [(name, getattr(self, name)) for name in names]
+        return [(name, in_a_line(value)) for name, value in values if not callable(value)]
+
+
+def in_a_line(value: object) -> str:
+    """A value in one line: numbers to six digits, arrays by size and range, collections by number and names."""
+    if value is None:
+        return "none"
+    if isinstance(value, Enum):
+        return value.name.lower().replace("_", " ")
+    if isinstance(value, str):
+        return _cut(value)
+    if isinstance(value, bool | np.bool_):
+        return "yes" if value else "no"
+    if isinstance(value, Complex):
+        return _number(value)
+    if isinstance(value, np.ndarray):
+        return _array(value)
+    if isinstance(value, Result):
+        return _titled(value)
+    if isinstance(value, Mapping):
+        return _cut(", ".join(f"{key} {in_a_line(entry)}" for key, entry in value.items()) or "none")
+    if isinstance(value, Sequence | Set):
+        return _counted(list(value), [_name(entry) for entry in value])
+    if dataclasses.is_dataclass(value):
+        fields = [(field.name, getattr(value, field.name)) for field in dataclasses.fields(value)]
+        told = [f"{name}={in_a_line(entry)}" for name, entry in fields if entry is not None and not callable(entry)]
+        return _cut(f"{type(value).__name__}({', '.join(told)})")
+    return _cut(repr(value))
+
+
+def _number(value: Complex) -> str:
+    if isinstance(value, int | np.integer):
+        return str(value)
+    number = complex(value)
+    if isinstance(value, float | np.floating):
+        return f"{number.real:.{DIGITS}g}"
+    return f"{number.real:.{DIGITS}g}{number.imag:+.{DIGITS}g}i"
+
+
+def _array(values: np.ndarray) -> str:
+    if values.dtype.names is not None or values.dtype == object:
+        return f"{values.size} entries"
+    if values.size <= FEW:
+        return ", ".join(in_a_line(value) for value in values.ravel()) or "empty"
+    size = " x ".join(str(length) for length in values.shape)
+    if np.iscomplexobj(values) or values.dtype.kind not in "fiu":
+        return f"{size} {'complex numbers' if np.iscomplexobj(values) else 'values'}"
+    known = values[np.isfinite(values)] if values.dtype.kind == "f" else values
+    if not known.size:
+        return f"{size} numbers, none finite"
+    return f"{size} numbers from {_number(known.min())} to {_number(known.max())}"
+
+
+def _titled(value: Result) -> str:
+    name = f"of {len(value)}" if isinstance(value, Sized) else _name(value)
+    return f"{type(value).__name__} {name}".strip()
+
+
+def _name(entry: object) -> str:
+    """What tells an entry of a collection from others: its name, or itself where it is a text or a number."""
+    if isinstance(entry, str | Complex):
+        return in_a_line(entry)
+    name = getattr(entry, "name", "")
+    return name if isinstance(name, str) else ""
+
+
+def _counted(entries: list[object], names: list[str]) -> str:
+    if not entries:
+        return "none"
+    told = [name for name in names if name]
+    if len(told) == len(entries):
+        return _cut(f"{len(entries)}: {', '.join(told)}" if len(entries) > FEW else ", ".join(told))
+    kinds = dict.fromkeys(type(entry).__name__ for entry in entries)
+    return f"{len(entries)} of {', '.join(kinds)}"
+
+
+def _cut(text: str) -> str:
+    flat = " ".join(text.split())
+    return flat if len(flat) <= WIDEST else f"{flat[: WIDEST - 1]}…"
