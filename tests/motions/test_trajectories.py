@@ -13,6 +13,7 @@ from carom.models import Jeffcott
 from carom.motions import trajectories
 from carom.motions.trajectories import Kick, State, kick, simulate
 from carom.outcome import InputError, Outcome, Phase
+from carom.parameters import Machine, Scales
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
 RUBBING = PAPER.replace(gamma=0.2, d=0.5)
@@ -110,6 +111,34 @@ def test_a_sample_holds_each_event_and_the_instant_before(motion):
 def test_no_time_of_a_sample_is_outside_the_wall(motion, rubbing):
     for path in (motion, rubbing):
         assert path.radius(path.sample(300)).max() <= 1.0 + 1e-12
+
+
+class TestUnits:
+    MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+
+    def test_kicks_and_times_may_carry_units(self):
+        unit = 0.7e-3 * 184.2
+        told = simulate(self.MACHINE, kick("50 mm/s", angle="30 deg"), "0.2 s")
+        plain = simulate(self.MACHINE, kick(0.05 / unit, angle=math.pi / 6.0), 0.2 * 184.2)
+        assert told.start.velocity == pytest.approx(plain.start.velocity, rel=1e-14)
+        assert told.time == pytest.approx(plain.time, rel=1e-14)
+        assert kick("0.4").state(Jeffcott(PAPER)) == kick(0.4).state(Jeffcott(PAPER))
+
+    @pytest.mark.parametrize(
+        ("start", "until", "words"),
+        [
+            (kick("50 kg"), 1.0, "kick speed = 50 kg: must be a velocity"),
+            (kick(0.4, "1 m"), 1.0, "kick angle = 1 m: must be an angle"),
+            (kick(0.4), "2 m", "until = 2 m: must be a time"),
+        ],
+    )
+    def test_another_kind_of_size_is_refused(self, start, until, words):
+        with pytest.raises(InputError, match=words):
+            simulate(self.MACHINE, start, until)
+
+    def test_units_need_scales(self):
+        with pytest.raises(InputError, match="has no scales"):
+            simulate(PAPER, kick("50 mm/s"), 1.0)
 
 
 class TestStarts:

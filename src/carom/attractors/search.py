@@ -186,5 +186,6 @@ def find_attractors(
 
 def _given(rotor: Jeffcott, start: State | Kick) -> Start:
     if isinstance(start, Kick):
-        return Start("kick", start.state(rotor), f"a kick of {start.speed:.3g} c_r Omega")
+        state = start.state(rotor)
+        return Start("kick", state, f"a kick of {abs(state.velocity):.3g} c_r Omega")
     return Start("start", start, "a given start")

@@ -21,6 +21,7 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
 from carom.outcome import InputError, Outcome, Phase
+from carom.parameters import Scales, read_size
 from carom.results import Result
 
 __all__ = [
@@ -64,22 +65,37 @@ class Kick:
 
     Attributes
     ----------
-    speed : float
-        Size of the kick in clearances times ``Ω``.
-    angle : float
-        Direction in the co-rotating frame, in rad.
+    speed : float or str
+        Size of the kick: in clearances times ``Ω``, or text with a unit, such as ``"50 mm/s"``.
+    angle : float or str
+        Direction in the co-rotating frame: in rad, or text with a unit, such as ``"30 deg"``.
     """
 
-    speed: float
-    angle: float = 0.0
+    speed: float | str
+    angle: float | str = 0.0
 
     def state(self, rotor: Jeffcott) -> State:
-        """Return the state just after the kick."""
-        return State(rotor.equilibrium, cmath.rect(self.speed, self.angle))
+        """Return the state just after the kick.
+
+        Raises
+        ------
+        InputError
+            The speed or the angle is none, or has a unit that needs scales which the rotor has not.
+        """
+        speed = _own("kick speed", self.speed, "velocity", rotor.scales)
+        return State(rotor.equilibrium, cmath.rect(speed, _own("kick angle", self.angle, "angle", rotor.scales)))
 
 
-def kick(speed: float, angle: float = 0.0) -> Kick:
-    """Velocity kick of ``speed`` (in ``c_r Ω``) in direction ``angle`` (rad) out of the contact-free equilibrium."""
+def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
+    """Velocity kick out of the contact-free equilibrium.
+
+    Parameters
+    ----------
+    speed : float or str
+        In ``c_r Ω``, or text with a unit, such as ``"50 mm/s"``.
+    angle : float or str
+        Its direction in the co-rotating frame: in rad, or text with a unit, such as ``"30 deg"``.
+    """
     return Kick(speed, angle)
 
 
@@ -265,7 +281,7 @@ class Trajectory(Result):
 def simulate(
     machine: Subject,
     start: State | Kick,
-    until: float | None = None,
+    until: float | str | None = None,
     *,
     settle: bool = False,
     stop_at_chatter: bool = False,
@@ -280,8 +296,8 @@ def simulate(
     machine : Machine, Case, Parameters or model
     start : State or Kick
         On the wall (``|U| = 1`` to within 1e-12) or inside it.
-    until : float, optional
-        Time to follow it, in ``1/Ω``; with ``settle`` by default :func:`~carom.motions.settling.longest_time`.
+    until : float or str, optional
+        Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; with ``settle`` by default :func:`~carom.motions.settling.longest_time`.
     settle : bool
         End earlier, as soon as it is known where the motion ends (criteria in :mod:`carom.core.fate`).
     stop_at_chatter : bool
@@ -307,6 +323,7 @@ def simulate(
     amplitudes, plane = _checked_start(rotor, state)
     if until is None and settle:
         until = longest_time(rotor)
+    until = None if until is None else _own("until", until, "time", rotor.scales)
     if until is None or not (np.isfinite(until) and until > 0):
         raise InputError("until", until, "a finite time above 0, in 1/Omega")
     if max_events < 1:
@@ -342,6 +359,11 @@ def simulate(
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
         arrivals=np.concatenate([log.before for log in logs]),
     )
+
+
+def _own(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
+    """A number in units of the equations, or text with a unit, in units of the equations."""
+    return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given
 
 
 def follow(
