@@ -7,10 +7,10 @@ import secrets
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["sync_directory", "write_whole"]
+__all__ = ["sync_directory", "try_place", "write_whole"]
 
 
-def write_whole(target: Path, data: bytes, parts: Path) -> None:
+def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
     """Write a file: under another name until all of it is on the disk.
 
     Parameters
@@ -18,10 +18,15 @@ def write_whole(target: Path, data: bytes, parts: Path) -> None:
     target : Path
         Replaced if it is there.
     data : bytes
-    parts : Path
-        Directory on the same file system for the unfinished file.
+    parts : Path, optional
+        Directory on the same file system for the unfinished file; by default that of the target.
+
+    Raises
+    ------
+    OSError
+        It cannot be written; what was there is as it was.
     """
-    part = parts / f".{secrets.token_hex(8)}.part"
+    part = (parts or target.parent) / _unfinished()
     try:
         with part.open("xb", buffering=0) as stream:
             view = memoryview(data)
@@ -34,6 +39,27 @@ def write_whole(target: Path, data: bytes, parts: Path) -> None:
         with suppress(OSError):
             part.unlink(missing_ok=True)
         raise
+
+
+def try_place(target: Path) -> None:
+    """Try whether a file can be written, without a trace.
+
+    Raises
+    ------
+    OSError
+        It cannot.
+    """
+    part = target.parent / _unfinished()
+    try:
+        part.touch(exist_ok=False)
+    finally:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
+
+
+def _unfinished() -> str:
+    """Name of a file that is not finished."""
+    return f".{secrets.token_hex(8)}.part"
 
 
 def sync_directory(directory: Path) -> None:

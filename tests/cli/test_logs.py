@@ -1,7 +1,7 @@
 """Contact logs as files hold what the motion has, in SI units, and appear whole or not at all."""
 
 import csv
-from pathlib import Path
+import os
 
 import numpy as np
 import pytest
@@ -85,11 +85,10 @@ def test_failed_write_leaves_the_old_file(motion, tmp_path, monkeypatch):
     target = tmp_path / "log.nc"
     target.write_text("old", encoding="utf-8")
 
-    def half(self, content):
-        self.write_text("half", encoding="utf-8")
+    def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_bytes", half)
+    monkeypatch.setattr(os, "replace", full)
     with pytest.raises(InputError, match=r"--netcdf = .*log.nc: cannot be written \(No space left on device\)"):
         write_netcdf(motion, str(target))
 

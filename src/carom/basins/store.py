@@ -36,12 +36,11 @@ def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
     InputError
         The file cannot be written.
     """
-    target = Path(path)
     encoding = {str(name): dict(COMPRESSION) for name in dataset.data_vars}
     try:
         # In memory: the library that writes such files brings down the process when the disk is full.
         content = bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
-        write_whole(target, content + _checksum(content), target.parent)
+        write_whole(Path(path), content + _checksum(content))
     except OSError as problem:
         reason = os.strerror(problem.errno) if problem.errno else "this file system refuses"
         raise InputError("file", str(path), f"cannot be written ({reason}); give another path") from None

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.metadata import version
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.files import try_place, write_whole
 from carom.outcome import InputError, Phase
 
 if TYPE_CHECKING:
@@ -44,7 +46,8 @@ def check_file(option: str, path: str) -> None:
         raise InputError(option, path, "must lie in a directory that exists")
     if special:
         raise InputError(option, path, "must be a regular file: what is there is replaced as a whole")
-    _write_whole(option, path, lambda part: part.touch(), keep=False)
+    with _refusals(option, path):
+        try_place(target)
 
 
 def write_csv(motion: Trajectory, path: str) -> None:
@@ -65,23 +68,19 @@ def write_csv(motion: Trajectory, path: str) -> None:
         start, end = contact.start * scale, contact.end * scale
         rows.append((start, [f"{contact.kind} ({contact.phase.label})", start, end, *[""] * len(rest)]))
 
-    def write(target: Path) -> None:
-        with target.open("w", newline="", encoding="utf-8") as stream:
-            writer = csv.writer(stream)
-            writer.writerow(header)
-            writer.writerows(row for _, row in sorted(rows, key=lambda entry: entry[0]))
-
-    _write_whole("--csv", path, write)
+    text = StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(header)
+    writer.writerows(row for _, row in sorted(rows, key=lambda entry: entry[0]))
+    with _refusals("--csv", path):
+        write_whole(Path(path), text.getvalue().encode())
 
 
 def write_netcdf(motion: Trajectory, path: str) -> None:
     """Write impacts and lasting contacts as netCDF, in SI units where the machine is known."""
     content = bytes(_dataset(motion).to_netcdf(engine="h5netcdf"))  # in memory: HDF5 crashes when the disk is full
-
-    def write(target: Path) -> None:
-        target.write_bytes(content)
-
-    _write_whole("--netcdf", path, write)
+    with _refusals("--netcdf", path):
+        write_whole(Path(path), content)
 
 
 def _columns(motion: Trajectory) -> dict[str, tuple[np.ndarray, str]]:
@@ -119,17 +118,11 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
     return dataset
 
 
-def _write_whole(option: str, path: str, write: Callable[[Path], None], keep: bool = True) -> None:
-    """Write under another name first: the file is there complete, or as it was.  Without ``keep`` it is only tried."""
-    target = Path(path)
-    part = target.with_name(f".carom.{os.getpid()}.part")
+@contextmanager
+def _refusals(option: str, path: str) -> Iterator[None]:
+    """Errors of writing, as those of the option."""
     try:
-        write(part)
-        if keep:
-            part.replace(target)
+        yield
     except OSError as problem:
         reason = os.strerror(problem.errno) if problem.errno else "this file system refuses"
         raise InputError(option, path, f"cannot be written ({reason}); give another path") from None
-    finally:
-        with suppress(OSError):
-            part.unlink(missing_ok=True)

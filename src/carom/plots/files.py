@@ -9,6 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from carom.files import write_whole
 from carom.outcome import InputError
 from carom.plots.arrangement import without_layout
 from carom.plots.style import drawing
@@ -60,7 +61,7 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
     written = []
     for name, content in contents.items():
         target = stem.with_name(f"{stem.name}.{name}")
-        _replace(target, content)
+        write_whole(target, content)
         written.append(target)
     return written
 
@@ -70,12 +71,3 @@ def _rendered(figure: Figure, name: str) -> bytes:
     with drawing(), without_layout(figure):
         figure.savefig(buffer, format=name, metadata=_UNDATED[name])
     return buffer.getvalue()
-
-
-def _replace(target: Path, content: bytes) -> None:
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
-        part.write_bytes(content)
-        part.replace(target)
-    finally:
-        part.unlink(missing_ok=True)
