@@ -24,16 +24,14 @@ DEEP = COMPILED and os.environ.get("CAROM_DEEP", "") not in ("", "0")
 _FLIGHT = """
 import numpy as np
 import carom
-rotor = carom.models.Jeffcott(carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
+rotor = carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0)
 carom.simulate(rotor, carom.kick(0.3), 20.0, settle=True)
 carom.settle(rotor, np.array([0.1 + 0j]), np.array([0.5 + 0j]))
 """
 _SHOCK = """
 import carom
-from carom.basins import basins
-from carom.disturbances import BaseShock, Grid
-rotor = carom.models.Jeffcott(carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0))
-basins(rotor, Grid(BaseShock(1.0, 0.7), (2, 2)))
+rotor = carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0)
+carom.map_basins(rotor, carom.Grid(carom.BaseShock(1.0, 0.7), (2, 2)))
 """
 
 
@@ -45,8 +43,9 @@ def compile_kernels() -> None:
     directory = cache_directory()
     if COMPILED and directory is not None and not any(directory.rglob("*.nbi")):
         started = [subprocess.Popen([sys.executable, "-c", program]) for program in (_FLIGHT, _SHOCK)]
-        for process in started:
-            process.wait()
+        codes = [process.wait() for process in started]
+        if any(codes):
+            raise RuntimeError("kernels could not be compiled beforehand; the reason stands above")
 
 
 def sized(compiled: int, interpreted: int, deep: int | None = None) -> int:

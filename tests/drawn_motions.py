@@ -9,7 +9,7 @@ from compilation import sized
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from carom.motions.trajectories import State
+from carom.motions.starts import State
 from carom.parameters import Parameters
 
 MANY = settings(max_examples=sized(50, 15, 150))

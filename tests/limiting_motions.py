@@ -11,7 +11,8 @@ import math
 import numpy as np
 from compilation import sized
 
-from carom.motions.trajectories import State, Trajectory
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory
 from carom.parameters import Parameters
 
 EPSILON = 2.0**-52

@@ -6,7 +6,8 @@ from compilation import sized
 from machines import PAPER
 
 from carom.models import Jeffcott
-from carom.motions.trajectories import State, Trajectory, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import Phase
 from carom.parameters import Parameters
 

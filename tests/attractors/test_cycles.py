@@ -10,7 +10,8 @@ from carom.attractors.cycles import cycle_of, forces_on, orbit_of, same_cycle, w
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott
-from carom.motions.trajectories import State, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import Outcome
 from carom.parameters import Parameters

@@ -8,7 +8,8 @@ from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.motions.trajectories import State, kick, simulate
+from carom.motions.starts import State, kick
+from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters

@@ -12,7 +12,7 @@ from carom.bifurcations import OrbitBranch, continue_orbit
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
 from carom.models import Jeffcott
-from carom.motions.trajectories import State
+from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
 from carom.outcome import InputError
 

@@ -14,7 +14,7 @@ from carom.bifurcations.boundary import boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.motions.trajectories import State
+from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map, section_jacobian
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Phase

@@ -9,7 +9,7 @@ from machines import PAPER
 from carom import find_orbits, simulate
 from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
 from carom.models import Jeffcott
-from carom.motions.trajectories import State
+from carom.motions.starts import State
 from carom.orbits.single_impact import Orbit
 
 SOFT = PAPER.replace(omega=0.35, rho=0.2)

@@ -7,7 +7,7 @@ import pytest
 from carom.bifurcations import axis
 from carom.cli import main
 from carom.cli.starts import read_kick, read_range, read_start, read_time
-from carom.motions.trajectories import Kick, State
+from carom.motions.starts import Kick, State
 from carom.outcome import InputError
 from carom.parameters import Parameters, Scales
 

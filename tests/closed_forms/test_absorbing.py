@@ -12,7 +12,7 @@ from sliding_motions import ahead_of, assert_slides_to_the_rub
 
 import carom
 from carom.closed_forms.absorbing import rub_neighbourhood
-from carom.motions.trajectories import State
+from carom.motions.starts import State
 
 pytestmark = pytest.mark.jit_only
 

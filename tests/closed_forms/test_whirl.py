@@ -11,7 +11,8 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import rolling, rub_limit, runaway_speed
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
-from carom.motions.trajectories import State, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters, Scales
 

@@ -15,7 +15,8 @@ from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.table import flight_table
 from carom.models import Jeffcott
-from carom.motions.trajectories import EventLog, State, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import EventLog, simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 

@@ -26,7 +26,8 @@ from carom.core.fate import (
 from carom.core.layout import rotor_record, workspace
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
-from carom.motions.trajectories import State, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 

@@ -17,7 +17,8 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.motions.contacts import LastingContact, polar
 from carom.motions.ledger import energy_ledger
-from carom.motions.trajectories import State, Trajectory, kick, simulate
+from carom.motions.starts import State, kick
+from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import Phase
 from carom.parameters import Parameters, Scales
 

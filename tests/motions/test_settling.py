@@ -16,7 +16,8 @@ from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.fate import absorbed
 from carom.motions.ensembles import settle
 from carom.motions.settling import fresh_memory
-from carom.motions.trajectories import State, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 
 pytestmark = pytest.mark.jit_only

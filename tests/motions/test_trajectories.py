@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 
 import numpy as np
@@ -11,9 +10,9 @@ from machines import PAPER, fly, strike
 
 from carom.models import Jeffcott
 from carom.motions import trajectories
-from carom.motions.trajectories import Kick, State, kick, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.outcome import InputError, Outcome, Phase
-from carom.parameters import Machine, Scales
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
 RUBBING = PAPER.replace(gamma=0.2, d=0.5)
@@ -113,77 +112,7 @@ def test_no_time_of_a_sample_is_outside_the_wall(motion, rubbing):
         assert path.radius(path.sample(300)).max() <= 1.0 + 1e-12
 
 
-class TestUnits:
-    MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
-
-    def test_kicks_and_times_may_carry_units(self):
-        unit = 0.7e-3 * 184.2
-        told = simulate(self.MACHINE, kick("50 mm/s", angle="30 deg"), "0.2 s")
-        plain = simulate(self.MACHINE, kick(0.05 / unit, angle=math.pi / 6.0), 0.2 * 184.2)
-        assert told.start.velocity == pytest.approx(plain.start.velocity, rel=1e-14)
-        assert told.time == pytest.approx(plain.time, rel=1e-14)
-        assert kick("0.4").state(Jeffcott(PAPER)) == kick(0.4).state(Jeffcott(PAPER))
-
-    @pytest.mark.parametrize(
-        ("start", "until", "words"),
-        [
-            (kick("50 kg"), 1.0, "kick speed = 50 kg: must be a velocity"),
-            (kick(0.4, "1 m"), 1.0, "kick angle = 1 m: must be an angle"),
-            (kick(0.4), "2 m", "until = 2 m: must be a time"),
-        ],
-    )
-    def test_another_kind_of_size_is_refused(self, start, until, words):
-        with pytest.raises(InputError, match=words):
-            simulate(self.MACHINE, start, until)
-
-    def test_units_need_scales(self):
-        with pytest.raises(InputError, match="has no scales"):
-            simulate(PAPER, kick("50 mm/s"), 1.0)
-
-
-class TestStarts:
-    def test_a_kick_starts_at_the_equilibrium(self, rotor):
-        machine = PAPER.replace(gamma=0.3)
-        motion = simulate(Jeffcott(machine), kick(0.4, angle=0.2), 3.0)
-        assert motion.start.position == Jeffcott(machine).equilibrium
-        assert motion.start.velocity == pytest.approx(cmath.rect(0.4, 0.2), abs=1e-16)
-        assert kick(0.4, angle=0.2) == Kick(0.4, 0.2)
-
-    def test_no_kick_no_motion(self):
-        motion = simulate(Jeffcott(PAPER.replace(gamma=0.3)), kick(0.0), 100.0)
-        assert np.allclose(motion.position(motion.sample(50)), motion.start.position, rtol=0, atol=1e-15)
-
-    @pytest.mark.parametrize("radius", [1.0 + 2e-12, 1.1, 1e300])
-    def test_outside_the_wall(self, rotor, radius):
-        with pytest.raises(InputError, match=r"^start position = .*inside the wall, \|U\| <= 1") as caught:
-            simulate(rotor, State(radius * cmath.exp(1j)), 1.0)
-        assert caught.value.field == "start position"
-
-    def test_a_kick_from_an_equilibrium_outside_the_wall(self):
-        with pytest.raises(InputError, match="start position"):
-            simulate(Jeffcott(PAPER.replace(gamma=0.01)), kick(0.1), 1.0)
-
-    @pytest.mark.parametrize("value", [math.nan, math.inf, complex(0, -math.inf)])
-    def test_not_finite(self, rotor, value):
-        with pytest.raises(InputError, match=r"start position = .* finite"):
-            simulate(rotor, State(value), 1.0)
-        with pytest.raises(InputError, match=r"start velocity = .* finite"):
-            simulate(rotor, State(0.1, value), 1.0)
-
-    @pytest.mark.parametrize("radius", [1.0, 1.0 + 0.9e-12, 1.0 - 0.9e-12])
-    def test_on_the_wall_to_within_rounding(self, rotor, radius):
-        """Both sides of one count as the wall: outward speed strikes at once."""
-        normal = cmath.exp(0.3j)
-        motion = simulate(rotor, State(radius * normal, 0.5 * normal), 1.0)
-        assert motion.contacts.time[0] == 0.0
-        assert motion.radius(motion.sample(100)).max() <= 1.0 + 1e-12
-        assert abs(motion.at(0.0)[0]) == pytest.approx(1.0, abs=4e-16)
-
-    def test_just_inside_the_wall(self, rotor):
-        normal = cmath.exp(0.3j)
-        motion = simulate(rotor, State((1.0 - 2e-12) * normal, 0.5 * normal), 1.0)
-        assert motion.contacts.time[0] == pytest.approx(4e-12, rel=1e-3)
-
+class TestLimits:
     @pytest.mark.parametrize("until", [0.0, -1.0, math.nan, math.inf])
     def test_times_that_cannot_be_reached(self, rotor, until):
         with pytest.raises(InputError, match=r"^until = "):

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
-from carom.motions.trajectories import State, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.studies.ranges import (

@@ -12,7 +12,8 @@ from carom.attractors.starts import Start
 from carom.attractors.survival import HALF_LIVES, Survival, measure_survival
 from carom.models import Jeffcott
 from carom.motions.settling import longest_time
-from carom.motions.trajectories import State, Trajectory, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import Outcome
 
 __all__ = ["Ending", "endings_of"]

@@ -10,7 +10,8 @@ from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, orbit_of,
 from carom.attractors.following import Ending
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
-from carom.motions.trajectories import State, Trajectory
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Outcome
 from carom.results import Result

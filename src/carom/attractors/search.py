@@ -12,7 +12,7 @@ from carom.attractors.survival import Survival
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott, Subject, model_of
 from carom.motions.settling import PATIENCE
-from carom.motions.trajectories import Kick, State
+from carom.motions.starts import Kick, State
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.results import Result, in_a_line

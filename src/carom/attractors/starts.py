@@ -14,7 +14,7 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import runaway_speed
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott
-from carom.motions.trajectories import State
+from carom.motions.starts import State
 from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
 

@@ -4,7 +4,6 @@
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
 ``dataset``             their endings with coordinates, units and how to make them again
 ``motions``             names of the motions that starts end on
-``store``               netCDF files, whole or not at all
 ``shares``              shares with their confidence intervals
 ``kicks``               disturbances that provably never reach the wall
 ``losses``              from which size on kicks, shocks, steps and releases are lost

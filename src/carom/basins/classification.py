@@ -174,8 +174,8 @@ class Basin(Result):
         return Share.of(count, self.starts, drawn=isinstance(self.plan, Sample))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file, whole or not at all; see :func:`carom.basins.store.save`."""
-        from carom.basins.store import save
+        """Write a netCDF file, whole or not at all; see :func:`carom.files.netcdf.save`."""
+        from carom.files.netcdf import save
 
         save(self.dataset, path)
 
@@ -188,7 +188,7 @@ class Basin(Result):
         InputError
             It cannot be read, or holds no basin.
         """
-        from carom.basins.store import load
+        from carom.files.netcdf import load
 
         return cls(load(path, ("outcome", "motion", "time", "touched")))
 

@@ -106,7 +106,7 @@ class GainMap(Result):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a netCDF file, whole or not at all."""
-        from carom.basins.store import save
+        from carom.files.netcdf import save
 
         save(self.dataset, path)
 
@@ -119,7 +119,7 @@ class GainMap(Result):
         InputError
             It cannot be read, or holds no gain map.
         """
-        from carom.basins.store import load
+        from carom.files.netcdf import load
 
         return cls(load(path, ("recovered", "levitates")))
 

@@ -10,7 +10,8 @@ from carom.attractors.groups import Groups
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings
-from carom.motions.trajectories import State, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
 

@@ -14,7 +14,8 @@ from typing import Literal
 import numpy as np
 
 from carom.models import Jeffcott
-from carom.motions.trajectories import State, Trajectory, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, Phase
 
 __all__ = ["LONGEST", "LiftOff", "Whirl", "known", "lift_off_state", "next_lift_off", "shift_of"]

@@ -27,7 +27,8 @@ from carom.bifurcations.lift_offs import LONGEST, LiftOff, Whirl, known, lift_of
 from carom.continuation import Steps, Watch, continue_branch
 from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
-from carom.motions.trajectories import State, Trajectory, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 from carom.results import Result

@@ -11,7 +11,8 @@ from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.models import Jeffcott
-    from carom.motions.trajectories import Kick, State, Trajectory
+    from carom.motions.starts import Kick, State
+    from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
 
 __all__ = ["simulate"]
@@ -96,7 +97,7 @@ def _read(case: Case, start: str | None, kick: str | None, until: str | None) ->
 def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None, tell) -> Trajectory:  # type: ignore[no-untyped-def]
     from carom.models import Jeffcott
     from carom.motions.settling import longest_time
-    from carom.motions.trajectories import Kick
+    from carom.motions.starts import Kick
     from carom.motions.trajectories import simulate as follow
 
     rotor = Jeffcott(case.parameters)

@@ -10,7 +10,7 @@ from carom.parameters import Scales, read_quantity, read_size
 
 if TYPE_CHECKING:
     from carom.bifurcations import Axis
-    from carom.motions.trajectories import Kick, State
+    from carom.motions.starts import Kick, State
 
 __all__ = ["read_kick", "read_positive", "read_range", "read_start", "read_time", "read_value"]
 
@@ -43,7 +43,7 @@ def read_start(text: str, scales: Scales | None) -> State:
     radius = math.hypot(x, y)
     if radius > 1.0 + 1e-12:
         raise InputError("--start", text, f"must lie inside the wall, |U| <= 1 (here |U| = {radius:.6g})")
-    from carom.motions.trajectories import State
+    from carom.motions.starts import State
 
     return State(complex(x, y), complex(vx, vy))
 
@@ -59,7 +59,7 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
     speed, *angle = _split("--kick", text, (1, 2), _KICK)
     size = read_size("--kick", speed, "velocity", scales).own(scales)
     direction = read_size("--kick", angle[0], "angle", scales).own(scales) if angle else 0.0
-    from carom.motions.trajectories import Kick
+    from carom.motions.starts import Kick
 
     return Kick(size, direction)
 

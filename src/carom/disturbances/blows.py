@@ -33,7 +33,7 @@ class VelocityKick(Disturbance):
     ----------
     fastest : float
         Largest change of velocity, in ``c_r Ω``.  Directions are angles in the co-rotating frame, as those of
-        :func:`~carom.motions.trajectories.kick`.
+        :func:`~carom.motions.starts.kick`.
     """
 
     fastest: float = FASTEST

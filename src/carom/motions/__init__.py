@@ -1,7 +1,9 @@
 """Motions: followed from their starts, one or many, and what they do on their way.
 
 ==================  =======================================================================
+``starts``          states, and kicks out of levitation
 ``trajectories``    one motion
+``storage``         motions as datasets and files
 ``ensembles``       many motions, on all cores, of which only the endings are kept
 ``settling``        what a motion remembers of its way, and the orbit it settles to
 ``contacts``        what the bearing gets: the log of impacts, stretches of lasting contact
@@ -15,7 +17,8 @@ from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.settling import PATIENCE, ClosedOrbit, closed_orbit
 from carom.motions.spectrum import FullSpectrum, full_spectrum
-from carom.motions.trajectories import Kick, State, Trajectory, kick, simulate
+from carom.motions.starts import Kick, State, kick
+from carom.motions.trajectories import Trajectory, simulate
 
 __all__ = [
     "PATIENCE",

@@ -19,7 +19,8 @@ from carom.core.layout import rub_workspace, workspace
 from carom.models import Jeffcott, Subject, model_of
 from carom.motions.processors import available_cores
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time
-from carom.motions.trajectories import LARGEST_SPEED, WALL_TOLERANCE, EventLog
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE
+from carom.motions.trajectories import EventLog
 from carom.outcome import InputError, Outcome
 from carom.results import Result
 

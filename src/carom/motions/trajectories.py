@@ -2,101 +2,40 @@
 
 from __future__ import annotations
 
-import cmath
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
-from carom.core.advance import INSIDE_ALL, advance
+from carom.core.advance import advance
 from carom.core.closing import PASSES
 from carom.core.fate import doubt
-from carom.core.impact import set_on_wall
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import fly_or_rub_all
 from carom.models import Jeffcott, Subject, model_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
+from carom.motions.starts import Kick, State, amplitudes_of, own_size
 from carom.outcome import InputError, Outcome, Phase
-from carom.parameters import Scales, read_size
 from carom.results import Result
 
+if TYPE_CHECKING:
+    import xarray
+
 __all__ = [
-    "LARGEST_SPEED",
-    "WALL_TOLERANCE",
     "EventLog",
-    "Kick",
-    "State",
     "Trajectory",
     "follow",
-    "kick",
     "simulate",
 ]
 
-LARGEST_SPEED = 1e100
-"""Largest speed of a start: far beyond, the bounds that prove a flight free overflow."""
-WALL_TOLERANCE = 1e-12
-"""A start this near to ``|U| = 1`` lies on the wall."""
 REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""
-
-
-@dataclass(frozen=True)
-class State:
-    """A state of the rotor in the co-rotating frame.
-
-    Attributes
-    ----------
-    position, velocity : complex
-        ``U`` in clearances and ``U̇`` in clearances times ``Ω``.
-    """
-
-    position: complex
-    velocity: complex = 0j
-
-
-@dataclass(frozen=True)
-class Kick:
-    """A velocity kick out of the contact-free equilibrium.
-
-    Attributes
-    ----------
-    speed : float or str
-        Size of the kick: in clearances times ``Ω``, or text with a unit, such as ``"50 mm/s"``.
-    angle : float or str
-        Direction in the co-rotating frame: in rad, or text with a unit, such as ``"30 deg"``.
-    """
-
-    speed: float | str
-    angle: float | str = 0.0
-
-    def state(self, rotor: Jeffcott) -> State:
-        """Return the state just after the kick.
-
-        Raises
-        ------
-        InputError
-            The speed or the angle is none, or has a unit that needs scales which the rotor has not.
-        """
-        speed = _own("kick speed", self.speed, "velocity", rotor.scales)
-        return State(rotor.equilibrium, cmath.rect(speed, _own("kick angle", self.angle, "angle", rotor.scales)))
-
-
-def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
-    """Velocity kick out of the contact-free equilibrium.
-
-    Parameters
-    ----------
-    speed : float or str
-        In ``c_r Ω``, or text with a unit, such as ``"50 mm/s"``.
-    angle : float or str
-        Its direction in the co-rotating frame: in rad, or text with a unit, such as ``"30 deg"``.
-    """
-    return Kick(speed, angle)
 
 
 class EventLog(NamedTuple):
@@ -253,6 +192,25 @@ class Trajectory(Result):
         _, phases = self._amplitudes_at(times)
         return ContactHistory.from_states(self.rotor, times, phases, self.at(times), self.forces(times))
 
+    def to_dataset(self, times: np.ndarray | None = None) -> xarray.Dataset:
+        """Course of the motion at given times; see :func:`~carom.motions.storage.trajectory_dataset`."""
+        from carom.motions.storage import trajectory_dataset
+
+        return trajectory_dataset(self, times)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the motion to a file; see :func:`~carom.motions.storage.save_trajectory`."""
+        from carom.motions.storage import save_trajectory
+
+        save_trajectory(self, path)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> Trajectory:
+        """Read a motion from a file; see :func:`~carom.motions.storage.load_trajectory`."""
+        from carom.motions.storage import load_trajectory
+
+        return load_trajectory(path)
+
     def sample(self, count: int = 2000) -> np.ndarray:
         """Times for drawing: about ``count`` even ones, every event, and the last instant before each."""
         events = self.segment_starts[1:]
@@ -320,10 +278,10 @@ def simulate(
     """
     rotor = model_of(machine)
     state = start.state(rotor) if isinstance(start, Kick) else start
-    amplitudes, plane = _checked_start(rotor, state)
+    amplitudes, plane = amplitudes_of(rotor, state)
     if until is None and settle:
         until = longest_time(rotor)
-    until = None if until is None else _own("until", until, "time", rotor.scales)
+    until = None if until is None else own_size("until", until, "time", rotor.scales)
     if until is None or not (np.isfinite(until) and until > 0):
         raise InputError("until", until, "a finite time above 0, in 1/Omega")
     if max_events < 1:
@@ -361,11 +319,6 @@ def simulate(
     )
 
 
-def _own(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
-    """A number in units of the equations, or text with a unit, in units of the equations."""
-    return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given
-
-
 def follow(
     rotor: Jeffcott,
     amplitudes: np.ndarray,
@@ -390,20 +343,3 @@ def follow(
         rub_workspace(modes),
     )
     return Outcome(code), *rest
-
-
-def _checked_start(rotor: Jeffcott, state: State) -> tuple[np.ndarray, int]:
-    """Amplitudes of a start, and the plane it touches or INSIDE_ALL."""
-    for name in ("position", "velocity"):
-        if not cmath.isfinite(getattr(state, name)):
-            raise InputError(f"start {name}", getattr(state, name), "finite numbers")
-    if abs(state.velocity) > LARGEST_SPEED:
-        raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
-    radius = abs(state.position)
-    if radius > 1.0 + WALL_TOLERANCE:
-        raise InputError("start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g})")
-    amplitudes = rotor.system.amplitudes(state.position, state.velocity)
-    if radius < 1.0 - WALL_TOLERANCE:
-        return amplitudes, INSIDE_ALL
-    set_on_wall(rotor.system.arrays, 0, amplitudes)
-    return amplitudes, 0

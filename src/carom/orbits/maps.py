@@ -11,7 +11,8 @@ from carom.core import variation
 from carom.core.fate import memory
 from carom.core.impact import strike
 from carom.models import Jeffcott, Subject, System, model_of
-from carom.motions.trajectories import EventLog, State, Trajectory, follow, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import EventLog, Trajectory, follow, simulate
 from carom.outcome import InputError, Outcome, Phase
 from carom.results import Result
 

@@ -15,7 +15,8 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.planar import impact_jacobian
 from carom.core.rub import lift_off
 from carom.models import Jeffcott, Subject, System, model_of
-from carom.motions.trajectories import State, Trajectory, simulate
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.maps import Section, section_jacobian
 from carom.orbits.stability import Multipliers, multipliers
 from carom.outcome import InputError, Outcome

@@ -17,7 +17,8 @@ from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.basins.shares import CONFIDENCE
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
-from carom.motions.trajectories import State, Trajectory
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory
 from carom.orbits.single_impact import Orbit, OrbitSet
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales

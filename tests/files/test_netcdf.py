@@ -11,7 +11,7 @@ from compilation import sized
 from damage import CONTENT, spoilt
 
 from carom.basins import Basin, GainMap
-from carom.basins.store import load, save
+from carom.files.netcdf import load, save
 from carom.outcome import InputError
 
 DATASET = xarray.Dataset(

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.files import write_whole
+from carom.files.whole import write_whole
 from carom.outcome import InputError
 
 if TYPE_CHECKING:

@@ -1,0 +1,141 @@
+"""Motions as datasets: their course at chosen times for people, and their segments in a file, exact to the last bit."""
+
+from __future__ import annotations
+
+import json
+import os
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.files import netcdf
+from carom.models import Jeffcott
+from carom.motions.contacts import phase_flags
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory
+from carom.outcome import InputError, Outcome, Phase
+from carom.parameters import Parameters, Scales
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["load_trajectory", "save_trajectory", "trajectory_dataset"]
+
+COMPLEX = ("segment_amplitudes", "arrivals")
+SEGMENTS = ("segment_starts", "segment_phases", *COMPLEX)
+
+
+def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> xarray.Dataset:
+    """Course of a motion: position, velocity, phase and contact forces at chosen times.
+
+    Parameters
+    ----------
+    motion : Trajectory
+    times : array_like, shape (n,), optional
+        In ``1/Ω``; by default those of :meth:`Trajectory.sample`.
+
+    Returns
+    -------
+    xarray.Dataset
+        In SI units where the scales are known, in the co-rotating frame.
+    """
+    times = motion.sample() if times is None else np.asarray(times, float)
+    scales = motion.rotor.scales
+    dataset = motion.history(times).to_dataset(scales)
+    position, velocity = motion.at(times)
+    for name, values, scale, units in (
+        ("x", position.real, "length", ("c_r", "m")),
+        ("y", position.imag, "length", ("c_r", "m")),
+        ("velocity_x", velocity.real, "velocity", ("c_r Omega", "m/s")),
+        ("velocity_y", velocity.imag, "velocity", ("c_r Omega", "m/s")),
+    ):
+        words = f"{'velocity' if scale == 'velocity' else 'position'} along {name[-1]}, co-rotating frame"
+        factor = float(getattr(scales, scale)) if scales else 1.0
+        dataset[name] = ("time", values * factor, {"units": units[bool(scales)], "long_name": words})
+    return dataset.assign_coords(time=dataset["time"]).assign_attrs(_provenance(motion))
+
+
+def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
+    """Write a motion as netCDF, whole or not at all, so that :func:`load_trajectory` gives the same motion.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    import xarray
+
+    columns: dict[str, Any] = {
+        "segment_starts": ("segment", motion.segment_starts, {"units": "1/Omega"}),
+        "segment_phases": ("segment", motion.segment_phases, phase_flags(Phase)),
+        "segment_amplitudes": (("segment", "mode", "part"), _parts(motion.segment_amplitudes)),
+        "arrivals": (("event", "mode", "part"), _parts(motion.arrivals)),
+    }
+    attributes = _provenance(motion) | {
+        "start": json.dumps(_numbers(motion.start)),
+        "final": json.dumps(_numbers(motion.final)),
+        "end_time": motion.time,
+        "multiplicity": motion.multiplicity,
+    }
+    netcdf.save(xarray.Dataset(columns, attrs=attributes), path)
+
+
+def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
+    """Read a motion that :func:`save_trajectory` has written.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is damaged, or holds no motion.
+    """
+    dataset = netcdf.load(path, SEGMENTS)
+    attributes = dataset.attrs
+    try:
+        scales = json.loads(attributes["scales"])
+        parameters = Parameters(**json.loads(attributes["parameters"]), scales=Scales(**scales) if scales else None)
+        start, final = (_state(json.loads(attributes[name])) for name in ("start", "final"))
+        outcome = Outcome[attributes["outcome"]]
+    except (KeyError, TypeError, ValueError) as problem:
+        raise InputError("file", str(path), f"must hold a motion that carom has written ({problem})") from None
+    complexes = {name: dataset[name].values[..., 0] + 1j * dataset[name].values[..., 1] for name in COMPLEX}
+    return Trajectory(
+        rotor=Jeffcott(parameters),
+        start=start,
+        outcome=outcome,
+        time=float(attributes["end_time"]),
+        final=final,
+        multiplicity=int(attributes["multiplicity"]),
+        segment_starts=dataset["segment_starts"].values,
+        segment_phases=dataset["segment_phases"].values,
+        **complexes,
+    )
+
+
+def _provenance(motion: Trajectory) -> dict[str, Any]:
+    scales = motion.rotor.scales
+    return {
+        "Conventions": "CF-1.11",
+        "title": "Motion of a rotor inside its touchdown bearing",
+        "source": f"carom {version('carom')}",
+        "outcome": motion.outcome.name,
+        "comment": motion.outcome.meaning,
+        "parameters": json.dumps(motion.rotor.parameters.as_dict()),
+        "scales": json.dumps(
+            {name: getattr(scales, name) for name in ("mass", "clearance", "speed")} if scales else None
+        ),
+    }
+
+
+def _parts(values: np.ndarray) -> np.ndarray:
+    """Real and imaginary parts along a last axis: netCDF has no complex numbers."""
+    return np.stack([values.real, values.imag], axis=-1)
+
+
+def _numbers(state: State) -> list[float]:
+    return [state.position.real, state.position.imag, state.velocity.real, state.velocity.imag]
+
+
+def _state(numbers: list[float]) -> State:
+    x, y, speed_x, speed_y = numbers
+    return State(complex(x, y), complex(speed_x, speed_y))

@@ -1,0 +1,94 @@
+"""Motions as datasets and files: nothing is lost, and nothing is read that was not written so."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+import xarray
+from machines import PAPER
+
+from carom.motions import State, Trajectory, simulate
+from carom.outcome import InputError
+from carom.parameters import Scales
+
+SCALES = Scales(50.0, 0.7e-3, 184.2)
+
+
+@pytest.fixture(scope="module")
+def motion():
+    """Bounces, chatter and a slide."""
+    found = simulate(PAPER.replace(gamma=0.05, d=0.5), State(0.5 + 0.0j, 0.1j), 60.0)
+    assert len(found.contacts) > 3
+    assert found.lasting_contacts
+    return found
+
+
+@pytest.mark.parametrize("scales", [None, SCALES])
+def test_a_motion_is_read_as_it_was_written(motion, scales, tmp_path):
+    written = simulate(motion.rotor.replace(scales=scales), motion.start, motion.time)
+    written.save(tmp_path / "motion.nc")
+    read = Trajectory.load(tmp_path / "motion.nc")
+
+    for field in dataclasses.fields(Trajectory):
+        one, other = getattr(written, field.name), getattr(read, field.name)
+        if isinstance(one, np.ndarray):
+            assert one.dtype == other.dtype, field.name
+            np.testing.assert_array_equal(one, other)
+        else:
+            assert one == other, field.name
+    times = np.linspace(0.0, motion.time, 200)
+    np.testing.assert_array_equal(written.at(times), read.at(times))
+    assert read.lasting_contacts == written.lasting_contacts
+
+
+def test_a_motion_without_contact_is_kept_too(tmp_path):
+    quiet = simulate(PAPER.replace(gamma=0.3), State(0.1j), 2.0)
+    quiet.save(tmp_path / "quiet.nc")
+    read = Trajectory.load(tmp_path / "quiet.nc")
+    assert len(read.contacts) == 0
+    assert read.final == quiet.final
+
+
+def test_the_course_says_what_its_numbers_mean(motion):
+    times = np.linspace(0.0, 20.0, 101)
+    course = motion.to_dataset(times)
+    np.testing.assert_array_equal(course["x"] + 1j * course["y"], motion.at(times)[0])
+    assert course["x"].attrs["units"] == "c_r"
+    assert course["velocity_y"].attrs["units"] == "c_r Omega"
+    assert {"normal_force", "slip", "phase", "gap"} <= set(course.data_vars)
+
+    scaled = simulate(motion.rotor.replace(scales=SCALES), motion.start, 20.0).to_dataset(times)
+    np.testing.assert_allclose(scaled["x"], course["x"].values * 0.7e-3, rtol=1e-15)
+    np.testing.assert_allclose(scaled["velocity_x"], course["velocity_x"].values * SCALES.velocity, rtol=1e-15)
+    np.testing.assert_allclose(scaled["time"], times / 184.2, rtol=1e-15)
+    assert scaled["y"].attrs["units"] == "m"
+    assert motion.to_dataset().sizes["time"] == len(motion.sample())
+
+
+def test_a_file_that_holds_no_motion_is_refused(motion, tmp_path):
+    path = tmp_path / "motion.nc"
+    with pytest.raises(InputError, match="cannot be read"):
+        Trajectory.load(path)
+    path.write_bytes(b"nothing")
+    with pytest.raises(InputError, match="not netCDF"):
+        Trajectory.load(path)
+    motion.save(path)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-200] + bytes([whole[-200] ^ 1]) + whole[-199:])
+    with pytest.raises(InputError, match="damaged"):
+        Trajectory.load(path)
+
+    from carom.files.netcdf import load, save
+    from carom.motions.storage import SEGMENTS
+
+    motion.save(path)
+    dataset = load(path, SEGMENTS)
+    for changes in ({"outcome": "FLYING"}, {"parameters": "{}"}, {"start": "[1]"}):
+        save(dataset.assign_attrs(changes), path)
+        with pytest.raises(InputError, match="must hold a motion that carom has written"):
+            Trajectory.load(path)
+    save(xarray.Dataset({"other": 1}), path)
+    with pytest.raises(InputError, match="must hold the variables segment_starts"):
+        Trajectory.load(path)
