@@ -16,8 +16,8 @@ from carom.core.counter import fresh_counter
 from carom.core.ensemble import MOTION, Task, Tools, follow_each
 from carom.core.lanes import lanes_record
 from carom.core.layout import rub_workspace, workspace
+from carom.core.processors import available_cores
 from carom.models import Jeffcott, Subject, model_of
-from carom.motions.processors import available_cores
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE
 from carom.motions.trajectories import EventLog

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carom.motions.processors import available_cores
+from carom.core.processors import available_cores
 from carom.outcome import InputError
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.plan import SweepPlan
