@@ -1,6 +1,6 @@
-"""A block of flight by the tables of :mod:`carom.core.table`: where ``f = |y|² − 1`` may vanish, and the state at a time.
+"""One block of flight with the tables of :mod:`carom.core.table`: where ``f = |y|² − 1`` may vanish, and the state at a time.
 
-The flight starts from ``work.current``.  What is loaded for it here stays in the workspace until the next block.
+The flight starts from ``work.current``.  What these functions load into the workspace stays there until the next block.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def load_products(rotor, plane, origin, work):
 
 @part
 def basis_amplitudes(rotor, plane, amplitudes, out):
-    """Factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a plane."""
+    """Write the factors ``α`` of the basis functions of :mod:`carom.core.table` in the motion of a plane."""
     modes = amplitudes.shape[0]
     for k in range(modes):
         out[k] = rotor.rows[plane, k] * amplitudes[k]
@@ -70,11 +70,12 @@ def load_polynomial(table, depth, level, work):
 
 @part
 def sign_changes(polynomial, level, floor, remainder):
-    """Whether ``f`` may cross the wall on the block: 0 (no), 1 (perhaps), 2 (not to be decided); and where it may first.
+    """Whether ``f`` may cross zero on the block: 0 (no), 1 (perhaps), 2 (undecided); and where it may do so first.
 
-    Looked at is the polynomial plus the bound of its error, which grows from ``floor``, the rounding of ``f`` at the start,
-    by ``remainder`` at the end.  It has no root where none of its coefficients is positive, and at most two, the first of
-    them upward, where the positive ones follow one another.  The second answer is the number of the first of these.
+    The test uses the polynomial plus the bound of its error.  This bound is ``floor``, the rounding of ``f``, at the
+    start and grows by ``remainder`` up to the end.  If no coefficient of the sum is positive, it has no root.  If the
+    positive ones are consecutive, it has at most two roots, the first of them upward.  The second result is the index of
+    the first positive coefficient.
     """
     share = remainder / DEGREE
     first, last, number = DEGREE, -1, 0
@@ -92,8 +93,8 @@ def sign_changes(polynomial, level, floor, remainder):
 def rough_root(polynomial, level, after):
     """Where the polynomial may vanish, in 0 … 1, from the coefficients on both sides of its sign change.
 
-    In a flight from the wall a root in the first half may be next to that at the start, which is divided out:
-    ``b_j n/j`` are the coefficients of ``f/t``.
+    In a flight that starts on the wall, a root in the first half may lie close to the root at the start.  The latter is
+    divided out: ``b_j n/j`` are the coefficients of ``f/t``.
     """
     before, there, degree, first = level, polynomial[after], DEGREE, after
     if after > 0:
@@ -106,7 +107,7 @@ def rough_root(polynomial, level, after):
 
 @part
 def nearest_node(table, time):
-    """Number of the node nearest to a time."""
+    """Index of the node nearest to a time."""
     return min(max(int(time * table.pace + 0.5), 0), NODES)
 
 
@@ -133,7 +134,7 @@ def derivatives(origin, level, change, speed, force, jerk):
 
 @part
 def two_derivatives(origin, level, change, speed, force):
-    """``f`` and its first two derivatives, as :func:`derivatives`."""
+    """``f`` and its first two derivatives, as in :func:`derivatives`."""
     position = origin + change
     value = level + (2.0 * (origin.conjugate() * change).real + squared_modulus(change))
     slope = (position.conjugate() * speed).real
@@ -143,7 +144,7 @@ def two_derivatives(origin, level, change, speed, force):
 
 @part
 def move_to(rotor, table, time, work):
-    """Write ``work.arrival`` and ``work.increments``, ``c(time) − c(0)``: to the nearest node, on by power series."""
+    """Write ``work.arrival`` and ``work.increments``, ``c(time) − c(0)``, by a power series from the nearest node."""
     node = nearest_node(table, time)
     rest = time - node * table.spacing
     modes = work.current.shape[0]
@@ -164,7 +165,7 @@ def move_to(rotor, table, time, work):
 
 @part
 def _power_series(series, column, time):
-    """Sum of TERMS terms of a power series without constant: odd and even powers by Horner's scheme, side by side."""
+    """Sum TERMS terms of a power series without constant term: odd and even powers in parallel by Horner's scheme."""
     square = time * time
     odd, even = series[TERMS - 2, column], series[TERMS - 1, column]
     odd_real, odd_imag, even_real, even_imag = odd.real, odd.imag, even.real, even.imag

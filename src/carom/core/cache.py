@@ -1,10 +1,10 @@
-"""The disk cache of compiled kernels: what is damaged is compiled again, what cannot be kept is done without.
+"""The disk cache of compiled kernels.  A damaged file is compiled again; an unwritable disk only costs time.
 
-Numba's own cache trusts its files: one that was cut short blocks every later run, and a flipped bit in machine code is
-executed.  Here each compiled version of a kernel is a file of its own, which begins with a checksum of all that it was
-compiled from and of its content.  A file that does not agree with its checksum is removed before anything in it is looked
-at, and the kernel is compiled again.  Files appear whole, under the name of what they hold, so processes that work side by
-side need no lock: they write the same.
+Numba's own cache trusts its files: a truncated file makes every later run fail, and a flipped bit in machine code is
+executed.  Here each compiled version of a kernel has its own file.  The file begins with a checksum of its content and of
+everything it was compiled from.  If the checksum does not match, the file is removed before its content is read, and the
+kernel is compiled again.  Files are written atomically, and their names are derived from what they were compiled from.
+So processes that run at the same time need no lock: they write the same content.
 """
 
 from __future__ import annotations
@@ -29,23 +29,23 @@ from carom.files import write_whole
 __all__ = ["KernelCache", "keep"]
 
 CHECKSUM = 32
-"""Bytes of the checksum that a file begins with."""
+"""Length of the checksum at the start of a file, in bytes."""
 
 
 def keep(kernel: Any) -> None:
-    """Keep on the disk what a kernel is compiled to."""
+    """Cache the compiled versions of a kernel on disk."""
     kernel._cache = KernelCache(kernel.py_func, cache_directory())
 
 
 class KernelCache(_Cache):  # type: ignore[misc]
-    """What one kernel has been compiled to.  Numba asks before it compiles, and hands over what it has compiled.
+    """The compiled versions of one kernel.  Numba queries it before it compiles, and stores here what it has compiled.
 
     Parameters
     ----------
     function : function
-        The kernel as it is written.
+        The Python function of the kernel.
     directory : Path or None
-        Where compiled kernels are kept, if anywhere.
+        The cache directory; None to cache nothing.
     """
 
     def __init__(self, function: Any, directory: Path | None) -> None:
@@ -55,11 +55,11 @@ class KernelCache(_Cache):  # type: ignore[misc]
 
     @property
     def cache_path(self) -> str | None:
-        """The directory, as Numba's statistics show it."""
+        """The directory as text, for Numba's statistics."""
         return None if self.directory is None else str(self.directory)
 
     def load_overload(self, sig: Any, target_context: Any) -> CompileResult | None:
-        """Return the version for these types of arguments, or None if it has to be compiled."""
+        """Return the version for these argument types, or None if it has to be compiled."""
         target_context.refresh()
         if not self._enabled or self.directory is None:
             return None
@@ -76,8 +76,8 @@ class KernelCache(_Cache):  # type: ignore[misc]
         return CompileResult._rebuild(target_context, *pickle.loads(data[CHECKSUM:]))
 
     def save_overload(self, sig: Any, data: CompileResult) -> None:
-        """Keep a version; where that cannot be, it serves this process alone."""
-        if not self._enabled or data.library.has_dynamic_globals:  # these are addresses in this process
+        """Write a version to the cache; if that fails, only this process uses it."""
+        if not self._enabled or data.library.has_dynamic_globals:  # addresses that are valid in this process only
             return
         if self.directory is None:
             tell_once()
@@ -94,21 +94,21 @@ class KernelCache(_Cache):  # type: ignore[misc]
         self._enabled = True
 
     def disable(self) -> None:
-        """Do without it."""
+        """Stop using the cache."""
         self._enabled = False
 
     def flush(self) -> None:
-        """Forget all versions."""
+        """Delete all cached versions of this kernel."""
         for file in self.directory.glob(self._name()) if self.directory else ():
             file.unlink(missing_ok=True)
 
     def _name(self, origin: bytes | None = None) -> str:
-        """Name of the file of a version, or pattern of all of them."""
+        """File name of one version, or the pattern that matches all versions."""
         kernel = f"{self._function.__module__}.{self._function.__name__.strip('<>')}"
         return f"{kernel}.{hashlib.sha256(origin).hexdigest()[:16] if origin else '*'}"
 
     def _origin(self, sig: Any, codegen: Any) -> bytes:
-        """All that decides the machine code, but for the other sources of the core, by which the directory is named."""
+        """Everything that determines the machine code, except the other sources of the core: these name the directory."""
         code, cells = self._function.__code__, self._function.__closure__ or ()
         written = _source(code.co_filename), code.co_firstlineno, dumps(tuple(cell.cell_contents for cell in cells))
         compiler = sys.version, numba.__version__, llvmlite.__version__, codegen.magic_tuple()

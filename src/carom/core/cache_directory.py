@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept."""
+"""The directory in which compiled kernels are cached."""
 
 from __future__ import annotations
 
@@ -17,25 +17,26 @@ from carom.outcome import CaromWarning
 __all__ = ["VARIABLE", "cache_directory", "tell_once"]
 
 VARIABLE = "CAROM_CACHE_DIR"
-"""Environment variable that names a directory for compiled kernels."""
+"""Environment variable that sets the cache directory."""
 TRIAL = 65_536
-"""Bytes that a directory must take to be used: a full disk still takes empty files."""
+"""Bytes written to test a directory: a full disk still accepts empty files."""
 
 
 @cache
 def cache_directory() -> Path | None:
-    """Directory of compiled kernels: the one chosen, the user's, or one in the directory of temporary files.
+    """Directory of compiled kernels: the one set in the environment, the user's cache or one for temporary files.
 
-    It is named by a hash of all of ``core/``: a kernel holds the machine code of those that it calls, so an edit of any of
-    them makes it stale.
+    Its name contains a hash of all sources in ``core/``.  A kernel contains the machine code of the kernels it calls, so
+    an edit of any of them makes it stale.
 
-    Whoever can write there can have their own code run.  The directory of temporary files is shared, and the name in it
-    can be guessed: what is there already is taken only if it belongs to this user and nobody else may enter.
+    Anyone who can write to this directory can have their own code executed.  The system's directory for temporary files
+    is shared, and the name used in it can be guessed.  An existing directory there is used only if it belongs to this
+    user and nobody else has access to it.
 
     Returns
     -------
     Path or None
-        None where no directory can be written.
+        None if no directory is writable.
     """
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.rglob("*.py")):
@@ -49,7 +50,7 @@ def cache_directory() -> Path | None:
         try:
             if root == shared:
                 root.mkdir(exist_ok=True, mode=0o700)
-                place = root.lstat()  # not of what a link leads to
+                place = root.lstat()  # lstat does not follow links
                 foreign = os.name == "posix" and (place.st_uid != os.getuid() or place.st_mode & 0o077)
                 if foreign or not stat.S_ISDIR(place.st_mode):
                     continue
@@ -64,7 +65,7 @@ def cache_directory() -> Path | None:
 
 @cache
 def tell_once() -> None:
-    """Warn, the first time in this process, that compiled kernels are not kept."""
+    """Warn, once per process, that compiled kernels are not cached."""
     warnings.warn(
         "compiled kernels cannot be kept on the disk, so each run compiles them anew; "
         f"make room, or set {VARIABLE} to a directory that can be written",

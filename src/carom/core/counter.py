@@ -1,4 +1,4 @@
-"""A counter that threads share: kernels on several threads deal out one list of tasks by it."""
+"""A counter shared by threads: kernels that run on several threads use it to divide one list of tasks."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _LOCK = threading.Lock()
 
 
 def fresh_counter() -> np.record:
-    """A counter that begins with zero."""
+    """A new counter, with the value zero."""
     return record(numbers=np.zeros(1, np.int64))
 
 
 def next_number(numbers):
-    """The number a counter has come to, which then moves on: no two threads are told the same one."""
+    """Atomic fetch-and-add: return the value of a counter and increase it by one, so no two threads get the same number."""
     with _LOCK:
         number = int(numbers[0])
         numbers[0] = number + 1

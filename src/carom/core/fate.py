@@ -1,18 +1,20 @@
-"""Where a motion ends: criteria that settle it, and the memory they need.
+"""Criteria that decide to which end a motion settles, and the memory they need.
 
-- *Levitated*: the sum of the moduli of the modes at every contact plane, a bound for all later time, is smaller than
-  the room between the contact-free equilibrium and the wall.  Where damping is so weak that this takes long: the flight
-  without damping stays inside the wall for one turn of its modes against each other, and the turns that follow until
-  then differ too little from it.  Either is a proof.
-- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding; or, where the memory holds
-  one, it lies in a neighbourhood of that rub which sliding never leaves.  This is a proof too (:mod:`carom.closed_forms.absorbing`).
-- *Rolling*: where the memory holds the speed of a certain runaway, backward whirl slides faster.  A proof
-  (:mod:`carom.closed_forms.whirl`).
-- *Backward whirl*, *rolling* and forward rub that runs round the wall: after a turn without flight the state has changed
-  by less than ``NEAR`` and by less than ``NEAR`` per unit time, so slow changes do not pass for none.
+- *Levitated*: at every contact plane, the sum of the moduli of the modes is smaller than the distance between the
+  contact-free equilibrium and the wall.  This sum is a bound for all later time.  If damping is so weak that this takes
+  long, a second criterion is used: the flight without damping stays inside the wall for one period after which its modes
+  nearly repeat, and the drift over later periods, until the first criterion holds, is too small to reach the wall.
+  Both criteria are proofs.
+- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding.  Or it lies in a
+  neighbourhood of that rub which sliding never leaves, if the memory holds one; this is a proof
+  (:mod:`carom.closed_forms.absorbing`).
+- *Rolling*: backward whirl slides faster than the speed, if the memory holds one, above which it certainly runs away to
+  rolling; this is a proof (:mod:`carom.closed_forms.whirl`).
+- *Backward whirl*, *rolling* and forward rub that runs round the wall: after a full turn without flight the state has
+  changed by less than ``NEAR`` and by less than ``NEAR`` per unit time, so a slow change is not taken for none.
 - *Periodic*: the state at an impact recurs to within ``NEAR`` twice in a row after the same number of impacts.  The
-  reference is renewed after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has recurred next
-  to an orbit that repels only passes by, and is followed on (:mod:`carom.core.closing`).
+  reference state is replaced after 1, 2, 4, 8 … impacts (Brent 1980), so no period is too long.  A motion that has
+  recurred close to a repelling orbit only passes by it and is followed further (:mod:`carom.core.closing`).
 - *Aperiodic*: ``patience`` impacts have passed without recurrence.
 """
 
@@ -47,9 +49,9 @@ NEAR = 1e-9
 """Distance, relative to one plus the size of the state, below which two states are the same."""
 
 TURNS = 32
-"""Turns of the faster mode that are tried for one after which the other mode is back too."""
+"""Largest number of turns of the faster mode tried as a period after which the slower mode nearly repeats too."""
 SLACK = 2e-4
-"""Distance, in clearances, by which the path between two samples of a turn may bulge."""
+"""Distance, in clearances, by which the path between two samples may lie further out than the samples."""
 
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
 
@@ -64,7 +66,7 @@ def memory(
     rub_shape: tuple[float, float, float] = (0.0, 0.0, 0.0),
     runaway: float = np.inf,
 ) -> np.record:
-    """Memory of a motion, and how far to follow it.
+    """Memory of the criteria for one motion, and the options on how far to follow it.
 
     Parameters
     ----------
@@ -72,17 +74,17 @@ def memory(
     rub_position : complex
         Position of the synchronous rub that attracts sliding; zero if there is none.
     patience : int
-        Impacts without recurrence after which a motion counts as aperiodic; zero to settle nothing.
+        Impacts without recurrence after which a motion counts as aperiodic; zero to test no criterion.
     recheck : float
-        Time of free flight after which to look again whether the rotor levitates.
+        Time of free flight after which to test again whether the rotor levitates.
     stop_at_landing : bool
-        End with ``CHATTER`` where bounces go over into lasting contact.
+        End with ``CHATTER`` where bounces turn into lasting contact.
     rub_level : float
-        Level of the function below which forward slip surely goes over to the rub; zero not to ask.
+        Level of the function below which forward slip certainly ends in the rub; zero to skip this test.
     rub_shape : tuple of float
         The ``μ``, ``p`` and ``y₀`` of that function, see :mod:`carom.closed_forms.absorbing`.
     runaway : float
-        Speed of backward whirl from which on sliding surely goes over to rolling for good; infinite not to ask.
+        Speed of backward whirl above which sliding certainly ends in permanent rolling; infinite to skip this test.
     """
     friction, strength, phase = rub_shape
     return record(
@@ -114,7 +116,7 @@ def memory(
 
 @kernel
 def levitates(rotor, amplitudes, work):
-    """Whether no later flight can reach any wall."""
+    """Whether the rotor can provably never reach any wall again."""
     modes = amplitudes.shape[0]
     for plane in range(rotor.rows.shape[0]):
         basis_amplitudes(rotor, plane, amplitudes, work.amplitudes)
@@ -140,13 +142,14 @@ def levitates(rotor, amplitudes, work):
 
 @kernel
 def stays_inside(rotor, amplitudes):
-    """Whether a weakly damped flight surely stays inside the wall, though its modes are large enough to reach it together.
+    """Whether a weakly damped flight provably stays inside the wall although the sum of its moduli reaches the wall.
 
-    For a rotor with one plane and a pair of modes that decay alike, ``y = K + s (c₊e^{iω₊t} + c₋e^{iω₋t})`` with
-    ``s = e^{−δt}``.  As ``s ≤ 1``, ``|y|`` is at most the greater of ``|K|`` and the modulus without damping.  That one is bounded
-    over one time ``P`` in which the faster mode turns a whole number of times, by samples and by the second derivative
-    in between; over the next, the slower mode lags by ``ω P`` mod 2π more, which moves ``y`` by no more than that times its
-    amplitude.  This has to stay inside until the sum of the moduli does by itself.
+    For a rotor with one plane and a pair of modes of equal decay, ``y = K + s (c₊e^{iω₊t} + c₋e^{iω₋t})`` with
+    ``s = e^{−δt}``.  As ``s ≤ 1``, ``|y|`` is at most the greater of ``|K|`` and the modulus without damping.  The latter
+    is bounded over one period ``P``, in which the faster mode makes a whole number of turns: by samples, and by the second
+    derivative between them.  In each further period the phase of the slower mode, with frequency ``ω``, shifts by ``ω P``
+    mod 2π more.  This moves ``y`` by at most the shift times the amplitude of that mode.  The bound has to stay inside the
+    wall until the sum of the moduli does.
     """
     if rotor.exponents.shape[0] != 2 or rotor.rows.shape[0] != 1 or not rotor.driven[1]:
         return False
@@ -183,13 +186,13 @@ def stays_inside(rotor, amplitudes):
 
 @kernel
 def _wrapped(angle):
-    """The angle less the nearest whole number of turns."""
+    """The angle minus the nearest whole number of turns."""
     return angle - 2.0 * math.pi * math.floor(angle / (2.0 * math.pi) + 0.5)
 
 
 @kernel
 def _farthest(centre, slow, fast, slow_rate, fast_rate, span, step):
-    """Largest of samples of ``|K + c₊e^{iω₊t} + c₋e^{iω₋t}|`` over a time, not more than a step apart."""
+    """Largest sample of ``|K + c₊e^{iω₊t} + c₋e^{iω₋t}|`` over a time span, at samples at most one step apart."""
     count = int(span / step) + 1
     largest = 0.0
     for i in range(count + 1):
@@ -206,7 +209,7 @@ def _farthest(centre, slow, fast, slow_rate, fast_rate, span, step):
 
 @kernel
 def recurs(memory, amplitudes):
-    """Note the state at an impact; whether the motion has proved periodic (``memory.period`` impacts) or aperiodic (0)."""
+    """Record the state at an impact; return whether the motion is periodic (``memory.period`` impacts) or aperiodic (0)."""
     memory.events += 1
     if memory.events > 1:
         memory.since += 1
@@ -230,7 +233,7 @@ def recurs(memory, amplitudes):
 
 @kernel
 def impacts_until_noted(memory):
-    """Number of the next impact, from now, that :func:`recurs` has to see even if its state recurs to nothing."""
+    """Number of impacts until the next one that :func:`recurs` has to record even if its state does not recur."""
     if memory.events == 0:
         return 1
     number = min(memory.renewal - memory.since, memory.patience - memory.events)
@@ -257,7 +260,7 @@ def same_state(first, second, tolerance):
 
 @kernel
 def near_rub(memory, position, speed):
-    """Whether a sliding state is at the synchronous rub that attracts it."""
+    """Whether a sliding state has reached the synchronous rub that attracts it."""
     if memory.rub_position == 0.0:
         return False
     return math.sqrt(squared_modulus(position - memory.rub_position)) + abs(speed) < NEAR
@@ -265,7 +268,7 @@ def near_rub(memory, position, speed):
 
 @kernel
 def absorbed(memory, position, speed):
-    """Whether a state that slides forward lies where it surely goes over to the synchronous rub (:mod:`carom.closed_forms.absorbing`)."""
+    """Whether a state in forward slip provably ends in the synchronous rub (:mod:`carom.closed_forms.absorbing`)."""
     if memory.rub_level <= 0.0:
         return False
     friction, phase = memory.rub_friction, memory.rub_phase
@@ -299,7 +302,7 @@ def _rub_potential(ahead, friction, strength, phase):
 
 @kernel
 def approaches_turn(memory, position, amplitudes, speed):
-    """Note a position on the wall; whether the rotor has been round and is within a quarter turn of it again."""
+    """Record the position where a turn begins; later return whether the rotor is in the last quarter of a full turn."""
     if memory.turning == NO_TURN:
         memory.turn_position = position
         memory.turn_time = 0.0
@@ -317,7 +320,7 @@ def approaches_turn(memory, position, amplitudes, speed):
 
 @kernel
 def forget(memory):
-    """Make a memory ready for another motion of the same rotor."""
+    """Reset a memory for another motion of the same rotor."""
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning = NO_TURN
@@ -325,11 +328,11 @@ def forget(memory):
 
 @kernel
 def doubt(memory):
-    """Look for another recurrence: what has recurred only passes by an orbit."""
+    """Discard a recurrence and look for another one: the motion only passes by a repelling orbit."""
     memory.candidate, memory.period = 0, 0
 
 
 @kernel
 def forget_rub(memory):
-    """Start to look for turns along the wall anew."""
+    """Restart the search for full turns along the wall."""
     memory.turning = NO_TURN

@@ -44,7 +44,7 @@ def complex_expm1(z):
 
 @part
 def flight_increments(rotor, starts, time, increments):
-    """Write ``c(time) − c(0)`` of flights of one duration that start with these amplitudes; both of shape (D, N).
+    """Write ``c(time) − c(0)`` of flights of equal duration that start with these amplitudes; both of shape (D, N).
 
     A pair with exponents ``λ₋`` (driving, amplitude ``b``) and ``λ₊`` (driven, amplitude ``a``) moves as
     ``a e^{λ₊t} + b φ(t)`` with the divided difference ``φ = (e^{λ₊t} − e^{λ₋t})/(λ₊ − λ₋)``, written here as

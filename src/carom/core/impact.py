@@ -1,4 +1,4 @@
-"""Impact and friction laws, kept apart from the rotor they act on."""
+"""Impact and friction laws, independent of the rotor they act on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a kernel may see, and the one decorator that says how kernels compile."""
+"""The data that kernels work on, and the decorators that define how kernels are compiled."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ ORDER = 20
 DEGREE = 8
 """Degree of the Bernstein polynomials that stand for ``|y|² − 1`` on a block of flight."""
 LEVELS = 3
-"""Blocks of different length, each a quarter of the one before."""
+"""Number of block lengths, each a quarter of the one before."""
 NODES = 64
 """Intervals of the longest block at whose ends the basis functions are tabulated."""
 TERMS = 8
@@ -50,18 +50,18 @@ TERMS = 8
 CACHE_LINE = 64
 COMPLEX, REAL = np.dtype(np.complex128), np.dtype(np.float64)
 OCTET = 8
-"""Doubles in the widest registers."""
+"""Number of doubles in the widest vector registers."""
 WIDE = "+avx512f" in cpu_target.target_context.codegen().magic_tuple()[2]
-"""Whether the processor has registers of that width, which also are many."""
+"""Whether the processor has registers of that width (AVX-512); it then has more of them too."""
 WIDTH = 3 * OCTET if WIDE else OCTET
-"""Motions that one instruction after the other moves: while one register waits, others work."""
+"""Motions advanced together, in one or several registers: several hide the latency of the instructions."""
 LANES = 3 * OCTET
-"""Motions that are followed side by side."""
+"""Number of motions that are followed side by side."""
 LANE_NODES = 32
-"""Nodes of lanes, both ends of the longest block among them: few enough for lanes to hold what is tabulated there in
-registers, hence with a longer series."""
+"""Number of nodes for lanes, including both ends of the longest block.  The table at so few nodes fits in registers; the
+power series from a node is longer in return."""
 LANE_TERMS = 10
-"""Terms of the Taylor series from a node of lanes."""
+"""Terms of the Taylor series from a node for lanes."""
 
 
 def rotor_record(
@@ -105,9 +105,9 @@ def rotor_record(
     numpy.record
         The arguments and what follows from them: ``gaps`` and ``inverse_gaps`` (``λ_k − λ_{k−1}`` of the pairs),
         ``largest_response`` (bound of their ``|φ|`` over all later time),
-        ``rate_rows`` and ``acceleration_rows`` (velocity and acceleration at the planes per amplitude), ``weights``
-        (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile time: kernels run six
-        times as fast as on a tuple of arrays.
+        ``rate_rows``, ``acceleration_rows`` and ``jerk_rows`` (first three derivatives of the displacement at the planes
+        per amplitude), ``weights`` (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile
+        time: kernels run six times as fast as with a tuple of arrays.
     """
     modes = len(exponents)
     generator = np.diag(exponents)
@@ -137,7 +137,7 @@ def rotor_record(
 
 
 def _largest_response(exponents: np.ndarray, gaps: np.ndarray) -> np.ndarray:
-    """Bound over all later time of a pair's ``|φ(t)|``, at most ``t e^{−xt} ≤ 1/(ex)`` and at most ``2/|gap|``."""
+    """Bound of a pair's ``|φ(t)|`` for all later time: it is at most ``t e^{−xt} ≤ 1/(ex)`` and at most ``2/|gap|``."""
     decay = -exponents.real
     slow = np.divide(1.0, np.e * decay, out=np.full(len(decay), np.inf), where=decay > 0)
     apart = np.divide(2.0, np.abs(gaps), out=np.full(len(decay), np.inf), where=gaps != 0)
@@ -168,31 +168,33 @@ def table_record(
     spacing : float
         Time between nodes.
     durations : ndarray, shape (LEVELS,)
-        Lengths of the blocks, the longest first; that one has NODES times ``spacing``.
+        Lengths of the blocks, the longest first; its length is NODES times ``spacing``.
     coefficients : ndarray, shape (LEVELS, Q, DEGREE), Q = 2N + N²
         Bernstein coefficients 1 … DEGREE of the products of basis functions.
     errors : ndarray, shape (LEVELS, Q)
         Bound of the approximation error at the end of the block, per row of ``coefficients``.
     lane_durations, lane_coefficients, lane_errors : ndarray, shapes (OCTET,), (DEGREE, Q, OCTET), (N + N (N + 1)/2, OCTET)
-        The same with the blocks last, for each lane to choose its own; the errors per modulus of a product and per time.
+        The same with the block as last axis, so that each lane can choose its own; the errors are per modulus of a
+        product and per unit time.
     basis : ndarray of complex, shape (NODES + 1, 4, N)
         Basis functions and their first three derivatives at the nodes.
     growth : ndarray of complex, shape (NODES + 1, N)
         ``e^{λτ} − 1`` at the nodes.
     basis_series, growth_series : ndarray of complex, shape (LANE_TERMS, N)
-        Coefficients 1 … LANE_TERMS of the power series of both; from a node that is not one of lanes, TERMS of them do.
+        Coefficients 1 … LANE_TERMS of the power series of both; single motions, whose nodes are closer, use TERMS of them.
     lane_spacing : float
-        Time between nodes of lanes.
+        Time between nodes for lanes.
     lane_basis : ndarray, shape (N, 2, LANE_NODES)
-        Real and imaginary parts of basis functions at the nodes of lanes.
+        Real and imaginary parts of basis functions at the nodes for lanes.
     bounds : ndarray, shape (3, N)
         Largest modulus on the longest block of the first three derivatives of the basis functions.
 
     Returns
     -------
     numpy.record
-        The arguments, and ``pace`` (nodes per time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops in lanes count to
-        these two: a loop whose length the compiler knows it unrolls, and then has more vectors at hand than registers.
+        The arguments, and ``pace`` (nodes per unit time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops over lanes
+        take their length from the last two: the compiler would unroll a loop of known length, and the unrolled loop needs
+        more vectors than there are registers.
     """
     return record(
         degree=np.asarray(DEGREE, np.int64),
@@ -216,7 +218,7 @@ def table_record(
 
 
 def workspace(modes: int) -> np.record:
-    """Scratch arrays of a kernel call for that many modes; they carry nothing from one call to the next."""
+    """Scratch arrays of a kernel call for this number of modes; no value is kept from one call to the next."""
     return _blank(_workspace_layout(modes))
 
 
@@ -259,7 +261,7 @@ def record(**fields: np.ndarray) -> np.record:
 
 
 def _blank(layout: np.dtype) -> np.record:
-    """A record of zeros, which begins at a multiple of 64 bytes: arrays of a multiple of that length never straddle cache lines."""
+    """A record of zeros aligned to a cache line, so that arrays of that length never extend over two of them."""
     room = np.zeros(layout.itemsize + CACHE_LINE, np.uint8)
     first = -room.ctypes.data % CACHE_LINE
     blank: np.record = room[first : first + layout.itemsize].view((np.record, layout))[0]
@@ -273,29 +275,29 @@ def _layout(fields: tuple[tuple[str, np.dtype, tuple[int, ...]], ...]) -> np.dty
 
 
 def kernel(function: Kernel) -> Kernel:
-    """Compile a kernel: no Python objects, IEEE arithmetic but for the sign of zero, kept in a disk cache.
+    """Compile a kernel: no Python objects, no global interpreter lock, cached on disk (:mod:`carom.core.cache`).
 
-    It runs without Python's lock, so threads run side by side.  What is kept, and where: :mod:`carom.core.cache`.
+    Arithmetic follows IEEE 754, but products and sums may be fused, and the sign of zero is undefined.
 
-    A literal number handed to a kernel makes a version of its own: hand on a variable, or ``int(LITERAL)``.
+    A literal number passed to a kernel compiles a separate version: pass a variable, or ``int(LITERAL)``.
     """
     return _compile(function)
 
 
 def part(function: Kernel) -> Kernel:
-    """Compile a small kernel into each of its callers: no call, and what they do not need is left out."""
+    """Compile a small kernel inline into each of its callers: no call, and code that a caller does not need is removed."""
     return _compile(function, forceinline=True)
 
 
 def passage(function: Kernel) -> Kernel:
-    """Compile a passage of a kernel, named for the reader, as if it were written where it is called, in one place."""
+    """Insert a section of a kernel where it is called, in one place; it is a separate function for readability only."""
     return _compile(function, inline="always")
 
 
 def _compile(function: Kernel, **more: bool | str) -> Kernel:
     options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
     compiled = numba.jit(**options, no_cfunc_wrapper=True)(function)
-    if compiled is not function:  # as it is where the compiler is off
+    if compiled is not function:  # with the compiler switched off, jit returns the function itself
         keep(compiled)
         serve_kernels(compiled)
     return compiled

@@ -1,4 +1,4 @@
-"""Constants of a block of flight: what the certified crossing search needs and only the exponents decide.
+"""Constants of a block of flight that the certified crossing search needs; they depend on the exponents only.
 
 On a block, a flight that starts at ``y₀`` moves as ``y(τ) = y₀ + Σ_k α_k ψ_k(τ)`` with basis functions that vanish at
 ``τ = 0``: ``e^{λτ} − 1`` for a free-standing or driven mode and the divided difference ``φ`` (see
@@ -6,12 +6,11 @@ On a block, a flight that starts at ``y₀`` moves as ``y(τ) = y₀ + Σ_k α_k
 
     |y|² − 1 = |y₀|² − 1 + Σ_k 2 Re(ȳ₀ α_k ψ_k) + Σ_k |α_k|² |ψ_k|² + Σ_{j<k} 2 Re(α_j ᾱ_k ψ_j ψ̄_k)
 
-is linear in ``2N + N²`` real products, and so are its Bernstein coefficients: one fixed matrix, made here for the block
-and for LEVELS − 1 shorter ones, whose polynomials are closer.
+is linear in ``2N + N²`` real products, and so are its Bernstein coefficients.  They follow by one fixed matrix, computed
+here for the block and for LEVELS − 1 shorter ones, where polynomials approximate more closely.
 
-The state at a time is found from the nearest of NODES + 1 nodes, where the basis functions are tabulated, and from there
-by power series: half a spacing is so short that TERMS terms reach rounding.  Lanes have LANE_NODES nodes, and
-LANE_TERMS terms.
+The state at a time is computed from the nearest of NODES + 1 nodes, at which the basis functions are tabulated, by a power
+series.  Half a spacing is so short that TERMS terms are exact to rounding.  Lanes use LANE_NODES nodes and LANE_TERMS terms.
 """
 
 from __future__ import annotations
@@ -42,7 +41,7 @@ coefficients of order 48 and above are below 1e-30 and the computed tail is the 
 """
 
 ROUNDED = 6e-14
-"""Bound of the rounding of the coefficients, relative to the sum of the series; 4.3e-14 has been seen."""
+"""Bound of the rounding of the coefficients, relative to the sum of the series; the largest observed is 4.3e-14."""
 
 
 def flight_table(exponents: np.ndarray, driven: np.ndarray) -> np.record:
@@ -107,13 +106,13 @@ def _polynomials(exponents: np.ndarray, driven: np.ndarray, durations: np.ndarra
     at_points = rows.transpose(1, 0, 2) * durations[:, None, None]
     coefficients = at_points[..., :DEGREE] @ _bernstein_from_nodes().T * (np.arange(1, DEGREE + 1) / DEGREE)
     series = np.abs(at_points[..., DEGREE:] @ _chebyshev_transform().T)
-    # Interpolation in DEGREE Chebyshev points errs by at most twice the tail of the series.
+    # The error of interpolation at DEGREE Chebyshev points is at most twice the tail of the series.
     errors = 2.0 * series[..., DEGREE:].sum(axis=-1) + ROUNDED * series.sum(axis=-1)
     return coefficients, errors
 
 
 def _blocks_last(values: np.ndarray) -> np.ndarray:
-    """Numbers of shape (LEVELS, …) as (…, OCTET), with zeros where there is no block."""
+    """Reshape numbers of shape (LEVELS, …) to (…, OCTET), with zeros where there is no block."""
     room = np.zeros((*values.shape[1:], OCTET))
     room[..., :LEVELS] = np.moveaxis(values, 0, -1)
     return room
@@ -174,9 +173,9 @@ def _derivatives(exponents: np.ndarray, driven: np.ndarray, times: np.ndarray) -
 
 
 def _power_series(exponents: np.ndarray, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Power series without constant term of all ``e^{λτ} − 1`` and of all basis functions, each of shape (LANE_TERMS, N).
+    """Coefficients of the power series of all ``e^{λτ} − 1`` and of all basis functions, each of shape (LANE_TERMS, N).
 
-    That of ``φ`` has the coefficients ``Σ_i λ₊ⁱ λ₋ⁿ⁻¹⁻ⁱ/n!``.
+    Neither has a constant term.  That of ``φ`` has the coefficients ``Σ_i λ₊ⁱ λ₋ⁿ⁻¹⁻ⁱ/n!``.
     """
     orders = np.arange(1, LANE_TERMS + 1)
     factorials = np.array([float(math.factorial(n)) for n in orders])[:, None]
@@ -202,9 +201,10 @@ def _expm1(z: np.ndarray) -> np.ndarray:
 
 
 def _derivative_bounds(exponents: np.ndarray, driven: np.ndarray, duration: float) -> np.ndarray:
-    """``|ψ⁽ⁿ⁾| ≤ |λ|ⁿ g`` for an exponential and ``(T|λ|ⁿ + n|λ|ⁿ⁻¹) g`` for ``φ = t ∫₀¹ e^{λ_s t} ds``.
+    """Bounds of ``|ψ⁽ⁿ⁾|``, shape (3, N).
 
-    ``g`` is the growth of the fastest growing exponential over the block and ``λ_s`` runs between the pair's exponents.
+    They are ``|λ|ⁿ g`` for an exponential and ``(T|λ|ⁿ + n|λ|ⁿ⁻¹) g`` for ``φ = t ∫₀¹ e^{λ_s t} ds``.  Here ``g`` is the
+    growth of the fastest growing exponential over the block, and ``λ_s`` varies between the pair's exponents.
     """
     bounds = np.empty((3, len(exponents)))
     for k, exponent in enumerate(exponents):

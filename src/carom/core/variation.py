@@ -1,4 +1,4 @@
-"""How small changes of a state travel through an impact, a flight and the next arrival at the wall."""
+"""How small changes of a state propagate through an impact, a flight and the next arrival at the wall."""
 
 from __future__ import annotations
 
@@ -44,10 +44,10 @@ def carry_through_impact(rotor, plane, before, directions):
 
 @kernel
 def carry_to_wall(rotor, plane, duration, arrival, directions, delays):
-    """Replace changes at the start of a flight by those where the changed flight meets the wall.
+    """Replace changes at the start of a flight by the changes at its arrival at the wall.
 
-    A changed flight arrives earlier or later by ``δt = −Re(ȳ δy)/Re(ȳ ẏ)``, which moves its arrival by ``ċ δt``: the
-    saltation term.
+    A changed flight arrives later by ``δt = −Re(ȳ δy)/Re(ȳ ẏ)`` (earlier if negative), which moves its arrival by
+    ``ċ δt``: the saltation term.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def carry_to_wall(rotor, plane, duration, arrival, directions, delays):
     directions : complex array, shape (D, N)
         Changes of the amplitudes; overwritten.
     delays : array, shape (D,)
-        On return ``δt`` of each.
+        On return ``δt`` of each change.
     """
     position = displacement(rotor, plane, arrival)
     outward = (position.conjugate() * velocity(rotor, plane, arrival)).real
@@ -76,7 +76,7 @@ def carry_to_wall(rotor, plane, duration, arrival, directions, delays):
 
 @kernel
 def shift(rotor, amplitudes, directions, delays):
-    """Add to each change what the motion does in its delay, ``ċ δt``."""
+    """Add to each change the motion during its delay, ``ċ δt``."""
     for i in range(directions.shape[0]):
         for k in range(amplitudes.shape[0]):
             rate = rotor.exponents[k] * amplitudes[k]
@@ -87,7 +87,7 @@ def shift(rotor, amplitudes, directions, delays):
 
 @kernel
 def section_jacobian(rotor, orbit, durations, jacobian):
-    """Derivative of impacts of a planar rotor, one after another, in angle, radial and angular speed.
+    """Jacobian of a sequence of impacts of a planar rotor in angle, radial and angular speed.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def section_jacobian(rotor, orbit, durations, jacobian):
     durations : array, shape (P,)
         Times between them, in ``1/Ω``.
     jacobian : array, shape (3, 3)
-        Overwritten: of ``(θ, ṙ, θ̇)`` just before the last impact by those before the first.
+        Overwritten: derivative of ``(θ, ṙ, θ̇)`` just before the impact that follows by those before the first.
     """
     directions, delays = np.empty((3, 2), np.complex128), np.empty(3)
     position, speed = displacement(rotor, 0, orbit[0]), velocity(rotor, 0, orbit[0])
@@ -119,5 +119,5 @@ def section_jacobian(rotor, orbit, durations, jacobian):
 
 @part
 def set_amplitude_change(rotor, position_change, velocity_change, amplitudes):
-    """Write the change of the two amplitudes of a planar rotor that changes its position and velocity so."""
+    """Write the change of the two amplitudes of a planar rotor that gives these changes of position and velocity."""
     amplitudes[0], amplitudes[1] = velocity_change - rotor.exponents[1] * position_change, position_change
