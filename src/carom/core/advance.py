@@ -1,4 +1,4 @@
-"""The loop of a motion: fly, meet the wall, strike; land, slide, roll, lift off; end where it settles."""
+"""The event loop of one motion: fly, meet the wall, strike; land, slide, roll, lift off; end where it settles."""
 
 from __future__ import annotations
 
@@ -52,18 +52,18 @@ FLIGHT, FORWARD_SLIP, ROLLING = int(Phase.FLIGHT), int(Phase.FORWARD_SLIP), int(
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
 RESTING = 4.0
-"""Radial speed, in rounding errors, up to which the rotor rests on the wall: a flight as low cannot be followed."""
+"""Radial speed, in rounding errors, up to which the rotor rests on the wall: so low a flight cannot be resolved."""
 STALLED = 64
 """Events in a row without progress in time after which double precision cannot decide what follows."""
 SHORTEST = 1e-15
 """Duration that counts as no progress."""
 LEAST_LOSS = 1e-3
-"""Loss of speed per bounce below which bounces lower than CHATTER_HEIGHT are not followed to their end."""
+"""Smallest loss of speed per bounce used in the test for the end of a chatter; an elastic one would never end."""
 
 
 @kernel
 def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes, before, after, memory, work, rub):
-    """Follow a motion until a time, a full log, or the end it settles to.
+    """Follow a motion until a given time, until the log is full, or until it settles.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes
     phase : int
         :class:`~carom.outcome.Phase` at the start.
     plane : int
-        Plane whose wall the start lies on, or −1 (``INSIDE_ALL``).
+        Plane on whose wall the motion starts, or −1 (``INSIDE_ALL``).
     times, phases, planes, before, after : arrays, shapes (L,), (L,), (L,), (L, N), (L, N)
         Log of events: time, phase that follows, plane, amplitudes just before and just after.  An impact is followed by
         ``FLIGHT`` and changes the amplitudes; a long contact is logged in steps that change nothing.  A motion that
@@ -86,12 +86,12 @@ def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes
     Returns
     -------
     outcome : int
-        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full), ``GRAZING`` or where the motion settles.
+        ``TIME_REACHED``, ``EVENT_LIMIT`` (log full), ``GRAZING``, ``CHATTER`` or what the motion settles to.
     time : float
     events : int
     phase : int
     plane : int
-        Plane whose wall the end lies on, or −1.
+        Plane on whose wall the motion ends, or −1.
     """
     state = work.current
     copy(amplitudes, state)
@@ -120,9 +120,9 @@ def advance(rotor, table, amplitudes, until, phase, plane, times, phases, planes
 
 @passage
 def _fly(rotor, table, horizon, plane, memory, work, rub):
-    """One flight from ``work.current`` and the impact or landing at its end, which leads to a new ``work.current``.
+    """One flight from ``work.current`` and the impact or landing at its end; ``work.current`` is then the new state.
 
-    Returns the outcome (CONTACT: it goes on), the duration, the phase that follows and the plane touched.
+    Returns the outcome (CONTACT: the motion continues), the duration, the phase that follows and the plane touched.
     ``work.arrival`` is the state just before the impact.
     """
     state = work.current
@@ -165,7 +165,7 @@ def _fly(rotor, table, horizon, plane, memory, work, rub):
 def _leap(rotor, table, horizon, plane, at_rest, work, rub):
     """Fly from ``work.current`` to the next contact or the horizon, or just off the wall from a start at rest on it.
 
-    Returns the reaction of the wall (CLEAR: the flight goes on), the duration and the plane touched; ``work.arrival``
+    Returns the reaction of the wall (CLEAR: the flight continues), the duration and the plane touched; ``work.arrival``
     holds the state there.
     """
     if at_rest:
@@ -199,9 +199,9 @@ def _next_contact(rotor, table, horizon, touched, work):
 
 @passage
 def _meet(rotor, plane, memory, work):
-    """Impact of the arriving state; CONTACT, or how the motion has settled."""
+    """Apply the impact to the arriving state; return CONTACT, or how the motion has settled."""
     normal, speed = displacement(rotor, plane, work.arrival), velocity(rotor, plane, work.arrival)
-    # The rounding error of |y| = 1, to its first power, is removed from the state; the law does not need that.
+    # Remove the rounding error of |y| = 1 from the state, to first order; the impact law does not need that.
     excess = 0.5 * (squared_modulus(normal) - 1.0)
     move_plane(rotor, plane, complex(-excess * normal.real, -excess * normal.imag), work.arrival)
     if memory.patience > 0 and recurs(memory, work.arrival):
@@ -219,11 +219,11 @@ def _meet(rotor, plane, memory, work):
 def _land(rotor, plane, amplitudes):
     """Complete a chatter: replace its remaining bounces by lasting contact from now on.
 
-    Over the rest of the chatter the bounces have the normal impulse ``N τ − v``, where lasting contact has ``N τ``, if
-    ``v`` is the speed of the first rebound; both have the friction that goes with it.  An outward impulse ``v`` with its
-    share of friction makes up the difference.  With ``h = v²/(2N)``, the height of the first bounce, what is left out of
-    the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips and ``4hP/(N(1 − d²))`` where every impact
-    stops the slip against a force ``P`` along the wall; both to leading order in ``v``, for the planar rotor.
+    Let ``v`` be the speed of the first rebound and ``τ`` the remaining duration of the chatter.  The bounces have the total
+    normal impulse ``N τ − v``, lasting contact has ``N τ``; friction acts along with either.  The difference is balanced
+    by an outward impulse ``v`` with its share of friction.  With ``h = v²/(2N)``, the height of the first bounce, the error
+    of the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips.  It is ``4hP/(N(1 − d²))`` where every
+    impact stops the slip against a force ``P`` along the wall.  Both hold to leading order in ``v`` for the planar rotor.
     """
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)
@@ -237,7 +237,7 @@ def _land(rotor, plane, amplitudes):
 
 @kernel
 def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
-    """One step of lasting contact, in place: outcome (CONTACT: it goes on), duration and phase that follows."""
+    """One step of lasting contact, in place; return outcome (CONTACT: it continues), duration and phase that follows."""
     rub_series(rotor, plane, amplitudes, phase, rub)
     step = min(rub_step(rub), horizon)
     duration, following, slip_stops = first_transition(rotor, plane, phase, step, rub)
@@ -277,9 +277,10 @@ def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
 def _wall_reaction(rotor, plane, amplitudes, lifting):
     """What a state on the wall does next, and whether it is at rest there.
 
-    It strikes (CONTACT) with outward speed; lands (LANDING) when it is pressed outward and leaves so slowly that the
-    whole remaining geometric series of bounces, of duration ``2v/(N(1 − d))``, stays below CHATTER_HEIGHT and cannot
-    outlast the push; and else flies (CLEAR), as it does where a contact has just lost its push (``lifting``).
+    It strikes (CONTACT) if its speed is outward.  It lands (LANDING) if it is pressed outward and leaves so slowly that
+    the whole remaining geometric series of bounces, of duration ``2v/(N(1 − d))``, stays below CHATTER_HEIGHT and ends
+    before the normal force ``N`` can vanish.  Otherwise it flies (CLEAR); so does a state at rest whose contact has just
+    lost its normal force (``lifting``).
     """
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)

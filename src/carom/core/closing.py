@@ -1,17 +1,17 @@
-"""Close a periodic motion: the orbit that a motion approaches, and the number of impacts in its least period.
+"""Close a periodic motion: find the orbit that a motion approaches, and the number of impacts in its least period.
 
-A motion that still spirals slowly towards its orbit recurs to within :data:`~carom.core.fate.NEAR` first after a multiple
-of the period, where its turns about the orbit happen to close.  :func:`least_period` therefore asks, for every divisor
-of the number of impacts after which the motion has recurred, whether that many impacts have a fixed point close by that
-attracts.  Where rub has brought irregular bouncing back to the same numbers to the last bit, the computation repeats itself
-though the motion does not; no orbit closes there, and no number is named.
+A motion that still spirals slowly towards its orbit may recur to within :data:`~carom.core.fate.NEAR` first after a
+multiple of the period, when its turns about the orbit happen to close.  The motion has recurred after some number of
+impacts.  For every divisor of this number, :func:`least_period` therefore tests whether that many impacts have an
+attracting fixed point close by.  A rub may bring irregular bouncing back to the same numbers to the last bit.  Then the
+computation repeats itself although the motion does not; no orbit closes there, and no number is returned.
 
-Without lasting contact in the period the fixed point is found by Newton's method with the exact derivative of the impacts
-(:mod:`carom.core.variation`) and judged by its multipliers; with it, by Aitken's extrapolation of the motion itself, for
-what is left of a difference after a lift-off is one number.
+Without lasting contact in the period, the fixed point is found by Newton's method with the exact derivative of the impacts
+(:mod:`carom.core.variation`), and its multipliers decide on stability.  With lasting contact, it is found by Aitken's
+extrapolation of the motion itself, because a difference has only one degree of freedom left after a lift-off.
 
-A motion that has not recurred at all may still draw near an orbit, however slowly: next to a period doubling, say.  It is
-told from one that never repeats in the same way, and by its distance from that orbit, which has to shrink.
+A motion that has not recurred at all may still approach an orbit slowly, for example close to a period doubling.  The same
+test distinguishes it from a motion that never repeats; its distance from that orbit must also decrease.
 """
 
 from __future__ import annotations
@@ -34,31 +34,31 @@ EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 FLIGHT = int(Phase.FLIGHT)
 ONLY_PLANE = 0
 OPEN, CLOSES, ATTRACTS, REPELS = 0, 1, 2, 3
-"""No orbit was found; one that closes and is not known to attract or to repel; one that attracts; one that repels."""
+"""No orbit was found; an orbit that closes and is not known to attract or repel; one that attracts; one that repels."""
 PASSES = -1
-"""Instead of a number of impacts: the motion has recurred next to an orbit that repels, and will leave it."""
+"""Returned instead of a number of impacts: the motion has recurred close to a repelling orbit and will leave it."""
 REPELLING = 1e-4
-"""Growth of a difference in a period from which on an orbit is said to repel."""
+"""Relative growth of a difference per period above which an orbit counts as repelling."""
 LOWEST = 1e-6
-"""Height of elastic bounces, in clearances, below which they are taken to become ever lower: they approach no orbit."""
+"""Height, in clearances, below which elastic bounces are assumed to become ever lower: they approach no orbit."""
 AROUND = 1e-3
-"""Distance, relative to one plus the size of the state, within which the orbit of a motion that has recurred is looked for."""
+"""Distance, relative to one plus the size of the state, within which the orbit of a recurred motion is searched for."""
 CLOSED = 1e-11
-"""The same, within which an orbit closes."""
+"""The same distance, within which an orbit counts as closed."""
 ALIKE = 1e-8
-"""The same, within which two impacts of a closed orbit are one."""
+"""The same distance, within which two impacts of a closed orbit count as equal."""
 STEPS = 12
-"""Steps of either method: each about squares the distance."""
+"""Largest number of steps of either method; each step about squares the distance."""
 SHORT, WATCHED = 64, 256
-"""Impacts of the longest orbit that a motion is asked about which has not recurred, and how far it is watched for that."""
+"""Impacts of the longest orbit tested for a motion that has not recurred, and the impacts it is followed for that."""
 LONGEST = 1e6
-"""Time in which a motion has to come to its next event."""
+"""Time within which a motion must reach its next event."""
 KNOWN = 10.0 * NEAR
-"""Distance, relative to one plus the size of the state, from a motion at an orbit of one impact within which another is at it too."""
+"""The same distance, from a state at a single-impact orbit, within which another state counts as being at this orbit."""
 SLOW_EVENTS = 1000
-"""Events that one impact may take, with the lasting contact before it."""
+"""Largest number of events up to the next impact, including lasting contact before it."""
 ALIGNED = 0.1
-"""Share of a difference that may point elsewhere than the one before, where differences are taken for a geometric series."""
+"""Largest component of a difference across the previous one, relative to it, if both form a geometric series."""
 
 
 @kernel
@@ -70,22 +70,22 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     rotor : record of :func:`~carom.models.system.second_order_system`
     table : record of :func:`~carom.core.layout.table_record`
     state : complex array, shape (2,)
-        Amplitudes just before an impact, to which the motion has recurred.
+        Amplitudes just before an impact to which the motion has recurred.
     count : int
-        Number of impacts after which it has; zero if it has not recurred.
+        Number of impacts after which it has recurred; zero if it has not.
     log : tuple of arrays
-        Room for one event, as :func:`~carom.core.advance.advance` takes it.
+        Log for one event, in the form that :func:`~carom.core.advance.advance` takes.
     memory : record of :func:`~carom.core.fate.memory`
-        Its ``attracted`` keeps the last state found at an orbit of one impact: many motions end at the same.
+        Its ``attracted`` caches the last state found at a single-impact orbit: many motions end at the same orbit.
     work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
 
     Returns
     -------
     int
-        The least divisor of ``count`` after whose number of impacts an attracting orbit next to the state closes; else
-        ``count``, if any orbit closes after that many.  Of a motion that has not recurred the impacts, up to SHORT, of such
-        an orbit that it approaches.  PASSES of a motion that only passes by an orbit.  0 of all others, elastic bounces that
-        damping makes ever lower among them.
+        If the motion has recurred: the least divisor of ``count`` for which an attracting orbit of that many impacts
+        closes near the state; otherwise ``count``, if any orbit closes after that many.  If it has not recurred: the
+        impacts, at most SHORT, of an attracting orbit that it approaches.  PASSES if the motion only passes by an orbit.
+        0 in all other cases, among them elastic bounces that damping makes ever lower.
     """
     plain = count == 1 and memory.rubbed == 0 and rotor.restitution[0] < 1.0
     if plain and same_state(memory.attracted, state, KNOWN):
@@ -110,7 +110,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
                 return 0
             if found == ATTRACTS and (count > 0 or _draws_near(states, orbit[0], impacts)):
                 return _distinct(orbit, impacts)
-            # Farther off the motion would not have recurred to within NEAR.
+            # At a greater distance the motion would not have recurred to within NEAR.
             passes = passes or (found == REPELS and same_state(orbit[0], states[0], NEAR / REPELLING))
             closes = impacts == count and found != OPEN
     if passes and count > 0:
@@ -120,7 +120,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
 
 @kernel
 def _fades(rotor, states, durations):
-    """Whether elastic impacts all follow low bounces: of height ``vT/4`` after a flight of duration ``T`` that ends at ``v``."""
+    """Whether elastic bounces are all low; a flight of duration ``T`` that ends with speed ``v`` has the height ``vT/4``."""
     if rotor.restitution[0] < 1.0:
         return False
     for i in range(durations.shape[0]):
@@ -132,7 +132,7 @@ def _fades(rotor, states, durations):
 
 @kernel
 def _distinct(orbit, impacts):
-    """How many impacts of an orbit that closes differ from one another: a motion far off may close first after two periods."""
+    """Number of distinct impacts of a closed orbit: a motion far from its orbit may first close after two periods."""
     for fewer in range(1, impacts):
         if impacts % fewer == 0 and same_state(orbit[0], orbit[fewer], ALIKE):
             return fewer
@@ -141,7 +141,7 @@ def _distinct(orbit, impacts):
 
 @kernel
 def _draws_near(states, goal, impacts):
-    """Whether every so many impacts a motion is nearer to a goal than before: in the later half than in the first."""
+    """Whether the states after each multiple of ``impacts`` are closer to a goal in the later half than in the first."""
     early, late = 0.0, 0.0
     last = states.shape[0] - 1
     for i in range(0, last + 1, impacts):
@@ -155,15 +155,15 @@ def _draws_near(states, goal, impacts):
 
 @kernel
 def close(rotor, table, orbit, durations, log, memory, work, rub):
-    """Find the periodic orbit next to a state.
+    """Find the periodic orbit close to a state.
 
     Parameters
     ----------
     rotor, table, log, memory, work, rub
         As in :func:`least_period`.
     orbit : complex array, shape (P + 1, 2)
-        First the amplitudes just before an impact; on return those of the orbit before each of its ``P`` impacts, and the
-        first once more.
+        The first row holds the amplitudes just before an impact.  On return: the amplitudes of the orbit just before each
+        of its ``P`` impacts, and the first ones again.
     durations : array, shape (P,)
         On return the times between its impacts, in ``1/Ω``.
 
@@ -193,8 +193,8 @@ def close(rotor, table, orbit, durations, log, memory, work, rub):
 def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
     """Follow a motion from just before one impact through the next ones.
 
-    Fills ``states`` after the first and ``durations``; returns whether all of them came, and whether there was no lasting
-    contact on the way.
+    Fills ``states`` after the first one and ``durations``.  Returns whether all impacts were reached, and whether there was
+    no lasting contact in between.
     """
     patience = memory.patience
     memory.patience, memory.lifting = 0, 0
@@ -230,7 +230,7 @@ def _changed(before, after):
 
 @kernel
 def _pulls_in(rotor, states, durations):
-    """Whether differences shrink by more than REPELLING an impact, so that a motion that recurs after each is at its orbit."""
+    """Whether differences shrink by more than REPELLING per impact; if a motion then recurs, it is at its orbit."""
     jacobian = np.empty((3, 3))
     section_jacobian(rotor, states, durations, jacobian)
     return _contracts(jacobian, 1.0 - REPELLING)
@@ -238,7 +238,7 @@ def _pulls_in(rotor, states, durations):
 
 @kernel
 def _newton_step(rotor, orbit, durations):
-    """Newton step of an orbit without lasting contact, in ``orbit[0]``; what was found, and whether it closes."""
+    """Newton step, in ``orbit[0]``, for an orbit without lasting contact; return what was found and whether it closes."""
     jacobian = np.empty((3, 3))
     section_jacobian(rotor, orbit, durations, jacobian)
     position, speed = displacement(rotor, 0, orbit[0]), velocity(rotor, 0, orbit[0])
@@ -295,7 +295,7 @@ def _determinant(matrix):
 
 @kernel
 def _solved(matrix, place, first, second, third):
-    """Determinant of a matrix (3, 3) with one of its columns replaced: Cramer's rule, but for the division."""
+    """Determinant of a matrix (3, 3) with one of its columns replaced: Cramer's rule without the division."""
     j, k = (place + 1) % 3, (place + 2) % 3
     return (
         first * (matrix[1, j] * matrix[2, k] - matrix[1, k] * matrix[2, j])
@@ -306,7 +306,7 @@ def _solved(matrix, place, first, second, third):
 
 @kernel
 def _aitken_step(rotor, table, orbit, durations, log, memory, work, rub):
-    """Extrapolate an orbit with lasting contact to its limit, in ``orbit[0]``; what was found, and whether it closes."""
+    """Extrapolate an orbit with lasting contact to its limit, in ``orbit[0]``; return what was found, whether it closes."""
     count = durations.shape[0]
     ahead = np.empty((count + 1, 2), np.complex128)
     copy(orbit[count], ahead[0])
@@ -323,11 +323,11 @@ def _aitken_step(rotor, table, orbit, durations, log, memory, work, rub):
     if math.sqrt(length) <= CLOSED * size:
         return ATTRACTS, True
     ratio = product / length
-    # What of the later difference points elsewhere than the first.
+    # Part of the later difference that is perpendicular to the first.
     rest = max(later - ratio * product, 0.0)
     if not (abs(ratio) < 1.0 and rest <= ALIGNED * ALIGNED * length):
         return OPEN, True
-    # From the last state on, so that the place stays among those that a lift-off leads to.
+    # Extrapolate from the last state, so that the result stays among the states that a lift-off leads to.
     share = ratio / (1.0 - ratio)
     for k in range(2):
         orbit[0, k] = ahead[count, k] + (ahead[count, k] - ahead[0, k]) * share

@@ -1,8 +1,8 @@
-"""Many motions in one call: each followed to where it settles, of which only the ending is kept.
+"""Many motions in one call: each is followed until it settles, and only its end is stored.
 
-Motions of a rotor with one pair of modes fly side by side in :mod:`carom.core.lanes`.  Whenever a lane needs more than a
-plain flight and a plain impact, its motion is followed on singly by :mod:`carom.core.advance`, until it flies again, and
-a motion that has ended makes room for the next.
+Motions of a rotor with one pair of modes fly side by side in :mod:`carom.core.lanes`.  Whenever a motion needs more than
+a plain flight and a plain impact, :mod:`carom.core.advance` follows it one event at a time until it flies again.  When a
+motion has ended, its lane takes the next one.
 """
 
 from __future__ import annotations
@@ -28,21 +28,21 @@ EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZI
 BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(Outcome.MIXED)
 FLIGHT = int(Phase.FLIGHT)
 GOES_ON, SINGLY, NONE_YET = -1, -2, -3
-"""What becomes of a lane's motion that has not ended: it flies on; it is to be followed singly; there is none."""
+"""What to do with a lane whose motion has not ended: fly on; follow it one event at a time; there is no motion yet."""
 VACANT = -1.0
-"""Verdict on a lane that wants a motion."""
+"""Verdict on a lane that needs a new motion."""
 EVERY_LANE = (1 << LANES) - 1
 LONG_AGO = -1e300
 RUN = 64
-"""Motions dealt out at a time: neighbours lie in the same cache lines."""
+"""Number of motions that a call takes at a time: neighbouring motions share cache lines."""
 CALM = 10_000
-"""Free blocks of flight of a motion after which to ask for the proof that is long."""
+"""Number of free blocks of flight after which the expensive proof of levitation is tried (again)."""
 NEARBY = 1.5 * NEAR
-"""The distance of :func:`carom.core.fate.same_state`, with room."""
+"""The tolerance of :func:`carom.core.fate.same_state` for recurrence, with a margin."""
 
 
 class Task(NamedTuple):
-    """The rotor (:func:`~carom.models.system.second_order_system`), its table, and how far and how long to follow a motion."""
+    """The rotor (:func:`~carom.models.system.second_order_system`), its table, and the limits of time and events."""
 
     rotor: np.record
     table: np.record
@@ -61,15 +61,15 @@ MOTION = np.dtype(
         ("multiplicity", np.int64),
     ]
 )
-"""A motion: position and velocity of its start, and the plane whose wall that lies on or −1; on return those of its end, and
-outcome, time and number of impacts as :func:`~carom.core.advance.advance` states them, and the multiplicity of
-:func:`~carom.core.closing.least_period`."""
+"""A motion.  On call: position and velocity at its start, and the plane on whose wall it starts or −1.  On return: position
+and velocity at its end, outcome and time as in :func:`~carom.core.advance.advance`, the number of impacts, and the
+multiplicity from :func:`~carom.core.closing.least_period`."""
 
 
 class Tools(NamedTuple):
-    """What a call needs to work with: lanes, and what ``advance`` takes, with a log of one event.
+    """Scratch arrays of a call: the lanes, and the arguments of ``advance`` with a log of one event.
 
-    The loop itself touches records only: with every array that a kernel is handed goes the counting of its holders.
+    The loop itself uses records only: passing an array to a kernel costs reference counting.
     """
 
     lanes: np.record
@@ -86,7 +86,7 @@ class Tools(NamedTuple):
 
 @kernel
 def follow_each(task, motions, counter, tools):
-    """Follow motions, as many as the counter deals out to this call; none depends on another.
+    """Follow the motions that this call takes from the counter; they are independent of each other.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def follow_each(task, motions, counter, tools):
     Returns
     -------
     int
-        How many motions this call has followed.
+        Number of motions that this call has followed.
     """
     lanes, memory, work = tools.lanes, tools.memory, tools.work
     count, number, stop, taken = motions.shape[0], 0, 0, 0
@@ -109,12 +109,12 @@ def follow_each(task, motions, counter, tools):
         for lane in range(LANES if looks != 0 else 0):
             if (looks >> lane) & 1 == 0:
                 continue
-            outcome = _look_at(task, lanes, memory, work, lane)
+            outcome = _act_on_verdict(task, lanes, memory, work, lane)
             while outcome != GOES_ON:
                 if outcome == SINGLY:
-                    outcome = _follow_singly(task, tools, lane)
+                    outcome = _follow_by_events(task, tools, lane)
                     continue
-                if outcome in (BOUNCING, MIXED) and _passes_by(task, tools, lane):
+                if outcome in (BOUNCING, MIXED) and _passes_by_orbit(task, tools, lane):
                     outcome = SINGLY
                     continue
                 if outcome != NONE_YET:
@@ -124,7 +124,7 @@ def follow_each(task, motions, counter, tools):
                     stop = min(number + RUN, count)
                     taken += stop - number
                 if number == count:
-                    _empty(lanes, lane)
+                    _fill_unused(lanes, lane)
                     idle |= 1 << lane
                     break
                 lanes.motion[lane] = number
@@ -136,27 +136,27 @@ def follow_each(task, motions, counter, tools):
 
 @passage
 def _begin(task, start, lanes, memory, work, lane):
-    """Give a lane a motion; how it goes on."""
+    """Start a motion on a lane; return how it continues."""
     _set_state(task.rotor, start.position, start.velocity, work.current)
     plane = start.plane
     if plane >= 0:
         set_on_wall(task.rotor, plane, work.current)
     forget(memory)
-    _put_memory_by(lanes, memory, lane)
+    _save_memory(lanes, memory, lane)
     lanes.plane[lane] = plane
     lanes.struck[lane], lanes.events[lane], lanes.stalled[lane], lanes.calm[lane] = 0, 0, 0, 0
     lanes.clock[lane], lanes.quiet[lane] = 0.0, 0.0
     if plane >= 0 and not surely_flies(task.rotor, work.current):
         return SINGLY
-    _board(task, lanes, memory, work, lane)
+    _put_on_lane(task, lanes, memory, work, lane)
     return GOES_ON
 
 
 @passage
-def _look_at(task, lanes, memory, work, lane):
-    """Do for a lane what is left to do after its verdict; how its motion ends or goes on.
+def _act_on_verdict(task, lanes, memory, work, lane):
+    """Act on the verdict on a lane; return how its motion ends or continues.
 
-    A motion that ends, or is to be followed singly, is left in ``work.current``.
+    If a motion ends or must be followed one event at a time, its state is left in ``work.current``.
     """
     verdict = lanes.verdict[lane]
     if verdict == VACANT:
@@ -171,12 +171,12 @@ def _look_at(task, lanes, memory, work, lane):
     if verdict == LATE:
         if memory.patience > 0 and levitates(task.rotor, work.current, work):
             return LEVITATED
-        # The lane has seen that nothing is met before, on a block that goes on for longer.
+        # The lane has proved that there is no contact up to this time, on a block that lasts longer.
         move_to(task.rotor, task.table, task.until - lanes.clock[lane], work)
         copy(work.arrival, work.current)
         lanes.clock[lane] = task.until
         return TIME_REACHED
-    _note_quiet(lanes, lane)
+    _count_plain_impacts(lanes, lane)
     if verdict == OPEN:
         lanes.plane[lane] = 0 if lanes.level[lane] == 0.0 else INSIDE_ALL
         return SINGLY
@@ -184,24 +184,24 @@ def _look_at(task, lanes, memory, work, lane):
     lanes.struck[lane] += 1
     lanes.stalled[lane] = 0
     _copy_arrival(lanes, lane, work.arrival)
-    _fetch_memory(lanes, memory, lane)
+    _load_memory(lanes, memory, lane)
     if memory.patience > 0 and recurs(memory, work.arrival):
         lanes.struck[lane] -= 1
         copy(work.arrival, work.current)
         return MIXED if memory.rubbed > 0 else BOUNCING
-    _put_memory_by(lanes, memory, lane)
+    _save_memory(lanes, memory, lane)
     if lanes.events[lane] >= task.most_events:
         return EVENT_LIMIT
-    _watch(task, lanes, memory, lane)
+    _set_next_look(task, lanes, memory, lane)
     return GOES_ON
 
 
 @passage
-def _follow_singly(task, tools, lane):
-    """Follow the motion of ``work.current`` event by event until it flies freely and may board its lane again."""
+def _follow_by_events(task, tools, lane):
+    """Follow the motion of ``work.current`` event by event until it ends, or flies freely and can return to its lane."""
     lanes, memory, amplitudes, work = tools.lanes, tools.memory, tools.amplitudes, tools.work
     phase, plane = int(FLIGHT), lanes.plane[lane]
-    _fetch_memory(lanes, memory, lane)
+    _load_memory(lanes, memory, lane)
     outcome, follows = EVENT_LIMIT, True
     while follows:
         departed = phase
@@ -223,14 +223,14 @@ def _follow_singly(task, tools, lane):
     if outcome != EVENT_LIMIT or lanes.events[lane] >= task.most_events:
         return outcome
     lanes.plane[lane] = plane
-    _put_memory_by(lanes, memory, lane)
-    _board(task, lanes, memory, work, lane)
+    _save_memory(lanes, memory, lane)
+    _put_on_lane(task, lanes, memory, work, lane)
     return GOES_ON
 
 
 @part
-def _board(task, lanes, memory, work, lane):
-    """Put the motion of ``work.current``, in free flight, on a lane."""
+def _put_on_lane(task, lanes, memory, work, lane):
+    """Put the motion of ``work.current``, which is in free flight, on a lane."""
     lower, upper = work.current[0], work.current[1]
     lanes.lower_re[lane], lanes.lower_im[lane] = lower.real, lower.imag
     lanes.upper_re[lane], lanes.upper_im[lane] = upper.real, upper.imag
@@ -238,12 +238,12 @@ def _board(task, lanes, memory, work, lane):
     if lanes.plane[lane] < 0:
         lanes.level[lane] = squared_modulus(displacement(task.rotor, 0, work.current)) - 1.0
     lanes.depth[lane] = 0.0
-    _watch(task, lanes, memory, lane)
+    _set_next_look(task, lanes, memory, lane)
 
 
 @part
-def _watch(task, lanes, memory, lane):
-    """Number of impacts after which a lane has to be looked at, and whether free flights are to be looked at too."""
+def _set_next_look(task, lanes, memory, lane):
+    """Set the number of impacts after which a lane must be examined, and whether to examine its free flights too."""
     due = task.most_events - lanes.events[lane]
     if memory.patience > 0:
         due = min(due, impacts_until_noted(memory))
@@ -251,8 +251,8 @@ def _watch(task, lanes, memory, lane):
 
 
 @part
-def _note_quiet(lanes, lane):
-    """Enter in the books the plain impacts of a lane since it was last looked at."""
+def _count_plain_impacts(lanes, lane):
+    """Add the plain impacts of a lane since it was last examined to its counts."""
     quiet = int(lanes.quiet[lane])
     lanes.quiet[lane] = 0.0
     lanes.stalled[lane] = 0 if quiet > 0 else lanes.stalled[lane]
@@ -263,8 +263,8 @@ def _note_quiet(lanes, lane):
 
 
 @part
-def _fetch_memory(lanes, memory, lane):
-    """Take up what a lane's motion remembers; what it remembers of a rub ends with the rub."""
+def _load_memory(lanes, memory, lane):
+    """Load the memory of a lane's motion; the state of a rub is not part of it, because it ends with the rub."""
     memory.events, memory.since, memory.renewal = lanes.seen[lane], lanes.since[lane], lanes.renewal[lane]
     memory.candidate, memory.rubbed, memory.lifting = lanes.candidate[lane], lanes.rubbed[lane], 0
     memory.period = 0
@@ -273,8 +273,8 @@ def _fetch_memory(lanes, memory, lane):
 
 
 @part
-def _put_memory_by(lanes, memory, lane):
-    """Keep what a lane's motion remembers."""
+def _save_memory(lanes, memory, lane):
+    """Save the memory of a lane's motion."""
     lanes.seen[lane], lanes.since[lane], lanes.renewal[lane] = memory.events, memory.since, memory.renewal
     lanes.candidate[lane], lanes.rubbed[lane] = memory.candidate, memory.rubbed
     lower, upper, reach = 0j, 0j, -1.0
@@ -287,8 +287,8 @@ def _put_memory_by(lanes, memory, lane):
 
 
 @kernel
-def _passes_by(task, tools, lane):
-    """Whether a motion that has recurred is not at its end; if it is, ``memory.period`` is that of its orbit."""
+def _passes_by_orbit(task, tools, lane):
+    """Whether a motion that has recurred only passes by an orbit; if not, ``memory.period`` is the period of its orbit."""
     lanes, memory = tools.lanes, tools.memory
     log = (tools.times, tools.phases, tools.planes, tools.before, tools.after)
     state = tools.amplitudes
@@ -299,13 +299,13 @@ def _passes_by(task, tools, lane):
         return False
     doubt(memory)
     lanes.plane[lane] = 0
-    _put_memory_by(lanes, memory, lane)
+    _save_memory(lanes, memory, lane)
     return True
 
 
 @passage
 def _note_end(task, tools, motion, lane, outcome):
-    """Note where the motion of a lane has ended, in ``work.current``."""
+    """Store the end of a lane's motion, whose state is in ``work.current``."""
     lanes, memory, work = tools.lanes, tools.memory, tools.work
     motion.outcome, motion.time = outcome, lanes.clock[lane]
     motion.impacts = lanes.struck[lane] + int(lanes.quiet[lane])
@@ -317,8 +317,8 @@ def _note_end(task, tools, motion, lane, outcome):
 
 
 @part
-def _empty(lanes, lane):
-    """Leave a lane with a motion that nobody looks at: at rest where there is no contact."""
+def _fill_unused(lanes, lane):
+    """Fill an unused lane with a motion that is never examined: at rest and free of contact."""
     lanes.lower_re[lane], lanes.lower_im[lane], lanes.upper_re[lane], lanes.upper_im[lane] = 0.0, 0.0, 0.0, 0.0
     lanes.level[lane], lanes.clock[lane], lanes.depth[lane] = -0.5, LONG_AGO, 0.0
     lanes.watched[lane] = 0.0
@@ -343,9 +343,9 @@ def _changed(before, after):
 
 @part
 def _set_state(rotor, position, speed, amplitudes):
-    """Amplitudes of a displacement and a velocity.
+    """Write the amplitudes of a displacement and a velocity.
 
-    Not left to array arithmetic, whose last bit depends on the place of a number in its array.
+    Array arithmetic is avoided here: the last bit of its result depends on the position of a number in the array.
     """
     change = position - rotor.offsets[0]
     amplitudes[0], amplitudes[1] = speed - rotor.exponents[1] * change, change

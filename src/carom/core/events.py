@@ -3,15 +3,16 @@
 The search moves only over times that are proven free of a crossing.  Two proofs are used:
 
 1. *Block.*  The Bernstein coefficients of ``f = |y|² − 1`` on a block, plus the bound of their error, are those of a
-   polynomial ``q ≥ f``.  All negative: no crossing.  If the positive ones follow one another, ``q`` has at most two roots;
-   a root of ``f`` is then polished on the exact flight and accepted when ``f'² > 4 R M₂`` (``R`` error bound of the
-   polynomial up to there, ``M₂ ≥ |f''|``).  That proves it the first one: ``f`` rises all along the last ``w = f'/M₂`` before the root,
-   ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a root between; had it been positive before,
-   that would make three.  What a block leaves open is looked at again on shorter ones, whose polynomials are closer.
-2. *Steps* for what the shortest block leaves open: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so the first root of the right side
-   is a time that cannot be behind a crossing.  The steps converge to a transversal crossing quadratically.
+   polynomial ``q ≥ f``.  If all are negative, there is no crossing.  If the positive ones are consecutive, ``q`` has at
+   most two roots.  A root of ``f`` is then polished on the exact flight and accepted if ``f'² > 4 R M₂`` (``R`` error bound
+   of the polynomial up to there, ``M₂ ≥ |f''|``).  This proves that it is the first one: ``f`` rises during the whole time
+   ``w = f'/M₂`` before the root; ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a root in
+   between; if ``q`` had been positive before, it would have three roots.  What a block leaves undecided is tried again on
+   shorter blocks, whose polynomials approximate more closely.
+2. *Steps* for what the shortest block leaves undecided: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so there is no crossing before the
+   first root of the right side.  The steps converge to a transversal crossing quadratically.
 
-Where ``f`` comes to zero within its rounding and is not seen to rise above it, the outcome is ``grazing``.
+If ``f`` reaches zero within its rounding error and is not found to rise above it, the outcome is ``grazing``.
 """
 
 from __future__ import annotations
@@ -63,8 +64,8 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
     horizon : float
         Latest time of interest, counted from the start.
     start : int
-        ``INSIDE``, or ``LEAVING`` where the start lies on the wall: there ``|y|`` is one by definition.  A start at rest
-        on the wall is for :func:`carom.core.rub.lift_off`.
+        ``INSIDE``, or ``LEAVING`` if the start lies on the wall: there ``|y|`` is one by definition.  Use
+        :func:`carom.core.rub.lift_off` for a start at rest on the wall.
     work : record of :func:`~carom.core.layout.workspace`
         On return ``work.arrival`` holds the amplitudes at the returned time.
 
@@ -80,7 +81,7 @@ def first_crossing(rotor, table, plane, amplitudes, horizon, start, work):
 
 @part
 def search(rotor, table, plane, horizon, start, work):
-    """:func:`first_crossing` of the flight that starts from ``work.current``, which it moves along."""
+    """:func:`first_crossing` of the flight from ``work.current``, which is advanced from block to block."""
     elapsed = 0.0
     while True:
         outcome, time = _search_block(rotor, table, plane, horizon - elapsed, start, work)
@@ -159,10 +160,10 @@ def householder_step(value, slope, bend, third):
 
 @part
 def _root_on_block(rotor, table, plane, origin, level, guess, curvature, floor, remainder, duration, work):
-    """Root next to a guess, and whether it is certified to be the first on a block of this duration."""
+    """Whether the root close to a guess is certified to be the first on a block of this duration, and the root."""
     doubt = remainder / duration
     certified, time = _polish(rotor, table, plane, origin, level, guess, curvature, floor, doubt, work)
-    # Past the end of the block the polynomial says nothing: a root there does not prove the block free.
+    # The polynomial is valid on the block only: a root beyond its end does not prove the block free of crossings.
     return certified and time <= duration, time
 
 
@@ -176,7 +177,7 @@ def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, w
     value, slope, bend, third = look_at_node(table, node, origin, level, work)
     time = node * table.spacing + householder_step(value, slope, bend, third)
     for _ in range(8):
-        # Off the nodes the series mean nothing.
+        # Outside the range of the nodes the series are not valid.
         if not 0.0 <= time <= table.durations[0]:
             return False, time
         value, slope, bend, third = _measure(rotor, table, plane, origin, level, time, work)
@@ -209,7 +210,7 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
         time = _departure(min(slope, 0.0), bend, jerk)
     while time < block:
         value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
-        # On the wall f is exact at the start, and the rounding of y there turns the change of y that follows.
+        # For a start on the wall f is exact there, and the rounding of y acts only through the later change of y.
         share = 1.0 if start == INSIDE else min(1.0, speed * time)
         rounding = ROUNDING * (spread * share + speed * time)
         if value >= -rounding:
@@ -218,8 +219,8 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
             step = -value / slope
             nudge(rotor, work.arrival, step)
             return CONTACT, time + step
-        # Steps end where half the rounding is left to zero: none can pass a crossing that rounding hides.
-        # They advance: here 1 ≥ −f > rounding > ROUNDING |ẏ| t, so with f' ≤ 2|ẏ| one is longer than two spacings of t.
+        # Steps end half the rounding error below zero: none can pass a crossing that rounding hides.
+        # They advance: here 1 ≥ −f > rounding > ROUNDING |ẏ| t and f' ≤ 2|ẏ|, so a step exceeds two spacings of t.
         time += _safe_step(value + 0.5 * rounding, slope, bend, curvature, jerk)
     return CLEAR, block
 
@@ -228,7 +229,7 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
 def _safe_step(value, slope, bend, curvature, jerk):
     """Time up to which ``f < 0`` stays negative whatever ``f'' ≤ M₂`` and ``f''' ≤ M₃`` do.
 
-    A bound of ``f''`` that holds for steps up to `reach` takes longer ones along a wall that is nearly followed.
+    A bound of ``f''`` that holds only for steps up to `reach` allows longer steps where the path runs close along the wall.
     """
     reach = (-value / jerk) ** (1.0 / 3.0)
     nearby = min(reach, _first_root(value, slope, bend + jerk * reach / 3.0))
@@ -257,10 +258,10 @@ def _first_root(value, slope, bend):
 
 @kernel
 def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, work):
-    """Whether ``f``, zero to rounding at a time up to which nothing crosses, goes on to rise above its rounding.
+    """Decide whether ``f``, which is zero to rounding and has not crossed before, rises above its rounding error.
 
-    It is followed over stretches on which it is proven to rise, until the rise is beyond doubt; the root is then
-    bisected, for a derivative as small as this one may be does not lead to it.
+    ``f`` is followed over intervals on which it provably rises, until the rise exceeds rounding.  The root is then found
+    by bisection, because the derivative may be too small for Newton's method.
     """
     first = time
     value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)

@@ -1,8 +1,8 @@
-"""Kernels as other kernels see them: compiled as far as the code that is put into the caller, and no further.
+"""Kernels that are called by other kernels: compiled to intermediate code for the caller, and no further.
 
-Numba makes of each version of a function machine code, and wrappers for callers from Python and C, also where nobody but
-another function calls it, and gives that one a copy of its own.  Most kernels are of that kind, and most of what they are
-compiled to would never run.
+For each version of a function, Numba generates machine code and wrappers for callers from Python and C.  It does so even
+for functions that only other functions call, and each such caller gets its own copy of the code.  Most kernels are called
+by kernels only, so most of their machine code would never run.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ __all__ = ["serve_kernels"]
 
 
 def serve_kernels(kernel: Any) -> None:
-    """Have a kernel serve its callers among kernels with intermediate code alone."""
+    """Make a kernel provide intermediate code only to the kernels that call it."""
     options = {**kernel.targetoptions, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     twin = _IntermediateKernel(kernel.py_func, locals={}, targetoptions=options, pipeline_class=_Pipeline)
     twin._compiler = _IntermediateCompiler(kernel.py_func, twin.targetdescr, options, {}, _Pipeline)
@@ -26,31 +26,31 @@ def serve_kernels(kernel: Any) -> None:
 
 
 class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
-    """The versions of a kernel that other kernels call."""
+    """The versions of a kernel for calls from other kernels."""
 
     def add_overload(self, cres: CompileResult) -> None:
-        """Keep a version, without showing it to callers from Python."""
+        """Store a version without offering it to callers from Python."""
         self.overloads[tuple(cres.signature.args)] = cres
 
 
 class _IntermediateLibrary(JITCodeLibrary):  # type: ignore[misc]
-    """Code that is made ready for its callers, not for the processor.
+    """Intermediate code for callers, without machine code.
 
-    A kernel that is not compiled into its callers is brought in by the last of them alone, which Python calls: each caller
-    on the way would take a copy along and optimise it again.
+    A kernel that is not inlined is linked only into the outermost caller, which Python calls.  Otherwise each caller in
+    between would contain a copy and optimise it again.
     """
 
     apart = False
-    """Whether it is the code of such a kernel."""
+    """Whether this is the code of a kernel that is not inlined."""
 
     def finalize(self) -> None:
-        """Bring in what is called and not apart, and optimise."""
+        """Link the callees that are inlined, and optimise."""
         self._left_out = self.left_out()
         self._linking_libraries[:] = [library for library in self._linking_libraries if library not in self._left_out]
         super().finalize()
 
     def left_out(self) -> list[Any]:
-        """Code that is called, and left to the last caller to bring in."""
+        """Code of callees that the outermost caller has to link."""
         if self._finalized:
             return self._left_out
         return [library for library in self._linking_libraries if getattr(library, "apart", False)]
@@ -61,7 +61,7 @@ class _IntermediateLibrary(JITCodeLibrary):  # type: ignore[misc]
 
 
 class _Pipeline(Compiler):  # type: ignore[misc]
-    """Numba's own, with such a library."""
+    """Numba's compiler pipeline with this library."""
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""
@@ -70,16 +70,16 @@ class _Pipeline(Compiler):  # type: ignore[misc]
 
 
 class _IntermediateCompiler(_FunctionCompiler):  # type: ignore[misc]
-    """Compiles a version, and tells Numba where to find it when a caller is compiled."""
+    """Compile a version, and register it for the compilation of its callers."""
 
     def _customize_flags(self, flags: Any) -> Any:
         flags.no_compile = True
         return flags
 
     def compile(self, args: Any, return_type: Any) -> CompileResult:
-        """Compile a version for types of arguments."""
+        """Compile a version for given argument types."""
         result = super().compile(args, return_type)
-        result = result._replace(entry_point=object())  # by which Numba knows a version; there is nothing to enter
+        result = result._replace(entry_point=object())  # Numba's key of the version; there is no machine code to call
         result.library.apart = not self.targetoptions.get("forceinline", False)
         libraries = [result.library, *result.library.left_out()]
         result.target_context.insert_user_function(result.entry_point, result.fndesc, libraries)

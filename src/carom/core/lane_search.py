@@ -1,4 +1,4 @@
-"""The crossing search of :mod:`carom.core.events` in lanes: blocks, and the state at a time."""
+"""The crossing search of :mod:`carom.core.events` for lanes: blocks, and the state at a time."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ DIAGONAL = 1.5
 
 
 class Departure(NamedTuple):
-    """Start of a flight: amplitudes, displacement ``y``, ``level`` = ``|y|² − 1``, and what follows.
+    """Start of a flight: amplitudes, displacement ``y``, ``level`` = ``|y|² − 1``, and derived quantities.
 
-    ``low`` and ``high`` are the moduli of the amplitudes, here with their squares, ``curvature`` bounds ``f''``, ``floor`` is
-    the rounding of ``f``.
+    ``low`` and ``high`` are the moduli of the amplitudes, followed by their squares; ``curvature`` is a bound of ``f''``;
+    ``floor`` is the rounding error of ``f``.
     """
 
     lower: object
@@ -38,9 +38,9 @@ class Departure(NamedTuple):
 
 
 class Search(NamedTuple):
-    """What the block of each lane shows: whether it decides, and then, whether it is ``free`` of a crossing.
+    """Result for the block of each lane: whether it ``decides`` and, if so, whether it is ``free`` of a crossing.
 
-    ``guess`` is where to look for the root, or the end of a free block; ``doubt`` is how fast the bound of the error grows.
+    ``guess`` is an approximate root, or the end of a free block; ``doubt`` is the rate at which the error bound grows.
     """
 
     decides: object
@@ -61,7 +61,7 @@ class Node(NamedTuple):
 
 @part
 def departure(rotor, table, lower, upper, level):
-    """A flight's start, with the moduli of its amplitudes and the bounds of :func:`carom.core.events.search`."""
+    """Start of a flight, with the moduli of its amplitudes and the bounds that :func:`carom.core.events.search` uses."""
     offset, first, second = rotor.offsets[0], table.bounds[0], table.bounds[1]
     low_square, high_square = squared_modulus(lower), squared_modulus(upper)
     low, high = sqrt(low_square), sqrt(high_square)
@@ -86,7 +86,7 @@ def products_of(start):
 def examine(table, depth, start, polynomial, factors):
     """Look for sign changes of ``f``, in each lane on a block of its own; see :func:`carom.core.block.sign_changes`.
 
-    The ``depth`` of a lane may be LEVELS: nothing is to be found then.
+    A lane whose ``depth`` is LEVELS or more has no block left to try, and decides nothing.
     """
     given = depth < float(LEVELS)
     number, level = where(given, depth, 0.0), start.level
@@ -116,7 +116,7 @@ def examine(table, depth, start, polynomial, factors):
 
 @part
 def _load_polynomial(coefficients, depth, start, polynomial):
-    """Write the Bernstein coefficients of ``f`` on the block of each lane; most often that is the longest one of all."""
+    """Write the Bernstein coefficients of ``f`` on the block of each lane; most often all lanes use the longest block."""
     a, b, c, d, e, f, g, h = products_of(start)
     if lanes_of(depth > 0.0) == 0:
         for j in range(DEGREE):
@@ -136,7 +136,7 @@ def _load_polynomial(coefficients, depth, start, polynomial):
 
 @part
 def _doubt(errors, depth, low, high):
-    """Bound of the error of a block's polynomial, by moduli and per time; ``|y| ≤ 1`` at the start."""
+    """Error bound of a block's polynomial, per unit time, from the moduli of the amplitudes; needs ``|y| ≤ 1`` at the start."""
     of_lower, of_upper = choose(errors[0], depth), choose(errors[1], depth)
     return low * (of_lower + (low * choose(errors[2], depth) + high * choose(errors[3], depth))) + high * (
         of_upper + high * choose(errors[4], depth)
@@ -145,11 +145,12 @@ def _doubt(errors, depth, low, high):
 
 @part
 def _root(polynomial, factors, degree, level, first, before, after):
-    """Where a Bernstein polynomial on 0 … 1 vanishes, from the coefficients on both sides of its sign change.
+    """Approximate root of a Bernstein polynomial on 0 … 1, from the coefficients on both sides of its sign change.
 
-    With ``u = t/(1 − t)``, or its inverse from the other end, the polynomial is ``Σ C(n, j) b_j u^j`` but for a factor;
-    two Halley steps, each written as a ratio so that only one division waits for another.  In a flight from the wall the
-    root wanted may be next to that at the start, which is divided out: ``b_j n/j`` are the coefficients of ``f/t``.
+    With ``u = t/(1 − t)``, or its inverse from the other end, the polynomial is ``Σ C(n, j) b_j u^j`` up to a factor.  Two
+    Halley steps follow, each written as a ratio, so that few divisions have to wait for each other.  In a flight that
+    starts on the wall, the root may lie close to the root at the start.  The latter is divided out: ``b_j n/j`` are the
+    coefficients of ``f/t``.
     """
     on_wall = level == 0.0
     before, after = where(on_wall, before * (first + 1.0), before), where(on_wall, after * first, after)
@@ -171,14 +172,14 @@ def _root(polynomial, factors, degree, level, first, before, after):
     above, below = _halley(factors, above / below, degree, divided)
     place = where(far, below, above) / (above + below)
     least, most = (first - 1.0) * (1.0 / DEGREE), (first + 2.0) * (1.0 / DEGREE)
-    # In this order what is no number becomes one.
+    # The order of the comparison replaces a NaN by the lower limit.
     place = where(place > least, place, least)
     return where(place < most, place, most)
 
 
 @part
 def _halley(factors, u, degree, divided):
-    """Halley step for the polynomial of these factors, or ``divided`` by ``u``: numerator and denominator of the new ``u``."""
+    """Halley step for the polynomial with these factors, or for it ``divided`` by ``u``; return the new ``u`` as a ratio."""
     value = load(factors[DEGREE], 0)
     slope, half_bend = value * 0.0, value * 0.0
     for j in range(degree - 1, 0, -1):
@@ -194,7 +195,7 @@ def _halley(factors, u, degree, divided):
 
 @part
 def halley_ratio(value, slope, half_bend):
-    """How far back a step of third order takes to a root: numerator and denominator."""
+    """Distance by which a third-order (Halley) step goes back to a root, as numerator and denominator."""
     return value * slope, slope * slope - value * half_bend
 
 
@@ -202,7 +203,7 @@ def halley_ratio(value, slope, half_bend):
 def look_up(rotor, table, start, guess):
     """The node nearest to a time, and the state there; with ``e^{λ₋τ} = e^{λ₊τ} − (λ₊ − λ₋) φ(τ)``."""
     place = guess * (1.0 / table.lane_spacing) + 0.5
-    # In this order what is no number becomes one.
+    # The order of the comparison replaces a NaN by the lower limit.
     place = where(place > 0.0, place, 0.0)
     place = truncate(where(place < LANE_NODES - 1.0, place, LANE_NODES - 1.0))
     growth = join(take(table.lane_basis[1, 0], place), take(table.lane_basis[1, 1], place))

@@ -1,11 +1,11 @@
 """Many motions of a rotor with one pair of modes side by side.
 
-Each lane holds a motion in free flight.  :func:`fly_lanes` takes every lane one block of flight on, with the proofs of
-:mod:`carom.core.events`, or up to and through its next impact.  What cannot be proven here, and everything but a plain
-flight and a plain impact, is left as it was and marked, for :mod:`carom.core.ensemble` to look at singly.
+Each lane holds a motion in free flight.  :func:`fly_lanes` advances every lane by one block of flight, with the proofs of
+:mod:`carom.core.events`, or up to and through its next impact.  A lane in which nothing can be proved, or which needs more
+than a plain flight and a plain impact, is left unchanged and marked; :mod:`carom.core.ensemble` then treats it by itself.
 
-A lane never sees another: all of them go through the same instructions (:mod:`carom.core.vector`), but for two branches that
-save work and change no bit, so a motion is the same to the last bit whatever its company.
+Lanes do not affect each other.  All execute the same instructions (:mod:`carom.core.vector`), except for two branches that
+save work and change no bit.  So a motion is the same to the last bit whatever motions the other lanes hold.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ from carom.core.vector import align_stack, fma, join, lanes_of, load, store, whe
 __all__ = ["CLEARED", "LATE", "NOTED", "OPEN", "STRUCK", "fly_lanes", "lanes_record", "surely_flies"]
 
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
-"""What happened to a lane: a free block of flight; an impact; an impact whose recurrence is to be looked at; none,
-because time would run out; none, because the block proved nothing (a shorter one is tried unless it was the shortest)."""
+"""What happened to a lane: a free block of flight; an impact; an impact to be checked for recurrence; nothing, because the
+time limit would be exceeded; nothing, because the block proved nothing (a shorter one is tried next, if there is one)."""
 
 CLEARLY_OFF = 1e-9
-"""Speed off the wall that is no rest, whatever the rounding of a state of moderate size."""
+"""Speed away from the wall that is certainly not zero, given the rounding of a state of moderate size."""
 LOWEST = 4.0 * CHATTER_HEIGHT
-"""Twice the height of the lowest bounces, with room: these are for the loop of single motions."""
+"""Twice the height, with a margin, below which bounces are left to the loop of single motions."""
 REACH = 0.75
-"""Distance from a node, in spacings, to which the power series serve: what they miss is below rounding."""
+"""Distance from a node, in spacings, up to which the truncation error of the power series is below rounding."""
 ROUGH_TERMS = 6
-"""Terms that do for a first step to the root."""
+"""Number of terms that suffice for the first step to the root."""
 STEADY = 2e-6
-"""Correction, in units of ``f'/M₂``, below which a Halley step and the quadratic nudge are exact to rounding: what they miss
-is of its third power."""
+"""Correction, in units of ``f'/M₂``, below which a Halley step and the quadratic nudge are exact to rounding: their errors
+are of third order in it."""
 
 _STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "depth")
 _FATE = (
@@ -47,15 +47,17 @@ _BOOKS = ("motion", "plane", "events", "struck", "stalled", "calm", "seen", "sin
 
 
 def lanes_record() -> np.record:
-    """Lanes; every field but the last two, which are scratch, has one number per lane.
+    """Record of all lanes; every field has one number per lane, except for the last two, which are scratch arrays.
 
-    ``lower`` and ``upper`` are the amplitudes of the driving and the driven mode, with the exponents ``λ₋`` and ``λ₊``;
-    ``level`` is ``|y|² − 1``, zero on the wall; ``clock`` counts time.  ``depth`` is the first block to try: LEVELS or more where
-    none is left.  A plain impact adds to ``quiet``; it is to be NOTED when ``due`` is reached or the state is within
-    ``reach`` of the ``reference``.  The end of a free block is to be looked at in a lane that is ``watched``.  ``verdict`` says
-    what has happened last, ``arrival`` is the state before an impact.  The whole numbers are books of
-    :mod:`carom.core.ensemble`: the motion held, its events, impacts, events without progress, free blocks, and, with the
-    ``reference``, what :func:`carom.core.fate.memory` holds of it.
+    - ``lower`` and ``upper`` are the amplitudes of the driving and the driven mode, with the exponents ``λ₋`` and ``λ₊``.
+    - ``level`` is ``|y|² − 1``, zero on the wall; ``clock`` is the time.
+    - ``depth`` is the first block to try; LEVELS or more if none is left.
+    - ``quiet`` counts plain impacts.  An impact is NOTED instead when ``due`` is reached, or when the state is within
+      ``reach`` of the ``reference``.
+    - ``watched`` lanes are examined after each free block.
+    - ``verdict`` says what happened last; ``arrival`` is the state just before an impact.
+    - The integers belong to :mod:`carom.core.ensemble`: number of the motion, its plane, events, impacts, events without
+      progress, free blocks, and the values that :func:`carom.core.fate.memory` holds for it besides the ``reference``.
     """
     return record(
         **{name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ANSWER)},
@@ -67,7 +69,7 @@ def lanes_record() -> np.record:
 
 @kernel
 def fly_lanes(rotor, table, until, lanes):
-    """Take every lane a block of flight or an impact on; the lanes that need a look afterwards, as bits.
+    """Advance every lane by a block of flight or an impact; return the lanes that must be examined afterwards, as bits.
 
     The rotor is one of :func:`~carom.models.system.second_order_system`.
     """
@@ -80,7 +82,7 @@ def fly_lanes(rotor, table, until, lanes):
 
 @part
 def _fly(rotor, table, until, first, lanes):
-    """Find the first crossing of some lanes, certify it and move on; the lanes that need a look, as bits."""
+    """Find and certify the first crossing of WIDTH lanes, and advance them; return the lanes to examine, as bits."""
     lower = _load_complex(lanes.lower_re, lanes.lower_im, first)
     upper = _load_complex(lanes.upper_re, lanes.upper_im, first)
     start = departure(rotor, table, lower, upper, load(lanes.level, first))
@@ -105,14 +107,14 @@ def _fly(rotor, table, until, first, lanes):
 
 @part
 def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower, upper):
-    """Note the end of a free block or the state after an impact; the lanes that need a look, as bits."""
+    """Store the end of a free block or the state after an impact; return the lanes to examine, as bits."""
     decided = free | strikes
     late = end > until
     moves, struck = decided & ~late, strikes & ~late
     position = upper + rotor.offsets[0]
     beyond = squared_modulus(position) - 1.0
     speed = fma(upper, rotor.exponents[1], lower)
-    # The displacement goes on to the wall, the velocity stays.
+    # Put the displacement exactly on the wall; the velocity stays.
     upper = upper - position * where(strikes, 0.5 * beyond, 0.0)
     after = lower + _rebound(position, speed, rotor.friction[0], rotor.restitution[0], rotor.drive[0])
     quiet = load(lanes.quiet, first)
@@ -122,7 +124,7 @@ def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower
     store(lanes.verdict, first, where(moves, where(free, CLEARED, where(noted, NOTED, STRUCK)), stays))
     store(lanes.quiet, first, where(plain, quiet + 1.0, quiet))
     store(lanes.clock, first, where(moves, end, load(lanes.clock, first)))
-    # Low bounces follow one another: the block that served for the last one is tried first.
+    # Low bounces come in series: try the block first that worked for the last one.
     store(lanes.depth, first, where(decided, where(strikes, depth, 0.0), depth + 1.0))
     store(lanes.level, first, where(struck, 0.0, where(moves, beyond, start.level)))
     _store_complex(lanes.arrival_lower_re, lanes.arrival_lower_im, first, lower)
@@ -135,11 +137,11 @@ def _move_on(rotor, until, first, lanes, start, depth, free, strikes, end, lower
 
 @part
 def _leaves(rotor, start):
-    """Whether a start on the wall leaves it for a flight that is not too low for lanes; one inside does not touch it."""
+    """Whether a start on the wall leaves it for a flight that is high enough for lanes; true for a start inside."""
     slow, fast = rotor.exponents[0], rotor.exponents[1]
     speed = fma(start.upper, fast, start.lower)
     inward = -(start.position.conjugate() * speed).real
-    # Half of the bound of f'' bounds how the wall draws near.
+    # Half of the bound of f'' bounds the acceleration towards the wall.
     leaves = (start.level < 0.0) | ((inward > CLEARLY_OFF) & (inward * inward > start.curvature * (0.5 * LOWEST)))
     if lanes_of(~leaves) != 0:
         leaves = leaves | _flies(start.position, speed, fma(speed, fast, start.lower * slow))
@@ -148,11 +150,11 @@ def _leaves(rotor, start):
 
 @part
 def _first_step(rotor, table, start, search, node, reach):
-    """Time from the node, a step nearer to the root."""
+    """Time from the node after a first step towards the root."""
     rest = search.guess - node.time
     _, _, _, (value, slope, bend) = travel(rotor, table, start, node, rest, ROUGH_TERMS)
     step = _halley_step(value, slope, bend)
-    # No step off the series, nor one that is no number, nor one of a lane that is free.
+    # Discard a step out of the range of the series, a NaN, and a step in a lane that is free.
     return rest + where(~search.free & (abs(rest + step) <= reach), step, 0.0)
 
 
@@ -193,7 +195,7 @@ def _rebound(position, velocity, friction, restitution, drive):
 
 @part
 def _near_reference(lower, upper, first, lanes):
-    """Whether a state may recur (:func:`carom.core.fate.recurs`), by a test that lets all pass that do."""
+    """Whether a state may recur (:func:`carom.core.fate.recurs`): a cheap condition that is necessary for it."""
     away = abs(lower.real - load(lanes.reference_lower_re, first)) + abs(
         upper.real - load(lanes.reference_upper_re, first)
     )
@@ -209,7 +211,7 @@ def _flies(position, velocity, force):
 
 @part
 def surely_flies(rotor, amplitudes):
-    """Whether a state on the wall leaves it for a flight that is not too low for lanes."""
+    """Whether a state on the wall leaves it for a flight that is high enough for lanes."""
     return _flies(
         displacement(rotor, 0, amplitudes), velocity(rotor, 0, amplitudes), acceleration(rotor, 0, amplitudes)
     )

@@ -1,7 +1,7 @@
-"""Single-impact orbits of the planar rotor in closed form: their equations, and what vanishes at their bifurcations.
+"""Single-impact orbits of the planar rotor in closed form: their equations, and test functions of their bifurcations.
 
-Everything is a function of a handful of numbers, for continuation, which asks for it thousands of times.  The frame is
-turned so that the impact is at ``U = 1``; the contact-free equilibrium is then at ``1 + q a₁₂ ṙ``.
+All functions take a few plain numbers, since continuation evaluates them thousands of times.  The frame is turned so that
+the impact is at ``U = 1``; the contact-free equilibrium is then at ``1 + q a₁₂ ṙ``.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from carom.core.layout import kernel
 
 __all__ = ["impact_jacobian", "orbit_conditions", "planar_exponents", "radial_course", "radial_profile", "returns"]
 
-# B₂ₖ/(2k)! of the Bernoulli numbers.
+# B₂ₖ/(2k)! with the Bernoulli numbers B₂ₖ.
 _BERNOULLI = (
     1.0 / 12.0,
     -1.0 / 720.0,
@@ -38,7 +38,7 @@ def planar_exponents(gamma, omega):
     split = cmath.sqrt(complex((gamma - 2.0 * omega) * (gamma + 2.0 * omega), 0.0))
     lower, upper = 0.5 * (-gamma - split), 0.5 * (-gamma + split)
     if split.real > 0.5 * abs(gamma):
-        # Strongly overdamped: one root is a difference of near equals; their product ω² gives it in full.
+        # Strongly overdamped: one root is a difference of nearly equal numbers; the product ω² of both gives it accurately.
         if gamma > 0.0:
             upper = omega * omega / lower
         else:
@@ -88,7 +88,7 @@ def orbit_conditions(gamma, omega, rho, mu, d, drive, period, speed):
     drive : float
         ``s + 1``.
     period, speed : float
-        ``T`` and ``ṙ`` before the impact; the equations tell how far they are from an orbit.
+        ``T`` and ``ṙ`` before the impact; the residuals of the equations vanish on an orbit.
 
     Returns
     -------
@@ -145,8 +145,8 @@ def impact_jacobian(gamma, omega, mu, d, period, speed):
 def _jacobian(first, second, q, lever, turn, period, speed):
     """Derivative of the impact map over ``(θ, ṙ, θ̇)``, with the saltation term of the time of impact.
 
-    The velocity before the impact is ``ṙ(1 − i Im q a₂₂)`` and the force there a multiple of ``ṙ`` too, so that nothing
-    is divided by ``ṙ`` and the derivative exists in the limit of vanishing impacts.
+    The velocity before the impact is ``ṙ(1 − i Im q a₂₂)``, and the force there is a multiple of ``ṙ`` too.  So nothing is
+    divided by ``ṙ``, and the derivative exists in the limit of vanishing impacts.
     """
     velocity = complex(1.0, -turn.imag)
     force = (first + second) * velocity + first * second * lever
@@ -182,7 +182,7 @@ def _propagator(first, second, time):
 
 @kernel
 def _invariants(matrix):
-    """Sum of the principal minors and determinant, shape (3, 3)."""
+    """Sum of the principal minors of order two and determinant of a matrix of shape (3, 3)."""
     minors = 0.0
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -204,7 +204,7 @@ def radial_course(gamma, omega, mu, d, period, speed, time):
 
 @kernel
 def radial_profile(gamma, omega, mu, d, period, speed):
-    """How the radius runs between the impacts of a single-impact orbit.
+    """Course of the radius between the impacts of a single-impact orbit.
 
     Parameters
     ----------
@@ -216,8 +216,8 @@ def radial_profile(gamma, omega, mu, d, period, speed):
     height, top : float
         Largest ``r² − 1`` of the local maxima inside the period, and its time; ``nan`` if there is none.
     flattest : float
-        Product over all inflections of ``r²`` of ``s/(1 + |s|)`` with the slope ``s`` there: changes sign through zero where a
-        maximum and a minimum of the radius are born.
+        Product of ``s/(1 + |s|)`` over all inflections of ``r²``, with the slope ``s`` there.  It changes sign through zero
+        where a maximum and a minimum of the radius are born.
     """
     first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
     fastest = max(abs(first), abs(second))
@@ -225,7 +225,7 @@ def radial_profile(gamma, omega, mu, d, period, speed):
     step = period / count
     height, top, flattest = np.nan, np.nan, 1.0
     _, bend, _, _ = _radial(first, second, rest, driven, driving, 0.0)
-    # Known exactly: of no rebound (d = 0) rounding could make a rise, and that a maximum at the impact itself.
+    # Exact: without rebound (d = 0), rounding could make it positive, which would create a maximum at the impact itself.
     slope = -d * speed
     for i in range(1, count + 1):
         time = i * step

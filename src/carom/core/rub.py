@@ -10,10 +10,10 @@ and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips wi
 follow from a recurrence and a step costs the same for any rotor.  For the planar rotor it is
 ``θ̈ = −γ(1 + θ̇) − ρ sin(θ − φ) − μN sgn v`` with ``N = ρ cos(θ − φ) + (1 + θ̇)² − ω²``.
 
-A phase lasts while its margins (normal force, slip, room within the friction cone) stay above minus their rounding
-error.  It ends at the last zero before one falls further.  So a margin that is zero at the start of a phase, as the slip
-is where rolling ends and the normal force where a rotor lifts off, does not end it, unless it falls: two phases cannot
-hand a state to and fro.
+A phase lasts while its margins (normal force, slip, distance from the limit of the friction cone) stay above minus their
+rounding error.  When a margin falls below, the phase ends at the last zero before that.  So a margin that is zero at the
+start of a phase ends it only if it then falls.  Such a margin is the slip where rolling ends, or the normal force where a
+rotor lifts off.  Two phases can therefore not pass a state back and forth.
 """
 
 from __future__ import annotations
@@ -51,13 +51,13 @@ LEAVING, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
 )
 
 STEP_FRACTION = 0.135
-"""Step over radius of convergence: ``0.135^ORDER`` is below rounding."""
+"""Ratio of step to radius of convergence: ``0.135^ORDER`` is below rounding."""
 ROUNDING = 64 * 2.220446049250313e-16
 """Rounding error of a sum over the modes, relative to the moduli of its terms."""
 NO_TURN = 1e-15
 """Distance along the wall that counts as none."""
 NEWTON_STEPS = 8
-"""Far more than a zero needs that rounding does not blur."""
+"""Far more steps than needed for a zero that is not blurred by rounding."""
 
 
 @kernel
@@ -154,17 +154,17 @@ def fly_or_rub_all(rotor, plane, amplitudes, phases, times, work):
 
 @kernel
 def first_transition(rotor, plane, phase, step, work):
-    """First time within a step at which the contact changes its kind, and to what.
+    """First time within a step at which the kind of contact changes, and the phase that follows.
 
-    Sliding ends where the normal force vanishes (flight follows) or the slip does; rolling where the friction it needs
-    leaves the cone.
+    Sliding ends where the normal force vanishes (flight follows) or the slip vanishes; rolling ends where the friction it
+    needs leaves the cone.
 
     Returns
     -------
     time : float
         The step itself if nothing changes.
     phase : int
-        What follows; the same phase if nothing changes, or where the slip vanished and :func:`next_phase` must decide.
+        The phase that follows; the same if nothing changes, or if the slip vanishes and :func:`next_phase` must decide.
     slip_stops : bool
     """
     friction = rotor.friction[plane]
@@ -196,8 +196,8 @@ def first_transition(rotor, plane, phase, step, work):
 def lift_off(rotor, plane, amplitudes, horizon, work):
     """Follow a flight that starts at rest on the wall, in place, to its return or to the end of a Taylor step.
 
-    There ``|y|² − 1 = 2∬N`` with ``N = Re(ȳÿ) + |ẏ|²``, so the series of ``N`` give the distance from the wall without
-    cancellation, from a departure as ``N't³/3`` on.
+    There ``|y|² − 1 = 2∬N`` with ``N = Re(ȳÿ) + |ẏ|²``, so the series of ``N`` gives the distance from the wall without
+    cancellation, even for a departure as slow as ``N't³/3``.
 
     Returns
     -------
@@ -220,7 +220,7 @@ def lift_off(rotor, plane, amplitudes, horizon, work):
 
 @kernel
 def turn_ahead(reference, direction, step, work):
-    """Time within a step at which the rotor next passes a reference position in a turning direction, or the step."""
+    """Time within a step at which the rotor next passes a reference position in the given direction, or the step."""
     for k in range(ORDER + 1):
         work.first_margin[k] = -direction * (reference.conjugate() * work.position[k]).imag
     return _first_fall(work.first_margin, step, NO_TURN)
@@ -228,7 +228,7 @@ def turn_ahead(reference, direction, step, work):
 
 @kernel
 def rest_on_wall(rotor, plane, amplitudes, rolling):
-    """Remove the rounding errors of ``|y| = 1`` and ``Re(ȳẏ) = 0``, and of rolling where it rolls."""
+    """Remove the rounding errors of ``|y| = 1`` and ``Re(ȳẏ) = 0``, and those of the rolling condition if it rolls."""
     set_on_wall(rotor, plane, amplitudes)
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)
@@ -241,7 +241,7 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
 def _first_fall(margin, step, rounding):
     """Time within a step at which a polynomial margin falls through zero, or the step; certified for the polynomial.
 
-    That is the last zero before its first fall below minus its rounding error; zero if it is negative all the way.
+    That is the last zero before it first falls below minus its rounding error; zero if it is negative up to there.
     """
     reach, curvature = 0.0, 0.0
     power = 1.0
@@ -271,7 +271,7 @@ def _first_fall(margin, step, rounding):
 
 @kernel
 def _zero_before(margin, time):
-    """Last zero of a margin before a time at which it is negative by its rounding error, or 0."""
+    """Last zero of a margin before a time at which it is below minus its rounding error, or 0."""
     latest = time
     for _ in range(NEWTON_STEPS):
         value, slope = _value_and_slope(margin, time)
@@ -304,7 +304,7 @@ def speed_rounding(rotor, plane, amplitudes):
 
 @kernel
 def push_rounding(rotor, plane, amplitudes):
-    """Rounding error of the normal force, that of the place on the wall included: near the equilibrium it is most of it."""
+    """Rounding error of the normal force, including that of the position, which dominates near the equilibrium."""
     force = squared_modulus(velocity(rotor, plane, amplitudes))
     for m in range(amplitudes.shape[0]):
         row = rotor.acceleration_rows[plane, m]
@@ -314,7 +314,7 @@ def push_rounding(rotor, plane, amplitudes):
 
 @part
 def _spread(rotor, plane, amplitudes):
-    """Sum of the sizes of the terms of a displacement on the wall, which is one: how far they cancel."""
+    """Sum of the sizes of the terms of a displacement of modulus one, on the wall: a measure of their cancellation."""
     spread = _size(rotor.offsets[plane])
     for m in range(amplitudes.shape[0]):
         spread += _size(rotor.rows[plane, m] * amplitudes[m])
@@ -347,10 +347,11 @@ def wall_push(rotor, plane, amplitudes):
 
 @kernel
 def next_phase(rotor, plane, amplitudes, phase):
-    """Kind of motion that goes on from rest against the wall (``|y| = 1``, no radial speed, pressed outward).
+    """Phase that follows from rest against the wall (``|y| = 1``, no radial speed, pressed outward).
 
-    Where the slip is zero it rolls if the friction this needs lies within the cone, and else slips to the side that the
-    missing friction leaves it to.  Without friction it goes on to slip, to the other side than in the phase before.
+    If the slip is zero, the rotor rolls if the friction needed for that lies within the cone.  Otherwise it slips in the
+    direction of the tangential acceleration that friction cannot balance.  With ``μ = 0`` and no such acceleration, it
+    continues to slip, in the direction opposite to that of the phase before.
     """
     position = unit(displacement(rotor, plane, amplitudes))
     speed = velocity(rotor, plane, amplitudes)

@@ -1,10 +1,10 @@
-"""WIDTH numbers as one value: what lets a formula for one motion move many, side by side.
+"""WIDTH numbers as one value, so that a formula for one motion advances many motions side by side.
 
-A kernel that has loaded WIDTH numbers of an array with :func:`load` goes on as if they were one: arithmetic,
-comparisons, ``abs``, ``real``, ``imag`` and ``conjugate()`` act on every lane alike, and :func:`where` chooses lane by
-lane.  Uncompiled, such a value is a NumPy array, and the functions are those of ``uncompiled``.  Compiled, it is held in
-registers of the processor: ``kinds`` tells the compiler what there is, ``arithmetic`` and ``memory`` what becomes of it.
-No lane sees another, but in :func:`lanes_of`.
+A kernel loads WIDTH numbers of an array with :func:`load` and then treats them as one number: arithmetic, comparisons,
+``abs``, ``real``, ``imag`` and ``conjugate()`` act on every lane alike, and :func:`where` selects lane by lane.
+Uncompiled, such a value is a NumPy array, and the functions are those of ``uncompiled``.  Compiled, it is held in vector
+registers of the processor: ``kinds`` declares the types to the compiler, ``arithmetic`` and ``memory`` define the
+operations.  Lanes do not affect each other, and only :func:`lanes_of` combines them.
 """
 
 from carom.core.vector import arithmetic as _arithmetic

@@ -1,4 +1,4 @@
-"""What operators and functions of lanes become when compiled."""
+"""The compiled form of operators and functions on lanes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ COMPARISONS = {operator.lt: "<", operator.le: "<=", operator.gt: ">", operator.g
 
 
 def register() -> None:
-    """Tell the compiler."""
+    """Register the operations with the compiler."""
     for operation, compute in ((operator.add, plus), (operator.sub, minus), (operator.mul, times)):
         _register_numbers(operation, compute)
     _register_reals(operator.truediv, REAL, 2, lambda build, a, b: build.fdiv(a, b, flags=FREEDOM))
@@ -52,7 +52,7 @@ def _operands(context, build, signature, values):
 
 
 def _pairs(lanes, scalars):
-    """Kinds of two operands of which one at least is lanes."""
+    """Types of two operands of which at least one is lanes."""
     return [(a, b) for a in lanes for b in (*lanes, *scalars)] + [(a, b) for a in scalars for b in lanes]
 
 

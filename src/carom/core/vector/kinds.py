@@ -1,4 +1,4 @@
-"""What lanes are to the compiler: vectors of OCTET doubles or truth values, as many as make WIDTH."""
+"""The types of lanes for the compiler: WIDTH numbers or truth values, as vectors of OCTET each."""
 
 from __future__ import annotations
 
@@ -72,12 +72,12 @@ def _conjugate(values):
 
 
 def are_numbers(*kinds):
-    """Whether these are numbers, lanes of them among these."""
+    """Whether these are all types of numbers, and at least one of them is lanes."""
     lanes = (RealLanes, ComplexLanes)
     numbers = (*lanes, types.Float, types.Integer, types.Complex)
     return all(isinstance(kind, numbers) for kind in kinds) and any(isinstance(kind, lanes) for kind in kinds)
 
 
 def common(*kinds):
-    """The lanes that hold all of these numbers."""
+    """The type of lanes that can hold all of these numbers."""
     return COMPLEX if any(isinstance(kind, types.Complex | ComplexLanes) for kind in kinds) else REAL

@@ -1,4 +1,4 @@
-"""How lanes are loaded, stored and looked up when compiled."""
+"""The compiled form of loading, storing and looking up lanes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ WORD = ir.IntType(64)
 
 
 def register() -> None:
-    """Tell the compiler."""
+    """Register the operations with the compiler."""
     _register_load()
     _register_store()
     _register_look_up(take, _take_by_permutation, _take_one_by_one)
@@ -51,7 +51,7 @@ def _register_load():
 
 
 def _places(context, build, kind, array, first):
-    """Where the vectors of the lanes are that begin at an entry of an array."""
+    """Addresses of the vectors that hold the lanes from an entry of an array on."""
     address = build.gep(_address(context, build, kind, array), [first])
     return [_after(build, build.bitcast(address, DOUBLES.as_pointer()), i) for i in range(COUNT)]
 
@@ -79,7 +79,7 @@ def _register_store():
 
 
 def _register_look_up(function, by_permutation, otherwise):
-    """Look-up in a row: AVX-512 holds the row in registers and picks from these, which beats memory by far."""
+    """Register a look-up in a row: AVX-512 selects from registers that hold the row, far faster than from memory."""
 
     @type_callable(function)
     def kind_of(context):
@@ -93,7 +93,7 @@ def _register_look_up(function, by_permutation, otherwise):
 
 
 def _take_by_permutation(build, row):
-    """Pick from pairs of registers, then from pairs of what was picked, by one more bit of the place."""
+    """Select from pairs of registers, then repeatedly from pairs of the results, by one more bit of the index."""
     permute = _instruction(build, "llvm.x86.avx512.vpermi2var.pd.512", [DOUBLES, INTEGERS, DOUBLES])
     held = _registers(build, row, LANE_NODES // OCTET)
 
@@ -173,5 +173,5 @@ def _register_align_stack():
     @lower_builtin(align_stack)
     def lower(context, build, signature, values):
         build.function.attributes.alignstack = CACHE_LINE
-        build.function.attributes.add("nounwind")  # without any other attribute this one is left out
+        build.function.attributes.add("nounwind")  # llvmlite omits alignstack unless another attribute is set
         return context.get_dummy_value()

@@ -1,6 +1,6 @@
 """Arithmetic of lanes as instructions of the compiler's intermediate language.
 
-A number is a pair here, its real part and its imaginary part, with ``None`` in place of an imaginary part of zero.
+Here a number is a pair of its real and its imaginary part; ``None`` stands for an imaginary part of zero.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ __all__ = [
 ]
 
 FREEDOM = ("contract", "nsz")
-"""As for all kernels: a product and a sum may be rounded once, and the sign of zero is of no interest."""
+"""Compiler flags, as for all kernels: a product and a sum may be fused (rounded once), and the sign of zero is ignored."""
 
 
 def each(build, compute, *values):
-    """Do the same with every vector of the lanes."""
+    """Apply a function to every vector of the lanes."""
     vectors = [compute(*(build.extract_value(value, i) for value in values)) for i in range(COUNT)]
     return all_of(build, vectors)
 
@@ -46,12 +46,12 @@ def spread(build, number):
 
 
 def constant(build, number):
-    """A number known beforehand in all lanes."""
+    """A compile-time constant in all lanes."""
     return spread(build, ir.Constant(ir.DoubleType(), number))
 
 
 def all_of(build, vectors):
-    """Lanes of these vectors."""
+    """Lanes made of these vectors."""
     lanes = ir.Constant(ir.ArrayType(vectors[0].type, COUNT), ir.Undefined)
     for i, vector in enumerate(vectors):
         lanes = build.insert_value(lanes, vector, i)
@@ -59,7 +59,7 @@ def all_of(build, vectors):
 
 
 def parts(context, build, kind, value):
-    """Real and imaginary part of lanes, or of one number for all."""
+    """Real and imaginary part of lanes, or of one number that is copied to all lanes."""
     if isinstance(kind, RealLanes):
         return value, None
     if isinstance(kind, ComplexLanes):
@@ -72,7 +72,7 @@ def parts(context, build, kind, value):
 
 
 def complex_of(context, build, real, imag):
-    """Complex lanes of these parts."""
+    """Complex lanes with these real and imaginary parts."""
     value = context.make_helper(build, COMPLEX)
     value.real, value.imag = real, imag
     return value._getvalue()

@@ -1,4 +1,4 @@
-"""The functions on lanes, as they work on NumPy arrays; what they are when compiled is registered beside."""
+"""The functions on lanes for NumPy arrays; ``arithmetic`` and ``memory`` register their compiled form."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def store(array, first, values):
 
 
 def join(real, imag):
-    """Complex lanes of these parts."""
+    """Complex lanes with these real and imaginary parts."""
     joined = np.empty(WIDTH, np.complex128)
     joined.real, joined.imag = real, imag
     return joined
@@ -32,7 +32,7 @@ def where(condition, chosen, other):
 
 
 def fma(a, b, c):
-    """``a b + c``, with complex lanes among these: in fewer steps than a product and a sum."""
+    """``a b + c`` with at least one complex operand: in fewer instructions than a product and a sum."""
     return a * b + c
 
 
@@ -57,9 +57,9 @@ def choose(row, places):
 
 
 def lanes_of(condition):
-    """The lanes in which a condition holds, as the bits of a whole number."""
+    """The lanes in which a condition holds, as the bits of an integer."""
     return int(sum(1 << lane for lane in np.flatnonzero(condition)))
 
 
 def align_stack():
-    """Keep what the calling kernel puts by on the stack in cache lines of its own, which halves the price."""
+    """Align the stack of the calling kernel to cache lines, which halves the cost of values spilled to it."""
