@@ -187,8 +187,8 @@ def together(errors: Sequence[InputError]) -> InputError:
 def printable(text: str) -> str:
     r"""Return a text as it may be shown anywhere: on one line, what is not printable as an escape.
 
-    Control characters, line breaks, marks that change the direction of writing and halves of characters become ``\x1b``,
-    ``\n``, ``\u202e``, ...; all that can be seen stays.
+    Control characters, line breaks, marks that change the direction of writing and halves of characters become
+    ``\x1b``, ``\n``, ``\u202e``, ...; all that can be seen stays.
     """
     if text.isprintable():
         return text

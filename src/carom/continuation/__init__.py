@@ -1,9 +1,9 @@
-"""Pseudo-arclength continuation of ``F(u, p) = 0`` with location of special points.  It knows no rotor.
+"""Pseudo-arclength continuation of ``F(u, p) = 0`` with location of special points, for any equations.
 
 =============  =======================================================
-``branch``     what is asked for and what is found
-``tracer``     how it is found: prediction, correction, special points
-``roots``      root of a function of one variable, bracketed
+``branch``     the settings and the result
+``tracer``     the algorithm: prediction, correction, special points
+``roots``      bracketed root of a function of one variable
 =============  =======================================================
 """
 

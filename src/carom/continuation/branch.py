@@ -1,4 +1,4 @@
-"""Branches of solutions: how to step along one, what to watch there, and what was found."""
+"""Branches of solutions: step control, watched functions, and results."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ class Steps:
     Attributes
     ----------
     first, smallest, largest : float
-        Arclength of the first step and its limits.  Neighbouring points are no more than 1.05 ``largest`` apart.
+        Arclength of the first step, and limits of all steps.  Neighbouring points are at most 1.05 ``largest`` apart.
     tolerance : float
         Largest residual of an accepted point, or largest last correction where rounding leaves a larger residual.
     iterations : int
-        Newton iterations after which a step is halved.
+        Newton iterations without convergence after which a step is halved.
     sharpest_turn : float
         Largest angle between tangents of neighbouring points, in rad.
     most_points : int
-        Points after which a direction is given up.
+        Number of points after which a direction is abandoned.
     """
 
     first: float = 0.01
@@ -51,7 +51,7 @@ class Watch:
     kind : str
         Name of the special point.
     function : callable
-        Of ``u`` and ``p``; ``nan`` where it is not defined.  A jump from one sign to the other is no zero.
+        Of ``u`` and ``p``; ``nan`` where it is not defined.  A jump from one sign to the other is not a zero.
     ends_branch : bool
         Whether the branch ends there.
     """
@@ -71,7 +71,7 @@ class SpecialPoint(Result):
     unknowns : ndarray, shape (n,)
     parameter : float
     place : float
-        Where on the branch: index of the point before it plus the fraction of the step.
+        Position on the branch: index of the point before it plus the fraction of the step.
     """
 
     kind: str
@@ -92,7 +92,7 @@ class Branch(Result):
         In the order of ``place``.
     stops : tuple of two str
         Why the branch ends at its first and last point: ``"parameter limit"`` (the point lies on it exactly),
-        ``"end of domain"`` (a watch ended it, or the equations are not defined further on), ``"closed loop"`` (the last
+        ``"end of domain"`` (a watch ended it, or the equations are not defined beyond), ``"closed loop"`` (the last
         point is the first), ``"step too small"`` or ``"most points"``.
     """
 

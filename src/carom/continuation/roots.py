@@ -1,4 +1,4 @@
-"""Root of a function of one argument between two values of opposite sign, and where there are such values."""
+"""Root of a function of one argument between two values of opposite sign, and the search for such values."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from carom.outcome import CaromError
 __all__ = ["bracketed_root", "sign_change"]
 
 HALVINGS = 30
-"""Halvings of an interval after which a function has one sign wherever it is defined."""
+"""Halvings of an interval after which a function is taken to have one sign wherever it is defined."""
 
 
 def bracketed_root(function: Callable[[float], float], low: float, high: float, tolerance: float = 0.0) -> float:
@@ -23,7 +23,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     function : callable
     low, high : float
     tolerance : float
-        Width at which to stop, besides rounding.
+        Width of the bracket at which to stop, in addition to rounding.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
         width = abs(high - low)
         if width <= tolerance + 4e-16 * max(abs(low), abs(high)):
             break
-        # Where the secant does not close in, halve.
+        # Every fourth step halves the bracket, in case the secant steps do not shrink it.
         halve = attempt % 4 == 3
         middle = 0.5 * (low + high) if halve else high - above * (high - low) / (above - below)
         value = function(middle)
@@ -67,8 +67,8 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
 def sign_change(function: Callable[[float], float], low: float, high: float) -> tuple[float, float] | None:
     """Part of an interval at whose ends a function has opposite signs.
 
-    A function that is ``nan`` at one end is looked at next to where it begins to be defined: a new maximum of the radius,
-    for one, may be born close to the wall.
+    If a function is ``nan`` at one end, the point is approached at which it begins to be defined: a new maximum of the
+    radius, for example, may be born close to the wall.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def sign_change(function: Callable[[float], float], low: float, high: float) -> 
     Returns
     -------
     tuple of float or None
-        ``None`` if the function has one sign at both ends, or wherever it was looked at.
+        ``None`` if the function has the same sign at both ends, or wherever it was evaluated.
     """
     below, above = function(low), function(high)
     if math.isnan(below) == math.isnan(above):

@@ -2,7 +2,7 @@
 
 The branch is a curve in ``x = (u, p)``.  A step predicts along the tangent and corrects by Newton's method in the
 hyperplane normal to it [1]_; the tangent comes from the bordered Jacobian, so folds in ``p`` are ordinary points.
-Functions that are watched along the branch are driven to zero by a bracketed root over the arclength.
+The zeros of functions that are watched along the branch are located by bracketing in arclength.
 
 References
 ----------
@@ -27,14 +27,16 @@ __all__ = ["continue_branch", "refined_points"]
 Residual = Callable[[np.ndarray, float], np.ndarray]
 
 DIFFERENCE = 6e-6
-"""Step of central differences in scaled unknowns: the third root of rounding."""
+"""Step of central differences in scaled unknowns: the cube root of the rounding error."""
 STRAY = 0.3
-"""Largest distance of a corrected point from its prediction, in steps: further off lies another branch."""
+"""Largest distance of a corrected point from its prediction, in steps: a point further away is on another branch."""
 JUMP = 1e-4
-"""What is left of a watched function where it vanishes, relative to its values at the ends of the step; a jump leaves
-more."""
+"""Largest remaining value of a watched function at a zero, relative to its values at the ends of the bracket.
+
+At a jump more remains.
+"""
 HALVINGS = 6
-"""Most times a step is halved where points are put between."""
+"""Largest number of times that a step is halved to insert points."""
 
 
 def continue_branch(
@@ -48,15 +50,15 @@ def continue_branch(
     scales: np.ndarray | None = None,
     folds: str = "fold",
 ) -> Branch:
-    """Follow the branch of solutions through a point, both ways.
+    """Follow the branch of solutions through a point, in both directions.
 
     Parameters
     ----------
     residual : callable
-        ``F(u, p)``, as many equations as unknowns; ``nan`` where it is not defined.
+        ``F(u, p)`` with as many equations as unknowns; ``nan`` where it is not defined.
     unknowns : ndarray, shape (n,)
     parameter : float
-        A solution, or near one: it is corrected first, at fixed parameter where that is possible.
+        A solution or a point near one: it is corrected first, at fixed parameter where that is possible.
     interval : tuple of float
         Range of the parameter.  From a start on its edge the branch is followed inward only.
     watches : sequence of Watch
@@ -100,7 +102,7 @@ def refined_points(
     bend: float,
     steps: Steps | None = None,
 ) -> np.ndarray:
-    """Points of a branch, its special points, and as many between as it takes to draw it with straight lines.
+    """Points and special points of a branch, and as many points in between as needed to draw it with straight lines.
 
     Parameters
     ----------
@@ -110,9 +112,9 @@ def refined_points(
     scales : ndarray, shape (n + 1,)
         Typical sizes of the unknowns and the parameter.
     widths : ndarray, shape (n + 1,)
-        Of the picture, ``inf`` for what it does not show.
+        Ranges of the picture; ``inf`` for a quantity it does not show.
     bend : float
-        Half way between neighbouring points the branch keeps within this of the straight line, in widths.
+        Largest distance of the branch from the straight line half way between neighbouring points, in ``widths``.
 
     Returns
     -------
@@ -148,7 +150,7 @@ def refined_points(
 
 @dataclass(eq=False)
 class _Path:
-    """One direction of a branch in scaled unknowns; a special point is its kind, place in space and on the path."""
+    """One direction of a branch in scaled unknowns; a special point is stored as kind, point and place on the path."""
 
     points: list[np.ndarray]
     special: list[tuple[str, np.ndarray, float]]
@@ -157,7 +159,7 @@ class _Path:
 
 @dataclass(eq=False)
 class _Stand:
-    """A point of the branch and all that is known there."""
+    """A point of the branch, with Jacobian, tangent and watched values there."""
 
     x: np.ndarray
     jacobian: np.ndarray
@@ -191,7 +193,7 @@ class _Tracer:
         if np.isfinite(jacobian).all():
             level = np.zeros(len(guess))
             level[-1] = 1.0
-            # At a fold the parameter cannot be kept.
+            # At a fold the parameter cannot be held fixed.
             for normal in (level, np.linalg.svd(jacobian)[2][-1]):
                 first = self.correct(guess, normal, jacobian)
                 if first is not None and self._inside(first):
@@ -205,9 +207,9 @@ class _Tracer:
         return bool(self.interval[0] - slack <= x[-1] * self.scales[-1] <= self.interval[1] + slack)
 
     def correct(self, guess: np.ndarray, normal: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
-        """Point of the branch in the hyperplane through ``guess``; ``None`` where it is not reached.
+        """Point of the branch in the hyperplane through ``guess``; ``None`` if the iteration does not converge.
 
-        A Jacobian from nearby is used as long as the residual falls thirtyfold with each iteration.
+        A Jacobian from nearby is kept as long as the residual falls by a factor of 30 in each iteration.
         """
         x, previous, correction = guess, np.inf, np.inf
         for _ in range(self.steps.iterations):
@@ -241,7 +243,7 @@ class _Tracer:
                     return path
                 share = self._return(path, here, there, heading)
                 ending = self._locate(path, here, there, length, share)
-            # A step over the limit on which the limit was not found is too long as well.
+            # A step beyond the limit on which the limit itself was not located is too long as well.
             if there is None or (there.watched[0] < 0.0 and not ending and not share):
                 del path.special[known:]
                 length *= 0.5
@@ -277,20 +279,20 @@ class _Tracer:
         return None if direction is None else direction / np.linalg.norm(direction)
 
     def _stuck(self, here: _Stand) -> StopReason:
-        """Why no step succeeds: the equations may end within the reach of the differences."""
+        """Why no step succeeds: the equations may be undefined within the reach of the central differences."""
         reach = 10.0 * DIFFERENCE * np.eye(len(here.x))
         around = [self.value(here.x + side) for side in (*reach, *-reach)]
         return "step too small" if np.isfinite(around).all() else "end of domain"
 
     def _watched(self, stand: _Stand) -> np.ndarray:
-        """Values of the limit (relative to the interval), the watches, the fold and the branch-point function."""
+        """Values of the distance to the limit (relative), of the watches, and of the fold and branch-point functions."""
         y = stand.x * self.scales
         u, p = y[:-1], float(y[-1])
         watches = [watch.function(u, p) for watch in self.watches]
         return np.array([self._margin(p), *watches, stand.tangent[-1], self._crossing(stand)])
 
     def _watched_value(self, which: int, x: np.ndarray, here: _Stand) -> float:
-        """One of these values, at a point on the step from ``here``."""
+        """One of the values of :meth:`_watched`, at a point on the step from ``here``."""
         y = x * self.scales
         if which == 0:
             return self._margin(float(y[-1]))
@@ -306,13 +308,13 @@ class _Tracer:
         return min(p - low, high - p) / (high - low)
 
     def _crossing(self, stand: _Stand) -> float:
-        """Determinant of the bordered Jacobian: changes sign where another branch crosses."""
+        """Determinant of the bordered Jacobian; it changes sign where another branch crosses."""
         return float(np.linalg.det(np.vstack([stand.jacobian, stand.tangent])))
 
     def _locate(
         self, path: _Path, here: _Stand, there: _Stand, length: float, share: float | None
     ) -> StopReason | None:
-        """Add the special points of a step, up to a share of it, to the path; end it at the first that ends the branch."""
+        """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, "branch point"]
         ends = [True, *(watch.ends_branch for watch in self.watches), False, False]
         reached: list[tuple[float, int, np.ndarray]] = []
@@ -332,7 +334,7 @@ class _Tracer:
     def _root_on_step(self, here: _Stand, there: _Stand, length: float, which: int) -> tuple[float, np.ndarray] | None:
         """Arclength and point of a zero of a watched function.
 
-        ``None`` if it jumps from one sign to the other, or has one sign wherever it is defined.
+        ``None`` if the function jumps from one sign to the other, or has one sign wherever it is defined.
         """
         at = {0.0: here.x, length: there.x}
         values = {0.0: float(here.watched[which]), length: float(there.watched[which])}
@@ -356,7 +358,7 @@ class _Tracer:
         return None if jump else (distance, at[distance])
 
     def _return(self, path: _Path, here: _Stand, there: _Stand, heading: np.ndarray) -> float | None:
-        """Share of the step at which it passes the start again, in the direction it began with."""
+        """Share of the step at which the branch passes its start again, in the initial direction."""
         if len(path.points) < 3 or there.tangent @ heading < np.cos(2.0 * self.steps.sharpest_turn):
             return None
         step, back = there.x - here.x, path.points[0] - here.x

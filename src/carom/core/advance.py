@@ -219,11 +219,12 @@ def _meet(rotor, plane, memory, work):
 def _land(rotor, plane, amplitudes):
     """Complete a chatter: replace its remaining bounces by lasting contact from now on.
 
-    Let ``v`` be the speed of the first rebound and ``τ`` the remaining duration of the chatter.  The bounces have the total
-    normal impulse ``N τ − v``, lasting contact has ``N τ``; friction acts along with either.  The difference is balanced
-    by an outward impulse ``v`` with its share of friction.  With ``h = v²/(2N)``, the height of the first bounce, the error
-    of the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips.  It is ``4hP/(N(1 − d²))`` where every
-    impact stops the slip against a force ``P`` along the wall.  Both hold to leading order in ``v`` for the planar rotor.
+    Let ``v`` be the speed of the first rebound and ``τ`` the remaining duration of the chatter.  The bounces have the
+    total normal impulse ``N τ − v``, lasting contact has ``N τ``; friction acts along with either.  The difference is
+    balanced by an outward impulse ``v`` with its share of friction.  With ``h = v²/(2N)``, the height of the first
+    bounce, the error of the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips.  It is
+    ``4hP/(N(1 − d²))`` where every impact stops the slip against a force ``P`` along the wall.  Both hold to leading
+    order in ``v`` for the planar rotor.
     """
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)
@@ -237,7 +238,7 @@ def _land(rotor, plane, amplitudes):
 
 @kernel
 def _rub(rotor, plane, amplitudes, phase, horizon, memory, rub):
-    """One step of lasting contact, in place; return outcome (CONTACT: it continues), duration and phase that follows."""
+    """One step of lasting contact, in place; return outcome (CONTACT: it continues), duration and next phase."""
     rub_series(rotor, plane, amplitudes, phase, rub)
     step = min(rub_step(rub), horizon)
     duration, following, slip_stops = first_transition(rotor, plane, phase, step, rub)
@@ -279,8 +280,8 @@ def _wall_reaction(rotor, plane, amplitudes, lifting):
 
     It strikes (CONTACT) if its speed is outward.  It lands (LANDING) if it is pressed outward and leaves so slowly that
     the whole remaining geometric series of bounces, of duration ``2v/(N(1 − d))``, stays below CHATTER_HEIGHT and ends
-    before the normal force ``N`` can vanish.  Otherwise it flies (CLEAR); so does a state at rest whose contact has just
-    lost its normal force (``lifting``).
+    before the normal force ``N`` can vanish.  Otherwise it flies (CLEAR); so does a state at rest whose contact has
+    just lost its normal force (``lifting``).
     """
     normal = unit(displacement(rotor, plane, amplitudes))
     local = normal.conjugate() * velocity(rotor, plane, amplitudes)

@@ -1,4 +1,4 @@
-"""One block of flight with the tables of :mod:`carom.core.table`: where ``f = |y|² − 1`` may vanish, and the state at a time.
+"""One block of flight, by the tables of :mod:`carom.core.table`: possible roots of ``f = |y|² − 1``, state at a time.
 
 The flight starts from ``work.current``.  What these functions load into the workspace stays there until the next block.
 """
@@ -56,7 +56,7 @@ def basis_amplitudes(rotor, plane, amplitudes, out):
 
 @part
 def load_polynomial(table, depth, level, work):
-    """Write the Bernstein coefficients of ``f`` on a block of this depth; return the bound of their error at its end."""
+    """Write the Bernstein coefficients of ``f`` on a block of this depth; return their error bound at its end."""
     for j in range(DEGREE):
         work.polynomial[j] = level
     remainder = 0.0
@@ -74,8 +74,8 @@ def sign_changes(polynomial, level, floor, remainder):
 
     The test uses the polynomial plus the bound of its error.  This bound is ``floor``, the rounding of ``f``, at the
     start and grows by ``remainder`` up to the end.  If no coefficient of the sum is positive, it has no root.  If the
-    positive ones are consecutive, it has at most two roots, the first of them upward.  The second result is the index of
-    the first positive coefficient.
+    positive ones are consecutive, it has at most two roots, the first of them upward.  The second result is the index
+    of the first positive coefficient.
     """
     share = remainder / DEGREE
     first, last, number = DEGREE, -1, 0

@@ -1,10 +1,10 @@
 """The disk cache of compiled kernels.  A damaged file is compiled again; an unwritable disk only costs time.
 
 Numba's own cache trusts its files: a truncated file makes every later run fail, and a flipped bit in machine code is
-executed.  Here each compiled version of a kernel has its own file.  The file begins with a checksum of its content and of
-everything it was compiled from.  If the checksum does not match, the file is removed before its content is read, and the
-kernel is compiled again.  Files are written atomically, and their names are derived from what they were compiled from.
-So processes that run at the same time need no lock: they write the same content.
+executed.  Here each compiled version of a kernel has its own file.  The file begins with a checksum of its content and
+of everything it was compiled from.  If the checksum does not match, the file is removed before its content is read, and
+the kernel is compiled again.  Files are written atomically, and their names are derived from what they were compiled
+from.  So processes that run at the same time need no lock: they write the same content.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
         return f"{kernel}.{hashlib.sha256(origin).hexdigest()[:16] if origin else '*'}"
 
     def _origin(self, sig: Any, codegen: Any) -> bytes:
-        """Everything that determines the machine code, except the other sources of the core: these name the directory."""
+        """Everything that determines the machine code, except other sources of the core: these name the directory."""
         code, cells = self._function.__code__, self._function.__closure__ or ()
         written = _source(code.co_filename), code.co_firstlineno, dumps(tuple(cell.cell_contents for cell in cells))
         compiler = sys.version, numba.__version__, llvmlite.__version__, codegen.magic_tuple()

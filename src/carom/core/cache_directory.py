@@ -26,8 +26,8 @@ TRIAL = 65_536
 def cache_directory() -> Path | None:
     """Directory of compiled kernels: the one set in the environment, the user's cache or one for temporary files.
 
-    Its name contains a hash of all sources in ``core/``.  A kernel contains the machine code of the kernels it calls, so
-    an edit of any of them makes it stale.
+    Its name contains a hash of all sources in ``core/``.  A kernel contains the machine code of the kernels it calls,
+    so an edit of any of them makes it stale.
 
     Anyone who can write to this directory can have their own code executed.  The system's directory for temporary files
     is shared, and the name used in it can be guessed.  An existing directory there is used only if it belongs to this

@@ -6,12 +6,12 @@ impacts.  For every divisor of this number, :func:`least_period` therefore tests
 attracting fixed point close by.  A rub may bring irregular bouncing back to the same numbers to the last bit.  Then the
 computation repeats itself although the motion does not; no orbit closes there, and no number is returned.
 
-Without lasting contact in the period, the fixed point is found by Newton's method with the exact derivative of the impacts
-(:mod:`carom.core.variation`), and its multipliers decide on stability.  With lasting contact, it is found by Aitken's
-extrapolation of the motion itself, because a difference has only one degree of freedom left after a lift-off.
+Without lasting contact in the period, the fixed point is found by Newton's method with the exact derivative of the
+impacts (:mod:`carom.core.variation`), and its multipliers decide on stability.  With lasting contact, it is found by
+Aitken's extrapolation of the motion itself, because a difference has only one degree of freedom left after a lift-off.
 
-A motion that has not recurred at all may still approach an orbit slowly, for example close to a period doubling.  The same
-test distinguishes it from a motion that never repeats; its distance from that orbit must also decrease.
+A motion that has not recurred at all may still approach an orbit slowly, for example close to a period doubling.  The
+same test distinguishes it from a motion that never repeats; its distance from that orbit must also decrease.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ SHORT, WATCHED = 64, 256
 LONGEST = 1e6
 """Time within which a motion must reach its next event."""
 KNOWN = 10.0 * NEAR
-"""The same distance, from a state at a single-impact orbit, within which another state counts as being at this orbit."""
+"""The same distance, from a state at a single-impact orbit, within which another state counts as at this orbit."""
 SLOW_EVENTS = 1000
 """Largest number of events up to the next impact, including lasting contact before it."""
 ALIGNED = 0.1
@@ -84,8 +84,8 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     int
         If the motion has recurred: the least divisor of ``count`` for which an attracting orbit of that many impacts
         closes near the state; otherwise ``count``, if any orbit closes after that many.  If it has not recurred: the
-        impacts, at most SHORT, of an attracting orbit that it approaches.  PASSES if the motion only passes by an orbit.
-        0 in all other cases, among them elastic bounces that damping makes ever lower.
+        impacts, at most SHORT, of an attracting orbit that it approaches.  PASSES if the motion only passes by an
+        orbit.  0 in all other cases, among them elastic bounces that damping makes ever lower.
     """
     plain = count == 1 and memory.rubbed == 0 and rotor.restitution[0] < 1.0
     if plain and same_state(memory.attracted, state, KNOWN):
@@ -120,7 +120,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
 
 @kernel
 def _fades(rotor, states, durations):
-    """Whether elastic bounces are all low; a flight of duration ``T`` that ends with speed ``v`` has the height ``vT/4``."""
+    """Whether elastic bounces are all low; a flight of duration ``T`` that ends with speed ``v`` has height ``vT/4``."""
     if rotor.restitution[0] < 1.0:
         return False
     for i in range(durations.shape[0]):
@@ -141,7 +141,7 @@ def _distinct(orbit, impacts):
 
 @kernel
 def _draws_near(states, goal, impacts):
-    """Whether the states after each multiple of ``impacts`` are closer to a goal in the later half than in the first."""
+    """Whether the states at each multiple of ``impacts`` are closer to a goal in the later half than in the first."""
     early, late = 0.0, 0.0
     last = states.shape[0] - 1
     for i in range(0, last + 1, impacts):
@@ -162,8 +162,8 @@ def close(rotor, table, orbit, durations, log, memory, work, rub):
     rotor, table, log, memory, work, rub
         As in :func:`least_period`.
     orbit : complex array, shape (P + 1, 2)
-        The first row holds the amplitudes just before an impact.  On return: the amplitudes of the orbit just before each
-        of its ``P`` impacts, and the first ones again.
+        The first row holds the amplitudes just before an impact.  On return: the amplitudes of the orbit just before
+        each of its ``P`` impacts, and the first ones again.
     durations : array, shape (P,)
         On return the times between its impacts, in ``1/Ω``.
 
@@ -193,8 +193,8 @@ def close(rotor, table, orbit, durations, log, memory, work, rub):
 def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
     """Follow a motion from just before one impact through the next ones.
 
-    Fills ``states`` after the first one and ``durations``.  Returns whether all impacts were reached, and whether there was
-    no lasting contact in between.
+    Fills ``states`` after the first one and ``durations``.  Returns whether all impacts were reached, and whether there
+    was no lasting contact in between.
     """
     patience = memory.patience
     memory.patience, memory.lifting = 0, 0
@@ -238,7 +238,7 @@ def _pulls_in(rotor, states, durations):
 
 @kernel
 def _newton_step(rotor, orbit, durations):
-    """Newton step, in ``orbit[0]``, for an orbit without lasting contact; return what was found and whether it closes."""
+    """Newton step, in ``orbit[0]``, for an orbit without lasting contact; return what was found, whether it closes."""
     jacobian = np.empty((3, 3))
     section_jacobian(rotor, orbit, durations, jacobian)
     position, speed = displacement(rotor, 0, orbit[0]), velocity(rotor, 0, orbit[0])
@@ -306,7 +306,7 @@ def _solved(matrix, place, first, second, third):
 
 @kernel
 def _aitken_step(rotor, table, orbit, durations, log, memory, work, rub):
-    """Extrapolate an orbit with lasting contact to its limit, in ``orbit[0]``; return what was found, whether it closes."""
+    """Extrapolate an orbit with lasting contact, in ``orbit[0]``; return what was found, whether it closes."""
     count = durations.shape[0]
     ahead = np.empty((count + 1, 2), np.complex128)
     copy(orbit[count], ahead[0])

@@ -22,7 +22,7 @@ def fresh_counter() -> np.record:
 
 
 def next_number(numbers):
-    """Atomic fetch-and-add: return the value of a counter and increase it by one, so no two threads get the same number."""
+    """Atomic fetch-and-add: return a counter and increase it by one, so no two threads get the same number."""
     with _LOCK:
         number = int(numbers[0])
         numbers[0] = number + 1

@@ -1,8 +1,8 @@
 """Many motions in one call: each is followed until it settles, and only its end is stored.
 
-Motions of a rotor with one pair of modes fly side by side in :mod:`carom.core.lanes`.  Whenever a motion needs more than
-a plain flight and a plain impact, :mod:`carom.core.advance` follows it one event at a time until it flies again.  When a
-motion has ended, its lane takes the next one.
+Motions of a rotor with one pair of modes fly side by side in :mod:`carom.core.lanes`.  Whenever a motion needs more
+than a plain flight and a plain impact, :mod:`carom.core.advance` follows it one event at a time until it flies again.
+When a motion has ended, its lane takes the next one.
 """
 
 from __future__ import annotations
@@ -61,9 +61,12 @@ MOTION = np.dtype(
         ("multiplicity", np.int64),
     ]
 )
-"""A motion.  On call: position and velocity at its start, and the plane on whose wall it starts or −1.  On return: position
-and velocity at its end, outcome and time as in :func:`~carom.core.advance.advance`, the number of impacts, and the
-multiplicity from :func:`~carom.core.closing.least_period`."""
+"""A motion.
+
+On call: position and velocity at its start, and the plane on whose wall it starts, or −1.  On return: position and velocity
+at its end, outcome and time as in :func:`~carom.core.advance.advance`, the number of impacts, and the multiplicity from
+:func:`~carom.core.closing.least_period`.
+"""
 
 
 class Tools(NamedTuple):
@@ -198,7 +201,7 @@ def _act_on_verdict(task, lanes, memory, work, lane):
 
 @passage
 def _follow_by_events(task, tools, lane):
-    """Follow the motion of ``work.current`` event by event until it ends, or flies freely and can return to its lane."""
+    """Follow the motion of ``work.current`` event by event until it ends, or flies and can return to its lane."""
     lanes, memory, amplitudes, work = tools.lanes, tools.memory, tools.amplitudes, tools.work
     phase, plane = int(FLIGHT), lanes.plane[lane]
     _load_memory(lanes, memory, lane)
@@ -288,7 +291,7 @@ def _save_memory(lanes, memory, lane):
 
 @kernel
 def _passes_by_orbit(task, tools, lane):
-    """Whether a motion that has recurred only passes by an orbit; if not, ``memory.period`` is the period of its orbit."""
+    """Whether a motion that has recurred only passes by an orbit; if not, ``memory.period`` is that of its orbit."""
     lanes, memory = tools.lanes, tools.memory
     log = (tools.times, tools.phases, tools.planes, tools.before, tools.after)
     state = tools.amplitudes

@@ -4,13 +4,13 @@ The search moves only over times that are proven free of a crossing.  Two proofs
 
 1. *Block.*  The Bernstein coefficients of ``f = |y|² − 1`` on a block, plus the bound of their error, are those of a
    polynomial ``q ≥ f``.  If all are negative, there is no crossing.  If the positive ones are consecutive, ``q`` has at
-   most two roots.  A root of ``f`` is then polished on the exact flight and accepted if ``f'² > 4 R M₂`` (``R`` error bound
-   of the polynomial up to there, ``M₂ ≥ |f''|``).  This proves that it is the first one: ``f`` rises during the whole time
-   ``w = f'/M₂`` before the root; ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a root in
-   between; if ``q`` had been positive before, it would have three roots.  What a block leaves undecided is tried again on
-   shorter blocks, whose polynomials approximate more closely.
-2. *Steps* for what the shortest block leaves undecided: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so there is no crossing before the
-   first root of the right side.  The steps converge to a transversal crossing quadratically.
+   most two roots.  A root of ``f`` is then polished on the exact flight and accepted if ``f'² > 4 R M₂`` (``R`` error
+   bound of the polynomial up to there, ``M₂ ≥ |f''|``).  This proves that it is the first one: ``f`` rises during the
+   whole time ``w = f'/M₂`` before the root; ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a
+   root in between; if ``q`` had been positive before, it would have three roots.  What a block leaves undecided is
+   tried again on shorter blocks, whose polynomials approximate more closely.
+2. *Steps* for what the shortest block leaves undecided: ``f(t + τ) ≤ f + f'τ + M₂τ²/2``, so there is no crossing before
+   the first root of the right side.  The steps converge to a transversal crossing quadratically.
 
 If ``f`` reaches zero within its rounding error and is not found to rise above it, the outcome is ``grazing``.
 """
@@ -229,7 +229,8 @@ def _step_safely(rotor, table, plane, origin, level, start, spread, block, bound
 def _safe_step(value, slope, bend, curvature, jerk):
     """Time up to which ``f < 0`` stays negative whatever ``f'' ≤ M₂`` and ``f''' ≤ M₃`` do.
 
-    A bound of ``f''`` that holds only for steps up to `reach` allows longer steps where the path runs close along the wall.
+    A bound of ``f''`` that holds only for steps up to `reach` allows longer steps where the path runs close along the
+    wall.
     """
     reach = (-value / jerk) ** (1.0 / 3.0)
     nearby = min(reach, _first_root(value, slope, bend + jerk * reach / 3.0))
@@ -260,8 +261,8 @@ def _first_root(value, slope, bend):
 def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, work):
     """Decide whether ``f``, which is zero to rounding and has not crossed before, rises above its rounding error.
 
-    ``f`` is followed over intervals on which it provably rises, until the rise exceeds rounding.  The root is then found
-    by bisection, because the derivative may be too small for Newton's method.
+    ``f`` is followed over intervals on which it provably rises, until the rise exceeds rounding.  The root is then
+    found by bisection, because the derivative may be too small for Newton's method.
     """
     first = time
     value, slope, bend = _probe(rotor, table, plane, origin, level, time, work)
@@ -287,7 +288,7 @@ def _decide(rotor, table, plane, origin, level, time, block, bounds, rounding, w
 
 @part
 def _rising_time(slope, bend, jerk):
-    """Time up to which ``f`` rises, if ``f' > 0`` now: the root of ``f' + f''τ − M₃τ²/2``, which bounds it from below."""
+    """Time up to which ``f`` rises, if ``f' > 0`` now: root of ``f' + f''τ − M₃τ²/2``, a lower bound of ``f'``."""
     root = math.sqrt(bend * bend + 2.0 * jerk * slope)
     return (root + bend) / jerk if bend > 0.0 else 2.0 * slope / (root - bend)
 

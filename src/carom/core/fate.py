@@ -2,9 +2,9 @@
 
 - *Levitated*: at every contact plane, the sum of the moduli of the modes is smaller than the distance between the
   contact-free equilibrium and the wall.  This sum is a bound for all later time.  If damping is so weak that this takes
-  long, a second criterion is used: the flight without damping stays inside the wall for one period after which its modes
-  nearly repeat, and the drift over later periods, until the first criterion holds, is too small to reach the wall.
-  Both criteria are proofs.
+  long, a second criterion is used: the flight without damping stays inside the wall for one period after which its
+  modes nearly repeat, and the drift over later periods, until the first criterion holds, is too small to reach the
+  wall.  Both criteria are proofs.
 - *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding.  Or it lies in a
   neighbourhood of that rub which sliding never leaves, if the memory holds one; this is a proof
   (:mod:`carom.closed_forms.absorbing`).
@@ -145,11 +145,11 @@ def stays_inside(rotor, amplitudes):
     """Whether a weakly damped flight provably stays inside the wall although the sum of its moduli reaches the wall.
 
     For a rotor with one plane and a pair of modes of equal decay, ``y = K + s (c₊e^{iω₊t} + c₋e^{iω₋t})`` with
-    ``s = e^{−δt}``.  As ``s ≤ 1``, ``|y|`` is at most the greater of ``|K|`` and the modulus without damping.  The latter
-    is bounded over one period ``P``, in which the faster mode makes a whole number of turns: by samples, and by the second
-    derivative between them.  In each further period the phase of the slower mode, with frequency ``ω``, shifts by ``ω P``
-    mod 2π more.  This moves ``y`` by at most the shift times the amplitude of that mode.  The bound has to stay inside the
-    wall until the sum of the moduli does.
+    ``s = e^{−δt}``.  As ``s ≤ 1``, ``|y|`` is at most the greater of ``|K|`` and the modulus without damping.  The
+    latter is bounded over one period ``P``, in which the faster mode makes a whole number of turns: by samples, and by
+    the second derivative between them.  In each further period the phase of the slower mode, with frequency ``ω``,
+    shifts by ``ω P`` mod 2π more.  This moves ``y`` by at most the shift times the amplitude of that mode.  The bound
+    has to stay inside the wall until the sum of the moduli does.
     """
     if rotor.exponents.shape[0] != 2 or rotor.rows.shape[0] != 1 or not rotor.driven[1]:
         return False
@@ -209,7 +209,7 @@ def _farthest(centre, slow, fast, slow_rate, fast_rate, span, step):
 
 @kernel
 def recurs(memory, amplitudes):
-    """Record the state at an impact; return whether the motion is periodic (``memory.period`` impacts) or aperiodic (0)."""
+    """Record the state at an impact; return whether the motion is periodic (``memory.period`` > 0) or aperiodic (0)."""
     memory.events += 1
     if memory.events > 1:
         memory.since += 1

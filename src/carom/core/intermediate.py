@@ -1,8 +1,8 @@
 """Kernels that are called by other kernels: compiled to intermediate code for the caller, and no further.
 
-For each version of a function, Numba generates machine code and wrappers for callers from Python and C.  It does so even
-for functions that only other functions call, and each such caller gets its own copy of the code.  Most kernels are called
-by kernels only, so most of their machine code would never run.
+For each version of a function, Numba generates machine code and wrappers for callers from Python and C.  It does so
+even for functions that only other functions call, and each such caller gets its own copy of the code.  Most kernels are
+called by kernels only, so most of their machine code would never run.
 """
 
 from __future__ import annotations

@@ -21,8 +21,8 @@ DIAGONAL = 1.5
 class Departure(NamedTuple):
     """Start of a flight: amplitudes, displacement ``y``, ``level`` = ``|y|² − 1``, and derived quantities.
 
-    ``low`` and ``high`` are the moduli of the amplitudes, followed by their squares; ``curvature`` is a bound of ``f''``;
-    ``floor`` is the rounding error of ``f``.
+    ``low`` and ``high`` are the moduli of the amplitudes, followed by their squares; ``curvature`` is a bound of
+    ``f''``; ``floor`` is the rounding error of ``f``.
     """
 
     lower: object
@@ -61,7 +61,7 @@ class Node(NamedTuple):
 
 @part
 def departure(rotor, table, lower, upper, level):
-    """Start of a flight, with the moduli of its amplitudes and the bounds that :func:`carom.core.events.search` uses."""
+    """Start of a flight, with the moduli of its amplitudes and the bounds of :func:`carom.core.events.search`."""
     offset, first, second = rotor.offsets[0], table.bounds[0], table.bounds[1]
     low_square, high_square = squared_modulus(lower), squared_modulus(upper)
     low, high = sqrt(low_square), sqrt(high_square)
@@ -116,7 +116,7 @@ def examine(table, depth, start, polynomial, factors):
 
 @part
 def _load_polynomial(coefficients, depth, start, polynomial):
-    """Write the Bernstein coefficients of ``f`` on the block of each lane; most often all lanes use the longest block."""
+    """Write the Bernstein coefficients of ``f`` on the block of each lane, which is most often the longest for all."""
     a, b, c, d, e, f, g, h = products_of(start)
     if lanes_of(depth > 0.0) == 0:
         for j in range(DEGREE):
@@ -136,7 +136,7 @@ def _load_polynomial(coefficients, depth, start, polynomial):
 
 @part
 def _doubt(errors, depth, low, high):
-    """Error bound of a block's polynomial, per unit time, from the moduli of the amplitudes; needs ``|y| ≤ 1`` at the start."""
+    """Error bound of a block's polynomial, per unit time, by moduli of amplitudes; needs ``|y| ≤ 1`` at the start."""
     of_lower, of_upper = choose(errors[0], depth), choose(errors[1], depth)
     return low * (of_lower + (low * choose(errors[2], depth) + high * choose(errors[3], depth))) + high * (
         of_upper + high * choose(errors[4], depth)
@@ -147,10 +147,10 @@ def _doubt(errors, depth, low, high):
 def _root(polynomial, factors, degree, level, first, before, after):
     """Approximate root of a Bernstein polynomial on 0 … 1, from the coefficients on both sides of its sign change.
 
-    With ``u = t/(1 − t)``, or its inverse from the other end, the polynomial is ``Σ C(n, j) b_j u^j`` up to a factor.  Two
-    Halley steps follow, each written as a ratio, so that few divisions have to wait for each other.  In a flight that
-    starts on the wall, the root may lie close to the root at the start.  The latter is divided out: ``b_j n/j`` are the
-    coefficients of ``f/t``.
+    With ``u = t/(1 − t)``, or its inverse from the other end, the polynomial is ``Σ C(n, j) b_j u^j`` up to a factor.
+    Two Halley steps follow, each written as a ratio, so that few divisions have to wait for each other.  In a flight
+    that starts on the wall, the root may lie close to the root at the start.  The latter is divided out: ``b_j n/j``
+    are the coefficients of ``f/t``.
     """
     on_wall = level == 0.0
     before, after = where(on_wall, before * (first + 1.0), before), where(on_wall, after * first, after)
@@ -179,7 +179,7 @@ def _root(polynomial, factors, degree, level, first, before, after):
 
 @part
 def _halley(factors, u, degree, divided):
-    """Halley step for the polynomial with these factors, or for it ``divided`` by ``u``; return the new ``u`` as a ratio."""
+    """Halley step for the polynomial with these factors, or ``divided`` by ``u``; return the new ``u`` as a ratio."""
     value = load(factors[DEGREE], 0)
     slope, half_bend = value * 0.0, value * 0.0
     for j in range(degree - 1, 0, -1):
@@ -217,8 +217,8 @@ def look_up(rotor, table, start, guess):
 def travel(rotor, table, start, node, rest, terms):
     """State some time after a node.
 
-    Returns both amplitudes, rates (of the driving one; two of the driven one, and so of ``y``), and ``f`` with its first
-    two derivatives.
+    Returns both amplitudes, rates (of the driving one; two of the driven one, and so of ``y``), and ``f`` with its
+    first two derivatives.
     """
     growth = _power_series(table.basis_series, 1, rest, terms)
     response = _power_series(table.basis_series, 0, rest, terms)

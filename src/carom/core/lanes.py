@@ -1,11 +1,12 @@
 """Many motions of a rotor with one pair of modes side by side.
 
-Each lane holds a motion in free flight.  :func:`fly_lanes` advances every lane by one block of flight, with the proofs of
-:mod:`carom.core.events`, or up to and through its next impact.  A lane in which nothing can be proved, or which needs more
-than a plain flight and a plain impact, is left unchanged and marked; :mod:`carom.core.ensemble` then treats it by itself.
+Each lane holds a motion in free flight.  :func:`fly_lanes` advances every lane by one block of flight, with the proofs
+of :mod:`carom.core.events`, or up to and through its next impact.  A lane in which nothing can be proved, or which
+needs more than a plain flight and a plain impact, is left unchanged and marked; :mod:`carom.core.ensemble` then treats
+it by itself.
 
-Lanes do not affect each other.  All execute the same instructions (:mod:`carom.core.vector`), except for two branches that
-save work and change no bit.  So a motion is the same to the last bit whatever motions the other lanes hold.
+Lanes do not affect each other.  All execute the same instructions (:mod:`carom.core.vector`), except for two branches
+that save work and change no bit.  So a motion is the same to the last bit whatever motions the other lanes hold.
 """
 
 from __future__ import annotations
@@ -22,8 +23,11 @@ from carom.core.vector import align_stack, fma, join, lanes_of, load, store, whe
 __all__ = ["CLEARED", "LATE", "NOTED", "OPEN", "STRUCK", "fly_lanes", "lanes_record", "surely_flies"]
 
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
-"""What happened to a lane: a free block of flight; an impact; an impact to be checked for recurrence; nothing, because the
-time limit would be exceeded; nothing, because the block proved nothing (a shorter one is tried next, if there is one)."""
+"""What happened to a lane.
+
+In this order: a free block of flight; an impact; an impact to be checked for recurrence; nothing, because the time limit
+would be exceeded; nothing, because the block proved nothing (a shorter one is tried next, if there is one).
+"""
 
 CLEARLY_OFF = 1e-9
 """Speed away from the wall that is certainly not zero, given the rounding of a state of moderate size."""
@@ -34,8 +38,10 @@ REACH = 0.75
 ROUGH_TERMS = 6
 """Number of terms that suffice for the first step to the root."""
 STEADY = 2e-6
-"""Correction, in units of ``f'/M₂``, below which a Halley step and the quadratic nudge are exact to rounding: their errors
-are of third order in it."""
+"""Correction, in units of ``f'/M₂``, below which a Halley step and the quadratic nudge are exact to rounding.
+
+Their errors are of third order in it.
+"""
 
 _STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "depth")
 _FATE = (
@@ -49,15 +55,17 @@ _BOOKS = ("motion", "plane", "events", "struck", "stalled", "calm", "seen", "sin
 def lanes_record() -> np.record:
     """Record of all lanes; every field has one number per lane, except for the last two, which are scratch arrays.
 
-    - ``lower`` and ``upper`` are the amplitudes of the driving and the driven mode, with the exponents ``λ₋`` and ``λ₊``.
+    - ``lower`` and ``upper`` are the amplitudes of the driving and the driven mode, with the exponents ``λ₋`` and
+      ``λ₊``.
     - ``level`` is ``|y|² − 1``, zero on the wall; ``clock`` is the time.
     - ``depth`` is the first block to try; LEVELS or more if none is left.
     - ``quiet`` counts plain impacts.  An impact is NOTED instead when ``due`` is reached, or when the state is within
       ``reach`` of the ``reference``.
     - ``watched`` lanes are examined after each free block.
     - ``verdict`` says what happened last; ``arrival`` is the state just before an impact.
-    - The integers belong to :mod:`carom.core.ensemble`: number of the motion, its plane, events, impacts, events without
-      progress, free blocks, and the values that :func:`carom.core.fate.memory` holds for it besides the ``reference``.
+    - The integers belong to :mod:`carom.core.ensemble`: number of the motion, its plane, events, impacts, events
+      without progress, free blocks, and the values that :func:`carom.core.fate.memory` holds for it besides the
+      ``reference``.
     """
     return record(
         **{name: np.zeros(LANES) for name in (*_STATE, *_FATE, *_ANSWER)},

@@ -58,8 +58,10 @@ WIDTH = 3 * OCTET if WIDE else OCTET
 LANES = 3 * OCTET
 """Number of motions that are followed side by side."""
 LANE_NODES = 32
-"""Number of nodes for lanes, including both ends of the longest block.  The table at so few nodes fits in registers; the
-power series from a node is longer in return."""
+"""Number of nodes for lanes, including both ends of the longest block.
+
+The table at so few nodes fits in registers; in return, the power series from a node is longer.
+"""
 LANE_TERMS = 10
 """Terms of the Taylor series from a node for lanes."""
 
@@ -78,10 +80,10 @@ def rotor_record(
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
     The displacement at plane ``p``, in units of that plane's clearance, is
-    ``y_p(t) = offsets[p] + Σ_k rows[p, k] c_k(t)``, where the amplitudes obey ``ċ_k = λ_k c_k`` for a free-standing mode
-    and ``ċ_k = λ_k c_k + c_{k−1}`` for a driven one.  A driven mode and the one before it form a pair, which stays well
-    conditioned when their exponents meet (critical damping).  Forcing with an exponent of its own (gravity seen in the
-    co-rotating frame, say) is a mode whose ``columns`` are zero.
+    ``y_p(t) = offsets[p] + Σ_k rows[p, k] c_k(t)``, where the amplitudes obey ``ċ_k = λ_k c_k`` for a free-standing
+    mode and ``ċ_k = λ_k c_k + c_{k−1}`` for a driven one.  A driven mode and the one before it form a pair, which stays
+    well conditioned when their exponents meet (critical damping).  Forcing with an exponent of its own (gravity seen in
+    the co-rotating frame, say) is a mode whose ``columns`` are zero.
 
     Parameters
     ----------
@@ -104,10 +106,10 @@ def rotor_record(
     -------
     numpy.record
         The arguments and what follows from them: ``gaps`` and ``inverse_gaps`` (``λ_k − λ_{k−1}`` of the pairs),
-        ``largest_response`` (bound of their ``|φ|`` over all later time),
-        ``rate_rows``, ``acceleration_rows`` and ``jerk_rows`` (first three derivatives of the displacement at the planes
-        per amplitude), ``weights`` (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile
-        time: kernels run six times as fast as with a tuple of arrays.
+        ``largest_response`` (bound of their ``|φ|`` over all later time), ``rate_rows``, ``acceleration_rows`` and
+        ``jerk_rows`` (first three derivatives of the displacement at the planes per amplitude), ``weights``
+        (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile time: kernels run six
+        times as fast as with a tuple of arrays.
     """
     modes = len(exponents)
     generator = np.diag(exponents)
@@ -173,15 +175,16 @@ def table_record(
         Bernstein coefficients 1 … DEGREE of the products of basis functions.
     errors : ndarray, shape (LEVELS, Q)
         Bound of the approximation error at the end of the block, per row of ``coefficients``.
-    lane_durations, lane_coefficients, lane_errors : ndarray, shapes (OCTET,), (DEGREE, Q, OCTET), (N + N (N + 1)/2, OCTET)
+    lane_durations, lane_coefficients, lane_errors : ndarray
         The same with the block as last axis, so that each lane can choose its own; the errors are per modulus of a
-        product and per unit time.
+        product and per unit time.  Their shapes are (OCTET,), (DEGREE, Q, OCTET) and (N + N (N + 1)/2, OCTET).
     basis : ndarray of complex, shape (NODES + 1, 4, N)
         Basis functions and their first three derivatives at the nodes.
     growth : ndarray of complex, shape (NODES + 1, N)
         ``e^{λτ} − 1`` at the nodes.
     basis_series, growth_series : ndarray of complex, shape (LANE_TERMS, N)
-        Coefficients 1 … LANE_TERMS of the power series of both; single motions, whose nodes are closer, use TERMS of them.
+        Coefficients 1 … LANE_TERMS of the power series of both; single motions, whose nodes are closer, use TERMS of
+        them.
     lane_spacing : float
         Time between nodes for lanes.
     lane_basis : ndarray, shape (N, 2, LANE_NODES)
@@ -192,9 +195,9 @@ def table_record(
     Returns
     -------
     numpy.record
-        The arguments, and ``pace`` (nodes per unit time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops over lanes
-        take their length from the last two: the compiler would unroll a loop of known length, and the unrolled loop needs
-        more vectors than there are registers.
+        The arguments, and ``pace`` (nodes per unit time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops over
+        lanes take their length from the last two: the compiler would unroll a loop of known length, and the unrolled
+        loop needs more vectors than there are registers.
     """
     return record(
         degree=np.asarray(DEGREE, np.int64),
@@ -285,7 +288,7 @@ def kernel(function: Kernel) -> Kernel:
 
 
 def part(function: Kernel) -> Kernel:
-    """Compile a small kernel inline into each of its callers: no call, and code that a caller does not need is removed."""
+    """Compile a small kernel inline into each of its callers: no call, and code that a caller does not need is dropped."""
     return _compile(function, forceinline=True)
 
 

@@ -1,7 +1,7 @@
 """Single-impact orbits of the planar rotor in closed form: their equations, and test functions of their bifurcations.
 
-All functions take a few plain numbers, since continuation evaluates them thousands of times.  The frame is turned so that
-the impact is at ``U = 1``; the contact-free equilibrium is then at ``1 + q a₁₂ ṙ``.
+All functions take a few plain numbers, since continuation evaluates them thousands of times.  The frame is turned so
+that the impact is at ``U = 1``; the contact-free equilibrium is then at ``1 + q a₁₂ ṙ``.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ _NEWTON_STEPS = 60
 
 @kernel
 def planar_exponents(gamma, omega):
-    """Exponents ``λ₋, λ₊ = (−γ − 2i ∓ √(γ² − 4ω²))/2``, the one with the smaller real part first, free of cancellation."""
+    """Exponents ``λ₋, λ₊ = (−γ − 2i ∓ √(γ² − 4ω²))/2``, that of smaller real part first, free of cancellation."""
     # (γ − 2ω)(γ + 2ω) keeps the split accurate near critical damping.
     split = cmath.sqrt(complex((gamma - 2.0 * omega) * (gamma + 2.0 * omega), 0.0))
     lower, upper = 0.5 * (-gamma - split), 0.5 * (-gamma + split)
     if split.real > 0.5 * abs(gamma):
-        # Strongly overdamped: one root is a difference of nearly equal numbers; the product ω² of both gives it accurately.
+        # Strongly overdamped: one root is a difference of nearly equal numbers; the product ω² gives it accurately.
         if gamma > 0.0:
             upper = omega * omega / lower
         else:
@@ -50,10 +50,10 @@ def planar_exponents(gamma, omega):
 def returns(first, second, period):
     """``a₁₂``, ``a₂₂`` and ``da₂₂/dT`` of the planar rotor with these exponents (source paper (4.1)).
 
-    With ``g(z) = 1/(e^{−z} − 1)`` they are the divided differences over ``λ`` of ``g(λT)``, ``λ g(λT)`` and ``λ² g'(λT)``.
-    The first is a product, accurate however close the exponents are; the second is a value of ``g`` and a multiple of
-    the first; the third follows from ``g' = g(1 + g)``.  At short periods the poles of ``g`` cancel in the last two, which
-    are summed there from the Bernoulli series of ``z g(z) + 1``.
+    With ``g(z) = 1/(e^{−z} − 1)`` they are the divided differences over ``λ`` of ``g(λT)``, ``λ g(λT)`` and
+    ``λ² g'(λT)``.  The first is a product, accurate however close the exponents are; the second is a value of ``g`` and
+    a multiple of the first; the third follows from ``g' = g(1 + g)``.  At short periods the poles of ``g`` cancel in
+    the last two, which are summed there from the Bernoulli series of ``z g(z) + 1``.
     """
     _, response, _ = _propagator(first, second, period)
     if squared_modulus(first) < squared_modulus(second):
@@ -145,8 +145,8 @@ def impact_jacobian(gamma, omega, mu, d, period, speed):
 def _jacobian(first, second, q, lever, turn, period, speed):
     """Derivative of the impact map over ``(θ, ṙ, θ̇)``, with the saltation term of the time of impact.
 
-    The velocity before the impact is ``ṙ(1 − i Im q a₂₂)``, and the force there is a multiple of ``ṙ`` too.  So nothing is
-    divided by ``ṙ``, and the derivative exists in the limit of vanishing impacts.
+    The velocity before the impact is ``ṙ(1 − i Im q a₂₂)``, and the force there is a multiple of ``ṙ`` too.  So nothing
+    is divided by ``ṙ``, and the derivative exists in the limit of vanishing impacts.
     """
     velocity = complex(1.0, -turn.imag)
     force = (first + second) * velocity + first * second * lever
@@ -216,8 +216,8 @@ def radial_profile(gamma, omega, mu, d, period, speed):
     height, top : float
         Largest ``r² − 1`` of the local maxima inside the period, and its time; ``nan`` if there is none.
     flattest : float
-        Product of ``s/(1 + |s|)`` over all inflections of ``r²``, with the slope ``s`` there.  It changes sign through zero
-        where a maximum and a minimum of the radius are born.
+        Product of ``s/(1 + |s|)`` over all inflections of ``r²``, with the slope ``s`` there.  It changes sign through
+        zero where a maximum and a minimum of the radius are born.
     """
     first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
     fastest = max(abs(first), abs(second))
@@ -225,7 +225,7 @@ def radial_profile(gamma, omega, mu, d, period, speed):
     step = period / count
     height, top, flattest = np.nan, np.nan, 1.0
     _, bend, _, _ = _radial(first, second, rest, driven, driving, 0.0)
-    # Exact: without rebound (d = 0), rounding could make it positive, which would create a maximum at the impact itself.
+    # Exact: without rebound (d = 0), rounding could make it positive and create a maximum at the impact itself.
     slope = -d * speed
     for i in range(1, count + 1):
         time = i * step

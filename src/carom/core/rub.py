@@ -10,10 +10,10 @@ and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips wi
 follow from a recurrence and a step costs the same for any rotor.  For the planar rotor it is
 ``θ̈ = −γ(1 + θ̇) − ρ sin(θ − φ) − μN sgn v`` with ``N = ρ cos(θ − φ) + (1 + θ̇)² − ω²``.
 
-A phase lasts while its margins (normal force, slip, distance from the limit of the friction cone) stay above minus their
-rounding error.  When a margin falls below, the phase ends at the last zero before that.  So a margin that is zero at the
-start of a phase ends it only if it then falls.  Such a margin is the slip where rolling ends, or the normal force where a
-rotor lifts off.  Two phases can therefore not pass a state back and forth.
+A phase lasts while its margins (normal force, slip, distance from the limit of the friction cone) stay above minus
+their rounding error.  When a margin falls below, the phase ends at the last zero before that.  So a margin that is zero
+at the start of a phase ends it only if it then falls.  Such a margin is the slip where rolling ends, or the normal
+force where a rotor lifts off.  Two phases can therefore not pass a state back and forth.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ NEWTON_STEPS = 8
 def rub_series(rotor, plane, amplitudes, phase, work):
     """Fill the Taylor coefficients of a lasting contact, or of a flight, that starts with these amplitudes.
 
-    ``work.series`` (ORDER + 1, N) receives those of the amplitudes, ``work.push`` those of the normal force, ``work.grip``
-    those of the friction force along growing angle and ``work.slip`` those of the slip velocity.
+    ``work.series`` (ORDER + 1, N) receives those of the amplitudes, ``work.push`` those of the normal force,
+    ``work.grip`` those of the friction force along growing angle and ``work.slip`` those of the slip velocity.
     """
     modes = amplitudes.shape[0]
     friction = rotor.friction[plane]
@@ -111,7 +111,7 @@ def rub_series(rotor, plane, amplitudes, phase, work):
 
 @kernel
 def rub_step(work):
-    """Length of a step whose truncation error is below rounding, from the last two coefficients (Jorba and Zou 2005)."""
+    """Step with a truncation error below rounding, from the last two coefficients (Jorba and Zou 2005)."""
     modes = work.series.shape[1]
     start, last, before = 0.0, 0.0, 0.0
     for m in range(modes):
@@ -156,8 +156,8 @@ def fly_or_rub_all(rotor, plane, amplitudes, phases, times, work):
 def first_transition(rotor, plane, phase, step, work):
     """First time within a step at which the kind of contact changes, and the phase that follows.
 
-    Sliding ends where the normal force vanishes (flight follows) or the slip vanishes; rolling ends where the friction it
-    needs leaves the cone.
+    Sliding ends where the normal force vanishes (flight follows) or the slip vanishes; rolling ends where the friction
+    it needs leaves the cone.
 
     Returns
     -------
@@ -349,9 +349,9 @@ def wall_push(rotor, plane, amplitudes):
 def next_phase(rotor, plane, amplitudes, phase):
     """Phase that follows from rest against the wall (``|y| = 1``, no radial speed, pressed outward).
 
-    If the slip is zero, the rotor rolls if the friction needed for that lies within the cone.  Otherwise it slips in the
-    direction of the tangential acceleration that friction cannot balance.  With ``μ = 0`` and no such acceleration, it
-    continues to slip, in the direction opposite to that of the phase before.
+    If the slip is zero, the rotor rolls if the friction needed for that lies within the cone.  Otherwise it slips in
+    the direction of the tangential acceleration that friction cannot balance.  With ``μ = 0`` and no such acceleration,
+    it continues to slip, in the direction opposite to that of the phase before.
     """
     position = unit(displacement(rotor, plane, amplitudes))
     speed = velocity(rotor, plane, amplitudes)

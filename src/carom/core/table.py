@@ -6,11 +6,12 @@ On a block, a flight that starts at ``y₀`` moves as ``y(τ) = y₀ + Σ_k α_k
 
     |y|² − 1 = |y₀|² − 1 + Σ_k 2 Re(ȳ₀ α_k ψ_k) + Σ_k |α_k|² |ψ_k|² + Σ_{j<k} 2 Re(α_j ᾱ_k ψ_j ψ̄_k)
 
-is linear in ``2N + N²`` real products, and so are its Bernstein coefficients.  They follow by one fixed matrix, computed
-here for the block and for LEVELS − 1 shorter ones, where polynomials approximate more closely.
+is linear in ``2N + N²`` real products, and so are its Bernstein coefficients.  They follow by one fixed matrix,
+computed here for the block and for LEVELS − 1 shorter ones, where polynomials approximate more closely.
 
-The state at a time is computed from the nearest of NODES + 1 nodes, at which the basis functions are tabulated, by a power
-series.  Half a spacing is so short that TERMS terms are exact to rounding.  Lanes use LANE_NODES nodes and LANE_TERMS terms.
+The state at a time is computed from the nearest of NODES + 1 nodes, at which the basis functions are tabulated, by a
+power series.  Half a spacing is so short that TERMS terms are exact to rounding.  Lanes use LANE_NODES nodes and
+LANE_TERMS terms.
 """
 
 from __future__ import annotations
@@ -203,8 +204,8 @@ def _expm1(z: np.ndarray) -> np.ndarray:
 def _derivative_bounds(exponents: np.ndarray, driven: np.ndarray, duration: float) -> np.ndarray:
     """Bounds of ``|ψ⁽ⁿ⁾|``, shape (3, N).
 
-    They are ``|λ|ⁿ g`` for an exponential and ``(T|λ|ⁿ + n|λ|ⁿ⁻¹) g`` for ``φ = t ∫₀¹ e^{λ_s t} ds``.  Here ``g`` is the
-    growth of the fastest growing exponential over the block, and ``λ_s`` varies between the pair's exponents.
+    They are ``|λ|ⁿ g`` for an exponential and ``(T|λ|ⁿ + n|λ|ⁿ⁻¹) g`` for ``φ = t ∫₀¹ e^{λ_s t} ds``.  Here ``g`` is
+    the growth of the fastest growing exponential over the block, and ``λ_s`` varies between the pair's exponents.
     """
     bounds = np.empty((3, len(exponents)))
     for k, exponent in enumerate(exponents):

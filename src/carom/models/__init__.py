@@ -1,9 +1,9 @@
-"""Rotors: from parameters to the arrays that the kernels see.
+"""Rotors: from parameters to the arrays that the kernels use.
 
 ========================  =================================================================
 ``system``                :class:`System`: modes and contact planes of any linear rotor
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
-``subjects``              :func:`model_of`, :func:`case_of`: whatever describes a rotor -> its model, its case
+``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """
 

@@ -29,7 +29,7 @@ class Jeffcott:
     Raises
     ------
     InputError
-        They are none.
+        ``parameters`` is not an instance of :class:`~carom.parameters.Parameters`.
 
     References
     ----------
@@ -50,7 +50,7 @@ class Jeffcott:
         gamma, omega = parameters.gamma, parameters.omega
         return second_order_system(
             exponents=planar_exponents(gamma, omega),
-            # The sum makes a negative zero, the quotient of a balanced rotor, plain zero.
+            # Adding zero turns a negative zero, the quotient for a balanced rotor, into zero.
             equilibrium=cmath.rect(parameters.rho, parameters.phi) / complex(omega**2 - 1.0, gamma) + 0j,
             friction=parameters.mu,
             restitution=parameters.d,
@@ -59,7 +59,7 @@ class Jeffcott:
 
     @property
     def scales(self) -> Scales | None:
-        """Mass, clearance and speed that turn results into SI units, if known."""
+        """Mass, clearance and speed that convert results to SI units, if known."""
         return self.parameters.scales
 
     @property

@@ -1,4 +1,4 @@
-"""The one door for rotors: whatever describes one, to its model."""
+"""Conversion of any description of a rotor to its model or its case."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from carom.parameters import Case, Machine, Parameters, Zones
 __all__ = ["Subject", "case_of", "model_of"]
 
 Subject = Jeffcott | Parameters | Machine | Case
-"""What describes a rotor."""
+"""Any description of a rotor."""
 
 
 def model_of(subject: Subject) -> Jeffcott:
-    """Model of a machine, a case, parameters, or a model itself.
+    """Model of a machine, a case or parameters; a model is returned as it is.
 
     Raises
     ------
@@ -32,7 +32,7 @@ def model_of(subject: Subject) -> Jeffcott:
 
 
 def case_of(subject: Subject) -> Case:
-    """Case of a machine, parameters or a model, with the zones that hold by default; or a case itself.
+    """Case of a machine, parameters or a model, with the default zones; a case is returned as it is.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A linear rotor as arrays: what kernels see of any model, and the way between states and mode amplitudes."""
+"""A linear rotor as arrays for the kernels, and the conversion between states and mode amplitudes."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ __all__ = ["System", "second_order_system"]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class System(Result):
-    """Modes, contact planes and contact law of a rotor, ready for the kernels; what follows from them is computed.
+    """Modes, contact planes and contact law of a rotor, as arrays for the kernels.
 
-    A state is given by the ``n`` coordinates of the rotor and their rates; of a rotor with one coordinate they are plain
-    numbers.  Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.
+    A state consists of the ``n`` coordinates of the rotor and their rates; for a rotor with one coordinate they are
+    plain numbers.  Lengths are in clearances ``c_r``, times in ``1/Ω``, in the frame that turns with the shaft.
 
     Attributes
     ----------
@@ -77,14 +77,14 @@ class System(Result):
     def amplitude_change(
         self, position_change: complex | np.ndarray, velocity_change: complex | np.ndarray
     ) -> np.ndarray:
-        """Change of the mode amplitudes, shape (N,), that goes with a small or large change of state."""
+        """Change of the mode amplitudes, shape (N,), that corresponds to a change of state of any size."""
         readings = np.append(position_change, velocity_change)
-        # Not a matrix product: threads of the linear algebra library cost far more than these few numbers a state.
+        # Not a matrix product: the threads of the linear algebra library cost far more than these few numbers.
         changes: np.ndarray = np.einsum("nk,k->n", self._amplitudes_per_reading, readings)
         return changes
 
     def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Position and velocity of mode amplitudes of shape (..., N), each of shape (..., n); of one coordinate (...)."""
+        """Position and velocity for mode amplitudes of shape (..., N), each of shape (..., n), or (...) if ``n = 1``."""
         count = len(self.rest)
         readings = np.einsum("...k,nk->...n", amplitudes, self._readings)
         position, velocity = readings[..., :count] + self.rest, readings[..., count:]
@@ -121,10 +121,10 @@ def second_order_system(
     restitution: float,
     drive: float,
 ) -> System:
-    """``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is its displacement at the wall too.
+    """System of ``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is also its displacement at the wall.
 
     Its two modes are a pair: the driving amplitude ``b = u̇ − λ₊(u − K)``, which decays with ``λ₋``, and the driven
-    ``a = u − K``, so any damping is treated alike: underdamped, critical and overdamped.
+    ``a = u − K``.  So underdamped, critically damped and overdamped rotors are treated alike.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """The units that machine files mostly use, as pint converts them.
 
-To load pint and to build its registry takes longer than all the rest of reading a machine file.  What is written here needs
-neither; any other unit, and any other way to write one of these, is left to pint.  ``tests/parameters/test_quantities.py``
-holds every entry against pint.
+To load pint and to build its registry takes longer than all the rest of reading a machine file.  What is written here
+needs neither; any other unit, and any other way to write one of these, is left to pint.
+``tests/parameters/test_quantities.py`` holds every entry against pint.
 """
 
 from __future__ import annotations

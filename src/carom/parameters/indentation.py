@@ -1,14 +1,15 @@
 """How far a wall of solid steel gives way at least: where that is much, a rigid wall is no model.
 
-The package takes the wall for rigid: it gives way by much less than the clearance.  No wall of a touchdown bearing is stiffer than
-a block of solid steel, ``E = 210 GPa``, and the line of contact is taken as long as the shaft is thick, ``2R``.  Its stiffness is
-then about ``k = 2RE``: for two cylinders pressed together along a line (Hertz; K. L. Johnson, Contact Mechanics, 1985, section 5.6) the
-approach is ``F/(2RE)`` times one to about eight, the more the smaller the contact.  So
+The package takes the wall for rigid: it gives way by much less than the clearance.  No wall of a touchdown bearing is
+stiffer than a block of solid steel, ``E = 210 GPa``, and the line of contact is taken as long as the shaft is thick,
+``2R``.  Its stiffness is then about ``k = 2RE``: for two cylinders pressed together along a line (Hertz; K. L. Johnson,
+Contact Mechanics, 1985, section 5.6) the approach is ``F/(2RE)`` times one to about eight, the more the smaller the
+contact.  So
 
     δ = F/(2RE)  under a force,      δ = v√(m/(2RE))  in a hit at the speed v  (all kinetic energy in the spring)
 
-are what a wall gives way by at least.  Where that is more than a tenth of the clearance, forces that grow with the radius of the whirl
-are wrong by as much, and real walls, which are softer by orders of magnitude, are far from rigid.
+are what a wall gives way by at least.  Where that is more than a tenth of the clearance, forces that grow with the
+radius of the whirl are wrong by as much, and real walls, which are softer by orders of magnitude, are far from rigid.
 """
 
 from __future__ import annotations

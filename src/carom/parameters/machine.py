@@ -23,8 +23,9 @@ __all__ = ["Machine", "check_names"]
 class Machine(pydantic.BaseModel):
     """A rotor, its levitation and its touchdown bearing, in SI units.
 
-    Every value is a number in the SI unit below, or text with a unit such as ``"1759 rpm"`` or ``"0.3 mm"``; a number in
-    quotes without a unit is in the SI unit too. The ranges are those of :data:`carom.parameters.fields.MACHINE_FIELDS`. Instances are immutable and hashable.
+    Every value is a number in the SI unit below, or text with a unit such as ``"1759 rpm"`` or ``"0.3 mm"``; a number
+    in quotes without a unit is in the SI unit too. The ranges are those of
+    :data:`carom.parameters.fields.MACHINE_FIELDS`. Instances are immutable and hashable.
 
     Parameters
     ----------

@@ -2,9 +2,9 @@
 
 A kernel loads WIDTH numbers of an array with :func:`load` and then treats them as one number: arithmetic, comparisons,
 ``abs``, ``real``, ``imag`` and ``conjugate()`` act on every lane alike, and :func:`where` selects lane by lane.
-Uncompiled, such a value is a NumPy array, and the functions are those of ``uncompiled``.  Compiled, it is held in vector
-registers of the processor: ``kinds`` declares the types to the compiler, ``arithmetic`` and ``memory`` define the
-operations.  Lanes do not affect each other, and only :func:`lanes_of` combines them.
+Uncompiled, such a value is a NumPy array, and the functions are those of ``uncompiled``.  Compiled, it is held in
+vector registers of the processor: ``kinds`` declares the types to the compiler, ``arithmetic`` and ``memory`` define
+the operations.  Lanes do not affect each other, and only :func:`lanes_of` combines them.
 """
 
 from carom.core.vector import arithmetic as _arithmetic

@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 FREEDOM = ("contract", "nsz")
-"""Compiler flags, as for all kernels: a product and a sum may be fused (rounded once), and the sign of zero is ignored."""
+"""Compiler flags of all kernels: a product and a sum may be fused (rounded once); the sign of zero is ignored."""
 
 
 def each(build, compute, *values):
