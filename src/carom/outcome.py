@@ -1,4 +1,4 @@
-"""What can come out of a computation: outcome codes and errors with a remedy.
+"""Possible ends of a computation: outcome codes, and errors with a remedy.
 
 Kernels return an :class:`Outcome`; Python code turns it into a result that carries the code, or into a
 :class:`CaromError` that says what to do about it.
@@ -33,7 +33,7 @@ class Outcome(IntEnum):
     """Outcome of a flight, an impact or a whole motion.
 
     The codes below 10 belong to a single flight, those from 10 to a motion that was stopped, those from 20 to one that
-    has settled.  ``grazing`` can end both a flight and a motion.
+    has settled.  ``GRAZING`` can end a flight as well as a motion.
     """
 
     CLEAR = 0
@@ -56,7 +56,7 @@ class Outcome(IntEnum):
 
     @property
     def settled(self) -> bool:
-        """Whether the motion has reached its end; what it does from there on is known."""
+        """Whether the motion has settled, so that its further course is known."""
         return self >= Outcome.LEVITATED
 
     @property
@@ -103,7 +103,7 @@ class CaromError(Exception):
 
 
 class CaromWarning(UserWarning):
-    """What a user should know, while the results are right."""
+    """A condition that the user should know of; the results are still correct."""
 
 
 class InputError(CaromError, ValueError):
@@ -118,7 +118,7 @@ class InputError(CaromError, ValueError):
     value : object
         The value given; ``None`` where nothing was given.
     allowed : str
-        What is allowed there, or how to mend it.
+        What is allowed there, or how to correct the input.
     """
 
     def __init__(self, field: str, value: object, allowed: str) -> None:
@@ -130,14 +130,14 @@ class InputError(CaromError, ValueError):
 
     @property
     def errors(self) -> tuple[InputError, ...]:
-        """All errors that it tells: itself."""
+        """All errors that it reports: only itself."""
         return (self,)
 
 
 class MultipleInputError(InputError):
-    """Several inputs that cannot be used, found together: one line each, of very many the first ones.
+    """Several inputs that cannot be used, reported together: one line each; of very many, only the first ones.
 
-    Field, value and what is allowed are those of the first.
+    ``field``, ``value`` and ``allowed`` are those of the first error.
 
     Parameters
     ----------
@@ -155,18 +155,18 @@ class MultipleInputError(InputError):
 
     @property
     def errors(self) -> tuple[InputError, ...]:
-        """All of them."""
+        """All errors that it reports."""
         return self._errors
 
 
 class Problems:
-    """Input errors that are gathered while reading goes on, to be told together."""
+    """Input errors collected while reading continues, to be reported together."""
 
     def __init__(self) -> None:
         self.errors: list[InputError] = []
 
     def attempt(self, read: Callable[_Given, _Read], /, *given: _Given.args, **named: _Given.kwargs) -> _Read | None:
-        """Return what a function reads, or None if it raises an input error, which is kept."""
+        """Return what a function reads, or None if it raises an input error, which is collected."""
         try:
             return read(*given, **named)
         except InputError as problem:
@@ -174,21 +174,21 @@ class Problems:
             return None
 
     def tell(self) -> None:
-        """Raise what was gathered, if anything was."""
+        """Raise the collected errors, if there are any."""
         if self.errors:
             raise together(self.errors)
 
 
 def together(errors: Sequence[InputError]) -> InputError:
-    """One error for one or more."""
+    """Combine one or more errors into one."""
     return errors[0] if len(errors) == 1 else MultipleInputError(errors)
 
 
 def printable(text: str) -> str:
-    r"""Return a text as it may be shown anywhere: on one line, what is not printable as an escape.
+    r"""Return a text that can be shown anywhere: on one line, with unprintable characters as escapes.
 
-    Control characters, line breaks, marks that change the direction of writing and halves of characters become
-    ``\x1b``, ``\n``, ``\u202e``, ...; all that can be seen stays.
+    Control characters, line breaks, marks that change the direction of writing and lone surrogates become ``\x1b``,
+    ``\n``, ``\u202e``, ...; visible characters stay.
     """
     if text.isprintable():
         return text
@@ -201,7 +201,7 @@ def shown(given: Any) -> str:
         return str(given).lower()
     try:
         text = str(given)
-    except ValueError:  # an integer of more digits than Python is willing to print
+    except ValueError:  # an integer with more digits than Python prints
         return "a number of thousands of digits"
     except RecursionError:
         return "a value that is nested too deeply"

@@ -1,4 +1,4 @@
-"""Results as text: what an interpreter or a notebook shows of them, in a few lines however large they are."""
+"""Text form of results for interpreters and notebooks: a few lines, however large the result is."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ import numpy as np
 __all__ = ["Result", "in_a_line"]
 
 WIDEST = 120
-"""Characters of a line, the name before it aside."""
+"""Largest number of characters of a line, without the name before it."""
 FEW = 4
-"""Numbers of an array that are shown one by one."""
+"""Largest size of an array whose numbers are shown one by one."""
 DIGITS = 6
 
 
 class Result:
-    """What a function found: a frozen dataclass that is shown by its attributes, large ones by their size.
+    """Result of a function: a frozen dataclass that is shown by its attributes, large ones by their size only.
 
-    ``shown`` names the attributes to show, properties among them; where it is empty, all fields are.
+    ``shown`` names the attributes to show, which may be properties; if it is empty, all fields are shown.
     """
 
     shown: ClassVar[tuple[str, ...]] = ()
@@ -42,7 +42,7 @@ class Result:
         return f"<table><caption>{type(self).__name__}</caption>{cells}</table>"
 
     def rows(self) -> list[tuple[str, str]]:
-        """Words, and what is shown beside them: by default names of attributes and their values."""
+        """Pairs of label and text to show: by default the names of the attributes and their values."""
         names = self.shown or tuple(field.name for field in dataclasses.fields(self))  # type: ignore[arg-type]
         values = [(name, getattr(self, name)) for name in names]
         return [(name, in_a_line(value)) for name, value in values if not callable(value)]
@@ -104,7 +104,7 @@ def _titled(value: Result) -> str:
 
 
 def _name(entry: object) -> str:
-    """What tells an entry of a collection from others: its name, or itself where it is a text or a number."""
+    """What identifies an entry of a collection: its name, or the entry itself if it is text or a number."""
     if isinstance(entry, str | Complex):
         return in_a_line(entry)
     name = getattr(entry, "name", "")

@@ -285,7 +285,7 @@ class _Tracer:
         return "step too small" if np.isfinite(around).all() else "end of domain"
 
     def _watched(self, stand: _Stand) -> np.ndarray:
-        """Values of the distance to the limit (relative), of the watches, and of the fold and branch-point functions."""
+        """Values of the relative distance to the limit, of the watches, and of the fold and branch-point functions."""
         y = stand.x * self.scales
         u, p = y[:-1], float(y[-1])
         watches = [watch.function(u, p) for watch in self.watches]

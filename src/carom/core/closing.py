@@ -120,7 +120,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
 
 @kernel
 def _fades(rotor, states, durations):
-    """Whether elastic bounces are all low; a flight of duration ``T`` that ends with speed ``v`` has height ``vT/4``."""
+    """Whether elastic bounces are all low; a flight of duration ``T`` that ends at speed ``v`` has height ``vT/4``."""
     if rotor.restitution[0] < 1.0:
         return False
     for i in range(durations.shape[0]):

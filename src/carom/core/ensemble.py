@@ -63,9 +63,9 @@ MOTION = np.dtype(
 )
 """A motion.
 
-On call: position and velocity at its start, and the plane on whose wall it starts, or −1.  On return: position and velocity
-at its end, outcome and time as in :func:`~carom.core.advance.advance`, the number of impacts, and the multiplicity from
-:func:`~carom.core.closing.least_period`.
+On call: position and velocity at its start, and the plane on whose wall it starts, or −1.  On return: position and
+velocity at its end, outcome and time as in :func:`~carom.core.advance.advance`, the number of impacts, and the
+multiplicity from :func:`~carom.core.closing.least_period`.
 """
 
 

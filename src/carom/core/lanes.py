@@ -25,8 +25,8 @@ __all__ = ["CLEARED", "LATE", "NOTED", "OPEN", "STRUCK", "fly_lanes", "lanes_rec
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
 """What happened to a lane.
 
-In this order: a free block of flight; an impact; an impact to be checked for recurrence; nothing, because the time limit
-would be exceeded; nothing, because the block proved nothing (a shorter one is tried next, if there is one).
+In this order: a free block of flight; an impact; an impact to be checked for recurrence; nothing, because the time
+limit would be exceeded; nothing, because the block proved nothing (a shorter one is tried next, if there is one).
 """
 
 CLEARLY_OFF = 1e-9

@@ -288,7 +288,7 @@ def kernel(function: Kernel) -> Kernel:
 
 
 def part(function: Kernel) -> Kernel:
-    """Compile a small kernel inline into each of its callers: no call, and code that a caller does not need is dropped."""
+    """Compile a small kernel inline into each of its callers: no call, and code a caller does not need is dropped."""
     return _compile(function, forceinline=True)
 
 

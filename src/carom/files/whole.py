@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all, on the disk and not only on their way to it."""
+"""Atomic and durable writing: a file is complete or absent, and is synchronised to the disk."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ __all__ = ["sync_directory", "try_place", "write_whole"]
 
 
 def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
-    """Write a file: under another name until all of it is on the disk.
+    """Write a file atomically: under a temporary name until all of it is on the disk.
 
     Parameters
     ----------
     target : Path
-        Replaced if it is there.
+        Replaced if it exists.
     data : bytes
     parts : Path, optional
         Directory on the same file system for the unfinished file; by default that of the target.
@@ -24,7 +24,7 @@ def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
     Raises
     ------
     OSError
-        It cannot be written; what was there is as it was.
+        The file cannot be written; an existing one is unchanged.
     """
     part = (parts or target.parent) / _unfinished()
     try:
@@ -42,12 +42,12 @@ def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
 
 
 def try_place(target: Path) -> None:
-    """Try whether a file can be written, without a trace.
+    """Test whether a file can be written, and leave no trace.
 
     Raises
     ------
     OSError
-        It cannot.
+        The file cannot be written.
     """
     part = target.parent / _unfinished()
     try:
@@ -58,12 +58,12 @@ def try_place(target: Path) -> None:
 
 
 def _unfinished() -> str:
-    """Name of a file that is not finished."""
+    """A temporary name for an unfinished file."""
     return f".{secrets.token_hex(8)}.part"
 
 
 def sync_directory(directory: Path) -> None:
-    """Bring new names in a directory to the disk, where the system knows how."""
+    """Synchronise new names in a directory to the disk, where the operating system supports this."""
     with suppress(OSError):
         handle = os.open(directory, os.O_RDONLY)
         try:

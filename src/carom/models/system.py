@@ -84,7 +84,7 @@ class System(Result):
         return changes
 
     def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Position and velocity for mode amplitudes of shape (..., N), each of shape (..., n), or (...) if ``n = 1``."""
+        """Position and velocity for mode amplitudes of shape (..., N), each of shape (..., n); (...) if ``n = 1``."""
         count = len(self.rest)
         readings = np.einsum("...k,nk->...n", amplitudes, self._readings)
         position, velocity = readings[..., :count] + self.rest, readings[..., count:]

@@ -1,13 +1,13 @@
-"""Parameters of a rotor: SI units and text at the door, dimensionless numbers behind it.
+"""Parameters of a rotor: input in SI units or as text, dimensionless numbers for the computation.
 
 ========================  =================================================================
 ``fields``                names, symbols, units and ranges of all numbers
 ``common_units``          units of machine files as pint converts them
 ``quantities``            text with units -> float in SI units
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
-``toml_reader``           file -> raw tables
+``toml_reader``           TOML file -> raw tables
 ``scaling``               :class:`Scales`, :class:`Parameters`
-``machine``               :class:`Machine` and the way to its parameters and back
+``machine``               :class:`Machine`, conversion to parameters and back
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
 """

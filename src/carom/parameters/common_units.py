@@ -1,8 +1,8 @@
 """The units that machine files mostly use, as pint converts them.
 
-To load pint and to build its registry takes longer than all the rest of reading a machine file.  What is written here
-needs neither; any other unit, and any other way to write one of these, is left to pint.
-``tests/parameters/test_quantities.py`` holds every entry against pint.
+Importing pint and building its registry takes longer than all the rest of reading a machine file.  The units listed
+here need neither.  Any other unit, and any other spelling of these, is left to pint.
+``tests/parameters/test_quantities.py`` compares every entry with pint.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from decimal import Decimal
 __all__ = ["COMMON_UNITS", "Roots"]
 
 Roots = frozenset[tuple[str, Decimal]]
-"""Root units of pint, each with its exponent; radians are kept apart from pure numbers."""
+"""Root units of pint, each with its exponent; radians are distinguished from pure numbers."""
 
 _INCH = "0.02540000000000000000000000000000000000000"
 _DEGREE = "0.01745329251994329576923690768488612713443"
 _TURN_A_MINUTE = "0.1047197551196597746154214461093167628066"
 _POUND_FORCE_PER_INCH = "175126.8352464763779527559055118110236220"
 
-# Exponents of metre, gram, second and radian; then the factors, to the 40 digits that pint is asked for.
+# Exponents of metre, gram, second and radian; then the factors, to the 40 digits requested from pint.
 _WRITTEN: Mapping[tuple[int, int, int, int], Mapping[str, str]] = {
     (0, 0, 0, 0): {"": "1", "%": "0.01", "percent": "0.01"},
     (1, 0, 0, 0): {
@@ -95,4 +95,4 @@ COMMON_UNITS: Mapping[str, tuple[Decimal, Roots]] = {
     for exponents, units in _WRITTEN.items()
     for unit, factor in units.items()
 }
-"""How many root units one unit is, and which."""
+"""Factor and root units of each unit."""

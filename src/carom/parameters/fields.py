@@ -1,6 +1,6 @@
-"""The numbers that describe a machine: their names, symbols, units and the ranges carom can treat.
+"""The numbers that describe a machine: their names, symbols, units and the ranges that carom can treat.
 
-Tables, error messages and the command line all read these entries, so a name or a limit is written once.
+Tables, error messages and the command line all use these entries, so each name and limit is defined once.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Field:
     symbol : str
         Symbol of the source paper, for tables and figures.
     words : str
-        What it is, in words.
+        Description in words.
     kind : str
         Kind of quantity, with its article ("a mass"), for error messages.
     unit : str
@@ -47,11 +47,11 @@ class Field:
     example : str
         A value as a user would write it in a machine file.
     zero : bool
-        Zero is allowed too although it lies outside the range.
+        Whether zero is allowed too although it lies outside the range.
     formula : str
         Definition of a dimensionless number by physical ones.
     bare : str
-        What a number without a unit is in; by default the SI unit.
+        Unit of a number that is given without one; by default the SI unit.
     """
 
     name: str
@@ -80,7 +80,7 @@ class Field:
         return f"must be {self.kind}{unit}, {limits}, such as {self.example}{bare}"
 
     def contains(self, number: float) -> bool:
-        """Whether a number in the field's SI unit is allowed; never true of NaN."""
+        """Whether a number in the field's SI unit is allowed; false for NaN."""
         return (self.zero and number == 0.0) or self.lowest <= number <= self.highest
 
     def error(self, given: object, reason: str = "") -> InputError:
@@ -132,7 +132,7 @@ MACHINE_FIELDS: Mapping[str, Field] = _by_name(
     Field("clearance", "c_r", "radius of the clearance circle", "a length", "m", 1e-9, 1e3, '"0.7 mm"'),
     Field("rotor_radius", "R", "rotor radius at the contact", "a length", "m", 1e-9, 1e6, '"40 mm"'),
     Field("speed", "Ω", "rotational speed", "an angular speed", "rad/s", 1e-6, 1e6, '"1759 rpm"'),
-    # Beyond a million radians the spacing of doubles becomes visible in the angle: a slip of the pen, not a phase.
+    # Beyond a million radians the spacing of doubles becomes visible in the angle: such a value is a typing error.
     Field("unbalance_phase", "φ", "phase of the unbalance", "an angle", "rad", -1e6, 1e6, '"12 deg"'),
     _pure("friction", "μ", "coefficient of friction", 0.0, 10.0, "0.15"),
     _pure("restitution", "d", "coefficient of restitution", 0.0, 1.0, "0.95"),
@@ -161,7 +161,7 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
     "d": "restitution",
     "radius_ratio": "rotor_radius",
 }
-"""The field of a machine that follows each dimensionless number while mass, speed and clearance stay."""
+"""The machine field that is set by each dimensionless number while mass, speed and clearance are fixed."""
 
 _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
 
@@ -193,7 +193,7 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
 def name_errors(table: Mapping[str, object], fields: Mapping[str, Field], where: str) -> list[InputError]:
     """Errors for all names of a table that are unknown or missing.
 
-    A missing name that an unknown one seems to mean is told once, as that one.
+    If an unknown name seems to be a misspelt missing one, only the unknown name is reported.
 
     Parameters
     ----------

@@ -1,15 +1,15 @@
-"""How far a wall of solid steel gives way at least: where that is much, a rigid wall is no model.
+"""Least indentation of a wall of solid steel: where it is large, a rigid wall is not a valid model.
 
-The package takes the wall for rigid: it gives way by much less than the clearance.  No wall of a touchdown bearing is
-stiffer than a block of solid steel, ``E = 210 GPa``, and the line of contact is taken as long as the shaft is thick,
-``2R``.  Its stiffness is then about ``k = 2RE``: for two cylinders pressed together along a line (Hertz; K. L. Johnson,
-Contact Mechanics, 1985, section 5.6) the approach is ``F/(2RE)`` times one to about eight, the more the smaller the
-contact.  So
+The package treats the wall as rigid: its indentation is assumed to be much smaller than the clearance.  No wall of a
+touchdown bearing is stiffer than a block of solid steel, ``E = 210 GPa``.  The length of the line of contact is taken
+as the shaft diameter, ``2R``.  The stiffness is then about ``k = 2RE``: for two cylinders pressed together along a line
+(Hertz; K. L. Johnson, Contact Mechanics, 1985, section 5.6) the approach is ``F/(2RE)`` times a factor of one to about
+eight, which is larger for a smaller contact.  So lower bounds of the indentation are
 
-    δ = F/(2RE)  under a force,      δ = v√(m/(2RE))  in a hit at the speed v  (all kinetic energy in the spring)
+    δ = F/(2RE)  under a force,      δ = v√(m/(2RE))  in an impact at the speed v  (all kinetic energy in the spring)
 
-are what a wall gives way by at least.  Where that is more than a tenth of the clearance, forces that grow with the
-radius of the whirl are wrong by as much, and real walls, which are softer by orders of magnitude, are far from rigid.
+If a bound exceeds a tenth of the clearance, forces that grow with the radius of the whirl have errors of that order.
+Real walls are softer by orders of magnitude, so they are then far from rigid.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ __all__ = ["LARGEST", "STEEL", "gives_way", "indentation_of_force", "indentation
 STEEL = 2.1e11
 """Young's modulus of steel, Pa."""
 LARGEST = 0.1
-"""Share of the clearance up to which a wall that gives way by it passes for rigid."""
+"""Largest indentation, as a share of the clearance, at which a wall counts as rigid."""
 
 
 def indentation_of_force(parameters: Parameters, force: float) -> float:
-    """Least indentation by a force on the wall.
+    """Least indentation of the wall under a force.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def indentation_of_force(parameters: Parameters, force: float) -> float:
 
 
 def indentation_of_hit(parameters: Parameters, radial_speed: float) -> float:
-    """Least indentation in an impact at this radial speed in ``c_r Ω``; in clearances, ``nan`` where scales are not known."""
+    """Least indentation, in clearances, in an impact at a radial speed in ``c_r Ω``; ``nan`` if there are no scales."""
     scales = parameters.scales
     if scales is None:
         return math.nan
@@ -55,10 +55,10 @@ def indentation_of_hit(parameters: Parameters, radial_speed: float) -> float:
 
 
 def gives_way(indentation: float) -> bool:
-    """Whether a wall that gives way by this much, in clearances, is no longer rigid; not where that is unknown."""
+    """Whether an indentation, in clearances, is too large for a rigid wall; false if it is unknown (``nan``)."""
     return indentation > LARGEST
 
 
 def _stiffness(scales: Scales, radius_ratio: float) -> float:
-    """Of a wall of solid steel, N/m."""
+    """Stiffness of a wall of solid steel, N/m."""
     return 2.0 * radius_ratio * scales.clearance * STEEL

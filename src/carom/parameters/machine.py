@@ -1,4 +1,4 @@
-"""The machine in SI units, and its way to the dimensionless parameters and back."""
+"""The machine in SI units, and the conversion to the dimensionless parameters and back."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Machine(pydantic.BaseModel):
     ------
     InputError
         If a field is missing, unknown, of another dimension, out of range, or if the machine as a whole has a
-        dimensionless parameter out of range.  It tells all errors at once.
+        dimensionless parameter out of range.  It reports all errors at once.
     """
 
     model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
@@ -129,9 +129,9 @@ class Machine(pydantic.BaseModel):
         Returns
         -------
         Machine
-            A machine whose own parameters equal the given ones in every bit where doubles allow that, and to one
-            unit in the last place otherwise. Of several such machines the one with the shortest decimal numbers:
-            a machine given by up to 15 significant digits comes back as it was.
+            A machine whose own parameters equal the given ones exactly where doubles allow that, and to one unit in
+            the last place otherwise. Of several such machines it is the one with the shortest decimal numbers, so a
+            machine given by up to 15 significant digits is recovered exactly.
 
         Raises
         ------
@@ -164,7 +164,7 @@ class Machine(pydantic.BaseModel):
         **changes
             New values by the names of machine fields or of dimensionless parameters. Physical ones are set first;
             a dimensionless one then keeps mass, speed and clearance and sets its partner (``gamma`` sets
-            ``damping``, ``omega`` ``stiffness``, ``rho`` ``eccentricity``, ...), as near as a double allows.
+            ``damping``, ``omega`` ``stiffness``, ``rho`` ``eccentricity``, ...), as closely as doubles allow.
 
         Raises
         ------
@@ -204,12 +204,13 @@ def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
     Parameters
     ----------
     changes : iterable or mapping
-        The names; of a mapping the values appear in the message.
+        The names; the values of a mapping appear in the message.
 
     Raises
     ------
     InputError
-        If a name is unknown, or both ``damping`` and ``gamma`` (say) are there.  It tells all errors at once.
+        If a name is unknown, or if, for example, both ``damping`` and ``gamma`` are there.  It reports all errors at
+        once.
     """
     values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
     known = {**MACHINE_FIELDS, **DIMENSIONLESS_FIELDS}
@@ -226,7 +227,7 @@ def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
 
 @dataclass(frozen=True)
 class _Link:
-    """How a field of the machine and a dimensionless number follow from each other."""
+    """Conversion between a field of the machine and a dimensionless number, in both directions."""
 
     physical: str
     forward: Callable[[float, Scales], float]
@@ -235,8 +236,9 @@ class _Link:
     def solve(self, number: float, scales: Scales) -> float:
         """Return the physical value, in SI units, that gives the dimensionless number.
 
-        Shortest decimals first: rounding to 15 digits finds the value a person wrote. The forward map rounds at most
-        three times, so every double it sends to `number` lies within four units in the last place of the exact one.
+        Short decimals are tried first: rounding to 15 digits finds the value that a person wrote. The forward map
+        rounds at most three times, so every double it maps to `number` lies within four units in the last place of the
+        exact value.
         """
         with localcontext(Context(prec=60)):
             exact = self.inverse(Decimal(number), scales)
@@ -282,10 +284,10 @@ _LINKS: Mapping[str, _Link] = {
 
 
 def _input_errors(problem: pydantic.ValidationError, values: Mapping[str, Any]) -> list[InputError]:
-    """All errors: names first, since an unknown one is mostly a missing one misspelt."""
+    """All errors, those of names first: an unknown name is mostly a misspelt missing one."""
     found = name_errors(values, MACHINE_FIELDS, "[machine]")
     for error in problem.errors():
         cause = error.get("ctx", {}).get("error")
-        if isinstance(cause, InputError):  # as the user wrote the value, units and all
+        if isinstance(cause, InputError):  # with the value as the user wrote it, including its unit
             found.append(InputError(cause.field, shown(values[cause.field]), cause.allowed))
     return found

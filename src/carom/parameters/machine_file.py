@@ -1,4 +1,4 @@
-"""From a machine file, and settings on the command line, to the case to study."""
+"""Read a machine file, and settings on the command line, as the case to study."""
 
 from __future__ import annotations
 
@@ -88,9 +88,9 @@ class Case:
         Name of the file without folder and suffix, printable.
     parameters : Parameters
         Dimensionless parameters, with scales if the file describes a machine. A dimensionless number that was set is
-        here in every bit.
+        stored here exactly.
     machine : Machine or None
-        The machine, as near to `parameters` as doubles allow; None for a dimensionless file.
+        The machine, as close to `parameters` as doubles allow; None for a dimensionless file.
     zones : Zones
         Limits of the amplitude zones.
     """
@@ -109,7 +109,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     path : path
         TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``.
     settings : iterable of str
-        Texts ``"name=value"`` as in ``--set``, the name that of a machine field or of a dimensionless parameter.
+        Texts ``"name=value"`` as in ``--set``; the name is a machine field or a dimensionless parameter.
         Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
         changes its partner: ``gamma`` the damping, ``omega`` the stiffness, ``rho`` the eccentricity, ``phi`` the
         unbalance phase, ``mu`` the friction, ``d`` the restitution, ``radius_ratio`` the rotor radius.
@@ -122,8 +122,9 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     Raises
     ------
     InputError
-        If the file cannot be used, or a setting has no value, an unknown name, a value that is not allowed, sets
-        what another one sets, or sets a physical value of a file that has no scales.  It tells all errors at once.
+        If the file cannot be used, or a setting has no value, has an unknown name, has a value that is not allowed,
+        sets the same quantity as another one, or sets a physical value of a file without scales.  It reports all
+        errors at once.
 
     Examples
     --------
@@ -153,7 +154,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
 
 
 def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
-    """Names and texts of the settings, checked for everything but the values."""
+    """Names and texts of the settings; everything but the values is checked."""
     texts: dict[str, str] = {}
     for setting in settings:
         name, equals, text = (part.strip() for part in str(setting).partition("="))

@@ -1,4 +1,4 @@
-"""Numbers at the door: text with units becomes a float in SI units, and nothing behind this door knows units."""
+"""Conversion of text with units to floats in SI units; the rest of the package handles no units."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ _TEXT = re.compile(
     r"(?P<number>[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity)\b))\s*(?P<unit>.*)",
     re.DOTALL,
 )
-# Names, products, quotients and one-digit powers only: pint does arithmetic, and "m**9**9**9" would never end.
+# Names, products, quotients and one-digit powers only: pint evaluates arithmetic, and "m**9**9**9" would never end.
 _UNIT = re.compile(
     r"(?:[A-Za-z°%µμ_ ()*/·⋅]|1(?![0-9])|(?:\^|\*\*) *[+-]?[0-9](?!(?: *(?:\^|\*\*))|[0-9])|⁻?[¹²³⁴](?![¹²³⁴]))*"
 )
 _LONGEST_UNIT = 60
 _DIGITS = decimal.Context(prec=40)
-# What pint lets through besides its own errors, which derive from some of these.
+# Errors that pint raises besides its own, which derive from some of these.
 _PARSER_ERRORS = (
     ArithmeticError,
     AssertionError,
@@ -44,7 +44,7 @@ def read_quantity(field: Field, given: object) -> float:
     """Read a number, or text with a unit, as a float in the SI unit of a field.
 
     The decimal text is converted exactly and rounded once, so that ``"0.7 mm"`` and ``0.0007`` are the same double.  A
-    number without a unit is in the SI unit, in quotes or not.
+    number without a unit, in quotes or not, is in the SI unit.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def _from_text(field: Field, text: str) -> float:
 
 
 def _factor(field: Field, unit: str, text: str) -> Decimal:
-    """How many SI units of the field one `unit` is."""
+    """Size of one `unit` in SI units of the field."""
     try:
         if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
             raise ValueError(unit)
@@ -126,10 +126,10 @@ def _roots_by_pint(unit: str) -> tuple[Decimal, Roots]:
 
 @cache
 def _registry() -> Any:
-    import pint  # loaded only when a value carries a unit that is not common: it takes longer than all the rest
+    import pint  # imported only for a value with an uncommon unit: it takes longer than all the rest
 
     registry: Any = pint.UnitRegistry(non_int_type=Decimal)
-    # What engineers write and pint does not know.
+    # Notations that engineers use and pint does not define.
     registry.define("rev = revolution")
     registry.define("@alias rpm = RPM")
     registry.define("Ns = newton * second")

@@ -15,7 +15,7 @@ from carom.parameters.quantities import read_quantity
 __all__ = ["Parameters", "Scales"]
 
 # Smallest |omega² - 1 + i gamma|, by which the unbalance is divided to get the contact-free equilibrium: below it
-# the equilibrium lies so far out that nothing is left of the position inside the clearance.
+# the equilibrium lies so far out that rounding leaves no digits for positions inside the clearance.
 _RESONANCE = 1e-9
 
 
@@ -93,12 +93,12 @@ class Scales:
 
     @property
     def damping(self) -> float:
-        """Unit of damping: m Ω, N s/m; the damping of a machine is gamma of these."""
+        """Unit of damping: m Ω, N s/m; the damping of a machine is gamma times this unit."""
         return self.mass * self.speed
 
     @property
     def stiffness(self) -> float:
-        """Unit of stiffness: m Ω², N/m; the stiffness of a machine is omega² of these."""
+        """Unit of stiffness: m Ω², N/m; the stiffness of a machine is omega² times this unit."""
         return self.mass * (self.speed * self.speed)
 
 
@@ -124,7 +124,7 @@ class Parameters:
     radius_ratio : float
         Rotor radius over clearance R/c_r; positive.
     scales : Scales, optional
-        What turns results into SI units.
+        Units that convert results to SI units.
 
     Raises
     ------
@@ -177,7 +177,7 @@ class Parameters:
 
 
 def _number(fields: Mapping[str, Field], name: str, given: object) -> float:
-    """Check a number of the library's own interface: units are read at the door, not here."""
+    """Check a number given in Python; text with units is refused here."""
     if isinstance(given, str):
         raise fields[name].error(given, "this is text, not a number")
     return read_quantity(fields[name], given)

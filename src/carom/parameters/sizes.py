@@ -1,4 +1,4 @@
-"""Sizes of starts, times and disturbances: in units of the equations, or with a unit where the machine is known."""
+"""Sizes of starts, times and disturbances: in units of the equations, or with a unit if the machine is known."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _KINDS: Mapping[str, _Kind] = {
 }
 _PLAIN = re.compile(r"\s*[+-]?(?:[0-9.]+(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity))\s*")
 _GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*", re.DOTALL)
-"""As engineers write shocks; in tables of units g is the gram."""
+"""Accelerations such as ``20 g``, as engineers write shocks; in tables of units ``g`` is the gram."""
 
 
 class Size(NamedTuple):
@@ -45,7 +45,7 @@ class Size(NamedTuple):
     in_si : bool
         Whether it is in the SI unit; otherwise it is in units of the equations.
     kind : str
-        Property of :class:`Scales` that is its unit, or ``"angle"``.
+        Property of :class:`Scales` that gives its unit, or ``"angle"``.
     """
 
     value: float
@@ -53,19 +53,19 @@ class Size(NamedTuple):
     kind: str
 
     def own(self, scales: Scales | None) -> float:
-        """Return it in units of the equations; those of one in SI units must be known."""
+        """Return the size in units of the equations; a size in SI units needs the scales."""
         return self.value / float(getattr(scales, self.kind)) if self.in_si else self.value
 
 
 def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Size:
-    """Read a size: a number without a unit counts units of the equations, in quotes or not.
+    """Read a size: a number without a unit, in quotes or not, is in units of the equations.
 
     Parameters
     ----------
     name : str
-        Of the option or entry, for errors.
+        Name of the option or entry, for error messages.
     given : object
-        A real number, or text; ``"20 g"`` are standard gravities.
+        A real number, or text; in ``"20 g"`` the unit is the standard gravity.
     kind : {"length", "velocity", "acceleration", "time", "angle"}
     scales : Scales or None
         Needed for values with units.
@@ -73,7 +73,7 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Siz
     Raises
     ------
     InputError
-        That is no such size, or it has a unit and the scales are not known.
+        The value is not a size of this kind, or it has a unit and the scales are not known.
     """
     words, unit, own, example = _KINDS[kind]
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)

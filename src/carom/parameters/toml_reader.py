@@ -1,4 +1,4 @@
-"""The text of a machine file, or of another TOML file, up to its tables; what they mean is read elsewhere."""
+"""Read a machine file, or another TOML file, into raw tables; other modules interpret them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _PARTS = re.compile(
     r"""|"(?:[^"\\\n]++|\\(?:.|\Z))*+"?|'[^'\n]*+'?|#[^\n]*+|[][{}.,=\n]""",
     re.DOTALL,
 )
-"""Strings and comments, each as a whole, and the signs between which keys and values stand."""
+"""Matches whole strings and comments, and the characters that separate keys and values."""
 _PLACE = re.compile(r"\(at line ([0-9]+), ")
 
 
@@ -57,17 +57,18 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
     path : path
         A TOML file with either a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``.
     problems : Problems
-        Gets the errors of what stands beside these tables.
+        Collects the errors of other entries in the file.
 
     Returns
     -------
     MachineTables
-        The entries, not yet looked at.
+        The entries, not yet checked.
 
     Raises
     ------
     InputError
-        If the file cannot be read, is not TOML, or does not hold exactly one of the two tables; with all of `problems`.
+        If the file cannot be read, is not TOML, or does not hold exactly one of the two tables; in the last case it
+        includes all of `problems`.
     """
     name, content = read_toml(path, _WHAT, _REMEDY)
     for key, value in content.items():
@@ -77,7 +78,7 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
             allowed = f"must be a table that starts with the line [{key}], not a value"
             problems.errors.append(InputError(key, shown(value), allowed))
     kinds = [kind for kind in ("machine", "dimensionless") if kind in content]
-    if len(kinds) != 1 and not (problems.errors and not kinds):  # a table with another name is what is missing
+    if len(kinds) != 1 and not (problems.errors and not kinds):  # a misnamed table already explains the missing one
         found = "holds both" if kinds else "holds neither"
         problems.errors.append(InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}"))
     if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
@@ -95,7 +96,7 @@ def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str
     what : str
         What the file is called in errors, such as ``"machine file"``.
     remedy : str
-        What it must hold, for the errors of a file that is empty or far too long.
+        What it must hold, for the errors about a file that is empty or far too long.
 
     Returns
     -------
@@ -166,7 +167,7 @@ def _parse(name: str, text: str, what: str, remedy: str) -> dict[str, Any]:
 
 
 def _first_deep_line(text: str) -> int | None:
-    """Number of the first line with too many levels, in time proportional to the length: the parser's grows faster."""
+    """Number of the first line that is nested too deeply; takes linear time, unlike the parser."""
     brackets = dots = 0
     for part in _PARTS.finditer(text):
         sign = part[0]
