@@ -220,9 +220,9 @@ def _land(rotor, plane, amplitudes):
     """Complete a chatter: replace its remaining bounces by lasting contact from now on.
 
     Let ``v`` be the speed of the first rebound and ``τ`` the remaining duration of the chatter.  The bounces have the
-    total normal impulse ``N τ − v``, lasting contact has ``N τ``; friction acts along with either.  The difference is
-    balanced by an outward impulse ``v`` with its share of friction.  With ``h = v²/(2N)``, the height of the first
-    bounce, the error of the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips.  It is
+    total normal impulse ``N τ − v``, lasting contact has ``N τ``; each comes with its share of friction.  The
+    difference is balanced by an outward impulse ``v`` with its share of friction.  With ``h = v²/(2N)``, the height of
+    the first bounce, the error of the angle is ``8(1 + μ²)(1 + θ̇) h v/(3N(1 − d³))`` while the contact slips.  It is
     ``4hP/(N(1 − d²))`` where every impact stops the slip against a force ``P`` along the wall.  Both hold to leading
     order in ``v`` for the planar rotor.
     """

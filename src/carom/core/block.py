@@ -91,7 +91,7 @@ def sign_changes(polynomial, level, floor, remainder):
 
 @part
 def rough_root(polynomial, level, after):
-    """Where the polynomial may vanish, in 0 … 1, from the coefficients on both sides of its sign change.
+    """Approximate root of the polynomial in 0 … 1, from the coefficients on both sides of its sign change.
 
     In a flight that starts on the wall, a root in the first half may lie close to the root at the start.  The latter is
     divided out: ``b_j n/j`` are the coefficients of ``f/t``.

@@ -4,7 +4,7 @@ A motion that still spirals slowly towards its orbit may recur to within :data:`
 multiple of the period, when its turns about the orbit happen to close.  The motion has recurred after some number of
 impacts.  For every divisor of this number, :func:`least_period` therefore tests whether that many impacts have an
 attracting fixed point close by.  A rub may bring irregular bouncing back to the same numbers to the last bit.  Then the
-computation repeats itself although the motion does not; no orbit closes there, and no number is returned.
+computation repeats itself although the motion does not; no orbit closes there, and the result is 0.
 
 Without lasting contact in the period, the fixed point is found by Newton's method with the exact derivative of the
 impacts (:mod:`carom.core.variation`), and its multipliers decide on stability.  With lasting contact, it is found by

@@ -41,7 +41,7 @@ INSIDE, LEAVING = 0, 1
 """How a flight starts: inside the wall, or on it with inward velocity."""
 
 MARGIN = 4.4
-"""The 4 of the acceptance test plus room for the rounding of both sides."""
+"""The 4 of the acceptance test with a margin for the rounding of both sides."""
 ROUNDING = 16 * 2.220446049250313e-16
 POLISHED = 1e-4
 """Correction, in units of ``f'/M₂``, below which a Householder step and the cubic nudge are exact to rounding.

@@ -8,7 +8,7 @@
 - *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding.  Or it lies in a
   neighbourhood of that rub which sliding never leaves, if the memory holds one; this is a proof
   (:mod:`carom.closed_forms.absorbing`).
-- *Rolling*: backward whirl slides faster than the speed, if the memory holds one, above which it certainly runs away to
+- *Rolling*: if the memory holds a threshold speed, backward whirl slides faster than it and so certainly ends in
   rolling; this is a proof (:mod:`carom.closed_forms.whirl`).
 - *Backward whirl*, *rolling* and forward rub that runs round the wall: after a full turn without flight the state has
   changed by less than ``NEAR`` and by less than ``NEAR`` per unit time, so a slow change is not taken for none.

@@ -15,7 +15,7 @@ __all__ = ["departure", "examine", "halley_ratio", "look_up", "travel"]
 
 BINOMIALS = tuple(float(math.comb(DEGREE, j)) for j in range(DEGREE + 1))
 DIAGONAL = 1.5
-"""More than the ratio of ``|Re z| + |Im z|`` to ``|z|``."""
+"""Upper bound of the ratio of ``|Re z| + |Im z|`` to ``|z|``."""
 
 
 class Departure(NamedTuple):
@@ -116,7 +116,7 @@ def examine(table, depth, start, polynomial, factors):
 
 @part
 def _load_polynomial(coefficients, depth, start, polynomial):
-    """Write the Bernstein coefficients of ``f`` on the block of each lane, which is most often the longest for all."""
+    """Write the Bernstein coefficients of ``f`` on the block of each lane; most often all blocks are the longest."""
     a, b, c, d, e, f, g, h = products_of(start)
     if lanes_of(depth > 0.0) == 0:
         for j in range(DEGREE):

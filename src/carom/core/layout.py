@@ -195,9 +195,9 @@ def table_record(
     Returns
     -------
     numpy.record
-        The arguments, and ``pace`` (nodes per unit time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops over
-        lanes take their length from the last two: the compiler would unroll a loop of known length, and the unrolled
-        loop needs more vectors than there are registers.
+        The arguments, and ``pace`` (nodes per unit time), ``degree`` (DEGREE) and ``terms`` (LANE_TERMS).  Loops in the
+        kernels for lanes take their length from the last two: the compiler would unroll a loop of known length, and the
+        unrolled loop needs more vectors than there are registers.
     """
     return record(
         degree=np.asarray(DEGREE, np.int64),

@@ -55,7 +55,7 @@ STEP_FRACTION = 0.135
 ROUNDING = 64 * 2.220446049250313e-16
 """Rounding error of a sum over the modes, relative to the moduli of its terms."""
 NO_TURN = 1e-15
-"""Distance along the wall that counts as none."""
+"""Distance along the wall that counts as zero."""
 NEWTON_STEPS = 8
 """Far more steps than needed for a zero that is not blurred by rounding."""
 
