@@ -1,4 +1,4 @@
-"""What is known exactly of the planar rotor.
+"""Exact results for the planar rotor.
 
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria

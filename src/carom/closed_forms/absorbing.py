@@ -6,7 +6,7 @@ While the rotor slides with forward slip, ``θ̈ = −γ(1 + θ̇) − ρ sin x 
 
     ẇ = −(γ + 2μ)w − μw² − p(sin y − sin y₀).
 
-The quadratic term of friction is taken up by an integrating factor: with ``s = y − y₀``,
+An integrating factor absorbs the quadratic term of friction: with ``s = y − y₀``,
 
     V = ½w²e^{2μs} + p ∫₀ˢ (sin(y₀ + σ) − sin y₀) e^{2μσ} dσ,      V̇ = −(γ + 2μ) w² e^{2μs} ≤ 0.
 
@@ -15,7 +15,7 @@ the wall pushes (``N > 0``) and slip is forward (``s_r + 1 + w > 0``), sliding c
 every state in it converges to the rub, the only invariant set with ``w = 0``.  The largest such ``c`` follows from the least
 ``V`` on the curves ``N = 0`` and ``s_r + 1 + w = 0``, bounded from below interval by interval.
 
-Nothing of this needs impacts to lose speed: a restitution of one leaves it as it is.
+None of this depends on the restitution: it holds for a restitution of one too.
 """
 
 from __future__ import annotations
@@ -32,27 +32,27 @@ from carom.models import Jeffcott, Subject, model_of
 __all__ = ["GIVEN_UP", "RubNeighbourhood", "neighbourhood_of", "rub_neighbourhood"]
 
 INTERVALS = 4000
-"""Ten times as many raise the level by two or three thousandths, and cost nearly ten times as much."""
+"""Ten times as many would raise the level by two or three thousandths at nearly ten times the cost."""
 GIVEN_UP = 1e-9
-"""Share of a threshold that is given up for rounding."""
+"""Relative safety margin of a threshold for rounding errors."""
 ROUNDING = 64 * np.finfo(float).eps
-"""Rounding error of ``V`` next to the rub, relative to ``p``: there its terms cancel."""
+"""Rounding error of ``V`` next to the rub, where its terms cancel, relative to ``p``."""
 
 
 @dataclass(frozen=True)
 class RubNeighbourhood:
-    """Sliding states from which the rotor surely goes over to the synchronous rub.
+    """Set of sliding states from which the rotor is proven to go over to the synchronous rub.
 
     Attributes
     ----------
     angle : float
-        Of the rub, rad.
+        Angle of the rub in rad.
     level : float
-        ``V`` below which states belong to it.
+        States with ``V`` below it belong to the neighbourhood.
     rounding : float
         Rounding error of ``V``, by which the level has been lowered.
     limit : {"saddle", "lift-off", "slip"}
-        What bounds it.
+        The condition that limits the level.
     friction, decline, strength, phase : float
         ``μ``, ``γ + 2μ``, ``p`` and ``y₀``.
     """
@@ -69,7 +69,7 @@ class RubNeighbourhood:
     def value(self, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
         """``V`` of sliding states: angles in rad, angular speeds in the co-rotating frame in ``Ω``.
 
-        Angles are taken in the turn between the two saddles.
+        Angles are reduced to the turn between the two saddles.
         """
         low = -math.pi - 2.0 * self.phase
         ahead = np.mod(np.asarray(angles, float) - self.angle - low, 2.0 * math.pi) + low

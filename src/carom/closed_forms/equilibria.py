@@ -16,7 +16,7 @@ Kind = Literal["contact-free", "rub"]
 Status = Literal["admissible", "boundary", "virtual"]
 
 BOUNDARY = 1e-12
-"""Distance from the wall (in clearances) or normal force (in ``m c_r Ω²``) that counts as none."""
+"""Distance from the wall (in clearances) or normal force (in ``m c_r Ω²``) that counts as zero."""
 NEUTRAL = 64 * np.finfo(float).eps
 """Rounding error of the exponents along the wall, relative to the largest."""
 
@@ -33,12 +33,12 @@ class Equilibrium(Result):
     normal_force : float
         ``N`` in ``m c_r Ω²``; zero for the contact-free one.
     status : {"admissible", "boundary", "virtual"}
-        Contact-free: inside, on or outside the wall.  Rub: pressed on the wall, just touching, or held by a pull that
-        no wall can give.
+        Contact-free: inside, on or outside the wall.  Rub: pressed on the wall, just touching, or only possible if the
+        wall could pull.
     eigenvalues : ndarray of complex
         Exponents of small disturbances; for a rub those along the wall.
     stable : bool
-        Whether small disturbances die out, those that lift a rubbing rotor off the wall included.
+        Whether small disturbances die out, including those that lift a rubbing rotor off the wall.
     """
 
     kind: Kind
@@ -74,8 +74,8 @@ def find_equilibria(machine: Subject) -> tuple[Equilibrium, ...]:
     ``|h|²N² + 2 Re(h) N + 1 − |U*|² = 0``.  For the planar rotor ``H = 1/(ω² − 1 + iγ)``, which is
     ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``.
 
-    A balanced rotor (``ρ = 0``) has no place where it would rub rather than anywhere else, and none is listed: with
-    ``γ + μ(1 − ω²) = 0``, as without damping and friction, it may rest at any angle, and else nowhere.
+    For a balanced rotor (``ρ = 0``) no rub is listed, because no angle is distinguished: if ``γ + μ(1 − ω²) = 0``, as
+    without damping and friction, it may rub at every angle, otherwise at none.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def _rubs(rotor: Jeffcott) -> list[Equilibrium]:
     reach = abs(h) * abs(rotor.equilibrium)
     if reach < abs(h.imag) or reach == 0.0:
         return []
-    # The root of Re(h)² − |h|²(1 − |U*|²), and below 1 + hN, in forms that neither cancel nor underflow.
+    # The square root of Re(h)² − |h|²(1 − |U*|²), and 1 + hN below, in forms that neither cancel nor underflow.
     distance = float(np.sqrt(reach - abs(h.imag)) * np.sqrt(reach + abs(h.imag)))
     rubs = []
     for root in (distance, -distance):
@@ -124,12 +124,12 @@ def _rubs(rotor: Jeffcott) -> list[Equilibrium]:
 
 
 def _dies_out(eigenvalues: np.ndarray) -> bool:
-    """Whether disturbances along the wall die out by more than rounding errors can feign."""
+    """Whether disturbances along the wall die out, with a margin above the rounding errors."""
     return bool(eigenvalues.real.max() < -NEUTRAL * np.abs(eigenvalues).max())
 
 
 def _eigenvalues_along_wall(rotor: Jeffcott, position: complex, force: float) -> np.ndarray:
-    """Exponents of small disturbances of a rub that keep contact and slip.
+    """Exponents of small disturbances of a rub that maintain contact and slip.
 
     With ``n = e^{iθ}`` the contact force changes by ``−(1 + iμ)n (δN + iN δθ)``.  Staying on the wall,
     ``Re(n̄ δÿ) = 0`` gives ``δN = Re(n̄ W M² δc) + μN δθ``.  The motion is then restricted to disturbances with

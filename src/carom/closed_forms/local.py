@@ -12,8 +12,8 @@ equilibrium, ``κ = Re(K'/K)`` the rate at which it leaves the wall, and ``q = (
     F₁(T) = 1 + Re(q a₂₂(T)) = 0,     ṙ' = κσ/Re(q a₁₂),     θ̇' = −Im(q a₂₂) ṙ'/σ,
     θ₀' = Im(K'/K) − κ Im(q a₁₂)/Re(q a₁₂).
 
-(The text prints the first with a minus sign, and the last display of its section 5 with the sign of ``θ̇`` turned; both
-contradict the exact branches.)
+(The source paper prints the first with a minus sign, and the last display of its section 5 with the opposite sign of
+``θ̇``; both contradict the exact branches.)
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class ContactSystem:
 
     @cached_property
     def system(self) -> System:
-        """The same as the kernels see it, in units of ``σ``."""
+        """The system in the form that the kernels take, in units of ``σ``."""
         return second_order_system(
             exponents=self.exponents,
             equilibrium=self.equilibrium / self.wall,
@@ -88,7 +88,10 @@ class ContactSystem:
 
     @property
     def exponents(self) -> tuple[complex, complex]:
-        """Roots of ``λ² + αλ + β``, the one with the smaller real part first; the smaller from their product."""
+        """Roots of ``λ² + αλ + β``, the one with the smaller real part first.
+
+        The root of smaller modulus is computed from the product of both, which avoids cancellation.
+        """
         split = cmath.sqrt(self.damping**2 - 4.0 * self.stiffness)
         if (self.damping.conjugate() * split).real < 0.0:
             split = -split
@@ -125,7 +128,7 @@ class NonSmoothHopf:
     Attributes
     ----------
     system : ContactSystem
-        At the bifurcation.
+        The system at the bifurcation.
     leaving : float
         ``κ``: the equilibrium's distance from the centre grows by ``κσε``, so it is admissible for ``κε < 0``.
     cycles : tuple of LocalCycle
@@ -138,12 +141,12 @@ class NonSmoothHopf:
 
 
 def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoothHopf:
-    """Cycles that are born where an equilibrium reaches the wall.
+    """Cycles that emerge where an equilibrium reaches the wall.
 
     Parameters
     ----------
     system : ContactSystem
-        At the bifurcation: ``|K| = σ`` to within 1e-9.
+        The system at the bifurcation: ``|K| = σ`` to within 1e-9.
     equilibrium_rate : complex
         ``dK/dε = (Γ₁ − β₁K)/β``.
 
@@ -182,8 +185,8 @@ def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoo
 def cycle_determinant(system: System, period: float, direction: complex = 1.0) -> float:
     """``det(reset · e^{MT} − 1)`` of the linearised contact at a boundary equilibrium, for any number of modes.
 
-    With the reset ``1 − b rᵀ`` (``r`` reads the speed along the wall's normal, ``b`` is what a unit of it does to the
-    amplitudes) the determinant lemma gives ``det(e^{MT} − 1) F₁(T)``: its zeros are the periods of the cycles.
+    With the reset ``1 − b rᵀ`` (``r`` reads the speed along the wall's normal, ``b`` is the change of the amplitudes for
+    a unit of it) the determinant lemma gives ``det(e^{MT} − 1) F₁(T)``: its zeros are the periods of the cycles.
 
     Parameters
     ----------
@@ -195,7 +198,7 @@ def cycle_determinant(system: System, period: float, direction: complex = 1.0) -
     Returns
     -------
     float
-        Of the real map over ``(Re c, Im c)``, shape (2N, 2N).
+        Determinant of the real map over ``(Re c, Im c)``, shape (2N, 2N).
     """
     arrays = system.arrays
     modes = len(arrays.exponents)

@@ -5,20 +5,21 @@ For one contact plane with row ``W``, column ``B`` and flight ``ċ = Mc`` let, i
     a₁₂(T) = W (e^{−MT} − 1)⁻¹ B,     a₂₂(T) = W M (e^{−MT} − 1)⁻¹ B.
 
 With ``g(z) = 1/(e^{−z} − 1)`` and its regular part ``g̃(z) = g(z) + 1/z`` these are sums over the modes of
-``λⁿ g(λT)`` times a residue, with a divided difference in place of the value where a pair is driven.  Because an
-impulse does not move the rotor at once (``WB = 0``) the poles of ``a₂₂`` at ``T = 0`` cancel, so ``g̃`` may stand for
-``g`` there, and ``a₁₂(T) = H/T +`` the same sum with ``g̃``, where ``H = −W M⁻¹ B`` is the static receptance.
+``λⁿ g(λT)`` times a residue; for a driven pair a divided difference replaces the value.  Because an impulse does not
+change the position at once (``WB = 0``) the poles of ``a₂₂`` at ``T = 0`` cancel, so ``g̃`` may replace ``g`` there, and
+``a₁₂(T) = H/T +`` the same sum with ``g̃``, where ``H = −W M⁻¹ B`` is the static receptance.
 
 Completeness rests on two bounds.  ``|a₂₂|`` is below a decreasing function of ``T``, so beyond ``longest_period``
 there is ``F₁ > 0``.  Up to there, ``g̃(z) = −1/2 − Σ_{k≠0} 1/(z − 2πik)`` gives
 
     |g̃⁽ⁿ⁾(z)| ≤ 2 n! (δ^{−n−1} + ζ(n+1) (2π)^{−n−1}),      δ = min_{k≠0} |z − 2πik|,
 
-hence a bound of ``|F₁''|`` on any interval, and ``g(z) = Σ e^{mz}`` a sharper one far out.  Near a pole both bounds and
-``|F₁''|`` itself grow alike, so the intervals there shrink with the distance and no faster, unless the pole is one of the
-imaginary part alone (no damping and no friction).  An interval is discarded, or
-accepted as monotone, only when that bound proves it; one on which ``F₁`` cannot be told from zero in double precision
-holds a double root, or a single one if ``F₁`` changes sign across it.  So roots are counted right to the last pair.
+hence a bound of ``|F₁''|`` on any interval, and ``g(z) = Σ e^{mz}`` gives a sharper one at long periods.  Near a pole
+the bounds grow at the rate of ``|F₁''|`` itself, so the intervals need only shrink in proportion to the distance from
+the pole, unless the pole is one of the imaginary part alone (no damping and no friction).  An interval is discarded, or
+accepted as monotone, only when that bound proves it; one on which ``F₁`` cannot be distinguished from zero in double
+precision holds a double root, or a single one if ``F₁`` changes sign across it.  So all roots are counted correctly, down
+to the last pair.
 """
 
 from __future__ import annotations
@@ -68,13 +69,13 @@ class PeriodRoots(Result):
     Attributes
     ----------
     periods : ndarray
-        The roots in growing order, a double root twice.
+        The roots in ascending order, a double root twice.
     longest_period : float
         End of the searched range.
     proven : bool
         Whether ``F₁ > 0`` is proven beyond it, so that there is no other root at all.
     starts_below : bool
-        Whether ``F₁ < 0`` next to ``T = 0``.  It takes ``d = 1`` and a root at ``T = 0``, which is not counted.
+        Whether ``F₁ < 0`` next to ``T = 0``.  This requires ``d = 1`` and a root at ``T = 0``, which is not counted.
     """
 
     periods: np.ndarray
@@ -86,10 +87,10 @@ class PeriodRoots(Result):
 class PeriodCondition:
     """``F₁`` of a system, its derivative and its bounds.
 
-    :func:`carom.core.planar.returns` sums the same for the planar rotor alone.  Neither can stand for the other: here
-    there are any number of modes, many periods at a time and the rounding of each sum, which the proofs need; there one
-    period costs less than a microsecond, a hundredth of what it costs here, inside kernels that continuation calls
-    thousands of times.  The tests hold them together.
+    :func:`carom.core.planar.returns` computes the same sums for the planar rotor alone.  Both are needed.  This class
+    takes any number of modes and many periods at a time, and gives the rounding error of each sum, which the proofs need.
+    The function takes less than a microsecond for one period, a hundredth of the time here; kernels that continuation
+    calls thousands of times use it.  The tests compare the two.
 
     Parameters
     ----------
@@ -124,13 +125,13 @@ class PeriodCondition:
         return (self.factor * self._sums(periods, (2, 1))[0][0]).real
 
     def measure(self, periods: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """``F₁``, its slope, and what rounding may do to ``F₁`` (that of ``λT`` included)."""
+        """``F₁``, its slope, and the possible rounding error of ``F₁`` (including that of ``λT``)."""
         (a22, rate), (size, rate_size) = self._sums(periods, (1, 0), (2, 1))
         noise = ROUNDING * (1.0 + abs(self.factor) * (size + periods * rate_size))
         return 1.0 + (self.factor * a22).real, (self.factor * rate).real, noise
 
     def _sums(self, periods: np.ndarray, *terms: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
-        """Sums over the modes of ``λⁿ g̃⁽ᵏ⁾(λT)`` times a residue, for each ``(n, k)``, and of the moduli of the parts."""
+        """Sums over the modes of ``λⁿ g̃⁽ᵏ⁾(λT)`` times a residue, for each ``(n, k)``, and sums of the moduli."""
         periods = np.asarray(periods, float)
         regular = _regular(np.multiply.outer(self.exponents, periods), max(k for _, k in terms))
         totals = np.zeros((len(terms), *periods.shape), complex)
@@ -155,9 +156,9 @@ class PeriodCondition:
         return totals, sizes
 
     def curvature_bound(self, middles: np.ndarray, half_widths: np.ndarray) -> np.ndarray:
-        """Bound of ``|F₁''|`` on intervals, the smaller one of a bound for ``g̃`` and one for ``g``.
+        """Bound of ``|F₁''|`` on intervals, the smaller of a bound from ``g̃`` and one from ``g``.
 
-        The second, ``|g⁽ⁿ⁾(z)| ≤ Σ mⁿ e^{m Re z}``, falls off at long periods.
+        The second, ``|g⁽ⁿ⁾(z)| ≤ Σ mⁿ e^{m Re z}``, decays at long periods.
         """
         longest = middles + half_widths
         moduli = np.abs(self.exponents)[:, None]
@@ -211,7 +212,7 @@ class PeriodCondition:
         return float(abs(self.factor) * total)
 
     def roots(self, longest_period: float | None = None) -> PeriodRoots:
-        """All roots up to ``longest_period``, by default up to where there are none any more.
+        """All roots up to ``longest_period``; by default all roots there are.
 
         Parameters
         ----------
@@ -259,9 +260,9 @@ class PeriodCondition:
         return np.sort(np.concatenate([simple, np.repeat(self._folds(doubtful[double]), 2)])), starts_below
 
     def _sort_out(self, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Intervals, shape (n, 2), on which ``F₁`` is monotone, and those on which it cannot be told from zero.
+        """Intervals on which ``F₁`` is monotone, and those on which it cannot be distinguished from zero.
 
-        It has no root outside them.
+        Both have shape (n, 2).  ``F₁`` has no root outside them.
         """
         left, right = grid[:-1], grid[1:]
         monotone, doubtful = [np.empty((0, 2))], [np.empty((0, 2))]
@@ -275,7 +276,7 @@ class PeriodCondition:
             lost = undecided & ~steady & (change < noise)
             intervals = np.stack([left, right], axis=1)
             monotone.append(intervals[undecided & steady])
-            # Without damping F₁ has poles.  What rounding makes of F₁ next to one is large, and no root is there.
+            # Without damping F₁ has poles.  Next to one the rounding error is large, but there is no root.
             doubtful.append(intervals[lost & (noise < 1.0)])
             split = undecided & ~steady & ~lost & (half > ROUNDING * middle)
             if split.sum() > MOST_INTERVALS // 4:
@@ -304,7 +305,7 @@ class PeriodCondition:
         return root
 
     def _folds(self, intervals: np.ndarray) -> np.ndarray:
-        """Where the slope vanishes on short intervals, shape (n, 2), that hold a double root."""
+        """Double roots on short intervals, shape (n, 2): the places where the slope vanishes."""
         left, right = intervals.T
         at_left, at_right = self.slope(left), self.slope(right)
         crosses = at_left * at_right < 0
@@ -313,9 +314,9 @@ class PeriodCondition:
 
 
 def _regular(z: np.ndarray, highest: int) -> np.ndarray:
-    """``g̃`` and its derivatives up to this one (at most the second) at complex ``z``, shape (highest + 1, ...)."""
+    """``g̃`` and its derivatives up to order ``highest`` (at most 2) at complex ``z``, shape (highest + 1, ...)."""
     small = np.abs(z) < SERIES_RADIUS
-    # g(z) = −1 − g(−z) keeps the exponential from growing.
+    # g(z) = −1 − g(−z) avoids growing exponentials.
     flip = z.real > 0
     far = np.where(small, -1.0, np.where(flip, -z, z))
     g = -np.exp(far) / np.expm1(far)
@@ -383,7 +384,7 @@ def _geometric_bound(order: int, decay: np.ndarray) -> np.ndarray:
 
 
 def _joined(intervals: np.ndarray) -> np.ndarray:
-    """Neighbouring intervals, shape (n, 2), joined to one."""
+    """Merge adjacent intervals, shape (n, 2)."""
     if not len(intervals):
         return intervals
     intervals = intervals[np.argsort(intervals[:, 0])]

@@ -1,4 +1,4 @@
-"""Backward whirl in lasting contact, in closed form: when sliding runs away to rolling, and what rolling takes.
+"""Backward whirl in lasting contact, in closed form: when sliding runs away to rolling, and what rolling requires.
 
 On the wall the planar rotor obeys the components of the source paper's (2.13) along ``e^{iθ}`` and ``ie^{iθ}``.  With
 ``x = θ − φ``, the whirl speed in the fixed frame ``W = 1 + θ̇`` and the slip velocity ``v = s + W``,
@@ -17,27 +17,28 @@ unbalance drops out, and the threshold is the larger root for ``ρ = 0``.
 
 *Rolling* (``w = s``) needs the friction force ``F = ρ sin x − γs`` along growing angle and has
 ``N = s² − ω² + ρ cos x``.  ``|F| ≤ μN`` at every angle is ``|γ|s + p ≤ μ(s² − ω²)``; for ``γ ≥ 0`` that is
-``w_c ≤ s``.  Beyond, rolling is interrupted by a slide once a turn, if it lasts at all.
+``w_c ≤ s``.  Otherwise rolling is interrupted by a slide once a turn, if it lasts at all.
 
 *Sliding faster than rolling* (``w > s``) friction slows the whirl: ``w' ≤ −γw − μ(w² − ω²) + p``.
 
-*What can repeat*, for ``γ, μ ≥ 0`` and not both zero (``docs/theory/lasting-contact.md`` has the steps, and checks them).
+*Which motions can be periodic*, for ``γ, μ ≥ 0`` and not both zero (``docs/theory/lasting-contact.md`` derives and checks
+each step).
 With the friction force ``G`` and ``E = ½θ̇² − ρ cos x`` the equation ``W' = −γW − ρ sin x + G`` gives ``E' = −(γW − G)θ̇``.
 
 - A motion that slides with forward slip (``G = −μN``) has ``L' = −(γ + 2μ)θ̇²e^{2μx} ≤ 0`` for
-  ``L = ½θ̇²e^{2μx} + ∫(γ + ρ sin x + μ(ρ cos x + 1 − ω²))e^{2μx} dx``.  So one that repeats without a turn in the co-rotating frame is
-  a synchronous rub.
-- One that repeats after a turn keeps the sign of ``θ̇``, as paths in the plane of ``x`` and ``θ̇`` do not cross.  Over the turn
-  ``∮(γW + μN) dθ = 0``, so the mean of ``γW`` over the angle is that of ``−μN``, below zero.  So there is no steady sliding
-  whirl that is forward all the time, or in the mean over the angle, but the synchronous rub.
-- Backward whirl (``W < 0`` all round).  ``γw + G`` has the mean zero over the angle, ``w = −W``.  Let ``A = s² − ω²`` and
+  ``L = ½θ̇²e^{2μx} + ∫(γ + ρ sin x + μ(ρ cos x + 1 − ω²))e^{2μx} dx``.  So if it is periodic without making a turn in the
+  co-rotating frame, it is a synchronous rub.
+- If it is periodic with a turn, ``θ̇`` keeps its sign, as paths in the plane of ``x`` and ``θ̇`` do not cross.  Over the turn
+  ``∮(γW + μN) dθ = 0``, so the mean of ``γW`` over the angle is that of ``−μN``, below zero.  So apart from the synchronous
+  rub there is no steady sliding whirl that is forward all the time, or forward in the mean over the angle.
+- Backward whirl (``W < 0`` over the whole turn).  ``γw + G`` has the mean zero over the angle, ``w = −W``.  Let ``A = s² − ω²`` and
   ``γs > μA``.  Where slip is forward or none, ``γw + G ≥ h − μρ cos x`` with ``h = γw − μ(w² − ω²) > 0`` on ``0 ≤ w ≤ s``; where it is
   backward, ``γw + G = γw + μN``, which exceeds ``−μρ cos x`` by ``γw + μN + μρ cos x > γs − μρ``.  For ``A ≥ ρ`` that is positive, and the mean is too.
-  For ``A < ρ`` contact at ``x = π`` takes ``w > s``, so slip is backward there and ``E ≥ ½(1 + √(ω² + ρ))² + ρ``, more than
+  For ``A < ρ`` contact at ``x = π`` requires ``w > s``, so slip is backward there and ``E ≥ ½(1 + √(ω² + ρ))² + ρ``, more than
   ``½(1 + s)² + ρ``, the most that ``E`` can be where slip turns backward; and ``E`` falls while it is.  So no backward whirl in
   lasting contact sustains itself for ``γ > μ(s² − ω²)/s``.
 
-A sliding one near ``μ(w² − ω²) = γw`` does repeat where damping is lower, but it repels: it is the threshold between
+For lower damping there is a periodic sliding whirl near ``μ(w² − ω²) = γw``, but it is a repeller: the threshold between
 runaway and decay.
 """
 
@@ -63,11 +64,11 @@ class Runaway:
     Attributes
     ----------
     certain : float
-        From here on, at any angle, the whirl surely runs away; infinite without friction.
+        Speed beyond which the whirl runs away from any angle; infinite without friction.
     average : float
         The same with the unbalance averaged over a turn: the threshold of a rotor with little unbalance.
     rolling_speed : float
-        Where the runaway ends, ``s``.
+        Speed at which the runaway ends, ``s``.
     """
 
     certain: float
@@ -82,7 +83,7 @@ class Runaway:
 
 @dataclass(frozen=True)
 class Rolling:
-    """Rolling round the bearing without slip, in backward whirl at ``1 + θ̇ = −s``.
+    """Rolling on the bearing without slip, in backward whirl at ``1 + θ̇ = −s``.
 
     Attributes
     ----------
@@ -93,16 +94,16 @@ class Rolling:
     largest_friction : float
         Largest friction force it needs, ``|γ|s + ρ``, in ``m c_r Ω²``.
     needed_friction : float
-        Coefficient of friction from which on it holds; infinite if the rotor would leave the wall.
+        Smallest coefficient of friction with which it holds; infinite if the rotor would leave the wall.
     largest_damping : float
-        ``γ`` up to which it holds at every angle; not above 0 if friction is too weak for any damping.
+        ``γ`` up to which it holds at every angle; not positive if friction is too weak for any damping.
     damping_bound : float
-        ``γ`` beyond which no backward whirl in lasting contact can sustain itself, ``μ(s² − ω²)/s``: not even one that
-        slides for a part of each turn.
+        ``γ`` beyond which no backward whirl in lasting contact can sustain itself, ``μ(s² − ω²)/s``, even with sliding
+        during a part of each turn.
     largest_stiffness : float
-        ``ω`` up to which it holds at every angle; 0 if it holds for none.
+        ``ω`` up to which it holds at every angle; 0 if it holds for no ``ω``.
     holds : bool
-        Whether the rotor, once it rolls, goes on rolling.
+        Whether a rotor that rolls keeps rolling.
     """
 
     speed: float
@@ -154,7 +155,7 @@ def _balance(rotor: Jeffcott, pull: float) -> float:
 
 
 def rolling(machine: Subject) -> Rolling:
-    """Forces and limits of rolling round the bearing.
+    """Forces and limits of rolling on the bearing.
 
     From ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)`` (see :mod:`carom.closed_forms.whirl`): the largest damping
     ``(μ(s² − ω²) − ρ√(1 + μ²))/s``, the largest ``ω² = s² − (|γ|s + ρ√(1 + μ²))/μ``, and the least friction coefficient,
@@ -193,7 +194,7 @@ def rolling(machine: Subject) -> Rolling:
 
 
 def rub_limit(machine: Subject) -> float:
-    """Damping up to which a stable synchronous rub exists, the other parameters as they are.
+    """Damping up to which a stable synchronous rub exists, with the other parameters unchanged.
 
     The normal force ``N`` of a synchronous rub (:func:`~carom.closed_forms.equilibria.find_equilibria`) solves, with ``κ = 1 − ω²``,
 
@@ -201,8 +202,9 @@ def rub_limit(machine: Subject) -> float:
 
     Of its roots the larger is stable along the wall.  It is positive inside the disc ``κ² + γ² < ρ²``, and outside it
     where ``γ < κ/μ`` and the roots are real, ``γ + μκ ≤ ρ√(1 + μ²)``.  That line touches the circle at
-    ``κ = ρμ/√(1 + μ²)``, ``γ = ρ/√(1 + μ²)``: for larger ``κ`` the rub ends in a fold on the line, for smaller ones as its
-    force vanishes on the circle, where the rotor levitates at last.  There is nothing above and no gap below.
+    ``κ = ρμ/√(1 + μ²)``, ``γ = ρ/√(1 + μ²)``: for larger ``κ`` the rub ends in a fold on the line, for smaller ones its
+    force vanishes on the circle, where the contact-free equilibrium reaches the wall.  Above the limit there is no stable
+    rub; for positive damping below it there always is one.
 
     Parameters
     ----------
@@ -211,7 +213,7 @@ def rub_limit(machine: Subject) -> float:
     Returns
     -------
     float
-        ``γ``; not above 0 if there is no rub with positive damping.
+        ``γ``; not positive if there is no rub with positive damping.
     """
     rotor = model_of(machine)
     parameters = rotor.parameters

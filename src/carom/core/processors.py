@@ -1,4 +1,4 @@
-"""Cores at hand."""
+"""Number of available processor cores."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ __all__ = ["available_cores"]
 
 
 def available_cores() -> int:
-    """Cores this process may use."""
+    """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,14 +1,14 @@
-"""Motions: followed from their starts, one or many, and what they do on their way.
+"""Motions of the rotor: followed from one start or many, and evaluated.
 
 ==================  =======================================================================
 ``starts``          states, and kicks out of levitation
 ``trajectories``    one motion
 ``storage``         motions as datasets and files
-``ensembles``       many motions, on all cores, of which only the endings are kept
-``settling``        what a motion remembers of its way, and the orbit it settles to
-``contacts``        what the bearing gets: the log of impacts, stretches of lasting contact
+``ensembles``       many motions, on all cores; only their endings are kept
+``settling``        the record by which settling is recognised, and the orbit of a settled motion
+``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
 ``ledger``          energies of a motion
-``spectrum``        whirl forward and backward at each multiple of the shaft speed
+``spectrum``        forward and backward whirl at each multiple of the shaft speed
 ==================  =======================================================================
 """
 

@@ -1,4 +1,4 @@
-"""What the touchdown bearing gets: impacts and lasting contacts of a motion, with impulses, forces and works."""
+"""Load on the touchdown bearing: impacts and lasting contacts of a motion, with impulses, forces and works."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ class LastingContact:
 
 
 class Table(Result):
-    """Columns with units, one entry each along a dimension.
+    """Table of columns with units, all along one dimension.
 
-    ``columns`` holds the name of each, the property of :class:`~carom.parameters.Scales` that turns it into SI units (empty
-    where it has none), the SI unit and what it is.
+    ``columns`` maps the name of each column to the property of :class:`~carom.parameters.Scales` that converts it to SI
+    units (empty if there is none), the SI unit and a description.
     """
 
     dimension: ClassVar[str]
@@ -74,7 +74,7 @@ class Table(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactLog(Table):
-    """Impacts of a motion, one entry each, in the order of time.
+    """Impacts of a motion, one entry per impact, in chronological order.
 
     All arrays have shape (n,).  Lengths are in ``c_r``, times in ``1/Ω``, impulses in ``m c_r Ω``, energies in
     ``m c_r² Ω²``, in the co-rotating frame.
@@ -94,9 +94,9 @@ class ContactLog(Table):
     sticks : ndarray of bool
         Whether friction stopped the slip.
     contact_work : ndarray
-        Work of the impulse on the contact point (mean velocity of before and after), never positive.
+        Work of the impulse on the contact point (from the mean of the velocities before and after), never positive.
     drive_work : ndarray
-        Work that the shaft's drive feeds in through friction: kinetic energy gained minus ``contact_work``.
+        Work that the shaft's drive supplies through friction: kinetic energy gained minus ``contact_work``.
     """
 
     time: np.ndarray
@@ -188,7 +188,7 @@ class ContactHistory(Table):
     friction_power : ndarray
         Power of friction on the contact point, ``F v``: never positive, lost as heat.
     drive_power : ndarray
-        Power that the shaft's drive feeds in through friction, ``−F s``.
+        Power that the shaft's drive supplies through friction, ``−F s``.
     """
 
     time: np.ndarray
@@ -249,7 +249,7 @@ class ContactHistory(Table):
 
 
 def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:
-    """Attributes that say what the numbers of phases mean, by the CF conventions."""
+    """Attributes that give the meaning of phase numbers, by the CF conventions."""
     kinds = list(phases)
     return {
         "flag_values": np.array(kinds, np.int8),

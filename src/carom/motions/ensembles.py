@@ -1,4 +1,4 @@
-"""Ensembles: many starts followed to where they settle, on all cores."""
+"""Ensembles: many starts, each followed until it settles, on all cores."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ __all__ = ["Endings", "settle"]
 
 MOST_EVENTS = 1_000_000
 PORTION = 16_384
-"""Starts of one machine that threads share at a time: some milliseconds to a second of work."""
+"""Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
 FEW = 256
-"""Starts that are not worth a second thread: some for each lane."""
+"""Starts of a portion that justify one more thread: some for each lane."""
 MODES = 2
 
 
@@ -43,13 +43,13 @@ class Endings(Result):
     outcomes : ndarray of int8
         Codes of :class:`~carom.outcome.Outcome`.
     times : ndarray
-        When that was known, in ``1/Ω``.
+        Time at which the outcome was known, in ``1/Ω``.
     impacts : ndarray of int64
         Impacts until then.
     multiplicities : ndarray of int64
-        Impacts in a period of periodic bouncing; zero otherwise (of bouncing: aperiodic).
+        Impacts per period of periodic bouncing; zero otherwise (bouncing with zero is aperiodic).
     positions, velocities : ndarray of complex
-        State at that time, co-rotating frame; where the end is proven, one on the way there.
+        State at that time, co-rotating frame; where the outcome was proven in advance, a state on the way to it.
     """
 
     outcomes: np.ndarray
@@ -68,12 +68,12 @@ class Endings(Result):
         ]
 
     def count(self, outcome: Outcome) -> int:
-        """Return how many motions end so."""
+        """Return how many motions have this outcome."""
         return int(np.count_nonzero(self.outcomes == outcome))
 
     @property
     def recovered(self) -> np.ndarray:
-        """Which motions come back to levitation for good."""
+        """Which motions return to levitation and stay there."""
         recovered: np.ndarray = self.outcomes == Outcome.LEVITATED
         return recovered
 
@@ -92,32 +92,32 @@ def settle(
 ) -> Endings:
     """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
 
-    Motions that slide into a neighbourhood of the synchronous rub which is proven to absorb
-    (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirl backward so fast that they are proven to go over to rolling
-    (:func:`~carom.closed_forms.whirl.runaway_speed`), end there; ``simulate`` goes on until they are at the rub or roll.
+    A motion ends early when its outcome is proven: when it slides into an absorbing neighbourhood of the synchronous rub
+    (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirls backward fast enough to go over to rolling
+    (:func:`~carom.closed_forms.whirl.runaway_speed`).  ``simulate`` follows it until it has reached the rub or rolls.
 
-    The result does not depend on the number of threads, to the last bit: no motion knows of another.
+    The result does not depend on the number of threads, to the last bit: motions do not influence each other.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model, or a sequence of them
-        In a sequence: machines of which each start has one.
+        In a sequence: ``which`` assigns one of the machines to each start.
     positions, velocities : array_like of complex
-        Starts in the co-rotating frame, of one shape after broadcasting; ``|U| ≤ 1``.
+        Starts in the co-rotating frame, broadcast to one shape; ``|U| ≤ 1``.
     which : array_like of int, optional
-        With a sequence: the machine of each start, of the same shape.
+        With a sequence: the index of the machine of each start, of the same shape.
     until : float
         Time after which a motion that has not settled is given up, in ``1/Ω``; by default
         :func:`~carom.motions.settling.longest_time` of its machine.
     patience : int
-        Impacts without recurrence after which bouncing counts as aperiodic.  With 0 motions go on to ``until``, wherever
-        they settle; otherwise each ends as soon as it is known where it does (criteria in :mod:`carom.core.fate`).
+        Impacts without recurrence after which bouncing counts as aperiodic.  With 0 all motions are followed to ``until``,
+        settled or not; otherwise each ends as soon as its outcome is known (criteria in :mod:`carom.core.fate`).
     max_events : int
         Impacts and steps of lasting contact after which a motion is given up.
     threads : int, optional
-        By default as many as there are cores at hand.
+        By default the number of available cores.
     progress : callable, optional
-        Called now and then with the share of starts done.
+        Called from time to time with the fraction of starts done.
 
     Returns
     -------
@@ -126,7 +126,7 @@ def settle(
     Raises
     ------
     InputError
-        A start lies outside the wall, is too fast or not finite, ``which`` names no machine, or a limit is no number above 0.
+        A start lies outside the wall, is too fast or not finite; ``which`` is no valid index; or a limit is out of range.
     """
     rotors, which = _machines(machine, which)
     positions, velocities, which = np.broadcast_arrays(
@@ -198,7 +198,7 @@ def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
 
 
 def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
-    """Machine and place of starts, in the order of machines, that make one piece of work."""
+    """Yield the machine and the slice of starts of each portion of work; starts are sorted by machine."""
     ends = np.searchsorted(which, np.arange(machines + 1))
     for machine in range(machines):
         for first in range(ends[machine], ends[machine + 1], PORTION):
@@ -206,7 +206,7 @@ def _portions(which: np.ndarray, machines: int) -> Iterator[tuple[int, slice]]:
 
 
 class _Part(NamedTuple):
-    """A part in the work on some motions of one machine: the counter deals them out to all who have one."""
+    """Motions of one machine; all threads that hold the same part take motions from it by its shared counter."""
 
     rotor: Jeffcott
     motions: np.ndarray
@@ -214,7 +214,7 @@ class _Part(NamedTuple):
 
 
 def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator[int]:
-    """Do parts of the work, on this thread if no other is wanted; the number of motions followed in each one done."""
+    """Follow all parts, in this thread if one suffices; yield the number of motions followed in each."""
     if min(threads, len(parts)) == 1:
         yield from (_settle_part(part, limits) for part in parts)
         return
@@ -231,13 +231,13 @@ def _settle_part(part: _Part, limits: _Limits) -> int:
     until = longest_time(part.rotor) if limits.until is None else limits.until
     task = Task(part.rotor.system.arrays, part.rotor.system.table, until, limits.max_events)
     memory = fresh_memory(part.rotor, limits.patience, absorb=True)
-    # Uncompiled, a lane that has nothing to divide warns.
+    # Without the compiler, NumPy warns of divisions in lanes that do not use the result.
     with np.errstate(all="ignore"):
         return int(follow_each(task, part.motions, part.counter, _workbench.tools(memory)))
 
 
 class _Workbench(threading.local):
-    """What a thread works with, made once."""
+    """Scratch arrays of a thread, allocated once."""
 
     def __init__(self) -> None:
         self.lanes, self.work, self.rub = lanes_record(), workspace(MODES), rub_workspace(MODES)
@@ -251,7 +251,7 @@ _workbench = _Workbench()
 
 
 def _endings(motions: np.recarray, order: np.ndarray | slice, shape: tuple[int, ...]) -> Endings:
-    """The endings in the order of the starts."""
+    """Endings in the order of the starts."""
 
     def gather(name: str, kind: type) -> np.ndarray:
         values: np.ndarray = np.empty(len(motions), kind)

@@ -1,4 +1,4 @@
-"""Energy ledger of a motion: what comes in, what goes out, and that nothing is missing."""
+"""Energy ledger of a motion: stored energies, the works of all forces, and the error of the balance."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ __all__ = ["EnergyLedger", "energy_ledger"]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 LONGEST_PIECE = 1.5
-"""Longest stretch, in ``1/max|λ|``, that one Gauss rule integrates; its error is below rounding."""
+"""Longest stretch, in ``1/max|λ|``, over which one Gauss rule is used; its error is below rounding."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class EnergyLedger(Table):
-    """Running energies of a motion in the fixed frame, in ``m c_r² Ω²``.
+    """Energies of a motion over time in the fixed frame, in ``m c_r² Ω²``.
 
-    All arrays have shape (k,): values at ``times``, which begin at zero and hold the ends of all segments.  Works are
-    summed from the start and positive where they feed the rotor.
+    All arrays have shape (k,): values at ``times``, which begin at zero and contain the ends of all segments.  Works are
+    cumulative from the start; a positive work supplies energy to the rotor.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class EnergyLedger(Table):
     impacts, friction : ndarray
         Work at the contact point: in impacts, and by friction in lasting contact.
     drive : ndarray
-        Work that the shaft's drive feeds in through friction, in both.
+        Work that the shaft's drive supplies through friction, in impacts and in lasting contact.
     """
 
     times: np.ndarray
@@ -72,7 +72,7 @@ class EnergyLedger(Table):
 
     @property
     def imbalance(self) -> float:
-        """Largest energy that is not accounted for, relative to the largest energy or work that passed; 0 at rest."""
+        """Largest error of the balance, relative to the largest energy or work that occurs; 0 at rest."""
         missing = np.abs(self.energy - self.energy[0] - self.supplied).max()
         works = (self.unbalance, self.damping, self.impacts, self.friction, self.drive)
         passed = max(self.energy.max(), *(np.abs(work).max() for work in works))
@@ -80,7 +80,7 @@ class EnergyLedger(Table):
 
 
 def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
-    """Book every energy of a motion.
+    """Compute the energy ledger of a motion.
 
     With ``w = U̇ + iU`` (velocity in the fixed frame, seen in the co-rotating one) the energy
     ``(|w|² + ω²|U|²)/2`` changes by the power ``Re(w̄ρe^{iφ})`` of the unbalance, ``−γ|w|²`` of the damping and that of
@@ -125,7 +125,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         unbalance=work((fixed.conj() * force).real),
         damping=work(-parameters.gamma * np.abs(fixed) ** 2),
         impacts=at_events(impact, impacts.contact_work),
-        # What a landing adds corrects the friction of the bounces it stands for.
+        # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
         friction=work(grip * slip) + at_events(landing, landings.contact_work),
         drive=work(-parameters.radius_ratio * grip)
         + at_events(impact, impacts.drive_work)
@@ -134,7 +134,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 
 
 def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
-    """Edges of the stretches to integrate, and how many of them each segment has."""
+    """Edges of the stretches to integrate, and the number of stretches in each segment."""
     bounds = np.append(trajectory.segment_starts, trajectory.time)
     lengths = np.diff(bounds)
     fastest = np.abs(trajectory.rotor.system.exponents).max()

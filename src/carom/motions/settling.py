@@ -1,4 +1,4 @@
-"""What a motion remembers of its way, what its rotor proves about where it ends, and the orbit it settles to."""
+"""How a motion is recognised as settled: its memory, the proofs about its end, and the orbit it settles to."""
 
 from __future__ import annotations
 
@@ -19,15 +19,17 @@ from carom.results import Result
 __all__ = ["PATIENCE", "ClosedOrbit", "closed_orbit", "fresh_memory", "longest_time", "multiplicity_of"]
 
 PATIENCE = 20_000
-"""Impacts without recurrence after which bouncing counts as irregular wherever nothing else is said; irregular transients of
-thousands are common."""
+"""Default number of impacts without recurrence after which bouncing counts as irregular.
+
+Irregular transients of thousands of impacts are common.
+"""
 ROTORS = 64
-"""Rotors whose rub is kept: motions are many, rotors few."""
+"""Size of the caches of rubs, one entry per rotor: there are many motions of few rotors."""
 LONG_FLIGHT = 3e4
-"""Time of free flight, in ``1/Ω``, after which to look at the latest whether the rotor levitates."""
+"""Longest free flight, in ``1/Ω``, before it is checked whether the rotor levitates."""
 TIME_CONSTANTS = 40.0
 SHORTEST_LIMIT, LONGEST_LIMIT = 2e5, 2e7
-"""Time in ``1/Ω`` that a motion is given to settle in at least, and at most: seconds of computing."""
+"""Smallest and largest time, in ``1/Ω``, that a motion is given to settle: seconds of computing."""
 MODES = 2
 """Modes of the rotors whose orbits are closed here."""
 
@@ -43,7 +45,7 @@ class ClosedOrbit(Result):
     period : float
         In ``1/Ω``.
     attracts : bool
-        Whether motions next to it approach it, as far as the derivative tells.
+        Whether nearby motions approach it, judged by the derivative of the return map.
     """
 
     positions: np.ndarray
@@ -53,9 +55,10 @@ class ClosedOrbit(Result):
 
 
 def fresh_memory(rotor: Jeffcott, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False) -> np.record:
-    """Memory of a motion that is to begin, for :func:`~carom.motions.trajectories.follow`; with a ``patience`` of zero it settles to nothing.
+    """Memory of a motion at its start, for :func:`~carom.motions.trajectories.follow`.
 
-    With ``absorb`` it ends where it is proven to go over to the synchronous rub or to rolling, not only when it is there.
+    With a ``patience`` of zero the motion never counts as settled.  With ``absorb`` it ends as soon as it is proven to go
+    over to the synchronous rub or to rolling, otherwise when it has reached them.
     """
     rub = _attracting_rub(rotor) if patience > 0 else None
     around = _rub_neighbourhood(rotor) if rub and absorb else None
@@ -65,7 +68,7 @@ def fresh_memory(rotor: Jeffcott, patience: int, stop_at_chatter: bool = False, 
         patience=patience,
         recheck=_recheck_time(rotor),
         stop_at_landing=stop_at_chatter,
-        # Lower by the rounding error once more: whoever computes V of the end another way finds it inside too.
+        # Lowered by the rounding error once more, so that the end lies inside even if V is computed another way.
         rub_level=around.level - around.rounding if around else 0.0,
         rub_shape=(around.friction, around.strength, around.phase) if around else (0.0, 0.0, 0.0),
         runaway=_certain_runaway(rotor) if patience > 0 and absorb else np.inf,
@@ -73,7 +76,7 @@ def fresh_memory(rotor: Jeffcott, patience: int, stop_at_chatter: bool = False, 
 
 
 def multiplicity_of(rotor: Jeffcott, amplitudes: np.ndarray, recurred: int) -> int:
-    """Impacts in the period of the orbit that a motion approaches which has recurred after so many impacts.
+    """Number of impacts per period of the orbit that a recurring motion approaches.
 
     Parameters
     ----------
@@ -81,7 +84,7 @@ def multiplicity_of(rotor: Jeffcott, amplitudes: np.ndarray, recurred: int) -> i
     amplitudes : ndarray of complex, shape (N,)
         State just before an impact.
     recurred : int
-        After how many impacts it came back to within :data:`~carom.core.fate.NEAR`; zero if it did not.
+        Number of impacts after which it came back to within :data:`~carom.core.fate.NEAR`; zero if it did not.
 
     Returns
     -------
@@ -94,7 +97,7 @@ def multiplicity_of(rotor: Jeffcott, amplitudes: np.ndarray, recurred: int) -> i
 
 
 def closed_orbit(rotor: Jeffcott, position: complex, velocity: complex, impacts: int) -> ClosedOrbit | None:
-    """Find the periodic orbit with so many impacts next to a state just before one of them; ``None`` if there is none near."""
+    """Find the periodic orbit of a given number of impacts near a state just before an impact, or ``None``."""
     if not _can_close(rotor):
         return None
     states, durations = np.empty((impacts + 1, MODES), complex), np.empty(impacts)
@@ -110,7 +113,7 @@ def _can_close(rotor: Jeffcott) -> bool:
 
 
 def _tools() -> tuple[tuple[np.ndarray, ...], np.record, np.record, np.record]:
-    """What the kernels that close orbits work with."""
+    """Log, memory and scratch arrays for the kernels that close orbits."""
     whole = np.empty((2, 1), np.int64)
     log = np.empty(1), whole[0], whole[1], *np.empty((2, 1, MODES), complex)
     return log, memory(MODES), workspace(MODES), rub_workspace(MODES)
@@ -118,7 +121,7 @@ def _tools() -> tuple[tuple[np.ndarray, ...], np.record, np.record, np.record]:
 
 @lru_cache(maxsize=ROTORS)
 def _attracting_rub(rotor: Jeffcott) -> Equilibrium | None:
-    """Return the synchronous rub that attracts sliding; with ``d = 1`` too, where it does not attract bounces."""
+    """Return the synchronous rub that attracts sliding, also for ``d = 1``, where it does not attract bouncing."""
     return next((rub for rub in find_equilibria(rotor) if rub.attracts_sliding), None)
 
 
@@ -129,7 +132,7 @@ def _rub_neighbourhood(rotor: Jeffcott) -> RubNeighbourhood | None:
 
 
 def _certain_runaway(rotor: Jeffcott) -> float:
-    """Speed of backward whirl from which on sliding goes over to rolling that holds; infinite if there is none."""
+    """Speed of backward whirl beyond which sliding is proven to go over to lasting rolling; infinite if there is none."""
     runaway = runaway_speed(rotor)
     return runaway.certain * (1.0 + GIVEN_UP) if runaway.reaches_rolling and rolling(rotor).holds else np.inf
 
@@ -140,6 +143,6 @@ def _recheck_time(rotor: Jeffcott) -> float:
 
 
 def longest_time(rotor: Jeffcott) -> float:
-    """Time in ``1/Ω`` after which a motion that has not settled is given up: TIME_CONSTANTS of free flight, within bounds."""
+    """Time limit in ``1/Ω`` for a motion to settle: TIME_CONSTANTS time constants of free flight, within bounds."""
     decay = -float(rotor.system.exponents.real.max())
     return min(max(TIME_CONSTANTS / decay, SHORTEST_LIMIT), LONGEST_LIMIT) if decay > 0.0 else SHORTEST_LIMIT

@@ -1,4 +1,4 @@
-"""Full spectrum of a motion: how much whirls forward and how much backward at each multiple of the shaft speed."""
+"""Full spectrum of a motion: forward and backward whirl at each multiple of the shaft speed."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ class FullSpectrum(Result):
     Attributes
     ----------
     orders : ndarray, shape (m,)
-        ``ν`` in multiples of the shaft speed: positive whirls forward, negative backward, 1 is synchronous.
+        ``ν`` in multiples of the shaft speed: positive for forward whirl, negative for backward, 1 for synchronous.
     amplitudes : ndarray of complex, shape (m,)
         In clearances.  A steady circle of radius ``r`` at an order on the grid shows the amplitude ``r``.
     resolution : float
-        Distance of two orders that are told apart, four grid steps (Hann window).
+        Smallest distance of two orders that can be distinguished, four grid steps (Hann window).
     """
 
     orders: np.ndarray
@@ -35,7 +35,7 @@ class FullSpectrum(Result):
 def full_spectrum(
     trajectory: Trajectory, since: float = 0.0, highest_order: float = 6.0, samples_per_turn: int = 64
 ) -> FullSpectrum:
-    """Fourier transform of a motion in the fixed frame over its end, under a Hann window.
+    """Fourier transform of the last part of a motion in the fixed frame, with a Hann window.
 
     The sampled stretch holds a whole number of shaft turns, so that the multiples of the shaft speed lie on the grid.
 
@@ -43,11 +43,11 @@ def full_spectrum(
     ----------
     trajectory : Trajectory
     since : float
-        Leave out what comes before, in ``1/Ω``.
+        Earliest time to include, in ``1/Ω``.
     highest_order : float
         Largest ``|ν|`` to return.
     samples_per_turn : int
-        At least twice the highest order; corners of the path (impacts) make aliases that fall with its square.
+        At least twice the highest order.  Corners of the path (impacts) cause aliasing that falls with its square.
 
     Returns
     -------

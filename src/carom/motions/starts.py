@@ -16,9 +16,9 @@ from carom.parameters import Scales, read_size
 __all__ = ["LARGEST_SPEED", "WALL_TOLERANCE", "Kick", "State", "amplitudes_of", "kick", "own_size"]
 
 LARGEST_SPEED = 1e100
-"""Largest speed of a start: far beyond, the bounds that prove a flight free overflow."""
+"""Largest speed of a start: for far larger ones the bounds that prove a flight contact-free overflow."""
 WALL_TOLERANCE = 1e-12
-"""A start this near to ``|U| = 1`` lies on the wall."""
+"""Distance from ``|U| = 1`` within which a start counts as on the wall."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Kick:
         Raises
         ------
         InputError
-            The speed or the angle is none, or has a unit that needs scales which the rotor has not.
+            The text is no speed or no angle, or its unit needs scales that the rotor does not have.
         """
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
         return State(rotor.equilibrium, cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales)))
@@ -76,7 +76,7 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
 
 
 def own_size(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
-    """A number in units of the equations, or text with a unit, in units of the equations."""
+    """Convert text with a unit to the units of the equations; a number is already in these."""
     return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given
 
 

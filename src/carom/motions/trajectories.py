@@ -49,14 +49,14 @@ class EventLog(NamedTuple):
 
     @classmethod
     def empty(cls, size: int, modes: int) -> EventLog:
-        """Room for that many events."""
+        """Allocate a log for this many events."""
         whole = np.empty((2, size), np.int64)
         return cls(np.empty(size), whole[0], whole[1], *np.empty((2, size, modes), complex))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Trajectory(Result):
-    """A motion: exact flights and lasting contacts joined by events.
+    """A motion: exact flights and lasting contacts, separated by events.
 
     Attributes
     ----------
@@ -69,14 +69,14 @@ class Trajectory(Result):
     final : State
         State at the end.
     multiplicity : int
-        Impacts in a period if it settled to periodic bouncing; zero otherwise (of bouncing: aperiodic).
+        Impacts per period if it settled to periodic bouncing; zero otherwise (bouncing with zero is aperiodic).
     segment_starts : ndarray, shape (n + 1,)
         Start time of each segment.  A long contact consists of several.
     segment_phases : ndarray of :class:`~carom.outcome.Phase`, shape (n + 1,)
     segment_amplitudes : ndarray of complex, shape (n + 1, N)
         Mode amplitudes at the start of each segment.
     arrivals : ndarray of complex, shape (n, N)
-        Mode amplitudes at the end of each segment but the last.
+        Mode amplitudes at the end of each segment except the last.
     """
 
     shown: ClassVar[tuple[str, ...]] = (
@@ -110,7 +110,7 @@ class Trajectory(Result):
 
     @cached_property
     def is_landing(self) -> np.ndarray:
-        """Which of the ``n`` events complete a chatter (the impulses left to it as one), bool, shape (n,)."""
+        """Which of the ``n`` events complete a chatter (its remaining impulses in one), bool, shape (n,)."""
         flying = self.segment_phases == Phase.FLIGHT
         return flying[:-1] & ~flying[1:]
 
@@ -127,7 +127,7 @@ class Trajectory(Result):
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:
-        """Stretches of sliding and rolling in the order of time."""
+        """Stretches of sliding and rolling in chronological order."""
         changes = np.flatnonzero(np.diff(self.segment_phases)) + 1
         bounds = [0, *changes, len(self.segment_phases)]
         ends = np.append(self.segment_starts, self.time)
@@ -138,7 +138,7 @@ class Trajectory(Result):
         )
 
     def at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """State at given times, exact to rounding; at an impact the state just after it.
+        """State at given times, exact to rounding; at an impact, the state just after it.
 
         Parameters
         ----------
@@ -212,7 +212,7 @@ class Trajectory(Result):
         return load_trajectory(path)
 
     def sample(self, count: int = 2000) -> np.ndarray:
-        """Times for drawing: about ``count`` even ones, every event, and the last instant before each."""
+        """Times for plotting: about ``count`` equally spaced ones, every event, and the last instant before each."""
         events = self.segment_starts[1:]
         even = np.linspace(0.0, self.time, count)
         return np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
@@ -223,7 +223,7 @@ class Trajectory(Result):
         Raises
         ------
         InputError
-            The frame is another.
+            Another frame is asked for.
         """
         if frame not in ("rotating", "fixed"):
             raise InputError("frame", repr(frame), "must be 'rotating' or 'fixed'")
@@ -255,17 +255,18 @@ def simulate(
     start : State or Kick
         On the wall (``|U| = 1`` to within 1e-12) or inside it.
     until : float or str, optional
-        Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``; with ``settle`` by default :func:`~carom.motions.settling.longest_time`.
+        Time to follow it, in ``1/Ω`` or text with a unit, such as ``"2 s"``.  Optional only with ``settle``, where the
+        default is :func:`~carom.motions.settling.longest_time`.
     settle : bool
-        End earlier, as soon as it is known where the motion ends (criteria in :mod:`carom.core.fate`).
+        End earlier, as soon as the final motion is known (criteria in :mod:`carom.core.fate`).
     stop_at_chatter : bool
-        End with ``CHATTER`` and the exact state where impacts have accumulated.
+        End with ``CHATTER`` and the exact state when impacts accumulate.
     patience : int
         With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
     max_events : int
         Impacts and steps of lasting contact after which to give up.
     progress : callable, optional
-        Called now and then with the time reached.
+        Called from time to time with the time reached.
 
     Returns
     -------
@@ -274,7 +275,7 @@ def simulate(
     Raises
     ------
     InputError
-        The start lies outside the wall, or a number is not finite.
+        The start lies outside the wall or is too fast, a number is not finite, or a limit is out of range.
     """
     rotor = model_of(machine)
     state = start.state(rotor) if isinstance(start, Kick) else start
