@@ -1,10 +1,10 @@
-"""Where disturbances end: every attractor that a sample of starts and the known motions lead to.
+"""Attractors that a sample of disturbances, and starts next to the known motions, lead to.
 
 ``starts``      the standard set of disturbances, and starts next to every motion known in closed form
-``cycles``      what a settled motion repeats, and when two motions repeat the same
-``following``   each start followed to where it settles
+``cycles``      the cycle that a settled motion repeats, and the comparison of cycles
+``following``   each start followed until it settles
 ``survival``    :class:`Survival`: how long irregular motion lasts
-``groups``      :class:`Attractor`: motions that have settled to the same
+``groups``      :class:`Attractor`: motions that have settled to the same cycle
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
 """
 

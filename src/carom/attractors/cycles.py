@@ -1,4 +1,4 @@
-"""What a settled motion repeats, and when two motions repeat the same."""
+"""The cycle that a settled motion repeats, and the comparison of cycles."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ __all__ = ["Cycle", "Whirl", "cycle_of", "forces_on", "orbit_of", "same_cycle", 
 Whirl = Literal["forward", "backward", "none"]
 
 SAME = 1e-6
-"""Distance, relative to one plus the size, below which two impacts are the same: far above what closed orbits differ by."""
+"""Distance, relative to one plus the speed, below which two impacts are the same: far above the error of closed orbits."""
 SAMPLES = 1000
 TURNS = 10.0
-"""Turns of the shaft over which a motion without a period is judged."""
+"""Turns of the shaft over which a motion without a period is evaluated."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cycle(Result):
-    """What a settled motion repeats.
+    """The cycle that a settled motion repeats.
 
     Attributes
     ----------
@@ -51,20 +51,20 @@ class Cycle(Result):
 
     @property
     def kind(self) -> tuple[Outcome, bool, int]:
-        """What must agree before places and speeds are compared."""
+        """Properties that must agree before positions and velocities are compared."""
         return self.outcome, self.synchronous, self.multiplicity
 
     @property
     def multiplicity(self) -> int:
-        """Impacts a period; 0 without a period or impacts."""
+        """Impacts per period; 0 without a period or impacts."""
         return len(self.positions)
 
 
 def cycle_of(motion: Trajectory) -> Cycle:
-    """Read from the end of a motion what it repeats.
+    """Determine the cycle of a motion from its end.
 
-    Periodic bouncing is closed to rounding where it can be (:func:`~carom.motions.settling.closed_orbit`): motions that end on one
-    orbit then repeat the same, however far from it each was when it was found to be periodic.
+    Where possible, periodic bouncing is converged to the exact orbit (:func:`~carom.motions.settling.closed_orbit`).
+    Motions that approach one orbit then have the same cycle, however far from it they were when found to be periodic.
     """
     outcome = motion.outcome
     none = np.empty(0, complex)
@@ -87,7 +87,7 @@ def cycle_of(motion: Trajectory) -> Cycle:
 
 
 def _turn_time(motion: Trajectory) -> float | None:
-    """Time of the last turn along the wall in the co-rotating frame; ``None`` where it has not made one."""
+    """Duration of the last full turn along the wall in the co-rotating frame; ``None`` if there was none."""
     end = motion.final.position
     speed = abs((end.conjugate() * motion.final.velocity).imag)
     span = 2.0 * math.pi * min(TURNS, 4.0 / speed if speed > 0.0 else TURNS)
@@ -97,7 +97,7 @@ def _turn_time(motion: Trajectory) -> float | None:
     if not len(turned):
         return None
     start = float(times[turned[-1]])
-    for _ in range(4):  # Newton steps from within a sample's width
+    for _ in range(4):  # Newton's method from a start less than a sample's width away
         position, velocity = motion.at(np.array(start))
         start -= cmath.phase(complex(position) / end) / (complex(position).conjugate() * complex(velocity)).imag
         start = max(0.0, start)
@@ -111,13 +111,13 @@ def _turned(positions: np.ndarray, velocities: np.ndarray, places: int) -> tuple
 def _distance(
     positions: np.ndarray, velocities: np.ndarray, other_positions: np.ndarray, other_velocities: np.ndarray
 ) -> float:
-    """Largest distance of paired states, relative to one plus their size."""
+    """Largest distance of paired states, relative to one plus their speed."""
     apart = np.abs(positions - other_positions) + np.abs(velocities - other_velocities)
     return float((apart / (1.0 + np.abs(velocities))).max())
 
 
 def same_cycle(first: Cycle, second: Cycle) -> bool:
-    """Whether two motions have settled to the same, whichever impact of the period they ended at."""
+    """Whether two motions have settled to the same cycle, whichever impact of the period they ended at."""
     if first.kind != second.kind:
         return False
     if first.multiplicity == 0:
@@ -128,7 +128,7 @@ def same_cycle(first: Cycle, second: Cycle) -> bool:
 
 
 def orbit_of(cycle: Cycle, orbits: Sequence[Orbit]) -> Orbit | None:
-    """Return the single-impact orbit that a motion has settled to, if it is one of these."""
+    """Return the orbit among ``orbits`` to which a motion has settled, or ``None``."""
     if cycle.outcome is not Outcome.BOUNCING or cycle.multiplicity != 1:
         return None
     for orbit in orbits:
@@ -140,7 +140,7 @@ def orbit_of(cycle: Cycle, orbits: Sequence[Orbit]) -> Orbit | None:
 
 
 def _last_stretch(motion: Trajectory, cycle: Cycle) -> float:
-    """Start of the last period, or of the last turns of the shaft; the end itself if it is at rest there."""
+    """Start time of the last period, or of the last turns of the shaft; the end itself if the rotor is at rest there."""
     span = 0.0 if cycle.synchronous else cycle.period or 2.0 * math.pi * TURNS
     return max(0.0, motion.time - span)
 
@@ -152,7 +152,7 @@ def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:
     if cycle.outcome is Outcome.ROLLING:
         return 0.0, rolling(motion.rotor).largest_force
     impulses = motion.contacts.normal_impulse
-    # Of irregular bouncing the later half: what came before may be the way there.
+    # Of irregular bouncing only the later half is used: the first half may be a transient.
     last = impulses[-cycle.multiplicity :] if cycle.multiplicity else impulses[len(impulses) // 2 :]
     touching = cycle.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL)
     impulse = float(last.max()) if len(last) and not touching else 0.0
@@ -163,7 +163,7 @@ def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:
 
 
 def whirl_of(motion: Trajectory, cycle: Cycle) -> Whirl:
-    """Direction of whirl: that in which the rotor centre sweeps area in the fixed frame, on average.
+    """Direction of whirl: the sign of the mean areal velocity of the rotor centre in the fixed frame.
 
     The areal velocity is ``Im(Z̄Ż)/2 = (|U|² + Im(ŪU̇))/2``.
     """

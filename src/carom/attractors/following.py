@@ -1,4 +1,4 @@
-"""Follow starts to where they settle, irregular ones with growing patience."""
+"""Follow starts until they settle, irregular ones with growing patience."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from carom.outcome import Outcome
 __all__ = ["Ending", "endings_of"]
 
 FIRST_PATIENCE = 1000
-"""Impacts of a first look at a motion."""
+"""Impacts for which a motion is followed at first."""
 AFFORDABLE = 2_000_000
-"""Impacts of all irregular motions together in one half-life, up to which they are followed so: half a second."""
+"""Largest cost of following all irregular motions for one half-life, in impacts: half a second."""
 
 
 @dataclass(frozen=True)
@@ -35,15 +35,15 @@ class Ending:
         Name of the :class:`Attractor`.
     outcome : Outcome
     time : float
-        When that was known, in ``1/Ω``.
+        Time at which the outcome was known, in ``1/Ω``.
     impacts : int
-        Until then.
+        Impacts until then.
     hardest_impulse : float
         Largest normal impulse until then, in ``m c_r Ω``.
     irregular : bool
         Whether it still bounces irregularly.
     survival : Survival or None
-        How long the irregular bouncing lasts that it is on, or was on after 1000 impacts; ``None`` if it never was.
+        How long irregular bouncing lasts, if the motion is irregular or was so after 1000 impacts; otherwise ``None``.
     """
 
     start: Start
@@ -63,9 +63,10 @@ def endings_of(
     name_of: Callable[[Trajectory], str],
     progress: Callable[[float], None],
 ) -> list[Ending]:
-    """Follow all starts: a first look at each, and longer ones at those that are irregular so far.
+    """Follow all starts: first each for a short time, then longer those that are still irregular.
 
-    How long irregular motion lasts is measured, and where it ends all motions are followed to their end if that is affordable.
+    The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they leave
+    it, unless that takes too long.
 
     Parameters
     ----------
@@ -74,9 +75,9 @@ def endings_of(
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
     name_of : callable
-        Called once with each motion that has settled, or been given up; its answer is the name of the attractor.
+        Called once with each motion that has settled, or been given up; returns the name of the attractor.
     progress : callable
-        Called with the share done, 0 to 1.
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------
@@ -110,7 +111,7 @@ def _survival(rotor: Jeffcott, states: Sequence[State], patience: int) -> Surviv
 
 
 class _Looks:
-    """Looks at the motions of all starts, each a continuation of the one before."""
+    """Motions of all starts, followed in stages; each stage continues the one before."""
 
     def __init__(self, rotor: Jeffcott, starts: Sequence[Start], name_of: Callable[[Trajectory], str]) -> None:
         self.rotor, self.name_of, self.starts = rotor, name_of, starts
@@ -121,7 +122,7 @@ class _Looks:
         self.limit = longest_time(rotor)
 
     def look(self, place: int, impacts: int) -> bool:
-        """Follow a motion for so many impacts more; whether it is still irregular."""
+        """Follow a motion for a number of further impacts; return whether it is still irregular."""
         motion = simulate(self.rotor, self.states[place], self.limit, settle=True, patience=impacts)
         irregular = motion.outcome in (Outcome.BOUNCING, Outcome.MIXED) and motion.multiplicity == 0
         self.states[place] = motion.final
@@ -137,11 +138,11 @@ class _Looks:
         return irregular
 
     def states_of(self, places: Sequence[int]) -> list[State]:
-        """States that motions have come to."""
+        """States that these motions have reached."""
         return [self.states[place] for place in places]
 
     def follow_out(self, irregular: list[int], half_life: float) -> list[int]:
-        """Follow irregular motions that will leave until they have, where that is affordable; those that have not."""
+        """Follow transient irregular motions until they leave, if affordable; return those that have not left."""
         span = max(FIRST_PATIENCE, int(half_life))
         for _ in range(HALF_LIVES):
             if not irregular or len(irregular) * span > AFFORDABLE:
@@ -150,7 +151,7 @@ class _Looks:
         return irregular
 
     def note(self, irregular: Sequence[int], survival: Survival) -> None:
-        """Note of every motion that was irregular at the first look how long such motion lasts; name those that still are."""
+        """Attach the survival to every motion that was ever irregular; name the motions that still are."""
         for place, ending in enumerate(self.endings):
             if ending and self.was_irregular[place]:
                 self.endings[place] = dataclasses.replace(ending, survival=survival)
@@ -162,7 +163,7 @@ class _Looks:
 
 
 def _joined(before: Ending, after: Ending) -> Ending:
-    """Two looks at a start as one."""
+    """Combine two consecutive stages of one motion."""
     return dataclasses.replace(
         after,
         time=before.time + after.time,

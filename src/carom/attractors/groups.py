@@ -1,4 +1,4 @@
-"""Attractors: motions that have settled to the same, with a name."""
+"""Attractors: groups of motions that have settled to the same cycle, with a name."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ __all__ = ["Attractor", "Groups", "motion_name"]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Attractor(Result):
-    """A motion that starts end on; or, if ``settled`` is false, why it is not known where they end.
+    """A motion on which starts end; or, if ``settled`` is false, the reason why their end is not known.
 
     Attributes
     ----------
@@ -32,11 +32,11 @@ class Attractor(Result):
         What the rotor does, in a sentence.
     outcome : Outcome
     multiplicity : int
-        Impacts a period; 0 without impacts or period.
+        Impacts per period; 0 without impacts or period.
     period : float or None
-        In ``1/Ω``, in the co-rotating frame; ``None`` at rest there and of irregular motion.
+        In ``1/Ω``, in the co-rotating frame; ``None`` for rest in that frame and for irregular motion.
     whirl : {"forward", "backward", "none"}
-        Direction in which the rotor centre goes round in the fixed frame, on average.
+        Mean direction of the whirl of the rotor centre in the fixed frame.
     count : int
         Disturbances that end here.
     share : float
@@ -44,15 +44,15 @@ class Attractor(Result):
     known : int
         Starts next to motions known in closed form that end here.
     representative : Start
-        The gentlest disturbance that ends here, or else the first other start.
+        The mildest disturbance that ends here; if there is none, the first other start.
     state : State
-        A state on it (of periodic bouncing just before an impact).
+        A state on it (for periodic bouncing just before an impact).
     largest_impulse : float
-        Of the impacts on it, in ``m c_r Ω``.
+        Largest normal impulse of the impacts on it, in ``m c_r Ω``.
     largest_force : float
-        Normal force of lasting contact on it, in ``m c_r Ω²``.
+        Largest normal force of lasting contact on it, in ``m c_r Ω²``.
     survival : Survival or None
-        Of irregular bouncing: how long it lasts.
+        How long it lasts, if it is irregular bouncing.
     """
 
     name: str
@@ -72,12 +72,12 @@ class Attractor(Result):
 
     @property
     def settled(self) -> bool:
-        """Whether it is an end, not a motion given up nor one that is known to end."""
+        """Whether motions stay on it: it is neither a motion that was given up nor a transient."""
         return self.outcome.settled and not self.transient
 
     @property
     def transient(self) -> bool:
-        """Whether it is irregular bouncing that ends: no attractor, but where motions were when they were given up."""
+        """Whether it is irregular bouncing that ends: no attractor, but a transient on which motions were given up."""
         return self.survival is not None and self.survival.transient
 
     @property
@@ -87,14 +87,14 @@ class Attractor(Result):
 
 
 class Groups:
-    """Motions that have settled to the same, by name, in the order in which they were found."""
+    """Groups of motions that have settled to the same cycle, by name, in the order in which they were found."""
 
     def __init__(self, orbits: Sequence[Orbit]) -> None:
         self.orbits = orbits
         self.names: dict[str, tuple[Cycle, Attractor]] = {}
 
     def name_of(self, motion: Trajectory) -> str:
-        """Name of the group of a motion, which is opened if it is the first."""
+        """Name of the group of a motion; a new group is created if the motion fits none."""
         cycle = cycle_of(motion)
         for name, (known, _) in self.names.items():
             if same_cycle(known, cycle):
@@ -126,7 +126,7 @@ class Groups:
         return f"{name} ({alike + 1})" if alike else name
 
     def attractor(self, name: str, endings: Sequence[Ending]) -> Attractor:
-        """Return the attractor of a group with its starts counted."""
+        """Return the attractor of a group, with the starts that end on it counted."""
         _, member = self.names[name]
         group = [ending for ending in endings if ending.attractor == name]
         here = [ending.start for ending in group]
@@ -150,7 +150,7 @@ def _sentence(words: str) -> str:
 
 
 def motion_name(outcome: Outcome, multiplicity: int) -> str:
-    """Name of a settled motion that is no known orbit: ``"2-impact bouncing"``, ``"rolling"`` and so on."""
+    """Name of a settled motion that is not a known orbit: ``"2-impact bouncing"``, ``"rolling"`` and so on."""
     if outcome in _REPEATING:
         noun = _REPEATING[outcome]
         return f"{multiplicity}-impact {noun}" if multiplicity else f"irregular {noun}"

@@ -22,13 +22,13 @@ __all__ = ["AttractorSet", "find_attractors"]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AttractorSet(Result):
-    """Every attractor found; look one up by name, ``found["B1,d"]``.
+    """All attractors found; look one up by name, ``found["B1,d"]``.
 
     Attributes
     ----------
     rotor : Jeffcott
     members : tuple of Attractor
-        That with the most disturbances first; motions given up last.
+        Sorted by the number of disturbances, the largest first; motions given up come last.
     endings : tuple of Ending
         Every start, the disturbances first.
     sample : DisturbanceSet or None
@@ -44,7 +44,7 @@ class AttractorSet(Result):
     patience: int
 
     def rows(self) -> list[tuple[str, str]]:
-        """Each motion that was met, and how many starts ended on it."""
+        """Each motion found, and how many starts ended on it."""
         return [
             ("rotor", in_a_line(self.rotor)),
             ("starts", str(len(self.endings))),
@@ -80,7 +80,7 @@ class AttractorSet(Result):
 
     @property
     def transient(self) -> Survival | None:
-        """How long the irregular bouncing lasts that some of the starts went through; ``None`` if it was not seen to end."""
+        """How long irregular bouncing lasts, if it occurred and was seen to end; otherwise ``None``."""
         seen = (ending.survival for ending in self.endings)
         return next((survival for survival in seen if survival and survival.transient), None)
 
@@ -116,7 +116,7 @@ class AttractorSet(Result):
 
     @property
     def argument(self) -> str:
-        """What the list rests on, in a sentence or two."""
+        """The evidence for the list, in a sentence or two."""
         known = len(self.endings) - len(self.disturbances)
         return (
             f"{self.words()}, and {known} starts next to motions known in closed form, which count for no share, were "
@@ -135,10 +135,10 @@ def find_attractors(
     patience: int = PATIENCE,
     progress: Callable[[float], None] | None = None,
 ) -> AttractorSet:
-    """Follow disturbances, and starts next to every known motion, to the attractors where they settle.
+    """Follow disturbances, and starts next to every known motion, to the attractors on which they settle.
 
-    Shares are of the disturbances alone: a start next to a known motion shows that the motion attracts, not that anything
-    leads to it.
+    Shares count the disturbances alone: a start next to a known motion shows that the motion attracts, not that any
+    disturbance leads to it.
 
     Parameters
     ----------
@@ -146,15 +146,15 @@ def find_attractors(
     starts : sequence of State or Kick, optional
         Disturbances to follow instead of the seeded sample.
     seed, count, fastest : int, int, float
-        Of the standard set; see :class:`~carom.attractors.DisturbanceSet`.
+        Seed, size and largest speed of the standard set; see :class:`~carom.attractors.DisturbanceSet`.
     known : bool
         Whether to add starts next to the motions known in closed form; see :func:`~carom.attractors.known_starts`.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.  How long it lasts is then measured
-        (:class:`~carom.attractors.Survival`); if it ends, motions are followed beyond the patience to where they end, unless
-        that would take too long.
+        (:class:`~carom.attractors.Survival`).  If it is transient, motions are followed beyond the patience until they
+        settle, unless that would take too long.
     progress : callable, optional
-        Called with the share done, 0 to 1.
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Starts that are followed to where they settle."""
+"""Starts of the motions that are followed until they settle."""
 
 from __future__ import annotations
 
@@ -27,25 +27,25 @@ SLOWEST = 0.01
 DIRECTIONS = 12
 KICKS_SHARE = 0.6
 NUDGE, PUSH = 1e-6, 1e-3
-"""Disturbance of a known motion relative to its speed, stable and unstable.
+"""Relative change of the speed of a known motion, for stable and for unstable motions.
 
-The first is small beside any basin worth the name, the second so large that the motion does not pass for periodic before
-it has left.
+The first is small compared with any relevant basin.  The second is so large that the motion is not taken for periodic
+before it has left the unstable one.
 """
 
 
 @dataclass(frozen=True)
 class Start:
-    """A start, and where it comes from.
+    """A start of a motion, and its origin.
 
     Attributes
     ----------
     kind : {"kick", "start", "orbit", "rub", "whirl"}
         A velocity kick out of contact-free levitation; a start anywhere within the clearance; a start next to an orbit
-        or a synchronous rub that is known in closed form; one in backward whirl along the wall.
+        or a synchronous rub that is known in closed form; a start in backward whirl along the wall.
     state : State
     words : str
-        The same in words.
+        Description of the start.
     """
 
     kind: Kind
@@ -54,12 +54,12 @@ class Start:
 
     @property
     def disturbance(self) -> bool:
-        """Whether it belongs to the sample of disturbances, and not next to a known motion."""
+        """Whether it belongs to the sample of disturbances, not to the starts next to known motions."""
         return self.kind in ("kick", "start")
 
     @property
     def speed(self) -> float:
-        """Speed in the co-rotating frame in ``c_r Ω``; of a kick its size."""
+        """Speed in the co-rotating frame in ``c_r Ω``; for a kick its size."""
         return abs(self.state.velocity)
 
     @property
@@ -70,11 +70,11 @@ class Start:
 
 @dataclass(frozen=True)
 class DisturbanceSet:
-    """The standard set of disturbances: what "disturbances tried" means wherever nothing else is said.
+    """The standard set of disturbances, used unless another is given.
 
-    Three in five are velocity kicks of the levitating rotor, in 12 directions each of sizes in geometric progression from
-    0.01 ``c_r Ω`` to ``fastest``; the rest start within the clearance, positions even over its disc and velocities over a
-    disc.  Where the rotor cannot levitate all of them do.
+    Three in five are velocity kicks of the levitating rotor: sizes in geometric progression from 0.01 ``c_r Ω`` to
+    ``fastest``, each in 12 directions.  The rest start within the clearance, with positions uniform over its disc and
+    velocities uniform over a disc.  If the rotor cannot levitate, all of them are starts of this second kind.
 
     Attributes
     ----------
@@ -96,7 +96,7 @@ class DisturbanceSet:
             raise InputError("fastest", self.fastest, "a finite speed above 0, in c_r Omega")
 
     def kicks(self, rotor: Jeffcott) -> int:
-        """How many of them are kicks; they come first."""
+        """Number of kicks in the set; they come first."""
         return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if abs(rotor.equilibrium) < 1.0 else 0
 
     def states(self, rotor: Jeffcott) -> tuple[np.ndarray, np.ndarray]:
@@ -113,13 +113,13 @@ class DisturbanceSet:
         )
 
     def words(self, rotor: Jeffcott, speed: Callable[[float], str] | None = None) -> str:
-        """Say which disturbances of a rotor these are.
+        """Describe the disturbances for a given rotor.
 
         Parameters
         ----------
         rotor : Jeffcott
         speed : callable, optional
-            Writes a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in m/s.
+            Formats a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in m/s.
         """
         write, kicks = speed or _speed_of(rotor), self.kicks(rotor)
         parts = []
@@ -132,7 +132,7 @@ class DisturbanceSet:
 
     @property
     def general_words(self) -> str:
-        """The same for rotors in general, which can levitate or not."""
+        """Describe the disturbances for rotors in general, whether they can levitate or not."""
         return (
             f"{self.count} disturbances (seed {self.seed}): velocity kicks of the levitating rotor and starts spread over the "
             f"clearance, at up to {self.fastest:.3g} c_r Omega"
@@ -151,7 +151,7 @@ def _speed_of(rotor: Jeffcott) -> Callable[[float], str]:
 def disturbances(
     rotor: Jeffcott, count: int = DISTURBANCES, seed: int = 0, fastest: float = FASTEST
 ) -> tuple[Start, ...]:
-    """Seeded sample of disturbances, one by one: those of :class:`DisturbanceSet`.
+    """The disturbances of a :class:`DisturbanceSet` as single starts.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ def disturbances(
     Returns
     -------
     tuple of Start
-        The same for the same arguments; kicks first, in growing sizes.
+        The same for the same arguments; kicks first, by increasing size.
     """
     chosen = DisturbanceSet(count, seed, fastest)
     kicks, starts = chosen.kicks(rotor), []
@@ -173,7 +173,7 @@ def disturbances(
 
 
 def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
-    """Starts next to every motion known in closed form, so that none is missed for a small basin.
+    """Starts next to every motion known in closed form, so that none is missed because its basin is small.
 
     Parameters
     ----------
@@ -184,8 +184,8 @@ def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
     Returns
     -------
     tuple of Start
-        To both sides of every admissible orbit and synchronous rub, stable or not; in backward whirl just beyond the
-        certain runaway speed, if there is one, and rolling.
+        On both sides of every admissible orbit and synchronous rub, stable or not; in backward whirl just beyond the
+        certain runaway speed, if sliding reaches it; and, with friction, in rolling.
     """
     starts = []
     for orbit in orbits:
@@ -208,5 +208,5 @@ def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
 
 
 def _whirling(speed: float, words: str) -> Start:
-    """On the wall, in backward whirl at a speed in the fixed frame."""
+    """Start on the wall in backward whirl, at a speed given in the fixed frame."""
     return Start("whirl", State(1.0 + 0j, complex(0.0, -1.0 - speed)), f"a start in backward whirl, {words}")

@@ -1,4 +1,4 @@
-"""How long irregular motion lasts: many such motions followed side by side, and how many of them leave it."""
+"""How long irregular motion lasts: many irregular motions are followed, and those that leave it are counted."""
 
 from __future__ import annotations
 
@@ -15,33 +15,36 @@ from carom.outcome import Outcome
 __all__ = ["Survival", "document_of", "follow_out", "measure_survival", "still_irregular"]
 
 MOTIONS = 200
-"""Irregular motions that are followed."""
+"""Number of irregular motions that are followed."""
 LOOK = 1000
-"""Impacts after which it is looked who has left; the first look forgets where the motions began and is not counted."""
+"""Impacts between two looks, at which the motions that have left are counted.
+
+The first look is not counted: until then the motions forget where they began.
+"""
 APART = 1e-6
-"""Change of velocity, relative, that makes several motions of one: irregular ones lose each other within a look."""
+"""Relative change of velocity that makes several motions of one: irregular ones diverge from each other within a look."""
 CONFIDENCE = 0.95
 SEED = 0
 HALF_LIVES = 40
-"""For how many half-lives motions that are known to end are followed: one in 10¹² lasts longer."""
+"""Number of half-lives for which transient motions are followed: one in 10¹² lasts longer."""
 AFFORDABLE = 20_000_000
-"""Impacts of all irregular motions together in one half-life, up to which they are followed so: seconds."""
+"""Largest cost of following all irregular motions for one half-life, in impacts: seconds."""
 
 
 @dataclass(frozen=True)
 class Survival:
-    """What became of many irregular motions of one machine.
+    """Survival statistics of irregular motions of one machine.
 
     Attributes
     ----------
     motions : int
-        That were followed.
+        Number of motions followed.
     impacts : int
-        For which each was followed, unless it left before.
+        Number of impacts for which each was followed, unless it left before.
     died : int
-        That left for another motion.
+        Number of motions that left for another motion.
     half_life : float or None
-        Impacts in which half of those that are left leave; ``None`` if none died.
+        Number of impacts within which half of the remaining motions leave; ``None`` if none died.
     interval : tuple of float
         Interval of the half-life with a confidence of 95 %; if none died, its lower limit and infinity.
     """
@@ -54,10 +57,10 @@ class Survival:
 
     @classmethod
     def of(cls, motions: int, impacts: int, died: int, looks: int, left: int) -> Survival:
-        """From the number of looks at motions that had not left before, and how many had left at them.
+        """Estimate from the number of looks at motions that had not left before, and how many of these had then left.
 
-        A motion that has forgotten where it came from leaves within a look with one probability ``h``, whatever its age; of
-        ``h`` the interval is that of Clopper and Pearson (1934), and the half-life is ``−LOOK ln 2/ln(1 − h)``.
+        A motion that has forgotten where it began leaves between two looks with a probability ``h`` that does not depend on
+        its age.  The interval of ``h`` is that of Clopper and Pearson (1934); the half-life is ``−LOOK ln 2/ln(1 − h)``.
         """
         if left == 0:
             longest = math.inf if looks == 0 else 1.0 - (1.0 - CONFIDENCE) ** (1.0 / looks)
@@ -70,12 +73,12 @@ class Survival:
 
     @property
     def transient(self) -> bool:
-        """Whether the irregular motion ends: it is no attractor."""
+        """Whether the irregular motion ends, so that it is not an attractor."""
         return self.died > 0
 
     @property
     def words(self) -> str:
-        """The same in words: ``transient, half-life 1,600 impacts (1,300 to 2,000)``."""
+        """Summary in words: ``transient, half-life 1,600 impacts (1,300 to 2,000)``."""
         low, high = self.interval
         if self.half_life is None:
             died = f"{self.died or 'none'} of {self.motions} died in {self.impacts:,} impacts"
@@ -84,7 +87,7 @@ class Survival:
 
 
 def _share_with(left: int, looks: int, chance: float) -> float:
-    """Chance of one event to which fewer than so many events in so many looks have this chance, by bisection."""
+    """Probability per look for which fewer than ``left`` events in ``looks`` have probability ``chance``; by bisection."""
     low, high = 0.0, 1.0
     ways = [math.lgamma(looks + 1) - math.lgamma(k + 1) - math.lgamma(looks - k + 1) for k in range(left)]
     for _ in range(60):
@@ -96,12 +99,12 @@ def _share_with(left: int, looks: int, chance: float) -> float:
 
 
 def _half_life(share: float) -> float:
-    """Impacts in which half of them leave, if this share does in a look."""
+    """Number of impacts within which half of the motions leave, if this share leaves between two looks."""
     return 0.0 if share >= 1.0 else -LOOK * math.log(2.0) / math.log1p(-share)
 
 
 def _rounded(number: float) -> str:
-    """Two digits, with commas between thousands."""
+    """Format a number with two significant digits and commas between thousands."""
     if not 0.0 < number < math.inf:
         return f"{number:g}"
     unit = 10.0 ** (math.floor(math.log10(number)) - 1)
@@ -109,7 +112,7 @@ def _rounded(number: float) -> str:
 
 
 def still_irregular(endings: Endings) -> np.ndarray:
-    """Which motions keep bouncing and have not repeated themselves."""
+    """Which motions still bounce and have not become periodic."""
     bouncing: np.ndarray = np.isin(endings.outcomes, (Outcome.BOUNCING, Outcome.MIXED))
     return bouncing & (endings.multiplicities == 0)
 
@@ -122,18 +125,18 @@ def measure_survival(
     impacts: int,
     threads: int | None = None,
 ) -> Survival:
-    """Follow irregular motions on and count those that leave.
+    """Follow irregular motions further and count those that leave.
 
     Parameters
     ----------
     rotor : Jeffcott
     positions, velocities : ndarray of complex, shape (M,)
-        States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a part is taken; fewer
-        are made 200 by small changes of their velocity.
+        States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a random part is taken;
+        fewer are extended to 200 by small changes of their velocity.
     impacts : int
-        For which to follow each of them.
+        Number of impacts for which to follow each of them.
     threads : int, optional
-        By default as many as there are cores at hand; the result does not depend on it.
+        By default the number of available cores; the result does not depend on it.
 
     Returns
     -------
@@ -147,7 +150,7 @@ def measure_survival(
     for _ in range(1 + max(1, impacts // LOOK)):
         ends = settle(rotor, positions, velocities, patience=LOOK, threads=threads)
         alive = still_irregular(ends)
-        # A motion that was given up has not left, nor can it be followed on.
+        # A motion that was given up has not left, but it cannot be followed any further.
         lost = int(np.count_nonzero(ends.outcomes < Outcome.LEVITATED))
         looks.append(len(positions) - lost)
         left.append(len(positions) - lost - int(alive.sum()))
@@ -162,21 +165,21 @@ def measure_survival(
 def follow_out(
     rotor: Jeffcott, endings: Endings, *, impacts: int, threads: int | None = None
 ) -> tuple[Endings, Survival | None]:
-    """Follow irregular motions of an ensemble to where they end, if they do.
+    """Follow irregular motions of an ensemble until they settle, if they do.
 
     Parameters
     ----------
     rotor : Jeffcott
     endings : Endings
     impacts : int
-        For which irregular motions are followed to see how long they last.
+        Number of impacts for which irregular motions are followed to measure how long they last.
     threads : int, optional
-        By default as many as there are cores at hand; the result does not depend on it.
+        By default the number of available cores; the result does not depend on it.
 
     Returns
     -------
     Endings
-        With the motions that have left; those that have not, or would take too long to follow, are as they were.
+        Updated for every motion that was followed further; those that would take too long to follow are unchanged.
     Survival or None
         ``None`` if none of the motions is irregular.
     """
@@ -202,7 +205,7 @@ def follow_out(
 
 
 def document_of(survival: Survival | None) -> dict[str, Any]:
-    """What is known of how long a motion lasts, for JSON; of a motion that is not irregular there is nothing to tell."""
+    """Document of the survival for JSON; without a survival the motion is not irregular."""
     if survival is None:
         return {"transient": False, "half_life_impacts": None}
     return {

@@ -1,23 +1,23 @@
-"""Disturbances as an engineer names them, and the starts they give a rotor.
+"""Disturbances in engineering terms, and the starts of motions that result from them.
 
-A *model* says what happens to the rotor and with which coordinates it varies (size and direction of a kick, say).  A
-*plan* says which of these are tried: a :class:`Grid` of cells, each represented by its middle, or a seeded
-:class:`Sample` with every coordinate even over its range.  Both give :class:`Starts`: states in the co-rotating frame,
+A *model* says what happens to the rotor and by which coordinates it varies (for example size and direction of a kick).  A
+*plan* says which of these disturbances are tried: a :class:`Grid` of cells, each represented by its middle, or a seeded
+:class:`Sample` with every coordinate uniformly distributed.  Both give :class:`Starts`: states in the co-rotating frame,
 from which the motion is free.
 
 =======================  =====================================================================================
-:class:`VelocityKick`    a blow: the velocity changes at once, by a size and in a direction
-:class:`KickPlane`       the same by radial and tangential parts, seen from the bearing centre
+:class:`VelocityKick`    a blow: the velocity changes at once, given by size and direction
+:class:`KickPlane`       the same, given by radial and tangential parts, seen from the bearing centre
 :class:`BaseShock`       the housing is accelerated by a half-sine pulse (peak, duration, direction)
-:class:`UnbalanceStep`   the unbalance becomes what it is now, from another size and phase
+:class:`UnbalanceStep`   the unbalance jumps to that of the machine from another size and phase
 :class:`ContactRelease`  levitation is switched on with the rotor on the touchdown bearing
 :class:`StateSlice`      any position, at a given velocity
 :class:`AnyState`        any position and any velocity
 =======================  =====================================================================================
 
-Models and plans load no kernel before a shock is followed: sweeps are planned without them.
-Numbers are dimensionless, as everywhere behind the door: lengths in clearances, times in ``1/Ω``.  The constructors
-``in_si`` take SI numbers and the scales of a machine.
+Models and plans load the kernels only when a shock is followed, so that sweeps are planned without them.
+Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  The constructors ``in_si`` take SI numbers and the
+scales of a machine.
 """
 
 from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick, outward_from

@@ -22,7 +22,7 @@ __all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
 LONGEST_SHOCK = 1e4
-"""Longest duration, in ``1/Ω``: every pulse is followed to its end, over some 1600 turns of the shaft at most."""
+"""Longest duration, in ``1/Ω``: every pulse is followed to its end, which takes at most some 1600 turns of the shaft."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class VelocityKick(Disturbance):
 
     @classmethod
     def in_si(cls, scales: Scales, metres_per_second: float) -> VelocityKick:
-        """With the largest change of velocity in m/s."""
+        """Create from the largest change of velocity in m/s."""
         return cls(metres_per_second / scales.velocity)
 
     @property
@@ -61,7 +61,7 @@ class VelocityKick(Disturbance):
 
 @dataclass(frozen=True)
 class KickPlane(Disturbance):
-    """The same blow, by its parts outward and along the whirl, as seen from the centre of the bearing.
+    """The same blow, given by its outward and tangential parts as seen from the centre of the bearing.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class KickPlane(Disturbance):
 
     @classmethod
     def in_si(cls, scales: Scales, metres_per_second: float) -> KickPlane:
-        """With the largest part in m/s."""
+        """Create from the largest part in m/s."""
         return cls(metres_per_second / scales.velocity)
 
     @property
@@ -98,7 +98,7 @@ class KickPlane(Disturbance):
 
 @dataclass(frozen=True)
 class BaseShock(Disturbance):
-    """The housing, bearings and all, is accelerated by ``a(t) = â sin(πt/T)`` along a line for a time ``T``.
+    """The housing and its bearings are accelerated by ``a(t) = â sin(πt/T)`` along a line for a time ``T``.
 
     The motion of the levitating rotor relative to the housing is followed exactly through the pulse, contacts included
     (:mod:`carom.disturbances.shocks`); the start is the state at its end.  Directions are those of the acceleration in the fixed
@@ -124,7 +124,7 @@ class BaseShock(Disturbance):
 
     @classmethod
     def in_si(cls, scales: Scales, g: float, milliseconds: float) -> BaseShock:
-        """With the largest peak in standard gravities and the duration in ms."""
+        """Create from the largest peak in standard gravities and the duration in ms."""
         return cls(g * GRAVITY / scales.acceleration, 1e-3 * milliseconds / scales.time)
 
     @property
@@ -135,7 +135,7 @@ class BaseShock(Disturbance):
 
     @property
     def velocity_change(self) -> float:
-        """Of the housing through the largest pulse, ``2âT/π``, in ``c_r Ω``."""
+        """Change of the housing's velocity over the largest pulse, ``2âT/π``, in ``c_r Ω``."""
         return 2.0 * self.peak * self.duration / math.pi
 
     def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
@@ -150,7 +150,7 @@ class BaseShock(Disturbance):
 
 
 def outward_from(rotor: Jeffcott) -> complex:
-    """Direction from the centre of the bearing to the levitating rotor; the heavy side where it is in the centre."""
+    """Direction from the bearing centre to the levitating rotor; that of the unbalance if the rotor is centred."""
     rest = rotor.equilibrium
     return rest / abs(rest) if rest else cmath.rect(1.0, rotor.parameters.phi)
 

@@ -14,7 +14,7 @@ __all__ = ["Coordinate", "Starts", "angle_coordinate", "complex_of", "inside", "
 
 TURN = 2.0 * math.pi
 ON_WALL = 1e-12
-"""Distance from the wall at which a start lies on it, in clearances."""
+"""Distance from the wall, in clearances, within which a start counts as on it."""
 
 
 @dataclass(frozen=True)
@@ -27,13 +27,13 @@ class Coordinate:
     low, high : float
         Dimensionless, or rad.
     scale : str
-        Property of :class:`~carom.parameters.Scales` that turns it into SI; empty for angles.
+        Property of :class:`~carom.parameters.Scales` that converts it to SI; empty for angles.
     unit : str
         SI unit.
     over_disc : bool
-        A radius: even over the area of a disc, not over the radius.
+        Whether it is a radius whose weight is uniform over the area of a disc, not over the radius.
     periodic : bool
-        An angle all round.
+        Whether it is an angle over a full turn.
     """
 
     name: str
@@ -46,7 +46,7 @@ class Coordinate:
     periodic: bool = False
 
     def at(self, shares: np.ndarray) -> np.ndarray:
-        """Values that have these shares of the range, 0 to 1, below them."""
+        """Values below which these shares, 0 to 1, of the weight lie."""
         return self.high * np.sqrt(shares) if self.over_disc else self.low + (self.high - self.low) * shares
 
     def edges(self, cells: int) -> np.ndarray:
@@ -58,12 +58,12 @@ class Coordinate:
         return self.at((np.arange(cells) + 0.5) / cells)
 
     def si(self, scales: Scales) -> float:
-        """How many SI units one unit of it is."""
+        """One unit of the coordinate in SI units."""
         return float(getattr(scales, self.scale)) if self.scale else 1.0
 
 
 def angle_coordinate(name: str, words: str) -> Coordinate:
-    """An angle all round."""
+    """An angle over a full turn."""
     return Coordinate(name, words, 0.0, TURN, periodic=True)
 
 
@@ -84,11 +84,11 @@ class Starts(NamedTuple):
     ----------
     positions, velocities : ndarray of complex
     exists : ndarray of bool
-        Whether the disturbance is possible: the start lies inside the wall, the rotor could levitate before it.
+        Whether the disturbance is possible: the start lies inside the wall, and the rotor could levitate before.
     undecided : ndarray of bool
-        The disturbance itself grazes the wall, and double precision cannot decide what follows.
+        Whether the rotor grazes the wall during the disturbance, so that double precision cannot decide what follows.
     touched : ndarray of bool
-        The rotor has met the wall by then: during a shock, or because it starts there.
+        Whether the rotor has already met the wall, during a shock or because it starts there.
     """
 
     positions: np.ndarray
@@ -99,7 +99,7 @@ class Starts(NamedTuple):
 
     @classmethod
     def of(cls, positions: np.ndarray | complex, velocities: np.ndarray | complex, exists: np.ndarray | bool) -> Starts:
-        """Give all arrays one shape."""
+        """Broadcast the arrays to one shape; none of the starts is undecided."""
         places, speeds, there = np.broadcast_arrays(np.asarray(positions, complex), velocities, exists)
         return cls(places, speeds.astype(complex), there, np.zeros(places.shape, bool), np.abs(places) >= 1.0 - ON_WALL)
 
@@ -113,7 +113,7 @@ def inside(positions: np.ndarray, velocities: np.ndarray) -> Starts:
 def complex_of(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:
     """Complex numbers from their parts.
 
-    Products are taken of real numbers only: the last bit of complex ones depends on their place in the array.
+    Callers multiply real arrays only: the last bit of a complex product depends on its place in the array.
     """
     values = np.empty(np.broadcast(real, imaginary).shape, complex)
     values.real, values.imag = real, imaginary

@@ -1,4 +1,4 @@
-"""The models of disturbances by the words that files and command lines use for them."""
+"""Models of disturbances by the names used in files and on the command line."""
 
 from __future__ import annotations
 

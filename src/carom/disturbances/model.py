@@ -1,4 +1,4 @@
-"""What every model of a disturbance offers."""
+"""Base class of the models of disturbances."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _SIZES = ("fastest", "peak", "duration", "largest")
 
 @dataclass(frozen=True)
 class Disturbance:
-    """What happens to a rotor; see :mod:`carom.disturbances` for the models."""
+    """Base class of disturbances; see :mod:`carom.disturbances` for the models."""
 
     kind: ClassVar[str] = ""
     measured_in: ClassVar[dict[str, str]] = {}
@@ -39,7 +39,7 @@ class Disturbance:
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """What it varies with."""
+        """Coordinates by which the disturbance varies."""
         raise NotImplementedError
 
     def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
@@ -49,12 +49,12 @@ class Disturbance:
         ----------
         rotor : Jeffcott
         *values : ndarray
-            One array for each coordinate; they are broadcast against each other.
+            One array for each coordinate, broadcast against each other.
         """
         raise NotImplementedError
 
     def rescaled(self, before: Scales | None, after: Scales | None) -> Self:
-        """Return the same disturbance in SI units for a machine with other scales."""
+        """Return the disturbance that is the same in SI units for a machine with other scales."""
         if before is None or after is None or before == after:
             return self
         changes = {
@@ -64,5 +64,5 @@ class Disturbance:
         return dataclasses.replace(self, **changes)
 
     def describe(self) -> dict[str, object]:
-        """Its kind and its numbers."""
+        """Kind and numbers of the disturbance."""
         return {"kind": self.kind, **dataclasses.asdict(self)}

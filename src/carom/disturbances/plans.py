@@ -22,7 +22,7 @@ __all__ = ["Grid", "Plan", "Sample", "kick_grid"]
 
 @dataclass(frozen=True)
 class Grid:
-    """Every coordinate in equal cells, each represented by its middle.
+    """Cells of equal weight along every coordinate, each represented by its middle.
 
     Attributes
     ----------
@@ -56,13 +56,13 @@ class Grid:
         return self.model.starts(rotor, *np.meshgrid(*self.values(), indexing="ij"))
 
     def rescaled(self, before: Scales | None, after: Scales | None) -> Grid:
-        """Return the same grid in SI units for a machine with other scales."""
+        """Return the grid that is the same in SI units for a machine with other scales."""
         return Grid(self.model.rescaled(before, after), self.shape)
 
 
 @dataclass(frozen=True)
 class Sample:
-    """A seeded sample, even over every coordinate; a longer one of the same seed begins with the shorter.
+    """A seeded random sample, uniform in every coordinate; a longer one of the same seed begins with the shorter.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class Sample:
         return self.model.starts(rotor, *self.values())
 
     def rescaled(self, before: Scales | None, after: Scales | None) -> Sample:
-        """Return the same sample in SI units for a machine with other scales."""
+        """Return the sample that is the same in SI units for a machine with other scales."""
         return Sample(self.model.rescaled(before, after), self.count, self.seed)
 
 

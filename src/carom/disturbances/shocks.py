@@ -1,14 +1,14 @@
-"""The levitating rotor in a housing that is shaken by a half-sine pulse, exactly, contacts included.
+"""Exact motion of the levitating rotor in a housing shaken by a half-sine pulse, contacts included.
 
-The housing carries magnetic bearings and touchdown bearing; seen from it, a rigid rotor feels its acceleration
-``a(t) = â sin(νt) e^{iα}``, ``ν = π/T``, as a force ``−a`` per mass.  In the co-rotating frame that is
+The housing carries magnetic bearings and touchdown bearing.  Relative to it, its acceleration
+``a(t) = â sin(νt) e^{iα}``, ``ν = π/T``, acts on a rigid rotor as a force ``−a`` per mass.  In the co-rotating frame that is
 
     Ü + (γ + 2i)U̇ + (ω² − 1 + iγ)U = ρe^{iφ} − (â e^{iα}/2i)(e^{s₁t} − e^{s₂t}),   s₁ = i(ν − 1),  s₂ = −i(ν + 1),
 
 so each of the two exponentials adds ``∓â e^{iα}/(2i D(s))`` times itself to the motion, with
-``D(s) = (s − λ₋)(s − λ₊)``.  They are forcing with exponents of their own: two more modes that no impulse changes, and
-the certified flight, the impacts and the lasting contact of :mod:`carom.core` apply through the pulse as they are.  At
-its end the two modes are dropped and position and velocity kept: the housing then moves evenly.
+``D(s) = (s − λ₋)(s − λ₊)``.  They are two additional modes, with exponents of their own, that no impulse changes.  So the
+certified flight, the impacts and the lasting contact of :mod:`carom.core` apply unchanged during the pulse.  At its end
+the two modes are dropped, and position and velocity are kept: the housing then moves at constant velocity.
 
 Limits: the housing is rigid and moves along a line; ``D(s)`` vanishes only for undamped levitation whose natural
 frequency is that of the pulse, which is refused.
@@ -35,7 +35,7 @@ EVENT_LIMIT, TIME_REACHED, FLIGHT = int(Outcome.EVENT_LIMIT), int(Outcome.TIME_R
 LOGGED = 256
 MOST_EVENTS = 1_000_000
 LEAST_DISTANCE = 1e-6
-"""Of the pulse from undamped resonance, ``|D|/ω²``: below it too many digits cancel."""
+"""Least distance ``|D|/ω²`` of the pulse from undamped resonance; below it too many digits cancel."""
 
 
 def shaken(rotor: Jeffcott, duration: float) -> System:
@@ -74,11 +74,11 @@ def states_after_shocks(
     Parameters
     ----------
     rotor : Jeffcott
-        It levitates inside the wall.
+        A rotor that levitates inside the wall.
     peaks, directions : ndarray
         Peak accelerations of the housing, in ``c_r Ω²``, and their directions in rad, of one shape.
     duration : float
-        Of the pulses, in ``1/Ω``.
+        Duration of the pulses, in ``1/Ω``.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def states_after_shocks(
 
 
 def _sum(start: complex, row: list[complex], amplitudes: list[complex]) -> complex:
-    """Sum of products, one by one: the last bit of array arithmetic depends on the place in the array."""
+    """Sum of products, term by term: the last bit of array arithmetic depends on the place in the array."""
     for weight, amplitude in zip(row, amplitudes, strict=True):
         start += weight * amplitude
     return start

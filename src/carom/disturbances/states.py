@@ -31,15 +31,15 @@ Release = Literal["fixed", "rotating", "rolling"]
 
 @dataclass(frozen=True)
 class UnbalanceStep(Disturbance):
-    """The unbalance jumps to that of the machine: a lost blade, a shifted sleeve.
+    """The unbalance jumps to that of the machine, for example by a lost blade or a shifted sleeve.
 
-    The rotor whirled without contact with an eccentricity of another size and phase; its position and velocity are then
-    those of the start in the machine as it is.
+    Before the step the rotor whirls without contact with another eccentricity and phase.  Its position and velocity at the
+    step are the start of the motion with the present unbalance.
 
     Attributes
     ----------
     largest : float
-        Largest eccentricity before, in clearances.  Phases are relative to the unbalance after the step.
+        Largest eccentricity before the step, in clearances.  Phases are relative to the unbalance after the step.
     """
 
     largest: float
@@ -48,7 +48,7 @@ class UnbalanceStep(Disturbance):
 
     @classmethod
     def in_si(cls, scales: Scales, metres: float) -> UnbalanceStep:
-        """With the largest eccentricity before in m."""
+        """Create from the largest eccentricity before the step in m."""
         return cls(metres / scales.length)
 
     @property
@@ -73,12 +73,12 @@ class UnbalanceStep(Disturbance):
 
 @dataclass(frozen=True)
 class ContactRelease(Disturbance):
-    """Levitation is switched on with the rotor on the wall, anywhere round it.
+    """Levitation is switched on with the rotor on the wall, at any angle.
 
     Attributes
     ----------
     motion : {"fixed", "rotating", "rolling"}
-        The rotor centre is at rest, whirls in step with the shaft, or rolls round the bearing without slip.
+        The rotor centre is at rest, whirls in step with the shaft, or rolls on the bearing without slip.
     """
 
     motion: Release = "fixed"
@@ -90,11 +90,11 @@ class ContactRelease(Disturbance):
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """Angle of the place on the wall."""
+        """Angle of the contact point on the wall."""
         return (angle_coordinate("angle", "place on the wall"),)
 
     def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
-        """On the wall, moving along it."""
+        """States on the wall, moving along it."""
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
         whirl = {"fixed": 0.0, "rotating": 1.0, "rolling": -rotor.parameters.radius_ratio}[self.motion]
@@ -131,18 +131,18 @@ class StateSlice(Disturbance):
         return inside(positions, np.full(positions.shape, self.velocity))
 
     def describe(self) -> dict[str, object]:
-        """Its kind and its numbers."""
+        """Kind and numbers of the disturbance."""
         return {"kind": self.kind, "velocity": [self.velocity.real, self.velocity.imag]}
 
 
 @dataclass(frozen=True)
 class AnyState(Disturbance):
-    """Any position inside the wall and any velocity up to a speed in the co-rotating frame, both even over their discs.
+    """Any position inside the wall and any velocity up to a largest speed, both uniform over their discs.
 
     Attributes
     ----------
     fastest : float
-        In ``c_r Ω``.
+        Largest speed in the co-rotating frame, in ``c_r Ω``.
     """
 
     fastest: float = FASTEST
@@ -151,12 +151,12 @@ class AnyState(Disturbance):
 
     @classmethod
     def in_si(cls, scales: Scales, metres_per_second: float) -> AnyState:
-        """With the largest speed in m/s."""
+        """Create from the largest speed in m/s."""
         return cls(metres_per_second / scales.velocity)
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """Position and velocity, both by size and angle."""
+        """Position and velocity, both by modulus and angle."""
         return (
             length_coordinate("radius", "distance from the centre of the bearing", 0.0, 1.0, over_disc=True),
             angle_coordinate("angle", "angle of the position"),
@@ -165,7 +165,7 @@ class AnyState(Disturbance):
         )
 
     def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
-        """All of them."""
+        """The given states."""
         radius, angle, speed, direction = np.broadcast_arrays(*values)
         return Starts.of(
             complex_of(radius * np.cos(angle), radius * np.sin(angle)),

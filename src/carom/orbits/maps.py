@@ -56,12 +56,13 @@ class ImpactMap(Result):
     Attributes
     ----------
     outcome : Outcome
-        ``CONTACT`` if there is a next impact; otherwise why there is none, and ``image`` and ``jacobian`` are ``None``.
+        ``CONTACT`` if there is a next impact.  Otherwise the reason; ``image`` and ``jacobian`` are then ``None``.
     image : Section or None
     duration : float
         Time of flight in ``1/Ω``.
     jacobian : ndarray or None, shape (3, 3)
-        Derivative of ``(θ, ṙ, θ̇)`` after with respect to before, with the saltation term of the time of impact.
+        Derivative of the image ``(θ, ṙ, θ̇)`` with respect to the section, including the saltation term for the change of
+        the time of impact.
     """
 
     outcome: Outcome
@@ -94,7 +95,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
     section : Section
         State just before an impact; ``radial_speed`` above zero.
     longest_flight : float
-        Time in ``1/Ω`` after which a flight counts as never returning.
+        Time in ``1/Ω`` after which the rotor counts as not returning to the wall.
 
     Returns
     -------
@@ -123,7 +124,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
 def section_jacobian(system: System, section: Section, duration: float) -> np.ndarray:
     """Derivative of the impact map along a flight of known duration.
 
-    The flight need not stay inside the wall, so it serves virtual orbits too.
+    The flight need not stay inside the wall, so this works for virtual orbits too.
 
     Parameters
     ----------
@@ -136,7 +137,7 @@ def section_jacobian(system: System, section: Section, duration: float) -> np.nd
     Returns
     -------
     ndarray, shape (3, 3)
-        Over ``(θ, ṙ, θ̇)``.
+        Derivative with respect to ``(θ, ṙ, θ̇)``.
     """
     position, velocity = section.state.position, section.state.velocity
     arrays = system.arrays

@@ -35,9 +35,9 @@ __all__ = [
 ]
 
 MOST_RADIANS = 1500.0
-"""How far the fastest mode may turn, or decay, within the longest period of the orbits looked up: some hundred orbits."""
+"""Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""
 ARRIVAL_TOLERANCE = 1e-7
-"""Relative difference of the certified first return and the period below which they are the same event."""
+"""Relative difference below which the certified first return and the period count as the same event."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,8 +48,9 @@ class Orbit(Result):
     ----------
     rotor : Jeffcott
     name : str
-        ``"B1,d"``: pair 1; ``a``, ``c`` on its shorter period and ``b``, ``d`` on its longer; ``a``, ``b`` with the
-        lower and ``c``, ``d`` with the higher radial speed.  Orbits whose slip runs backward begin with ``R``.
+        ``"B1,d"``: pair 1 of the periods; ``a`` and ``c`` have the shorter period of the pair, ``b`` and ``d`` the longer;
+        ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with backward slip begin
+        with ``R``.
     period : float
         In ``1/Ω``.
     section : Section
@@ -84,7 +85,7 @@ class Orbit(Result):
 
     @property
     def impacts(self) -> int:
-        """Impacts a period."""
+        """Impacts per period."""
         return 1
 
     @property
@@ -146,7 +147,7 @@ class Orbit(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OrbitSet(Result, Sequence[Orbit]):
-    """All single-impact orbits of a rotor; look one up by place or by name, ``orbits["B1,d"]``.
+    """All single-impact orbits of a rotor; look one up by index or by name, ``orbits["B1,d"]``.
 
     Attributes
     ----------
@@ -159,9 +160,9 @@ class OrbitSet(Result, Sequence[Orbit]):
     complete : bool
         Whether there is provably no other root.
     slip_stays_forward : bool
-        Whether it is proven that an orbit inside the wall slips forward all through its impacts.  Else orbits with
-        backward slip are listed too, but orbits whose impacts stop the slip are not searched; only a rotor about as small
-        as its clearance can have either.
+        Whether it is proven that the slip of every orbit inside the wall stays forward throughout its impacts.  Otherwise
+        orbits with backward slip are listed too, but orbits whose impacts stop the slip are not searched.  Only a rotor
+        about as small as its clearance can have either.
     """
 
     rotor: Jeffcott
@@ -172,7 +173,7 @@ class OrbitSet(Result, Sequence[Orbit]):
     slip_stays_forward: bool
 
     def rows(self) -> list[tuple[str, str]]:
-        """Each orbit, and whether these are all."""
+        """Each orbit, and whether the list is complete."""
         told = []
         for orbit in self:
             words = f"{'stable' if orbit.stable else 'unstable'}, {orbit.reason or 'admissible'}"
@@ -257,7 +258,7 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
 
 
 def orbits_within_reach(machine: Subject) -> OrbitSet:
-    """All single-impact orbits; with little or no damping, when they are too many, only those of shorter period.
+    """All single-impact orbits; where little or no damping makes them too many, only those of shorter period.
 
     Parameters
     ----------
@@ -283,11 +284,11 @@ def slip_stays_forward(rotor: Jeffcott) -> bool:
     """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
 
     After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in the
-    fixed frame.  There stiffness and unbalance change its velocity by less than ``ρ + ω²`` a time.  So while it stays
-    inside, it has gone back after a time ``τ``, measured along the tangent at the impact, by more than
-    ``b(τ) = s(1 − e^{−γτ})/γ − (ρ + ω²)τ²/2``.  Let ``b`` reach one clearance at ``τ₁ ≤ π``.  A period above ``τ₁`` would take the
-    rotor through the wall, and a shorter one ends at the impact's place turned forward by the angle ``T``, where it cannot
-    be because ``b > 0``.
+    fixed frame.  There stiffness and unbalance change its velocity by less than ``ρ + ω²`` per unit of time.  So while it
+    stays inside, it has moved backward after a time ``τ``, measured along the tangent at the impact, by more than
+    ``b(τ) = s(1 − e^{−γτ})/γ − (ρ + ω²)τ²/2``.  Let ``b`` reach one clearance at ``τ₁ ≤ π``.  With a period above ``τ₁`` the
+    rotor would pass through the wall.  A shorter period ends at the place of the impact rotated forward by the angle ``T``,
+    where the rotor cannot be because ``b > 0``.
     """
     parameters = rotor.parameters
     if parameters.mu == 0.0:
@@ -320,7 +321,7 @@ def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, 
 
 
 def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float, slip: int) -> np.ndarray:
-    """Derivative of the impact map; of an orbit that has shrunk to levitation on the wall, its limit."""
+    """Derivative of the impact map; for an orbit that has shrunk to the equilibrium on the wall, its limit."""
     if section.radial_speed != 0.0:
         return section_jacobian(slipping, section, period)
     parameters = rotor.parameters
@@ -333,7 +334,7 @@ def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float
 def orbit_at(
     rotor: Jeffcott, name: str, period: float, section: Section, nontrivial: Multipliers, slip: int = 1
 ) -> Orbit:
-    """A known orbit, with the certificate of its admissibility.
+    """Orbit of known state and period, with its admissibility checked.
 
     Parameters
     ----------
@@ -356,14 +357,14 @@ def orbit_at(
 
 
 def _slipping(system: System, slip: int) -> System:
-    """A system whose slip always runs in this direction, as that of an orbit is assumed to."""
+    """Copy of a system in which the slip always has the given direction, as is assumed for an orbit."""
     arrays = system.arrays.copy()
     arrays.drive[:] = slip * np.inf
     return replace(system, arrays=arrays)
 
 
 def radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
-    """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; none where they have coalesced.
+    """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; empty if they are not real or ``U* = 0``.
 
     ``lever`` is ``q a₁₂``.
     """
@@ -406,12 +407,12 @@ def _why_virtual(orbit: Orbit) -> str:
 
 
 def _first_return(rotor: Jeffcott, start: np.ndarray, horizon: float) -> tuple[int, float]:
-    """Outcome and time of the first return to the wall of a flight that leaves it after an impact."""
+    """Outcome and time of the first return to the wall after an impact."""
     arrays, work = rotor.system.arrays, workspace(len(start))
     if arrays.restitution[0] > 0.0:
         outcome, time = first_crossing(arrays, rotor.system.table, 0, start, horizon, LEAVING, work)
         return outcome, time
-    # Without rebound it leaves with no radial speed: its distance from the wall begins with the square of the time.
+    # Without rebound the radial speed is zero at first: the distance from the wall grows with the square of time.
     amplitudes = start.copy()
     aloft, returned = lift_off(arrays, 0, amplitudes, horizon, rub_workspace(len(start)))
     if aloft == 0.0:

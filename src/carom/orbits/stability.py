@@ -35,7 +35,7 @@ class Multipliers(Result):
 
     @property
     def instability(self) -> str:
-        """How small disturbances grow: ``""`` if they do not, else in words."""
+        """How small disturbances grow, in words; ``""`` if they do not."""
         if self.stable:
             return ""
         leader = self.values[0]
