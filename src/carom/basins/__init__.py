@@ -1,15 +1,15 @@
-"""Where disturbances go: basins of attraction, what share of them comes back, and which gains bring back more.
+"""Basins of attraction of disturbances: the share that recovers, and the gains with which more recover.
 
 ======================  ==================================================================================
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
-``dataset``             their endings with coordinates, units and how to make them again
+``dataset``             endings as a dataset with coordinates, units and provenance
 ``motions``             names of the motions that starts end on
 ``shares``              shares with their confidence intervals
 ``kicks``               disturbances that provably never reach the wall
-``losses``              from which size on kicks, shocks, steps and releases are lost
+``losses``              the smallest kicks, shocks, steps and releases that are lost
 ``integrity_measures``  the largest ball of starts that all come back
 ``entropy``             basin entropy and boundary basin entropy
-``gains``               all that against two parameters: gain maps
+``gains``               these measures against two parameters: gain maps
 ``changes``             the least change of both that brings back a wanted share
 ``document``            results as JSON
 ======================  ==================================================================================

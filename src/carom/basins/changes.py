@@ -16,22 +16,22 @@ __all__ = ["GainChange", "least_gain_change"]
 
 HALVINGS = 8
 CANDIDATES = 8
-"""Nodes towards which the least change is looked for."""
+"""Number of nodes of the map towards which the least change is searched."""
 WANTED = 0.99
 
 
 @dataclass(frozen=True)
 class GainChange:
-    """The least change of two parameters, in proportion, found to bring back a wanted share.
+    """The least relative change of two parameters found to bring back a wanted share.
 
     Attributes
     ----------
     values : tuple of float
         New values, in the units of the map.
     changes : tuple of float
-        Relative to the present ones.
+        Changes relative to the present values.
     share : Share
-        That comes back with them.
+        Share that comes back with the new values.
     wanted : float
     """
 
@@ -52,11 +52,12 @@ def least_gain_change(
     *,
     threads: int | None = None,
 ) -> GainChange | None:
-    """Least change of the two parameters, in proportion, that brings back a wanted share of the disturbances.
+    """Least relative change of the two parameters that brings back a wanted share of the disturbances.
 
-    Of the nodes of the map that do, the nearest few (relative changes, Euclidean) are taken; on the straight line from
-    the present machine to each the change is then bisected.  In other directions there may be a smaller one.
-    For a sample the lower end of the confidence interval has to reach the wanted share.
+    The search starts from the few nodes of the map that reach the share and are nearest (Euclidean distance of relative
+    changes).  On the straight line from the present machine to each of them the change is found by bisection.  In other
+    directions there may be a smaller one.  For a sample, the lower end of the confidence interval has to reach the wanted
+    share.
 
     Parameters
     ----------
@@ -68,7 +69,7 @@ def least_gain_change(
     Returns
     -------
     GainChange or None
-        ``None`` if no node of the map reaches it; no change if the present machine does.
+        ``None`` if no node of the map reaches the share; a change of zero if the present machine does.
 
     Raises
     ------
@@ -105,7 +106,7 @@ def _moved(
 
 
 def _least_part(found: GainMap, goal: tuple[float, float], wanted: float, threads: int | None) -> tuple[float, Share]:
-    """Part of the way to a goal that is enough, and the share there."""
+    """Smallest sufficient part of the way to a goal, by bisection, and the share there."""
 
     def share(part: float) -> Share:
         node, _ = _moved(found.present, goal, part)

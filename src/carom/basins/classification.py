@@ -1,4 +1,4 @@
-"""Follow disturbances to where they end."""
+"""Follow disturbances until they settle, and classify where they end."""
 
 from __future__ import annotations
 
@@ -52,11 +52,11 @@ class Basin(Result):
     dataset : xarray.Dataset
         Dimensions are the coordinates of a grid, or ``start``.  Variables: ``outcome``
         (:class:`~carom.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the name of the motion),
-        ``time`` until that was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, if only
-        during a shock or because it started there), ``multiplicity`` (impacts a period), and the starts
+        ``time`` until the outcome was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, even if
+        only during a shock or because it started there), ``multiplicity`` (impacts per period), and the starts
         ``start_x``, ``start_y``, ``start_vx``, ``start_vy`` in the co-rotating frame.  Lengths in ``c_r``, times in
-        ``1/Ω``; coordinates ending in ``_si`` are there where the machine is known.  Attributes hold what it takes to
-        do it again: parameters, disturbance, seed, criteria, versions.
+        ``1/Ω``; coordinates ending in ``_si`` exist where the machine is known.  Attributes hold what is needed to repeat
+        the computation: parameters, disturbance, seed, criteria, versions.
     """
 
     shown: ClassVar[tuple[str, ...]] = (
@@ -71,14 +71,14 @@ class Basin(Result):
 
     @cached_property
     def parameters(self) -> Parameters:
-        """Of the machine."""
+        """Parameters of the machine."""
         numbers = json.loads(self.dataset.attrs["parameters"])
         scales = json.loads(self.dataset.attrs["scales"])
         return Parameters(**numbers, scales=Scales(**scales) if scales else None)
 
     @cached_property
     def rotor(self) -> Jeffcott:
-        """The machine."""
+        """Model of the machine."""
         return Jeffcott(self.parameters)
 
     @cached_property
@@ -93,7 +93,7 @@ class Basin(Result):
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """What the disturbances vary with."""
+        """Coordinates by which the disturbances vary."""
         return self.plan.model.coordinates
 
     @property
@@ -110,36 +110,36 @@ class Basin(Result):
 
     @property
     def recovered(self) -> np.ndarray:
-        """Which come back to levitation for good."""
+        """Which starts return to levitation and stay there."""
         recovered: np.ndarray = self.outcomes == Outcome.LEVITATED
         return recovered
 
     @property
     def touched(self) -> np.ndarray:
-        """In which of them the rotor met the wall."""
+        """Starts after which, or at which, the rotor met the wall."""
         touched: np.ndarray = self.dataset["touched"].values > 0
         return touched
 
     @property
     def resolved(self) -> np.ndarray:
-        """Of which it is known where they end."""
+        """Which starts have a known end."""
         resolved: np.ndarray = self.outcomes >= Outcome.LEVITATED
         return resolved
 
     @property
     def irregular(self) -> dict[str, Any] | None:
-        """How long irregular bouncing lasts that was met, as in JSON; ``None`` if none of the starts came to any."""
+        """How long irregular bouncing lasts, as in JSON; ``None`` if none of the starts led to any."""
         found: dict[str, Any] | None = json.loads(self.dataset.attrs["irregular"])
         return found
 
     @property
     def starts(self) -> int:
-        """How many starts were followed."""
+        """Number of starts."""
         return int(self.exists.sum())
 
     @property
     def unresolved(self) -> int:
-        """Starts that were given up."""
+        """Number of starts that were given up."""
         return int((self.exists & ~self.resolved).sum())
 
     @property
@@ -157,7 +157,7 @@ class Basin(Result):
 
     @property
     def share_recovered(self) -> Share:
-        """Share that comes back to levitation; starts given up count as lost."""
+        """Share that returns to levitation; starts that were given up count as lost."""
         return Share.of(int(self.recovered.sum()), self.starts, drawn=isinstance(self.plan, Sample))
 
     def share_of(self, motion: str) -> Share:
@@ -166,7 +166,7 @@ class Basin(Result):
         Raises
         ------
         InputError
-            No start does.
+            No start ends on such a motion.
         """
         if motion not in self.motions:
             raise InputError("motion", motion, f"one of: {', '.join(self.motions)}")
@@ -174,7 +174,7 @@ class Basin(Result):
         return Share.of(count, self.starts, drawn=isinstance(self.plan, Sample))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file, whole or not at all; see :func:`carom.files.netcdf.save`."""
+        """Write a netCDF file atomically; see :func:`carom.files.netcdf.save`."""
         from carom.files.netcdf import save
 
         save(self.dataset, path)
@@ -186,7 +186,7 @@ class Basin(Result):
         Raises
         ------
         InputError
-            It cannot be read, or holds no basin.
+            The file cannot be read, or does not contain a basin.
         """
         from carom.files.netcdf import load
 
@@ -204,13 +204,13 @@ def map_basins(
     source: Mapping[str, str] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Basin:
-    """Follow disturbances to where they end.
+    """Follow disturbances until they settle.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
     disturbances : Grid or Sample
-        Of a model of :mod:`carom.disturbances`.
+        Plan for a model of :mod:`carom.disturbances`.
     until : float
         Time after which a motion that has not settled is given up, in ``1/Ω``; by default
         :func:`~carom.motions.settling.longest_time`.
@@ -219,11 +219,11 @@ def map_basins(
     max_events : int
         Impacts and steps of lasting contact after which a motion is given up.
     threads : int, optional
-        By default as many as there are cores; the result does not depend on it.
+        By default the number of available cores; the result does not depend on it.
     source : mapping of str to str, optional
-        More to note about where the machine comes from, such as its file; becomes attributes of the dataset.
+        Further attributes of the dataset that say where the machine comes from, such as its file.
     progress : callable, optional
-        Called with the share done, 0 to 1.
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------
@@ -261,12 +261,12 @@ def map_basins(
 
 
 def follow(rotor: Jeffcott, starts: Starts, **limits: Any) -> Endings:
-    """Where all starts end; those that do not exist, or are undecided, are not followed and have zeros everywhere.
+    """Follow all starts; those that do not exist or are undecided are not followed, and their entries are zero.
 
     Raises
     ------
     InputError
-        None of them exists.
+        None of the starts exists.
     """
     if not starts.exists.any():
         raise InputError(

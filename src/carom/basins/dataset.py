@@ -1,4 +1,4 @@
-"""Endings of disturbances as a dataset that says what its numbers mean and how to make them again."""
+"""Endings of disturbances as a dataset with units, descriptions and provenance."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["NO_START", "dataset_of", "plan_of", "provenance"]
 
 NO_START = -1
-"""Flag of a grid point that is no start: outside the wall, or where the rotor could not levitate before."""
+"""Flag of a grid point without a start: it lies outside the wall, or the rotor could not levitate before."""
 
 
 def plan_of(document: Mapping[str, Any]) -> Plan:
@@ -44,7 +44,7 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
 
 
 def provenance(rotor: Jeffcott, plan: Plan) -> dict[str, str]:
-    """What it takes to do it again."""
+    """Attributes that are needed to repeat the computation."""
     scales = rotor.scales
     how: dict[str, object] = (
         {"cells": plan.shape} if isinstance(plan, Grid) else {"starts": plan.count, "seed": plan.seed}
@@ -71,7 +71,7 @@ def dataset_of(
     names: tuple[str, ...],
     attributes: Mapping[str, str],
 ) -> xarray.Dataset:
-    """Endings as variables over the coordinates of their disturbances, each with its unit and what it means."""
+    """Endings as variables over the coordinates of their disturbances, each with unit and description."""
     import xarray
 
     codes = [
@@ -125,14 +125,14 @@ def dataset_of(
 
 
 def _touched(starts: Starts, endings: Endings, outcomes: np.ndarray) -> np.ndarray:
-    """In which motions the rotor met the wall; what settles there without an impact slides or rolls there."""
+    """Motions in which the rotor met the wall; one that settles there without an impact slides or rolls."""
     stays = outcomes > Outcome.LEVITATED
     touched: np.ndarray = starts.exists & (starts.touched | (endings.impacts > 0) | stays)
     return touched
 
 
 def _axes(rotor: Jeffcott, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """Coordinates of a dataset, those in SI too, and its dimensions."""
+    """Coordinates of a dataset, including those in SI units, and its dimensions."""
     coordinates = plan.model.coordinates
     grid = isinstance(plan, Grid)
     axes: dict[str, Any] = {}

@@ -1,7 +1,7 @@
 """Basins and gain maps as JSON documents.
 
-Times are in ``1/Ω`` and lengths in ``c_r``, in the co-rotating frame, unless the key ends in ``_si``; those keys are there
-where the machine is known.
+Times are in ``1/Ω`` and lengths in ``c_r``, in the co-rotating frame, unless the key ends in ``_si``.  Such keys exist where
+the machine is known.
 """
 
 from __future__ import annotations
@@ -33,13 +33,14 @@ def basin_document(
     change: GainChange | None = None,
     wanted: float = WANTED,
 ) -> dict[str, Any]:
-    """Everything known of a basin.
+    """Document of all results about a basin.
 
     Parameters
     ----------
     basin : Basin
     smallest : SmallestLoss or None
-        Of the kind of its disturbances; ``None`` if they have no size, or there is no levitation to come back to.
+        Smallest loss of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
+        return to.
     harmless : float
         Speed up to which kicks provably never reach the wall.
     gains : GainMap, optional
@@ -90,7 +91,7 @@ _SIZES = {"kick": "kick", "shock": "shock", "step": "step", "release": "release_
 
 
 def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, Any]:
-    """The smallest loss of a kind; all ``None`` where it was not looked for."""
+    """Entries of the smallest loss of a kind; all ``None`` if it was not searched."""
     found = smallest if smallest is not None and smallest.kind == kind else None
     name = f"smallest_unrecovered_{_SIZES[kind]}"
     bracket = [found.all_back, found.size] if found else None

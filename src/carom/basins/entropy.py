@@ -1,4 +1,4 @@
-"""Basin entropy: how unpredictable the end of a disturbance is.
+"""Basin entropy: a measure of how unpredictable the end of a disturbance is.
 
 A. Daza, A. Wagemakers, B. Georgeot, D. Guéry-Odelin, M. A. F. Sanjuán, "Basin entropy: a new tool to analyze uncertainty
 in dynamical systems", Scientific Reports 6, 31416 (2016).
@@ -18,7 +18,7 @@ from carom.outcome import InputError
 __all__ = ["BasinEntropy", "basin_entropy", "entropies"]
 
 IN_A_BOX = 25
-"""Starts in a box that the authors recommend, about."""
+"""Approximate number of starts in a box, as the authors recommend."""
 
 
 @dataclass(frozen=True)
@@ -30,11 +30,11 @@ class BasinEntropy:
     whole : float
         ``S_b``: mean of ``−Σ p ln p`` over all boxes, ``p`` the shares of the motions in a box.
     boundary : float
-        ``S_bb``: the same over boxes with more than one motion; ``nan`` if there are none.
+        ``S_bb``: the same mean over boxes with more than one motion; ``nan`` if there are none.
     side : int
         Starts along the side of a box.
     boxes, mixed : int
-        Boxes, and those with more than one motion.
+        Number of boxes, and of boxes with more than one motion.
     """
 
     whole: float
@@ -56,7 +56,7 @@ def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
     ----------
     basin : Basin
     side : int, optional
-        Starts along the side of a box; by default such that a box has about 25.
+        Starts along the side of a box; by default chosen so that a box has about 25.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Gain maps: what share of disturbances comes back, against two parameters of the machine."""
+"""Gain maps: the share of disturbances that recover, against two parameters of the machine."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 __all__ = ["GainMap", "map_gains", "measured"]
 
 AROUND = (0.5, 2.0)
-"""Default range of a parameter, in its present value."""
+"""Default range of a parameter, in multiples of its present value."""
 CHUNK = 50_000
-"""Starts that are in memory at a time, about."""
+"""Approximate number of starts in memory at a time."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -46,10 +46,10 @@ class GainMap(Result):
     ----------
     dataset : xarray.Dataset
         Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back) with ``recovered_low`` and
-        ``recovered_high`` (95 % confidence of a sample), ``unresolved``, ``levitates`` (whether there is levitation to
-        come back to), ``integrity`` (of kicks and shocks on a grid: largest size up to which none is lost, as a fraction of
-        the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of outcomes, on a grid); of kicks also
-        ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
+        ``recovered_high`` (95 % confidence interval of a sample), ``unresolved``, ``levitates`` (whether there is
+        levitation to return to), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost, as
+        a fraction of the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of the outcomes, on a grid).  For
+        kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
         ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back.
     """
 
@@ -64,13 +64,13 @@ class GainMap(Result):
 
     @cached_property
     def parameters(self) -> Parameters:
-        """Of the present machine."""
+        """Parameters of the present machine."""
         numbers, scales = (json.loads(self.dataset.attrs[name]) for name in ("parameters", "scales"))
         return Parameters(**numbers, scales=Scales(**scales) if scales else None)
 
     @cached_property
     def plan(self) -> Plan:
-        """Disturbances of the present machine; physical ones stay what they are in SI units."""
+        """Disturbances of the present machine; at other nodes they are the same in SI units."""
         return plan_of(json.loads(self.dataset.attrs["disturbances"]))
 
     @property
@@ -81,31 +81,31 @@ class GainMap(Result):
 
     @property
     def present(self) -> tuple[float, float]:
-        """Their values in the present machine."""
+        """Values of the two parameters in the present machine."""
         numbers = Numbers.of(self.parameters)
         first, second = self.axes
         return first.get(numbers), second.get(numbers)
 
     @property
     def present_share(self) -> Share:
-        """What comes back in the present machine."""
+        """Share that comes back in the present machine."""
         total, count = (int(self.dataset.attrs[name]) for name in ("present_starts", "present_recovered"))
         return Share.of(count, total, drawn=isinstance(self.plan, Sample))
 
     @property
     def limits(self) -> dict[str, int]:
-        """``patience`` and ``max_events`` of :func:`~carom.basins.map_basins` with which it was measured."""
+        """``patience`` and ``max_events`` of :func:`~carom.basins.map_basins` used for the map."""
         return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
 
     @property
     def safe_sizes(self) -> np.ndarray:
-        """Size up to which no kick or shock is lost at each node, in units of the present machine; see ``integrity``."""
+        """Size at each node up to which no kick or shock is lost, in units of the present machine; see ``integrity``."""
         largest = self.plan.model.coordinates[0].high
         sizes: np.ndarray = self.dataset["integrity"].values * largest
         return sizes
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file, whole or not at all."""
+        """Write a netCDF file atomically."""
         from carom.files.netcdf import save
 
         save(self.dataset, path)
@@ -117,7 +117,7 @@ class GainMap(Result):
         Raises
         ------
         InputError
-            It cannot be read, or holds no gain map.
+            The file cannot be read, or does not contain a gain map.
         """
         from carom.files.netcdf import load
 
@@ -137,31 +137,31 @@ def map_gains(
     source: Mapping[str, str] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> GainMap:
-    """Measure what share of disturbances comes back, on a grid of two parameters.
+    """Measure the share of disturbances that recover, on a grid of two parameters.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
         The present machine.
     disturbances : Grid or Sample
-        As for the present machine; where a parameter moves the scales (shaft speed, clearance), kicks and shocks keep
-        their size in SI units.
+        Disturbances of the present machine.  Where a parameter changes the scales (shaft speed, clearance), kicks and
+        shocks keep their size in SI units.
     names : tuple of str
         The two parameters, such as ``("stiffness", "damping")`` (P and D gain) or ``("omega", "gamma")``; any of
         :func:`carom.bifurcations.axis`.
     ranges : tuple of tuple of float, optional
-        Of both, in SI units if physical; by default half to twice the present value.
+        Ranges of both, in SI units if physical; by default half to twice the present value.
     shape : tuple of int
-        Values of both, ends included.
+        Number of values of both, ends included.
     patience, max_events, threads, source
         As for :func:`~carom.basins.map_basins`.
     progress : callable, optional
-        Called with the share done, 0 to 1.
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------
     GainMap
-        Machines that cannot levitate recover nothing.
+        For machines that cannot levitate the share is 0.
 
     Raises
     ------
@@ -201,7 +201,7 @@ def map_gains(
 
 
 def _values(parameters: Parameters, varied: Axis, given: tuple[float, float] | None, count: int) -> np.ndarray:
-    """Values of a parameter from end to end."""
+    """Evenly spaced values of a parameter over its range."""
     if given is None:
         now = varied.get(Numbers.of(parameters))
         if not now > 0.0:
@@ -222,7 +222,7 @@ def measured(
     nodes: list[tuple[float, ...]],
     limits: Mapping[str, Any],
 ) -> Iterator[dict[str, Any]]:
-    """Measures at each node; as many nodes at a time as make a chunk of starts."""
+    """Yield the measures of each node; nodes are followed in chunks of about CHUNK starts."""
     together = max(1, CHUNK // plan.count)
     for first in range(0, len(nodes), together):
         chunk = [_machine(parameters, plan, axes, node) for node in nodes[first : first + together]]
@@ -252,7 +252,7 @@ def measured(
 def _machine(
     parameters: Parameters, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]
 ) -> tuple[Jeffcott, Starts | None]:
-    """Machine of a node and its starts; none where it has no levitation to come back to."""
+    """Machine of a node and its starts; ``None`` instead of starts if it cannot levitate."""
     numbers = Numbers.of(parameters)
     for varied, value in zip(axes, node, strict=True):
         numbers = varied.set(numbers, value)
@@ -294,7 +294,7 @@ def _measures(plan: Plan, outcomes: np.ndarray | None) -> dict[str, Any]:
 def _smallest(
     parameters: Parameters, plan: Plan, rotor: Jeffcott, starts: Starts | None, outcomes: np.ndarray | None
 ) -> dict[str, float]:
-    """The smallest kick tried that one machine does not come back from, in the present machine's units of velocity."""
+    """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
     if not isinstance(plan.model, VelocityKick | KickPlane):
         return {}
     found = None

@@ -1,4 +1,4 @@
-"""Integrity: how far the starts that all come back reach.
+"""Integrity: the size of balls of starts that all come back.
 
 J. M. T. Thompson, "Chaotic phenomena triggering the escape from a potential well", Proc. R. Soc. A 421, 195 (1989);
 S. Lenci, G. Rega, "Optimal control of nonregular dynamics in a Duffing oscillator", Nonlinear Dynamics 33, 71 (2003).
@@ -23,19 +23,19 @@ BLOCK = 64
 
 @dataclass(frozen=True)
 class Integrity:
-    """Balls of starts of which none tried is lost.
+    """Largest balls of starts in which none of those tried is lost.
 
     Attributes
     ----------
     local : float
         Radius of the largest ball about levitation (no disturbance), as a fraction of ``whole``: local integrity measure.
     largest : float
-        Radius of the largest ball anywhere that lies inside the range looked at, as a fraction of ``whole``: integrity
-        factor.  ``nan`` where balls make no sense but about the centre.
+        Radius of the largest ball anywhere inside the range of the disturbances, as a fraction of ``whole``: integrity
+        factor.  ``nan`` where only balls about levitation make sense.
     centre : tuple of float
-        Middle of that ball; empty where there is none.
+        Centre of that ball; empty where there is none.
     whole : float
-        Radius of the largest ball that the range has room for, dimensionless.
+        Radius of the largest ball that fits into the range, dimensionless.
     """
 
     local: float
@@ -47,15 +47,15 @@ class Integrity:
 def integrity(basin: Basin) -> Integrity:
     """Integrity of the starts of a basin.
 
-    For kicks and shocks by size and direction the ball ends before the smallest lost start; in a plane balls keep clear of
-    lost cells.  For a sample the nearest lost start limits the ball, so it gets smaller as the sample gets larger.
-    Starts that were given up count as lost.
+    For kicks and shocks by size and direction the ball ends before the smallest lost start; in a plane balls contain no
+    lost cell.  For a sample the nearest lost start limits the ball, so the ball shrinks as the sample grows.  Starts that
+    were given up count as lost.
 
     Raises
     ------
     InputError
-        The disturbances have no size that is zero in levitation, or are states of four coordinates, of which a sample
-        is too thin to measure a ball.
+        The disturbances have no size that is zero in levitation, or they are states of four coordinates, where a sample
+        is too sparse to measure a ball.
     """
     model, plan = basin.plan.model, basin.plan
     lost = basin.exists & ~basin.recovered
@@ -76,7 +76,7 @@ def integrity(basin: Basin) -> Integrity:
 
 
 def safe_size(size: Coordinate, lost: np.ndarray) -> float:
-    """Largest size tried up to which no start of a grid is lost; of ``lost`` the first axis is the size."""
+    """Largest size tried up to which no start of a grid is lost; the first axis of ``lost`` is the size."""
     bad = lost.reshape(len(lost), -1).any(axis=1)
     if not bad.any():
         return size.high
@@ -106,7 +106,7 @@ def _in_plane(basin: Basin, plan: Grid, lost: np.ndarray, centre: tuple[float, f
 
 
 def _distances(barred: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Euclidean distance of every cell to the nearest barred one, exact: along lines first, then across them."""
+    """Exact Euclidean distance of every cell to the nearest barred one, computed first along ``x``, then across it."""
     places = np.where(barred, x[:, None], np.nan)
     below, above = np.full(barred.shape, -np.inf), np.full(barred.shape, np.inf)
     for row in range(len(x)):

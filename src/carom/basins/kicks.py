@@ -18,7 +18,7 @@ def harmless_kick(machine: Subject) -> float:
     In the fixed frame the deviation from the levitation whirl obeys ``ü + γu̇ + ω²u = 0``, whose coefficients are real:
     a kick of speed ``v`` moves the rotor along its own direction, by at most ``v g``.  For ``γ < 2ω`` the largest
     response ``g = e^{−γτ/2}/ω`` is that of the first turning point ``τ = arctan(2w/γ)/w``, ``w = √(ω² − γ²/4)``;
-    beyond critical damping the hyperbolic form holds.  Contact is impossible while ``v g < 1 − |U*|``.
+    above critical damping the hyperbolic form holds.  Contact is impossible while ``v g < 1 − |U*|``.
 
     Zero where the rotor cannot levitate inside the wall or its levitation is unstable.
     """
@@ -34,8 +34,9 @@ def harmless_kick(machine: Subject) -> float:
 def harmless_shock(machine: Subject, duration: float) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
-    The deviation is the shock folded with the response to a kick, which is at most ``g`` (:func:`harmless_kick`): no larger
-    than ``g`` times the change of velocity through the pulse, ``2âT/π``.  A bound, and sharp for short pulses.
+    The deviation is the convolution of the shock with the response to a kick, which is at most ``g``
+    (:func:`harmless_kick`).  So it is no larger than ``g`` times the change of velocity over the pulse, ``2âT/π``.  This
+    bound is sharp for short pulses.
 
     Parameters
     ----------
@@ -46,7 +47,7 @@ def harmless_shock(machine: Subject, duration: float) -> float:
     Returns
     -------
     float
-        In ``c_r Ω²``.
+        Peak acceleration in ``c_r Ω²``.
     """
     rotor = model_of(machine)
     if not (np.isfinite(duration) and duration > 0.0):
@@ -57,14 +58,14 @@ def harmless_shock(machine: Subject, duration: float) -> float:
 def harmless_step(rotor: Jeffcott) -> float:
     """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
 
-    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame, which is the deviation when
-    the step comes; its velocity in the fixed frame is ``iu₀``.  The deviation obeys ``ü + γu̇ + ω²u = 0`` there, whose energy
-    ``|u̇|² + ω²|u|²`` does not grow, so that it stays below ``|u₀|√(1 + 1/ω²)``.  A bound, and not a sharp one.
+    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame.  This is the deviation
+    at the step; its velocity in the fixed frame is ``iu₀``.  There the deviation obeys ``ü + γu̇ + ω²u = 0``, whose energy
+    ``|u̇|² + ω²|u|²`` does not grow, so the deviation stays below ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.
 
     Returns
     -------
     float
-        In ``c_r``; zero where the rotor cannot levitate inside the wall or its levitation is unstable.
+        Change in ``c_r``; zero where the rotor cannot levitate inside the wall or its levitation is unstable.
     """
     numbers = rotor.parameters
     gap = 1.0 - abs(rotor.equilibrium)
@@ -89,12 +90,12 @@ def _largest_response(gamma: float, omega: float) -> float:
 
 
 def lost(outcomes: np.ndarray) -> np.ndarray:
-    """Not back in levitation; what double precision cannot decide is not held against the rotor."""
+    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost."""
     return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
 
 
 def smallest_lost(velocities: np.ndarray, outcomes: np.ndarray) -> tuple[float, float] | None:
-    """Speed and direction of the smallest kick that is lost, if any, of kicks to these velocities."""
+    """Speed and direction of the smallest lost kick among kicks to these velocities; ``None`` if none is lost."""
     gone = velocities[lost(outcomes)]
     if not gone.size:
         return None

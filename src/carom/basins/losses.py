@@ -1,7 +1,7 @@
-"""From which size on disturbances are lost: kicks, shocks, steps of the unbalance, releases from contact.
+"""The smallest disturbances that are lost: kicks, shocks, steps of the unbalance, releases from contact.
 
-A search, not a proof.  Its answer is a bracket: the largest size up to which every start tried came back, and the smallest
-size found that does not.
+This is a search, not a proof.  Its result is a bracket: the largest size up to which every start tried came back, and the
+smallest size found that does not.
 """
 
 from __future__ import annotations
@@ -33,52 +33,52 @@ __all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_k
 DIRECTIONS, SIZES = 96, 96
 TOLERANCE = 1e-3
 NARROWED = 4
-"""Factor by which the directions looked at close in, from one round to the next."""
+"""Factor by which the spacing of directions is reduced from one round of refinement to the next."""
 BESIDE = 8
 """Directions to each side of the best one so far, in each round."""
 BELOW = 24
-"""Sizes up to that of the best one so far, tried in each of them."""
+"""Sizes up to the best one so far, tried in each direction."""
 DRAWN, ROUND = 2000, 720
-"""Fresh starts below the smallest loss, and directions all round at the upper end of these sizes."""
+"""Fresh starts below the smallest loss, and directions over a full turn at the upper end of these sizes."""
 MOST_CHECKS = 8
-"""Times that fresh starts may bring the smallest loss down."""
+"""Number of times that fresh starts may reduce the smallest loss."""
 CONFIDENCE = 0.95
 TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
 class SmallestLoss:
-    """Between which sizes a disturbance begins to be lost.
+    """Bracket of the size at which disturbances begin to be lost.
 
     Attributes
     ----------
     kind : {"kick", "shock", "step", "release"}
     size : float or None
-        Smallest one found that is lost: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
+        Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
         eccentricity in ``c_r``, or speed along the wall in ``c_r Ω`` (fixed frame).  ``None`` where none was found.
     angle : float or None
-        Its direction in rad: of a kick or shock as in :mod:`carom.disturbances`; of a step that of the eccentricity before it as
-        seen from the one after it, relative to the latter; of a release the place on the wall.
+        Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
+        eccentricity after the step to the one before it, relative to the one after; for a release the place on the wall.
     outcome : Outcome or None
-        Where it ends.
+        Outcome of the motion after it.
     backward : bool
-        A release in backward whirl.
+        Whether it is a release in backward whirl.
     recovered : float
         A smaller size in this direction, within the tolerance, that comes back.
     all_back : float or None
         Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
         smallest starts are lost already.
     fresh : int
-        Starts up to ``all_back`` that the search had not led to: 2,000 drawn evenly over sizes above the harmless one and over
-        directions, and 720 directions all round at that size.
+        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over directions and
+        over sizes above the harmless one, and 720 directions over a full turn at that size.
     harmless : float
-        Up to this size contact is proven to be impossible, in any direction; 0 where nothing is.
+        Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
-        Size up to which was searched.
+        Largest size searched.
     tolerance : float
-        Relative width to which the smallest loss is bisected, and angle in rad between the directions looked at last.
+        Relative width to which the smallest loss is bisected, and angle in rad between the last directions tried.
     tried : int
-        Starts followed.
+        Number of starts followed.
     """
 
     kind: str
@@ -106,7 +106,7 @@ class SmallestLoss:
 
 @dataclass(frozen=True)
 class _Family:
-    """Disturbances by size and direction; directions beyond one turn stand for backward whirl."""
+    """Disturbances by size and direction; directions above one turn mean backward whirl."""
 
     kind: str
     largest: float
@@ -116,7 +116,7 @@ class _Family:
 
 
 def has_sizes(model: Disturbance) -> bool:
-    """Whether a model of a disturbance has a size from which on it is lost: kicks, shocks, steps and releases have."""
+    """Whether :func:`smallest_loss` can search a model: kicks, shocks, steps and releases have a size."""
     return isinstance(model, VelocityKick | KickPlane | BaseShock | UnbalanceStep | ContactRelease)
 
 
@@ -129,21 +129,23 @@ def smallest_loss(
     tolerance: float = TOLERANCE,
     threads: int | None = None,
 ) -> SmallestLoss:
-    """Search the smallest disturbance of a kind that does not come back to levitation, beyond any grid.
+    """Search the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
-    All directions are scanned at growing sizes between the proven harmless one and the largest; the first size that does not
-    come back is bisected in every direction; then directions close in on the best one until they are ``tolerance`` rad apart,
-    each scanned and bisected below the best size so far.  Then fresh starts are drawn below it: what they lose brings it
-    down, and the search goes on from there.  Basins can be thinner than any sample: a smaller loss is possible.
+    All directions are scanned at increasing sizes between the proven harmless one and the largest.  In every direction the
+    first size that is lost is refined by bisection.  Then directions ever closer to the best one are scanned and bisected
+    below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below the best size;
+    if some are lost, the search continues from the smallest of them.  Basins can be thinner than any sample, so a smaller
+    loss is possible.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
     model : Disturbance
-        A kick, a shock, a step of the unbalance or a release from contact, up to its own largest size (a step: the largest
-        change to the eccentricity of the machine; a release: whirl forward and backward up to 2 ``c_r Ω`` from rest).
+        A kick, a shock, a step of the unbalance or a release from contact, up to its own largest size (for a step the
+        largest change to the eccentricity of the machine; for a release whirl forward and backward from rest up to
+        2 ``c_r Ω``).
     directions, sizes : int
-        Of the scan.
+        Numbers of directions and sizes in the scan.
     tolerance : float
     threads : int, optional
 
@@ -195,9 +197,9 @@ def smallest_unrecovered_kick(
     ----------
     machine : Machine, Case, Parameters or model
     fastest : float
-        Largest kick looked at, in ``c_r Ω``.
+        Largest kick tried, in ``c_r Ω``.
     directions, speeds : int
-        Of the scan.
+        Numbers of directions and speeds in the scan.
     tolerance : float
     threads : int, optional
 
@@ -218,7 +220,7 @@ def smallest_unrecovered_kick(
 
 
 def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
-    """How a disturbance is searched."""
+    """Family of starts through which a disturbance is searched."""
     if isinstance(model, VelocityKick | KickPlane):
         kick = VelocityKick(model.fastest)
         return _Family("kick", kick.fastest, harmless_kick(rotor), lambda *at: kick.starts(rotor, *at))
@@ -248,13 +250,16 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
 
 
 def _all_round(family: _Family, directions: int) -> np.ndarray:
-    """Directions evenly all round."""
+    """Evenly spaced directions over all turns of a family."""
     angles: np.ndarray = TURN * np.arange(family.turns * directions) / directions
     return angles
 
 
 class _Search:
-    """Starts followed so far, and the best bracket: largest recovered below, smallest lost, direction, outcome."""
+    """State of a search: the number of starts tried, and the best bracket.
+
+    The bracket holds a recovered size, the smallest lost size, its direction and its outcome.
+    """
 
     def __init__(self, rotor: Jeffcott, family: _Family, tolerance: float, threads: int | None) -> None:
         self.rotor, self.family, self.tolerance, self.threads = rotor, family, tolerance, threads
@@ -262,7 +267,7 @@ class _Search:
         self.best: tuple[float, float, float, Outcome] | None = None
 
     def result(self, all_back: float | None, fresh: int) -> SmallestLoss:
-        """What is known now."""
+        """Result of the search so far."""
         family = self.family
         recovered, size, angle, outcome = self.best or (all_back or 0.0, None, None, None)
         backward = angle is not None and family.turns > 1 and angle % (2.0 * TURN) >= TURN
@@ -284,7 +289,7 @@ class _Search:
         )
 
     def look(self, angles: np.ndarray, levels: np.ndarray) -> None:
-        """Scan directions at growing sizes, of which the first is known to come back; bisect the first that is lost.
+        """Scan directions at increasing sizes, the first of which is known to recover; bisect at the first lost one.
 
         A single size is only tried, not bisected.
         """
@@ -306,7 +311,7 @@ class _Search:
             self.best = float(low[place]), float(high[place]), float(angles[place]), Outcome(int(ends[place]))
 
     def close_in(self, apart: float) -> None:
-        """Look beside the best direction, ever closer."""
+        """Scan directions to both sides of the best one, with ever smaller spacing."""
         while self.best is not None and apart > self.tolerance:
             apart /= NARROWED
             _, size, angle, _ = self.best
@@ -314,7 +319,7 @@ class _Search:
             self.look(beside, np.linspace(self.family.harmless, size, BELOW + 1))
 
     def draw(self, below: float, seed: int) -> int:
-        """Try fresh starts up to a size and all round at it; bisect what is lost, the smallest first.  Their number."""
+        """Try fresh starts up to a size, and all directions at it; bisect the lost ones; return the number of starts."""
         family = self.family
         random = np.random.default_rng(seed)
         sizes = np.append(random.uniform(family.harmless, below, DRAWN), np.full(ROUND, below))
@@ -327,7 +332,7 @@ class _Search:
         return len(sizes)
 
     def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Outcomes, and which starts are lost; one that cannot be is not."""
+        """Outcomes, and which starts are lost; impossible and undecided starts do not count as lost."""
         sizes, angles = np.broadcast_arrays(sizes, angles)
         starts = self.family.starts(sizes, angles)
         chosen = starts.exists & ~starts.undecided
@@ -340,7 +345,7 @@ class _Search:
 
 
 def size_coordinate(model: Disturbance) -> Coordinate:
-    """Words and unit of the size of a disturbance."""
+    """Coordinate with the description and unit of the size of a disturbance."""
     if isinstance(model, UnbalanceStep):
         return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length", "m")
     if isinstance(model, ContactRelease):

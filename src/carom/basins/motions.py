@@ -18,9 +18,9 @@ from carom.outcome import CaromError, Outcome
 __all__ = ["name_motions"]
 
 ALIKE = 4
-"""Digits of the speeds at an impact to which motions are taken for alike before they are looked at."""
+"""Decimals to which the speeds at an impact must agree for motions to count as one kind."""
 LOOKED_AT = 400
-"""Kinds of periodic bouncing that are looked at; beyond that they have the name of their number of impacts alone."""
+"""Most kinds of periodic bouncing that are compared; further ones are named by their number of impacts alone."""
 AT_REST = 1e-6
 _PLAIN = {
     Outcome.LEVITATED: "levitation",
@@ -33,9 +33,9 @@ _NOUNS = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
 def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tuple[np.ndarray, tuple[str, ...]]:
     """Name the motion each start ends on.
 
-    Motions in lasting contact and levitation follow from the outcome.  Of periodic bouncing one motion of each kind
-    (impacts a period, speeds at the last impact) is followed on for its period and compared with the orbits known in
-    closed form and with the others.
+    The names of levitation and of motions in lasting contact follow from the outcome.  For periodic bouncing, one motion of
+    each kind (impacts per period, speeds at the last impact) is followed for its period and compared with the orbits known
+    in closed form and with the other kinds.
 
     Parameters
     ----------
@@ -47,9 +47,9 @@ def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tup
     Returns
     -------
     indices : ndarray of int16
-        Of the name of each; −1 where there is no start.
+        Index of the name of each; −1 where there is no start.
     names : tuple of str
-        In the order of their outcome.
+        The names, in the order of their outcome.
     """
     named = np.full(outcomes.shape, -1, np.int16)
     names: list[str] = []
@@ -79,7 +79,7 @@ def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tup
 
 
 def _goes_over_to_rub(rotor: Jeffcott, endings: Endings) -> np.ndarray:
-    """Which motions in forward rub are at the synchronous rub, or where they surely go over to it."""
+    """Which motions in forward rub are at the synchronous rub, or are proven to go over to it."""
     still: np.ndarray = np.abs(endings.velocities) < AT_REST
     around = rub_neighbourhood(rotor)
     if around is None:
@@ -91,7 +91,7 @@ def _goes_over_to_rub(rotor: Jeffcott, endings: Endings) -> np.ndarray:
 def _periodic(
     rotor: Jeffcott, outcomes: np.ndarray, endings: Endings, places: np.ndarray
 ) -> list[tuple[np.ndarray, str]]:
-    """Kinds of periodic bouncing: which starts, and the name."""
+    """Kinds of periodic bouncing: the starts that belong to each, and its name."""
     if not len(places):
         return []
     positions, velocities = endings.positions.ravel()[places], endings.velocities.ravel()[places]
@@ -117,14 +117,14 @@ def _alike(*features: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """First member of each group of equal features, and the group of each member."""
     groups = np.zeros(len(features[0]), np.int64)
     first = np.zeros(1, np.int64)
-    for feature in features:  # one after the other: rows sort a hundred times slower than numbers
+    for feature in features:  # one at a time: sorting rows is a hundred times slower than sorting numbers
         _, ranks = np.unique(feature, return_inverse=True)
         _, first, groups = np.unique(groups * (ranks.max() + 1) + ranks, return_index=True, return_inverse=True)
     return first, groups
 
 
 def _orbits(rotor: Jeffcott) -> Sequence[Orbit]:
-    """Orbits known in closed form; none where their search is refused."""
+    """Orbits known in closed form; empty where their search fails."""
     try:
         return orbits_within_reach(rotor)
     except CaromError:

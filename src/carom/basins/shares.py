@@ -1,4 +1,4 @@
-"""Shares of starts, with the confidence that a sample allows."""
+"""Shares of starts, with confidence intervals for samples."""
 
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ class Share:
     ----------
     count, total : int
     low, high : float
-        Of a drawn sample, Wilson's interval (1927) at 95 % confidence; of a grid, which is not drawn, twice the share.
+        For a random sample, Wilson's interval (1927) at 95 % confidence; for a grid, both equal the share.
     drawn : bool
+        Whether the starts are a random sample.
     """
 
     count: int
@@ -43,7 +44,7 @@ class Share:
 
     @property
     def words(self) -> str:
-        """In words, with what the number rests on."""
+        """Summary in words, with the confidence interval or the kind of grid."""
         share, count = f"{100.0 * self.fraction:.3g} %", f"{self.count} of {self.total}"
         if self.drawn:
             return f"{share} ({count}), {100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"
@@ -53,7 +54,7 @@ class Share:
 def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
     """Interval of a probability from ``count`` successes in ``total`` trials (Wilson, J. Am. Stat. Assoc. 22, 1927).
 
-    The probabilities ``p`` with ``|count/total − p| ≤ z√(p(1 − p)/total)``.
+    It contains the probabilities ``p`` with ``|count/total − p| ≤ z√(p(1 − p)/total)``.
     """
     z = NormalDist().inv_cdf(0.5 + confidence / 2.0)
     share, weight = count / total, z * z / total
@@ -65,9 +66,9 @@ def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> t
 
 
 def starts_enough(wanted: float, confidence: float = CONFIDENCE) -> int | None:
-    """Fewest starts of which all must come back for the interval of the share to begin at the wanted one.
+    """Smallest sample which, if all its starts come back, shows that the share is at least the wanted one.
 
-    Of ``n`` of ``n`` Wilson's interval begins at ``n/(n + z²)``.
+    For ``n`` of ``n`` Wilson's interval begins at ``n/(n + z²)``.
 
     Returns
     -------

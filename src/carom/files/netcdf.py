@@ -1,7 +1,7 @@
-"""Datasets as netCDF files, whole or not at all, and with a checksum.
+"""Datasets as netCDF files, written atomically and with a checksum.
 
-The checksum stands behind the end of the file, where readers of netCDF do not look.  Without it a changed number would be read as
-it is, and the library that reads the file is not made for damaged ones.
+The checksum is appended to the file, where readers of netCDF ignore it.  Without it a changed number would go unnoticed,
+and the library that reads the file is not robust against damaged ones.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ COMPRESSION = {"zlib": True, "complevel": 2, "shuffle": True}
 
 
 def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a dataset: the file is there complete, or as it was.
+    """Write a dataset atomically: the file is complete, or as it was before.
 
     Raises
     ------
@@ -38,7 +38,7 @@ def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
     """
     encoding = {str(name): dict(COMPRESSION) for name in dataset.data_vars}
     try:
-        # In memory: the library that writes such files brings down the process when the disk is full.
+        # Encoded in memory first: the library that writes such files crashes the process when the disk is full.
         content = bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding))
         write_whole(Path(path), content + _checksum(content))
     except OSError as problem:
@@ -53,12 +53,12 @@ def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
     ----------
     path : path
     needed : sequence of str
-        Variables that must be there.
+        Variables that the dataset must contain.
 
     Raises
     ------
     InputError
-        The file cannot be read, is damaged, or is another one.
+        The file cannot be read, is damaged, or does not contain the variables.
     """
     import xarray
 
@@ -67,7 +67,7 @@ def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
         with xarray.open_dataset(path, engine="h5netcdf") as opened:
             dataset = opened.load()
         for variable in dataset.variables.values():
-            if "flag_values" in variable.attrs:  # a single one comes back as a number
+            if "flag_values" in variable.attrs:  # a single value is read back as a scalar
                 variable.attrs["flag_values"] = np.atleast_1d(variable.attrs["flag_values"])
     except (OSError, ValueError) as problem:
         reason = os.strerror(problem.errno) if isinstance(problem, OSError) and problem.errno else "not netCDF"
