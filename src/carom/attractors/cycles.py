@@ -22,7 +22,7 @@ __all__ = ["Cycle", "Whirl", "cycle_of", "forces_on", "orbit_of", "same_cycle", 
 Whirl = Literal["forward", "backward", "none"]
 
 SAME = 1e-6
-"""Distance, relative to one plus the speed, below which two impacts are the same: far above the error of closed orbits."""
+"""Distance, relative to one plus the speed, below which impacts are the same: far above the error of closed orbits."""
 SAMPLES = 1000
 TURNS = 10.0
 """Turns of the shaft over which a motion without a period is evaluated."""
@@ -140,7 +140,7 @@ def orbit_of(cycle: Cycle, orbits: Sequence[Orbit]) -> Orbit | None:
 
 
 def _last_stretch(motion: Trajectory, cycle: Cycle) -> float:
-    """Start time of the last period, or of the last turns of the shaft; the end itself if the rotor is at rest there."""
+    """Start time of the last period, or of the last turns of the shaft; the end itself if the rotor is at rest."""
     span = 0.0 if cycle.synchronous else cycle.period or 2.0 * math.pi * TURNS
     return max(0.0, motion.time - span)
 

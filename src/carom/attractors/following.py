@@ -65,8 +65,8 @@ def endings_of(
 ) -> list[Ending]:
     """Follow all starts: first each for a short time, then longer those that are still irregular.
 
-    The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they leave
-    it, unless that takes too long.
+    The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they
+    leave it, unless that takes too long.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def endings_of(
     list of Ending
         In the order of the starts.
     """
-    looks = _Looks(rotor, starts, name_of)
+    looks = _Stages(rotor, starts, name_of)
     irregular = []
     for place in range(len(starts)):
         irregular += [place] if looks.look(place, min(FIRST_PATIENCE, patience)) else []
@@ -110,7 +110,7 @@ def _survival(rotor: Jeffcott, states: Sequence[State], patience: int) -> Surviv
     return measure_survival(rotor, positions, velocities, impacts=patience)
 
 
-class _Looks:
+class _Stages:
     """Motions of all starts, followed in stages; each stage continues the one before."""
 
     def __init__(self, rotor: Jeffcott, starts: Sequence[Start], name_of: Callable[[Trajectory], str]) -> None:

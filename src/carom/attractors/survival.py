@@ -22,7 +22,7 @@ LOOK = 1000
 The first look is not counted: until then the motions forget where they began.
 """
 APART = 1e-6
-"""Relative change of velocity that makes several motions of one: irregular ones diverge from each other within a look."""
+"""Relative change of velocity that makes several motions of one: irregular motions diverge within a look."""
 CONFIDENCE = 0.95
 SEED = 0
 HALF_LIVES = 40
@@ -59,8 +59,9 @@ class Survival:
     def of(cls, motions: int, impacts: int, died: int, looks: int, left: int) -> Survival:
         """Estimate from the number of looks at motions that had not left before, and how many of these had then left.
 
-        A motion that has forgotten where it began leaves between two looks with a probability ``h`` that does not depend on
-        its age.  The interval of ``h`` is that of Clopper and Pearson (1934); the half-life is ``−LOOK ln 2/ln(1 − h)``.
+        A motion that has forgotten where it began leaves between two looks with a probability ``h`` that does not
+        depend on its age.  The interval of ``h`` is that of Clopper and Pearson (1934); the half-life is
+        ``−LOOK ln 2/ln(1 − h)``.
         """
         if left == 0:
             longest = math.inf if looks == 0 else 1.0 - (1.0 - CONFIDENCE) ** (1.0 / looks)
@@ -87,7 +88,7 @@ class Survival:
 
 
 def _share_with(left: int, looks: int, chance: float) -> float:
-    """Probability per look for which fewer than ``left`` events in ``looks`` have probability ``chance``; by bisection."""
+    """Probability per look for which fewer than ``left`` events in ``looks`` looks have probability ``chance``."""
     low, high = 0.0, 1.0
     ways = [math.lgamma(looks + 1) - math.lgamma(k + 1) - math.lgamma(looks - k + 1) for k in range(left)]
     for _ in range(60):
@@ -131,8 +132,8 @@ def measure_survival(
     ----------
     rotor : Jeffcott
     positions, velocities : ndarray of complex, shape (M,)
-        States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a random part is taken;
-        fewer are extended to 200 by small changes of their velocity.
+        States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a random part is
+        taken; fewer are extended to 200 by small changes of their velocity.
     impacts : int
         Number of impacts for which to follow each of them.
     threads : int, optional

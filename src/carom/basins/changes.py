@@ -56,8 +56,8 @@ def least_gain_change(
 
     The search starts from the few nodes of the map that reach the share and are nearest (Euclidean distance of relative
     changes).  On the straight line from the present machine to each of them the change is found by bisection.  In other
-    directions there may be a smaller one.  For a sample, the lower end of the confidence interval has to reach the wanted
-    share.
+    directions there may be a smaller one.  For a sample, the lower end of the confidence interval has to reach the
+    wanted share.
 
     Parameters
     ----------

@@ -52,11 +52,11 @@ class Basin(Result):
     dataset : xarray.Dataset
         Dimensions are the coordinates of a grid, or ``start``.  Variables: ``outcome``
         (:class:`~carom.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the name of the motion),
-        ``time`` until the outcome was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, even if
-        only during a shock or because it started there), ``multiplicity`` (impacts per period), and the starts
+        ``time`` until the outcome was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, even
+        if only during a shock or because it started there), ``multiplicity`` (impacts per period), and the starts
         ``start_x``, ``start_y``, ``start_vx``, ``start_vy`` in the co-rotating frame.  Lengths in ``c_r``, times in
-        ``1/Ω``; coordinates ending in ``_si`` exist where the machine is known.  Attributes hold what is needed to repeat
-        the computation: parameters, disturbance, seed, criteria, versions.
+        ``1/Ω``; coordinates ending in ``_si`` exist where the machine is known.  Attributes hold what is needed to
+        repeat the computation: parameters, disturbance, seed, criteria, versions.
     """
 
     shown: ClassVar[tuple[str, ...]] = (

@@ -1,7 +1,7 @@
 """Basins and gain maps as JSON documents.
 
-Times are in ``1/Ω`` and lengths in ``c_r``, in the co-rotating frame, unless the key ends in ``_si``.  Such keys exist where
-the machine is known.
+Times are in ``1/Ω`` and lengths in ``c_r``, in the co-rotating frame, unless the key ends in ``_si``.  Such keys exist
+where the machine is known.
 """
 
 from __future__ import annotations

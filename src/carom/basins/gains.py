@@ -47,9 +47,9 @@ class GainMap(Result):
     dataset : xarray.Dataset
         Dimensions are the two parameters.  Variables: ``recovered`` (share that comes back) with ``recovered_low`` and
         ``recovered_high`` (95 % confidence interval of a sample), ``unresolved``, ``levitates`` (whether there is
-        levitation to return to), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost, as
-        a fraction of the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of the outcomes, on a grid).  For
-        kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
+        levitation to return to), ``integrity`` (for kicks and shocks on a grid: largest size up to which none is lost,
+        as a fraction of the largest one), ``basin_entropy`` and ``boundary_basin_entropy`` (of the outcomes, on a
+        grid).  For kicks also ``smallest_unrecovered_kick`` (of those tried, in ``c_r Ω`` of the present machine) and
         ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back.
     """
 
@@ -70,7 +70,7 @@ class GainMap(Result):
 
     @cached_property
     def plan(self) -> Plan:
-        """Disturbances of the present machine; at other nodes they are the same in SI units."""
+        """Disturbances of the present machine; with known scales they are the same in SI units at other nodes."""
         return plan_of(json.loads(self.dataset.attrs["disturbances"]))
 
     @property
@@ -99,7 +99,7 @@ class GainMap(Result):
 
     @property
     def safe_sizes(self) -> np.ndarray:
-        """Size at each node up to which no kick or shock is lost, in units of the present machine; see ``integrity``."""
+        """Size at each node up to which no kick or shock is lost, in the present machine's units; see ``integrity``."""
         largest = self.plan.model.coordinates[0].high
         sizes: np.ndarray = self.dataset["integrity"].values * largest
         return sizes

@@ -48,8 +48,8 @@ def integrity(basin: Basin) -> Integrity:
     """Integrity of the starts of a basin.
 
     For kicks and shocks by size and direction the ball ends before the smallest lost start; in a plane balls contain no
-    lost cell.  For a sample the nearest lost start limits the ball, so the ball shrinks as the sample grows.  Starts that
-    were given up count as lost.
+    lost cell.  For a sample the nearest lost start limits the ball, so the ball shrinks as the sample grows.  Starts
+    that were given up count as lost.
 
     Raises
     ------

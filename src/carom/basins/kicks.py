@@ -35,8 +35,8 @@ def harmless_shock(machine: Subject, duration: float) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
     The deviation is the convolution of the shock with the response to a kick, which is at most ``g``
-    (:func:`harmless_kick`).  So it is no larger than ``g`` times the change of velocity over the pulse, ``2âT/π``.  This
-    bound is sharp for short pulses.
+    (:func:`harmless_kick`).  So it is no larger than ``g`` times the change of velocity over the pulse, ``2âT/π``.
+    This bound is sharp for short pulses.
 
     Parameters
     ----------
@@ -58,9 +58,10 @@ def harmless_shock(machine: Subject, duration: float) -> float:
 def harmless_step(rotor: Jeffcott) -> float:
     """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
 
-    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame.  This is the deviation
-    at the step; its velocity in the fixed frame is ``iu₀``.  There the deviation obeys ``ü + γu̇ + ω²u = 0``, whose energy
-    ``|u̇|² + ω²|u|²`` does not grow, so the deviation stays below ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.
+    A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame.  This is the
+    deviation at the step; its velocity in the fixed frame is ``iu₀``.  There the deviation obeys ``ü + γu̇ + ω²u = 0``,
+    whose energy ``|u̇|² + ω²|u|²`` does not grow, so the deviation stays below ``|u₀|√(1 + 1/ω²)``.  This bound is not
+    sharp.
 
     Returns
     -------

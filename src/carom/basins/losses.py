@@ -1,7 +1,7 @@
 """The smallest disturbances that are lost: kicks, shocks, steps of the unbalance, releases from contact.
 
-This is a search, not a proof.  Its result is a bracket: the largest size up to which every start tried came back, and the
-smallest size found that does not.
+This is a search, not a proof.  Its result is a bracket: the largest size up to which every start tried came back, and
+the smallest size found that does not.
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ class SmallestLoss:
         eccentricity in ``c_r``, or speed along the wall in ``c_r Ω`` (fixed frame).  ``None`` where none was found.
     angle : float or None
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
-        eccentricity after the step to the one before it, relative to the one after; for a release the place on the wall.
+        eccentricity after the step to the one before it, relative to the one after; for a release the place on the
+        wall.
     outcome : Outcome or None
         Outcome of the motion after it.
     backward : bool
@@ -69,8 +70,8 @@ class SmallestLoss:
         Largest size up to which all starts tried came back: those of the search and ``fresh`` ones.  ``None`` where the
         smallest starts are lost already.
     fresh : int
-        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over directions and
-        over sizes above the harmless one, and 720 directions over a full turn at that size.
+        Number of starts up to ``all_back`` that are independent of the search: 2,000 drawn uniformly over directions
+        and over sizes above the harmless one, and 720 directions over a full turn at that size.
     harmless : float
         Size up to which contact is proven to be impossible in any direction; 0 where nothing is proven.
     largest : float
@@ -131,11 +132,11 @@ def smallest_loss(
 ) -> SmallestLoss:
     """Search the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
-    All directions are scanned at increasing sizes between the proven harmless one and the largest.  In every direction the
-    first size that is lost is refined by bisection.  Then directions ever closer to the best one are scanned and bisected
-    below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below the best size;
-    if some are lost, the search continues from the smallest of them.  Basins can be thinner than any sample, so a smaller
-    loss is possible.
+    All directions are scanned at increasing sizes between the proven harmless one and the largest.  In every direction
+    the first size that is lost is refined by bisection.  Then directions ever closer to the best one are scanned and
+    bisected below the best size so far, until they are ``tolerance`` rad apart.  Finally fresh starts are drawn below
+    the best size; if some are lost, the search continues from the smallest of them.  Basins can be thinner than any
+    sample, so a smaller loss is possible.
 
     Parameters
     ----------
@@ -319,7 +320,7 @@ class _Search:
             self.look(beside, np.linspace(self.family.harmless, size, BELOW + 1))
 
     def draw(self, below: float, seed: int) -> int:
-        """Try fresh starts up to a size, and all directions at it; bisect the lost ones; return the number of starts."""
+        """Try fresh starts up to a size, and all directions at it; bisect the lost ones; return how many were tried."""
         family = self.family
         random = np.random.default_rng(seed)
         sizes = np.append(random.uniform(family.harmless, below, DRAWN), np.full(ROUND, below))

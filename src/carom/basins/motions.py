@@ -33,9 +33,9 @@ _NOUNS = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
 def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tuple[np.ndarray, tuple[str, ...]]:
     """Name the motion each start ends on.
 
-    The names of levitation and of motions in lasting contact follow from the outcome.  For periodic bouncing, one motion of
-    each kind (impacts per period, speeds at the last impact) is followed for its period and compared with the orbits known
-    in closed form and with the other kinds.
+    The names of levitation and of motions in lasting contact follow from the outcome.  For periodic bouncing, one
+    motion of each kind (impacts per period, speeds at the last impact) is followed for its period and compared with the
+    orbits known in closed form and with the other kinds.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ class Share:
 
     @property
     def words(self) -> str:
-        """Summary in words, with the confidence interval or the kind of grid."""
+        """Summary in words, with the confidence interval, or for a grid with a note that it has no sampling error."""
         share, count = f"{100.0 * self.fraction:.3g} %", f"{self.count} of {self.total}"
         if self.drawn:
             return f"{share} ({count}), {100.0 * self.low:.3g} to {100.0 * self.high:.3g} % with 95 % confidence"

@@ -14,7 +14,7 @@ __all__ = ["Axis", "Numbers", "axis", "value_of", "vary", "within"]
 
 
 class Numbers(NamedTuple):
-    """Parameters as plain numbers, unchecked: what residuals are evaluated with, thousands of times.
+    """Parameters as plain unchecked numbers, for residuals that are evaluated thousands of times.
 
     ``mass``, ``clearance`` and ``speed`` are ``nan`` where they are not known.
     """
@@ -58,9 +58,9 @@ class Axis:
     ----------
     name : str
     get : callable
-        Its value, in SI units if it is physical.
+        Returns its value, in SI units if it is physical.
     set : callable
-        Numbers with another value of it; what depends on it moves along.
+        Returns numbers with another value of it; numbers that depend on it change too.
     """
 
     name: str
@@ -76,8 +76,8 @@ class Axis:
 def axis(parameters: Parameters, name: str) -> Axis:
     """Parameter of this name.
 
-    A physical one moves all that depends on it: the shaft speed ``Ω`` changes ``γ = c/(mΩ)`` and ``ω = √(k/m)/Ω``
-    together while ``ρ`` stays.
+    A physical one changes all numbers that depend on it: the shaft speed ``Ω`` changes ``γ = c/(mΩ)`` and
+    ``ω = √(k/m)/Ω`` together, while ``ρ`` stays the same.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def value_of(parameters: Parameters, name: str) -> float:
 
 
 def within(value: float, interval: tuple[float, float]) -> float:
-    """A value that rounding has put just outside an interval, put on its edge; any other as it is."""
+    """Move a value that lies outside an interval only by rounding to its edge; return any other unchanged."""
     slack = 1e-12 * max(abs(interval[0]), abs(interval[1]))
     nearest = min(max(value, interval[0]), interval[1])
     return nearest if abs(value - nearest) <= slack else value

@@ -1,4 +1,4 @@
-"""What happens where levitation meets the wall: classification of boundary equilibria.
+"""Classification of boundary equilibria: what happens where levitation meets the wall.
 
 With the gap ``g = 1 − |U*|`` between the contact-free equilibrium and the wall, two kinds of motion shrink into it as
 ``g → 0``; both grow in proportion to ``|g|``, so the side on which they exist is a sign.
@@ -10,17 +10,18 @@ receptance ``H = 1/(ω² − 1 + iγ)`` (:func:`~carom.closed_forms.equilibria.f
 
 If ``κ < μγ``, ``N > 0`` where the contact-free equilibrium is virtual: the rotor goes over from one to the other,
 *persistence*.  The rub is then the larger root, which is stable.  If ``κ > μγ``, both exist on the side where the rotor
-levitates, the rub being a saddle, and neither on the other: a *non-smooth fold*, after which the rotor must leave.
+levitates, with the rub a saddle, and neither exists on the other: a *non-smooth fold*, beyond which the rotor must
+leave.
 
 *Orbits with one impact a period*, one for each root ``T`` of ``F₁`` (the non-smooth Hopf bifurcation, Proposition 4.3 of
 the source paper): from ``|1 + q a₁₂ ṙ| = |U*|``,
 
     ṙ ≈ −g/Re(q a₁₂(T)).
 
-Where ``Re(q a₁₂) < 0`` the orbit (``a``, ``b``) lives on the side where the rotor levitates, and bounds which disturbances
-come back; else (``c``, ``d``) it takes over on the other.  ``F₁`` does not depend on ``ρ``: the orbits are looked up a small
-gap away, reached by moving ``U*`` along its radius as ``ρ`` does, where the general search decides whether they stay inside
-between impacts.
+Where ``Re(q a₁₂) < 0`` the orbit (``a``, ``b``) exists on the side where the rotor levitates, and bounds the
+disturbances that come back; otherwise the orbit (``c``, ``d``) takes over on the other side.  ``F₁`` does not depend on
+``ρ``, and ``ρ`` moves ``U*`` along its radius.  So the orbits are computed at a small gap that is set by ``ρ``, where
+the general search decides whether they stay inside between impacts.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from carom.results import Result
 __all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria", "boundary_values"]
 
 SMALL_GAP = 1e-5
-"""Gap at which small orbits are looked at: what is left out is of this order, rounding of ``1e-16/1e-5``."""
+"""Gap at which small orbits are computed: higher-order terms are of this order, rounding errors of ``1e-16/1e-5``."""
 DEGENERATE = 1e-12
 
 
@@ -55,7 +56,8 @@ class SmallOrbit(Result):
     speed_rate : float
         Radial speed (``c_r Ω``) per clearance of distance between the contact-free equilibrium and the wall.
     levitating_side : bool
-        Whether it exists where the contact-free equilibrium is inside the wall; else where it is outside.
+        Whether it exists where the contact-free equilibrium is inside the wall; otherwise it exists where that is
+        outside.
     admissible : bool
         Whether it stays inside the wall between impacts.
     stable : bool
@@ -78,19 +80,19 @@ class BoundaryEquilibrium(Result):
     gain : {"gamma", "omega"}
         The parameter that was varied to find it.
     value : float
-        Of this parameter.
+        Value of this parameter.
     parameters : Parameters
-        At the boundary equilibrium.
+        Parameters at the boundary equilibrium.
     levitates : {"above", "below"}
-        On which side of ``value`` the contact-free equilibrium is inside the wall.
+        Side of ``value`` on which the contact-free equilibrium is inside the wall.
     kind : {"persistence", "non-smooth fold", "degenerate"}
-        What becomes of the equilibria.
+        What happens to the equilibria.
     force_rate : float
         Normal force (``m c_r Ω²``) of the synchronous rub per clearance of gap ``1 − |U*|``.
     orbits : tuple of SmallOrbit
         Orbits that shrink into it, virtual ones included.
     complete : bool
-        Whether these are all orbits with one impact a period.
+        Whether these are all such orbits with one impact a period.
     """
 
     gain: Literal["gamma", "omega"]
@@ -142,7 +144,7 @@ def boundary_equilibria(machine: Subject, gain: Literal["gamma", "omega"] = "gam
     Returns
     -------
     tuple of BoundaryEquilibrium
-        At most one along ``gamma`` and two along ``omega``, in growing order.
+        At most one along ``gamma`` and two along ``omega``, in ascending order.
 
     Raises
     ------
@@ -157,7 +159,7 @@ def boundary_equilibria(machine: Subject, gain: Literal["gamma", "omega"] = "gam
 def boundary_values(
     parameters: Parameters, gain: Literal["gamma", "omega"]
 ) -> tuple[tuple[float, Literal["above", "below"]], ...]:
-    """Values of a gain at which the contact-free equilibrium lies on the wall, and on which side of each it is inside.
+    """Values of a gain at which the contact-free equilibrium lies on the wall, each with the side where it is inside.
 
     ``γ = √(ρ² − (1 − ω²)²)``, and ``ω² = 1 ± √(ρ² − γ²)``.
 
@@ -211,13 +213,13 @@ def _at_gap(at: Parameters, gap: float) -> Jeffcott:
     rho = at.rho * (1.0 - gap)
     if rho <= DIMENSIONLESS_FIELDS["rho"].highest:
         return Jeffcott(at.replace(rho=rho))
-    # Beyond the largest unbalance allowed, nearer to resonance: there the small orbits change to first order in the gap.
+    # The unbalance would exceed its limit: move nearer to resonance instead, which changes the orbits to first order.
     share = 1.0 / (1.0 - gap)
     return Jeffcott(at.replace(gamma=at.gamma * share, omega=math.sqrt(1.0 + (at.omega**2 - 1.0) * share)))
 
 
 def _smallest(orbits: tuple[Orbit, ...]) -> list[Orbit]:
-    """Of the two orbits of each period the one that shrinks with the gap."""
+    """Select of the two orbits of each period the one that shrinks with the gap."""
     pairs: dict[tuple[str, float], list[Orbit]] = {}
     for orbit in orbits:
         pairs.setdefault((orbit.name[0], orbit.period), []).append(orbit)

@@ -28,9 +28,9 @@ __all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]
 
 STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
 NOTHING = 1e-8
-"""Radial speed, or share of the period, that is zero but for rounding."""
+"""Radial speed, or fraction of the period, that counts as zero because of rounding."""
 SMALL = 1e-4
-"""Radial speed of an orbit that stands for those that shrink to a point."""
+"""Radial speed of the orbit that represents those shrinking to a point."""
 WATCHED = (
     "period-doubling",
     "neimark-sacker",
@@ -55,16 +55,16 @@ class Bifurcation(Result):
         ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
     parameter : str
     value : float
-        Of the parameter, in SI units if it is a physical one.
+        Value of the parameter, in SI units if it is a physical one.
     name : str
-        Of the orbit.
+        Name of the orbit.
     numbers : Numbers
         Parameters there.
     period, radial_speed : float
     admissible : bool
         Whether the orbits on at least one side are motions of the machine.
     place : float
-        Where on the branch: index of the orbit before it plus the fraction of the step.
+        Position on the branch: index of the orbit before it plus the fraction of the step.
     """
 
     kind: str
@@ -85,7 +85,7 @@ class Bifurcation(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OrbitBranch(Result):
-    """Single-impact orbits along a parameter, admissible and virtual ones.
+    """Single-impact orbits along a parameter, admissible and virtual.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ class OrbitBranch(Result):
     special : tuple of Bifurcation
         In the order of the branch.
     stops : tuple of two str
-        Why it ends at either end; see :class:`~carom.continuation.Branch`.
+        Reason for its end at both ends; see :class:`~carom.continuation.Branch`.
     """
 
     shown: ClassVar[tuple[str, ...]] = (
@@ -132,7 +132,7 @@ class OrbitBranch(Result):
 
     @cached_property
     def orbits(self) -> tuple[Orbit, ...]:
-        """Every orbit with its certificate of admissibility."""
+        """Every orbit, with its admissibility certified."""
         return tuple(orbit_of(numbers, self.pair, period, speed) for numbers, period, speed in self._each)
 
     @cached_property
@@ -142,7 +142,7 @@ class OrbitBranch(Result):
 
     @cached_property
     def admissible(self) -> np.ndarray:
-        """Which orbits are motions of the machine, bool, shape (m,); by the extrema of their radius."""
+        """Which orbits are motions of the machine, judged by the extrema of their radius; bool, shape (m,)."""
         return np.array([is_admissible(*point) for point in self._each])
 
     @cached_property
@@ -168,10 +168,10 @@ class OrbitBranch(Result):
 def continue_orbit(
     orbit: Orbit, parameter: str, interval: tuple[float, float], steps: Steps | None = None
 ) -> OrbitBranch:
-    """Follow an orbit along a parameter, through folds, into the virtual and back.
+    """Continue an orbit along a parameter, through folds and through stretches where it is virtual.
 
-    The unknowns are the period and the radial speed, the equations ``F₁(T) = 0`` and ``|1 + q a₁₂ ṙ|² = |U*|²`` (source
-    paper (4.3), (4.4)).
+    The unknowns are the period and the radial speed; the equations are ``F₁(T) = 0`` and ``|1 + q a₁₂ ṙ|² = |U*|²``
+    (source paper (4.3), (4.4)).
 
     Parameters
     ----------
@@ -179,7 +179,7 @@ def continue_orbit(
     parameter : str
         Dimensionless (``"gamma"``) or physical (``"speed"``, SI units; needs scales).
     interval : tuple of float
-        Range of the parameter; it must hold the orbit's own value.
+        Range of the parameter; it must contain the orbit's own value.
     steps : Steps, optional
 
     Returns
@@ -199,7 +199,7 @@ def continue_orbit(
     pair = orbit.name.partition(",")[0]
 
     def numbers_at(p: float) -> Numbers:
-        # Friction opposes backward slip as friction of the other sign would oppose forward slip.
+        # Backward slip with friction μ obeys the equations of forward slip with −μ.
         numbers = along.set(base, p)
         return numbers if orbit.slip > 0 else numbers._replace(mu=-numbers.mu)
 
@@ -236,11 +236,11 @@ def continue_orbit(
 
 
 def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: str) -> Bifurcation | None:
-    """The special point in terms of orbits; ``None`` if it is none.
+    """Special point of the continuation as a bifurcation of orbits; ``None`` if it is none.
 
-    A fold is no branch point, and two real multipliers with a product of one are no Neimark–Sacker bifurcation.  The height
-    of the radius changes sign too where the orbit shrinks to nothing, and, without rebound, where its maximum comes out of
-    the impact as lasting contact begins: neither is grazing.
+    Branch points of the continuation are not bifurcations of orbits, nor are two real multipliers with the product one
+    a Neimark–Sacker bifurcation.  The height of the radius also changes sign where the orbit shrinks to nothing and,
+    without rebound, where its maximum emerges from the impact as lasting contact begins; neither is grazing.
     """
     at = numbers, float(point.unknowns[0]), float(point.unknowns[1])
     conditions = conditions_at(*at)
@@ -258,11 +258,11 @@ def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: st
 
 
 def _bounds_admissible(kind: str, numbers: Numbers, period: float, speed: float) -> bool:
-    """Whether the orbits next to a special point are motions of the machine, on one side at least."""
+    """Whether the orbits on at least one side of a special point are motions of the machine."""
     if kind == "non-smooth-hopf":
         speed = SMALL
     slips = kind == "slip-stop" or margins_of(numbers, period, speed)["slip-stop"] > 0.0
-    # Where lasting contact begins, the radius may have a maximum next to the impact, of no height.
+    # At the onset of lasting contact the radius may have a maximum of zero height next to the impact.
     slack = 1e-9 if kind == "contact-onset" else 0.0
     inside = kind == "grazing" or not profile_at(numbers, period, speed).height >= slack
     return speed > 0.0 and slips and inside

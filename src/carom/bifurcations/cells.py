@@ -17,10 +17,10 @@ from carom.results import Result
 __all__ = ["Region", "regions_between"]
 
 THIN = 0.05
-"""Share of the plane below which a region's point is looked for between those of the grid."""
+"""Fraction of the plane below which the point of a region is refined between the points of the grid."""
 LOOK_AROUND, FINER = 6, 5
 BETWEEN = 12
-"""Points looked at between two groups of grid points with the same motions."""
+"""Points tested between two groups of grid points with the same motions."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,8 +59,8 @@ def regions_between(
     cells : sequence of sequence of Stand
         The middle of each cell, by first and second parameter.
     seen : dict
-        A point for each set of motions met anywhere: those that hold in the middle of no cell are regions thinner than a
-        cell, whose share is 0.
+        A point for each set of motions found anywhere.  Sets that occur in the middle of no cell become regions thinner
+        than a cell, with a share of 0.
     """
     grid = len(cells)
     found = {(i, j): stand.motions for i, column in enumerate(cells) for j, stand in enumerate(column)}
@@ -80,21 +80,21 @@ def regions_between(
         x, y = place_of(cell).tolist()
         share = len(group) / grid**2
         if share < THIN or _depth(cell, group, grid) < 3:
-            x, y = _centred(parameters, plane, grid, found[cell], (x, y))
+            x, y = _centre_of(parameters, plane, grid, found[cell], (x, y))
         regions.append(Region(found[cell], (x, y), share, np.array([place_of(each) for each in sorted(group)])))
     known = set(found.values())
     for motions, place in seen.items():
         if motions not in known:
             regions.append(
-                Region(motions, _centred(parameters, plane, 8 * grid, motions, place), 0.0, np.array([place]))
+                Region(motions, _centre_of(parameters, plane, 8 * grid, motions, place), 0.0, np.array([place]))
             )
     return tuple(sorted(regions, key=lambda region: -region.share))
 
 
-def _centred(
+def _centre_of(
     parameters: Parameters, plane: Plane, grid: int, motions: Motions, place: tuple[float, float]
 ) -> tuple[float, float]:
-    """The middle of a thin region, seen from a point of it along either parameter."""
+    """Approximate middle of a thin region, searched along one parameter and then the other from a point in it."""
     ranges, point = (plane.first_range, plane.second_range), list(place)
     for along, (low, high) in enumerate(ranges):
         ends = []
@@ -142,7 +142,7 @@ def _merged(
     found: dict[tuple[int, int], Motions],
     joins: Callable[[tuple[int, int], tuple[int, int]], bool],
 ) -> list[set[tuple[int, int]]]:
-    """Join groups of equal motions that a narrow place between the grid points seems to part."""
+    """Merge groups of equal motions that are connected by a passage narrower than a cell."""
     merged: list[set[tuple[int, int]]] = []
     for group in sorted(groups, key=len, reverse=True):
         for other in merged:
@@ -157,7 +157,7 @@ def _merged(
 
 
 def _depth(cell: tuple[int, int], cells: set[tuple[int, int]], grid: int) -> int:
-    """Cells one can go in each direction without leaving the group."""
+    """Number of cells by which one can move in every direction without leaving the group."""
     depth = 0
     while all(
         (cell[0] + i * (depth + 1), cell[1] + j * (depth + 1)) in cells for i, j in ((1, 0), (-1, 0), (0, 1), (0, -1))

@@ -1,4 +1,4 @@
-"""Where the motions of a machine change between two points of a plane, and which bifurcation changes them."""
+"""Changes of the motions of a machine between two points of a plane, and the bifurcations that cause them."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ __all__ = ["Stand", "UnexplainedChange", "accounts_for", "causes_between", "chan
 NARROW = 1e-9
 """Width of the bracket around a change, in widths of the plane."""
 ALIKE = 1e-3
-"""Difference of period and radial speed between the same orbit on both sides of a bracket."""
+"""Largest difference of period and radial speed between the same orbit on both sides of a bracket."""
 SHRUNK = 1e-3
-"""Radial speed, in ``c_r Ω``, of orbits that vanish in the boundary equilibrium within a bracket."""
+"""Radial speed, in ``c_r Ω``, below which an orbit in a bracket may vanish in the boundary equilibrium."""
 _OF_ORBITS = {"fold", "speed-fold", "grazing", "slip-stop", "contact-onset", "non-smooth-hopf"}
 _CHANGED_BY = {
     "contact_free": {"boundary-equilibrium"},
@@ -42,16 +42,16 @@ class Stand(NamedTuple):
 
 @dataclass(frozen=True)
 class UnexplainedChange:
-    """A change of motions that lies on no curve that was found.
+    """A change of motions that lies on none of the curves found.
 
     Attributes
     ----------
     point : tuple of float
-        In the plane.
+        Its place in the plane.
     before, after : Motions
-        On the side of smaller and of larger values.
+        Motions on the side of smaller and of larger values.
     reason : str
-        Why no curve passes.
+        Why there is no curve.
     """
 
     point: tuple[float, float]
@@ -67,7 +67,7 @@ class UnexplainedChange:
 
 
 def change_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> tuple[Stand, Stand]:
-    """Narrow bracket around a change of motions between two points that differ; the one found need not be the only one."""
+    """Narrow bracket, by bisection, around one of the changes of motions between two points that differ."""
     while np.linalg.norm((high.place - low.place) / plane.widths) > NARROW:
         place = 0.5 * (low.place + high.place)
         middle = Stand(place, motions_at(plane.at(parameters, *place.tolist())))
@@ -86,17 +86,17 @@ def accounts_for(kinds: set[str], before: Motions, after: Motions) -> bool:
 
 
 def causes_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> list[Cause]:
-    """Bifurcations of motions of the machine in a narrow bracket, by the test functions that change sign there."""
+    """Bifurcations of motions of the machine in a narrow bracket, from the test functions that change sign in it."""
     sides = [Numbers.of(plane.at(parameters, *stand.place.tolist())) for stand in (low, high)]
     return [*_of_steady_motions(*sides), *_of_orbits(*sides)]
 
 
 def _of_steady_motions(low: Numbers, high: Numbers) -> list[Cause]:
     kinds = ("boundary-equilibrium", "rub-fold", "rolling-limit")
-    return [Cause(kind) for kind in kinds if _turns(kind, low, high)]
+    return [Cause(kind) for kind in kinds if _changes_sign(kind, low, high)]
 
 
-def _turns(kind: str, low: Numbers, high: Numbers) -> bool:
+def _changes_sign(kind: str, low: Numbers, high: Numbers) -> bool:
     """Whether the test function of a steady motion changes sign."""
     return (TESTS[kind](low, 1.0, 0.0) < 0.0) != (TESTS[kind](high, 1.0, 0.0) < 0.0)
 
@@ -105,7 +105,7 @@ Known = tuple[Numbers, float, float]
 
 
 def _of_orbits(low: Numbers, high: Numbers) -> list[Cause]:
-    """Matches the orbits of both sides: the test functions of the same orbit, and what became of the others."""
+    """Match the orbits of both sides: compare the test functions of each pair, and explain unmatched orbits."""
     here, there = ([orbit[1:] for orbit in forward_orbits(numbers.parameters)] for numbers in (low, high))
     causes, missing = [], []
     for orbit in here:
@@ -115,7 +115,7 @@ def _of_orbits(low: Numbers, high: Numbers) -> list[Cause]:
             causes += _of_one_orbit(orbit, match)
         else:
             missing.append(orbit)
-    shrinks = _turns("boundary-equilibrium", low, high)
+    shrinks = _changes_sign("boundary-equilibrium", low, high)
     return causes + _of_vanishing_orbits(missing, shrinks) + _of_vanishing_orbits(there, shrinks)
 
 
@@ -124,13 +124,13 @@ def _apart(first: Known, second: Known) -> float:
 
 
 def _of_one_orbit(low: Known, high: Known) -> list[Cause]:
-    """What happens to an orbit between two sides, if it is a motion of the machine on one of them."""
+    """Bifurcations of an orbit between two sides, if it is a motion of the machine on one of them."""
     if not (is_admissible(*low) or is_admissible(*high)):
         return []
     causes = []
     for kind in ("grazing", "slip-stop", "contact-onset", "period-doubling", "neimark-sacker"):
         before, after = TESTS[kind](*low), TESTS[kind](*high)
-        # Without a maximum between the impacts the height is not a number: the orbit is inside.
+        # Without a maximum between the impacts the height is nan, and the orbit stays inside.
         changes = (before >= 0.0) != (after >= 0.0)
         complex_pair = kind != "neimark-sacker" or abs(conditions_at(*low).pair_sum) < 2.0
         if changes and complex_pair:
@@ -139,7 +139,7 @@ def _of_one_orbit(low: Known, high: Known) -> list[Cause]:
 
 
 def _of_vanishing_orbits(orbits: list[Known], shrinks: bool) -> list[Cause]:
-    """What becomes of orbits that are on one side only: they meet another one, or shrink to nothing where they can."""
+    """Bifurcations of orbits that exist on one side only: two of them meet, or one shrinks to nothing if possible."""
     causes = []
     for orbit in orbits:
         others = [other for other in orbits if other is not orbit]

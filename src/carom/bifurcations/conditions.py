@@ -1,4 +1,4 @@
-"""Test functions of single-impact orbits and of equilibria: what vanishes at each bifurcation."""
+"""Test functions of single-impact orbits and of equilibria, which vanish at bifurcations."""
 
 from __future__ import annotations
 
@@ -75,34 +75,34 @@ def profile_at(numbers: Numbers, period: float, speed: float) -> RadialProfile:
 
 
 def grazing_equations(numbers: Numbers, period: float, speed: float, time: float) -> tuple[float, float]:
-    """``Re(Ū U̇)`` and ``r² − 1`` at a time after the impact: both vanish where the orbit grazes the wall."""
+    """``Re(Ū U̇)`` and ``r² − 1`` at a time after the impact; both vanish where the orbit grazes the wall."""
     gamma, omega, _, _, mu, d, *_ = numbers
     course: tuple[float, float] = planar.radial_course(gamma, omega, mu, d, period, speed, time)
     return course
 
 
 def jacobian_at(numbers: Numbers, period: float, speed: float) -> np.ndarray:
-    """Derivative of the impact map over ``(θ, ṙ, θ̇)``, shape (3, 3)."""
+    """Derivative of the impact map with respect to ``(θ, ṙ, θ̇)``, shape (3, 3)."""
     gamma, omega, _, _, mu, d, *_ = numbers
     jacobian: np.ndarray = planar.impact_jacobian(gamma, omega, mu, d, period, speed)
     return jacobian
 
 
 def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float]:
-    """What an orbit has left of each condition it must meet to be a motion: all are positive on one that does.
+    """Margins of the conditions for an orbit to be a motion of the machine: it is one if all are positive.
 
     Parameters
     ----------
     numbers : Numbers
-        A negative ``mu`` stands for backward slip, which friction opposes the other way.
+        A negative ``mu`` means backward slip.
     period, speed : float
 
     Returns
     -------
     dict of str to float
-        By the kind of the special point at which it vanishes: the radial speed, the slip after the impact, the depth of
-        the highest maximum of the radius below the wall (in ``r²``), and without rebound the pull off the wall.  Infinite
-        where there is nothing to meet.
+        Each margin by the kind of special point at which it vanishes: the radial speed, the slip after the impact, the
+        depth of the highest maximum of the radius below the wall (in ``r²``), and without rebound the pull off the
+        wall.  Infinite where a condition does not apply.
     """
     slip, away = math.inf, math.inf
     if numbers.mu != 0.0:
@@ -115,9 +115,9 @@ def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float
 
 
 def is_admissible(numbers: Numbers, period: float, speed: float) -> bool:
-    """Whether the orbit stays inside the wall and goes on slipping, by its extrema of the radius.
+    """Whether the orbit stays inside the wall, judged by the extrema of its radius, and keeps its direction of slip.
 
-    The proof is left to the certified search of :attr:`carom.orbits.single_impact.Orbit.admissible`.
+    This is no proof; :attr:`carom.orbits.single_impact.Orbit.admissible` rests on a certified search.
     """
     return speed > 0.0 and min(margins_of(numbers, period, speed).values()) > 0.0
 
@@ -135,12 +135,12 @@ def corrected(numbers: Numbers, period: float, speed: float) -> tuple[float, flo
 
 
 def letter(conditions: OrbitConditions) -> str:
-    """Letter of the orbit's name: which period of its pair, and which of the two radial speeds there."""
+    """Letter of the orbit's name, which tells the period of its pair and the radial speed at that period."""
     return "abcd"[(conditions.period_fold > 0.0) + 2 * (conditions.speed_fold > 0.0)]
 
 
 def orbit_of(numbers: Numbers, pair: str, period: float, speed: float) -> Orbit:
-    """Orbit with its certificate of admissibility and its multipliers; of backward slip where ``mu`` is negative."""
+    """Orbit with certified admissibility and its multipliers; it has backward slip if ``mu`` is negative."""
     slip: Literal[1, -1] = -1 if numbers.mu < 0.0 else 1
     conditions = conditions_at(numbers, period, speed)
     stiffness = complex(numbers.omega**2 - 1.0, numbers.gamma)
@@ -154,8 +154,8 @@ def orbit_of(numbers: Numbers, pair: str, period: float, speed: float) -> Orbit:
 def pressed_on(numbers: Numbers, period: float, speed: float) -> float:
     """Normal force, in ``m c_r Ω²``, with which the rotor would be pressed on the wall just after the impact.
 
-    It is ``Re(Ū Ü) + |U̇|²`` with the velocity after the impact, in the frame that has the impact at ``U = 1``.  Where
-    the rotor does not rebound (``d = 0``) lasting contact begins as it grows through zero.
+    It is ``Re(Ū Ü) + |U̇|²`` with the velocity after the impact, in the frame that has the impact at ``U = 1``.  For a
+    rotor that does not rebound (``d = 0``) lasting contact begins where it grows through zero.
     """
     conditions = conditions_at(numbers, period, speed)
     damping, stiffness = complex(numbers.gamma, 2.0), complex(numbers.omega**2 - 1.0, numbers.gamma)
@@ -165,7 +165,7 @@ def pressed_on(numbers: Numbers, period: float, speed: float) -> float:
 
 
 def rub_fold(numbers: Numbers) -> float:
-    """``ρ²(1 + μ²) − (γ + μ(1 − ω²))²``: zero where the two synchronous rubs meet, negative without any.
+    """``ρ²(1 + μ²) − (γ + μ(1 − ω²))²``: zero where the two synchronous rubs meet, negative where there are none.
 
     From ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)`` (:func:`carom.closed_forms.equilibria.find_equilibria`), whose left side is at most
     ``ρ√(1 + μ²)``.
@@ -175,7 +175,10 @@ def rub_fold(numbers: Numbers) -> float:
 
 
 def rolling_limit(numbers: Numbers) -> float:
-    """``μ(s² − ω²) − |γ|s − ρ√(1 + μ²)``: not negative where friction can hold rolling at every angle (:mod:`carom.closed_forms.whirl`)."""
+    """``μ(s² − ω²) − |γ|s − ρ√(1 + μ²)``: not negative where friction can hold rolling at every angle.
+
+    See :mod:`carom.closed_forms.whirl`.
+    """
     speed, mu = numbers.radius_ratio, numbers.mu
     needed = abs(numbers.gamma) * speed + numbers.rho * math.hypot(1.0, mu)
     return mu * (speed**2 - numbers.omega**2) - needed

@@ -24,11 +24,11 @@ __all__ = ["KINDS", "Codimension2Point", "Curve", "continue_curve"]
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 EDGE = "edge of the plane"
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
-"""Radial speed, in ``c_r Ω``, at which a curve is not followed any further: it goes where ``a₁₂`` vanishes."""
+"""Radial speed, in ``c_r Ω``, beyond which a curve is not followed: it grows without bound where ``a₁₂`` vanishes."""
 BEND = 5e-5
-"""Distance of a curve from the straight lines between its points, in widths of the plane."""
+"""Largest distance of a curve from the straight lines between its points, in widths of the plane."""
 VANISHING = 1e-2
-"""Period, or part of a period, that has shrunk to nothing where the equations end."""
+"""Period, or fraction of a period, that counts as vanished where the equations end."""
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,9 @@ class Codimension2Point:
         For example ``"fold + boundary-equilibrium"``; ``"resonance-1:3"`` where a multiplier on a Neimark–Sacker curve is a
         third root of one, and so on; two multipliers are 1 at ``"resonance-1:1"``, −1 at ``"resonance-1:2"``.
     value : tuple of float
-        In the plane.
+        Its place in the plane.
     period, radial_speed : float
-        Of the orbit; ``nan`` for equilibria.
+        Those of the orbit; ``nan`` for equilibria.
     admissible : bool
         Whether it happens to a motion of the machine, or to one that just stops being one.
     """
@@ -71,14 +71,14 @@ class Curve(Result):
     admissible : ndarray of bool, shape (m,)
         Where it is a bifurcation of motions of the machine.
     orbits : tuple of str
-        Orbits it happens to, by name, where it happens to motions of the machine; of a fold those that meet.  Empty for
-        equilibria and rolling.
+        Names of the orbits that bifurcate, where these are motions of the machine; for a fold the orbits that meet.
+        Empty for equilibria and rolling.
     codimension2 : tuple of Codimension2Point
     stops : tuple of two str
-        Why it ends at either end: ``"edge of the plane"``, ``"closed loop"``, the codimension-2 point where the bifurcation
-        ceases (``"resonance-1:1"`` or ``"resonance-1:2"`` of a Neimark–Sacker curve), ``"grazing meets the impact"`` (the time of
-        grazing reaches an end of the period), ``"period vanishes"``, ``"radial speed without bound"``, or why the continuation gave up
-        (:class:`~carom.continuation.Branch`).
+        Reason for its end at both ends: ``"edge of the plane"``, ``"closed loop"``, the codimension-2 point where the
+        bifurcation ceases (``"resonance-1:1"`` or ``"resonance-1:2"`` of a Neimark–Sacker curve),
+        ``"grazing meets the impact"`` (the time of grazing reaches an end of the period), ``"period vanishes"``,
+        ``"radial speed without bound"``, or why the continuation gave up (:class:`~carom.continuation.Branch`).
     """
 
     kind: str
@@ -98,16 +98,16 @@ class Curve(Result):
 
     @property
     def subject(self) -> str:
-        """What it happens to: ``"B1,c/d"``, ``"levitation"``, ``"rub"`` or ``"rolling"``."""
+        """The motion that bifurcates: ``"B1,c/d"``, ``"levitation"``, ``"rub"`` or ``"rolling"``."""
         return listed(self.orbits) if self.orbits else _SUBJECTS.get(self.kind, "")
 
 
 @dataclass(frozen=True)
 class _Kind:
-    """What defines a bifurcation and what else to watch along its curve.
+    """Number of unknowns of a bifurcation, and the test functions to watch along its curve.
 
-    ``unknowns`` counts those besides the first parameter: none for equilibria, period and radial speed for orbits, and
-    the time of grazing.
+    ``unknowns`` does not count the first parameter: 0 for equilibria, 2 for orbits (period and radial speed), and 3 for
+    grazing (also its time).
     """
 
     unknowns: int
@@ -149,16 +149,17 @@ def continue_curve(
 ) -> Curve:
     """Follow a bifurcation in the plane of two parameters.
 
-    The unknowns are the first parameter and, for an orbit, its period and radial speed; the equations those of the orbit
-    (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the radius is
-    largest as a further unknown, and ``Re(Ū U̇) = 0``, ``|U| = 1`` as equations: they stay regular on its virtual side.
+    The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
+    orbit (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the
+    radius is largest as a further unknown, and the equations ``Re(Ū U̇) = 0`` and ``|U| = 1``, which stay regular on its
+    virtual side.
 
     Parameters
     ----------
     kind : str
         One of :data:`KINDS`.
     machine : Machine, Case, Parameters or model
-        At or near the bifurcation.
+        A machine at or near the bifurcation.
     plane : Plane
     unknowns : sequence of float
         Period and radial speed of the orbit; none for equilibria.
@@ -209,7 +210,7 @@ def continue_curve(
         watches=[edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=scales,
-        # Where the second parameter turns back nothing happens but that.
+        # A fold in the second parameter is only a turning point of the curve.
         folds="turning point",
     )
     shown = np.array([*np.full(definition.unknowns, np.inf), *plane.widths])
@@ -218,7 +219,7 @@ def continue_curve(
 
 
 def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:
-    """Period and radial speed among the unknowns; any where there is no orbit."""
+    """Period and radial speed among the unknowns; placeholders where there is no orbit."""
     return (float(unknowns[0]), float(unknowns[1])) if KINDS[kind].unknowns else (1.0, 0.0)
 
 
@@ -246,7 +247,7 @@ def _equations(kind: str, numbers: Callable[[np.ndarray, float], Numbers]) -> Ca
 def _curve(
     kind: str, plane: Plane, branch: Branch, rows: np.ndarray, numbers: Callable[[np.ndarray, float], Numbers]
 ) -> Curve:
-    """The curve through the rows of unknowns and second parameter."""
+    """Build the curve from rows of unknowns and second parameter."""
     of_orbits = KINDS[kind].unknowns > 0
 
     def happens(u: np.ndarray, p: float, slack: float) -> bool:
@@ -285,7 +286,7 @@ def _curve(
 
 
 def _stop(kind: str, branch: Branch, end: Literal[0, -1]) -> str:
-    """Why a curve ends at its first or last point."""
+    """Reason why a curve ends at its first or last point."""
     reason = branch.stops[end]
     if reason == "parameter limit":
         return EDGE

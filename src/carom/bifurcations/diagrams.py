@@ -1,4 +1,4 @@
-"""Bifurcation diagrams: every steady motion and every single-impact orbit along one parameter, and more on demand."""
+"""Bifurcation diagrams: all steady motions and single-impact orbits along one parameter, optionally other motions."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ from carom.results import Result, in_a_line
 __all__ = ["Diagram", "find_bifurcations"]
 
 SAMPLES = 13
-"""Values of the parameter at which all orbits are looked for."""
+"""Number of values of the parameter at which all orbits are searched."""
 SAME = 1e-6
 """Distance in period and radial speed below which an orbit lies on a known branch."""
 SAME_ANGLE = 0.02
-"""The same for the angle of a lift-off, in rad, and relative for its period."""
+"""The same for motions with lasting contact: difference of the angles in rad, and relative one of the periods."""
 FOLLOWING_SHARE = 0.2
-"""Of the progress, where attractors are searched besides."""
+"""Fraction of the progress for following branches, if attractors are searched too."""
 LONGEST_PERIOD = 60.0
-"""Periods above, in ``1/Ω``, are not searched where damping is so weak that there would be hundreds of pairs."""
+"""Longest period searched, in ``1/Ω``, where damping is so weak that there would be hundreds of pairs."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,13 +54,13 @@ class Diagram(Result):
     rolling : RollingBranch
     orbits : tuple of OrbitBranch
     rubbing : tuple of RubbingBranch
-        Periodic motions with a stretch of lasting contact; empty unless they were asked for.
+        Periodic motions with a stretch of lasting contact; empty unless asked for.
     points : tuple of SpecialValue
-        In growing order of the parameter.
+        In ascending order of the parameter.
     attractors : tuple of AttractorSample
-        What simulated disturbances, and starts next to known motions, settled to; empty unless they were asked for.
+        Motions to which simulated disturbances, and starts next to known motions, settled; empty unless asked for.
     disturbances : DisturbanceSet or None
-        Those followed at each of the values of ``attractors``.
+        Disturbances followed at each of the values of ``attractors``.
     """
 
     axis: Axis
@@ -99,10 +99,10 @@ def find_bifurcations(
     seed: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> Diagram:
-    """Find every branch on an interval, and every special point on it.
+    """Find the branches of motions on an interval of a parameter, and their special points.
 
-    Single-impact orbits are all found (:func:`~carom.orbits.single_impact.find_orbits`) at 13 evenly spaced values, and each
-    one that lies on no branch yet is continued both ways.
+    All single-impact orbits are computed (:func:`~carom.orbits.single_impact.find_orbits`) at 13 evenly spaced values.
+    Each orbit that does not lie on a known branch is continued in both directions.
 
     Parameters
     ----------
@@ -112,14 +112,14 @@ def find_bifurcations(
     interval : tuple of float
         In SI units if the parameter is physical.
     virtual : bool
-        Follow all orbits, also those of higher pairs that are virtual wherever they were looked at.
+        Follow all orbits, including those of higher pairs that are virtual at all of these values.
     lasting : bool
-        Follow periodic motions with a stretch of lasting contact as well, to where lasting contact begins.
+        Follow periodic motions with a stretch of lasting contact too, up to the onset of lasting contact.
     attractors : int
         Disturbances (:class:`~carom.attractors.DisturbanceSet`) to simulate at each of 31 values, to show where they
         settle: irregular bouncing, orbits with several impacts, rolling and so on.  None by default.
     seed : int
-        Of these disturbances.
+        Seed of these disturbances.
     progress : callable, optional
         Called with the fraction done.
 
@@ -130,7 +130,7 @@ def find_bifurcations(
     Raises
     ------
     InputError
-        Empty interval, unknown parameter, or one that is out of its range.
+        Empty interval, unknown parameter, or values out of the range of the parameter.
     """
     parameters = model_of(machine).parameters
     along = axis(parameters, parameter)
@@ -183,7 +183,7 @@ def _orbits(parameters: Parameters) -> Iterator[Orbit]:
 def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     """Whether a branch passes through an orbit.
 
-    Where it passes the value, its period there is found by Newton's method from both neighbours.
+    Where the branch passes the value, its orbit there is found by Newton's method from both neighbouring points.
     """
     slack = 1e-9 * abs(branch.values.max() - branch.values.min())
     offset = branch.values - value

@@ -1,4 +1,4 @@
-"""Diagrams and maps as plain data for JSON; what is not known or not finite becomes ``null`` when it is written."""
+"""Diagrams and maps as plain data for JSON; unknown or non-finite numbers are written as ``null``."""
 
 from __future__ import annotations
 

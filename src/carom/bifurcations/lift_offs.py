@@ -1,7 +1,7 @@
 """The map from one lift-off to the next: a rotor leaves the wall, bounces, chatters into lasting contact and lifts off.
 
-At a lift-off ``r = 1``, ``ṙ = 0`` and ``N = ρ cos x + (1 + θ̇)² − ω² = 0`` with ``x = θ − φ``, so the angle and the direction of
-whirl tell the state.
+At a lift-off ``r = 1``, ``ṙ = 0`` and ``N = ρ cos x + (1 + θ̇)² − ω² = 0`` with ``x = θ − φ``, so the angle and the
+direction of whirl determine the state.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ MOST_EVENTS = 4000
 
 @dataclass(frozen=True)
 class LiftOff:
-    """The next lift-off after one, and what lies between.
+    """The next lift-off after a given one, and the motion in between.
 
     Attributes
     ----------
@@ -38,13 +38,13 @@ class LiftOff:
     whirl : {1, -1}
         Sign of ``1 + θ̇``: forward or backward in the fixed frame.
     time : float
-        Since the lift-off before, in ``1/Ω``.
+        Time since the previous lift-off, in ``1/Ω``.
     impacts : int
-        Bounces in between, those left to the completion of the chatter not counted.
+        Number of bounces in between, without those replaced by the completion of the chatter.
     contact_time : float
-        Length of the lasting contact, in ``1/Ω``.
+        Duration of the lasting contact, in ``1/Ω``.
     landing_force : float
-        Normal force with which it begins, in ``m c_r Ω²``; vanishes at the onset.
+        Normal force at the beginning of the lasting contact, in ``m c_r Ω²``; it vanishes at the onset.
     """
 
     angle: float
@@ -88,7 +88,7 @@ def next_lift_off(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float = 
     start = lift_off_state(rotor, whirl, angle)
     if start is None:
         return None
-    # Most periods are short: look a turn ahead first.
+    # Most periods are short: simulate one turn first.
     reach = min(longest, math.tau)
     while reach < longest:
         found = _first_lift_off(simulate(rotor, start, reach, max_events=MOST_EVENTS))
@@ -102,7 +102,7 @@ def _first_lift_off(motion: Trajectory) -> LiftOff | None:
     """The first lift-off of a motion that begins with one."""
     rotor = motion.rotor
     flying = motion.segment_phases == Phase.FLIGHT
-    # Rounding may leave the rotor on the wall for an instant before it lifts.
+    # By rounding the rotor may stay on the wall for an instant before it lifts off.
     first = int(np.argmax(flying))
     landing = first + int(np.argmin(flying[first:]))
     lifting = landing + int(np.argmax(flying[landing:]))
@@ -121,14 +121,20 @@ def _first_lift_off(motion: Trajectory) -> LiftOff | None:
 
 
 def shift_of(found: LiftOff | None, whirl: Whirl, angle: float) -> float:
-    """How far the next lift-off is from the last, in rad; ``nan`` if there is none like it."""
+    """Angle from a lift-off to the next, in rad; ``nan`` if there is none with the same direction of whirl."""
     if found is None or found.whirl != whirl:
         return math.nan
     return math.remainder(found.angle - angle, math.tau)
 
 
 def known(found: LiftOff | None) -> LiftOff:
-    """A lift-off that must exist, as its motion was followed."""
+    """Return a lift-off that must exist because its motion was followed.
+
+    Raises
+    ------
+    CaromError
+        There is no lift-off.
+    """
     if found is None:
         raise CaromError("a motion that was followed has no lift-off any more")
     return found

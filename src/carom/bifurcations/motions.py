@@ -1,4 +1,4 @@
-"""Which simple motions a machine has: levitation, rub, single-impact orbits and rolling."""
+"""The simple motions of a machine: levitation, rub, single-impact orbits and rolling."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ __all__ = ["Motions", "forward_orbits", "motions_at"]
 
 @dataclass(frozen=True)
 class Motions:
-    """Which simple motions a machine has; equal if they are the same in number and stability.
+    """The simple motions of a machine; two sets are equal if they agree in number and stability.
 
     Attributes
     ----------
     contact_free : bool
         Whether contact-free levitation is admissible; it is stable then, as damping is positive.
     orbits, stable_orbits : int
-        Admissible single-impact orbits, and the stable ones of them.
+        Number of admissible single-impact orbits, and of the stable ones among them.
     rub : bool
         Whether a stable synchronous rub (forward whirl) is admissible.
     rolling : bool
-        Whether a rotor that rolls round the bearing in backward whirl goes on rolling (:mod:`carom.closed_forms.whirl`).
+        Whether a rotor that rolls on the bearing in backward whirl keeps rolling (:mod:`carom.closed_forms.whirl`).
     stable_names, unstable_names : tuple of str
         Names of the orbits.
     """
@@ -46,14 +46,14 @@ class Motions:
 
     @property
     def source_region(self) -> str:
-        """Region of the source paper's figure 6b, which knows no rub: R1 … R4."""
+        """Region of the source paper's figure 6b, which does not consider rub: R1 … R4."""
         if self.contact_free:
             return "R4" if self.orbits else "R3"
         return "R1" if self.orbits else "R2"
 
     @property
     def region(self) -> str:
-        """The same, refined by what the text leaves out: the stable rub, and whether any orbit is stable."""
+        """Region of the source paper, refined by the stable rub and by whether any orbit is stable."""
         stable = "" if not self.orbits else " stable orbit" if self.stable_orbits else " unstable orbits"
         parts = [part for part in (stable.strip(), "rub" if self.rub else "no rub") if part]
         return f"{self.source_region} ({', '.join(parts)})"
@@ -82,8 +82,8 @@ class Motions:
 def motions_at(parameters: Parameters) -> Motions:
     """Count the simple motions at some parameters.
 
-    Single-impact orbits are those with forward slip; without damping, or with so little that there would be hundreds of
-    pairs, those with periods up to 60/Ω.
+    Only single-impact orbits with forward slip are counted.  Without damping, or with so little that there would be
+    hundreds of pairs, only those with periods up to 60/Ω are counted.
     """
     rotor = Jeffcott(parameters)
     orbits = [orbit for orbit in forward_orbits(parameters) if is_admissible(*orbit[1:])]
@@ -100,5 +100,5 @@ def motions_at(parameters: Parameters) -> Motions:
 
 
 def forward_orbits(parameters: Parameters) -> list[Solution]:
-    """All single-impact orbits with forward slip that :func:`motions_at` looks at, virtual ones included."""
+    """All single-impact orbits with forward slip that :func:`motions_at` considers, including virtual ones."""
     return orbit_solutions(parameters, LONGEST_PERIOD if parameters.gamma < 0.05 else None)

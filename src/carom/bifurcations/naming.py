@@ -1,4 +1,4 @@
-"""Names of the orbits that a curve of bifurcations belongs to."""
+"""Names of the orbits to which a curve of bifurcations belongs."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from carom.models import Jeffcott
 __all__ = ["listed", "orbits_on_curve"]
 
 BELOW = 1e-4
-"""Relative distance from a period below which roots count as that period."""
+"""Relative distance from a period within which a root counts as that period."""
 PLACES = 5
-"""Points of a curve at which the pair is counted: its number grows along a curve where a shorter pair is born."""
+"""Points of a curve at which the number of the pair is determined: it increases where a shorter pair appears."""
 
 
 def listed(names: tuple[str, ...]) -> str:
-    """``B1,a/b/c, B2,d``: letters of a pair together."""
+    """List of names with the letters of each pair combined, such as ``B1,a/b/c, B2,d``."""
     pairs: dict[str, list[str]] = {}
     for name in names:
         pair, letter = name.split(",")
@@ -29,7 +29,7 @@ def listed(names: tuple[str, ...]) -> str:
 
 
 def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -> tuple[str, ...]:
-    """Names of the orbits that a bifurcation happens to, in alphabetical order.
+    """Names of the orbits that bifurcate on a curve, in alphabetical order.
 
     Parameters
     ----------
@@ -53,6 +53,6 @@ def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -
 
 
 def _pair(numbers: Numbers, period: float, speed: float) -> int:
-    """Number of the pair of periods, by the roots of ``F₁`` that are shorter."""
+    """Number of the pair of periods, counted by the shorter roots of ``F₁``."""
     shorter = PeriodCondition(Jeffcott(numbers.parameters).system).roots((1.0 - BELOW) * period)
     return (len(shorter.periods) + int(shorter.starts_below)) // 2 + 1

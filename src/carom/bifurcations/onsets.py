@@ -21,13 +21,13 @@ from carom.parameters import Parameters
 __all__ = ["ONSETS", "continue_onset"]
 
 ONSETS = ("contact-onset", "permanent-contact")
-"""Ends of branches of motions with lasting contact that have curves."""
+"""Kinds of ends of branches with lasting contact that can be followed as curves."""
 LEVEL = 0.02
 """Normal force at the landing, in ``m c_r Ω²``, of the motions that are followed next to the curve."""
 NEARBY = 0.05
-"""Relative change of the period on the way from there to the curve."""
+"""Largest relative change of the period between these motions and the curve."""
 FINEST = 1e-9
-"""Distance from the curve of its points, in sizes of the parameter."""
+"""Accuracy of the points of the curve, in sizes of the parameter."""
 DIFFERENCE = 1e-6
 STEPS = Steps(first=0.02, largest=0.1, smallest=1e-6, sharpest_turn=0.3, tolerance=1e-9, most_points=300)
 
@@ -35,23 +35,24 @@ STEPS = Steps(first=0.02, largest=0.1, smallest=1e-6, sharpest_turn=0.3, toleran
 def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Parameters, plane: Plane) -> Curve:
     """Follow the onset of lasting contact, or of permanent contact, in the plane of two parameters.
 
-    On the curve itself the equations end, so a curve next to it is followed, on which the motion lands with a small
-    normal force; from each of its points the end is then looked for along one parameter, as on a branch.
+    The equations cease to hold on the curve itself.  So an auxiliary curve next to it is followed, on which the motion
+    lands with a small normal force.  From each of its points the end of the motions is searched along one parameter, as
+    on a branch.
 
     Parameters
     ----------
     branch : RubbingBranch
-        Along one of the two parameters.
+        Branch along one of the two parameters.
     point : RubbingPoint
         ``"contact-onset"`` or ``"permanent-contact"`` at one of its ends.
     parameters : Parameters
-        Those of the branch; the value of the branch's own parameter does not matter.
+        Parameters of the branch; the value of the parameter that varies along it does not matter.
     plane : Plane
 
     Returns
     -------
     Curve
-        Its radial speeds are ``nan``.  ``"other contacts"`` among its stops says that the sequence of contacts changes.
+        Its radial speeds are ``nan``.  The stop ``"other contacts"`` means that the sequence of contacts changes there.
 
     Raises
     ------
@@ -74,7 +75,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
         except InputError:
             return None
 
-    force, angle, value = _beside(branch, point)
+    force, angle, value = _motion_beside(branch, point)
 
     def residual(u: np.ndarray, y: float) -> np.ndarray:
         found = lift_off(float(u[0]), float(u[1]), y)
@@ -116,7 +117,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
 def _ends(
     beside: Branch, lift_off: Callable[[float, float, float], LiftOff | None], plane: Plane, sizes: np.ndarray
 ) -> list[tuple[float, float, float]]:
-    """Place and period at the end of the motions, from each point of the curve beside it."""
+    """Place and period at the end of the motions, from each point of the auxiliary curve."""
     rows = []
     for (angle, x), y in zip(beside.unknowns.tolist(), beside.parameters.tolist(), strict=True):
         here = lift_off(angle, x, y)
@@ -129,7 +130,7 @@ def _ends(
                 return None
             return found
 
-        # At an edge of the plane the end is looked for along the edge.
+        # At an edge of the plane the end is searched along the edge.
         stays = 1 if y in plane.second_range else 0 if _on_edge(x, plane.first_range) else None
         end_angle, place = _end(follow, angle, np.array([x, y]), sizes, stays)
         last = follow(end_angle, *place)
@@ -138,8 +139,8 @@ def _ends(
     return rows
 
 
-def _beside(branch: RubbingBranch, point: RubbingPoint) -> tuple[float, float, float]:
-    """Landing force, angle and value of the motion on the branch that is followed next to one of its ends."""
+def _motion_beside(branch: RubbingBranch, point: RubbingPoint) -> tuple[float, float, float]:
+    """Landing force, angle and value of the motion near an end of the branch where the auxiliary curve starts."""
     forces = branch.landing_force
     force = min(LEVEL, 0.5 * float(forces.max()))
     above = np.flatnonzero(forces > force)
@@ -154,9 +155,9 @@ def _end(
     sizes: np.ndarray,
     stays: int | None,
 ) -> tuple[float, tuple[float, float]]:
-    """End of the motions, from one whose landing force is small, along the parameter that changes it more.
+    """End of the motions, searched from a motion of small landing force along the parameter with more influence on it.
 
-    If a parameter is to stay, it does unless the other has next to no influence.
+    A parameter given by ``stays`` is kept, unless the other has almost no influence.
     """
 
     def at(angle: float, moved: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Whether a known curve passes a point of the plane, and where curves cross a straight line."""
+"""Whether a known curve passes through a point of the plane, and where curves cross a straight line."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ __all__ = ["Cause", "Place", "crossings", "passes", "with_curve"]
 
 Place = Sequence[float] | np.ndarray
 CLOSE = 5e-4
-"""Distance from a curve, in widths of the plane, of points that lie on it: ten times its bend between its points."""
+"""Distance from a curve, in widths of the plane, within which a point lies on it: ten times that from its chords."""
 SAME_PERIOD, SAME_SPEED = 0.02, 0.02
-"""Relative difference of periods and difference of radial speeds, in ``c_r Ω``, of an orbit that is looked up on a curve."""
+"""Relative difference of periods, and difference of radial speeds in ``c_r Ω``, of orbits that count as the same."""
 SAMPLES = 9
-"""Points of a curve that must lie on another one if it is part of that one."""
+"""Number of points of a curve that must lie on another one for it to count as part of that one."""
 
 
 class Cause(NamedTuple):
-    """A bifurcation at a point of the plane; without a period it happens to equilibria or to rolling."""
+    """A bifurcation at a point of the plane; without a period it is one of equilibria or of rolling."""
 
     kind: str
     period: float | None = None
@@ -29,19 +29,19 @@ class Cause(NamedTuple):
 
     @property
     def unknowns(self) -> tuple[float, ...]:
-        """Period and radial speed, if it happens to an orbit."""
+        """Period and radial speed, if it is a bifurcation of an orbit."""
         return () if self.period is None or self.radial_speed is None else (self.period, self.radial_speed)
 
 
 def passes(curve: Curve, place: Place, cause: Cause) -> bool:
-    """Whether the bifurcation at a place lies on a curve: the curve comes that close with the same orbit."""
+    """Whether the bifurcation at a place lies on a curve: the curve must pass close by with the same orbit."""
     if curve.kind != cause.kind:
         return False
     points, here = curve.points / curve.plane.widths, np.asarray(place) / curve.plane.widths
     ahead = np.diff(points, axis=0)
     share = np.clip(((here - points[:-1]) * ahead).sum(axis=1) / np.maximum((ahead**2).sum(axis=1), 1e-300), 0.0, 1.0)
     distance = np.linalg.norm(points[:-1] + share[:, None] * ahead - here, axis=1)
-    # Onsets of lasting contact are not refined: a curve bends off its chord by less than an eighth of the step.
+    # Onsets of lasting contact are not refined: a curve deviates from a chord by less than an eighth of its length.
     near = np.flatnonzero(distance <= (CLOSE if curve.kind in KINDS else 0.125 * np.linalg.norm(ahead, axis=1)))
     return any(_same_orbit(curve, int(i), float(share[i]), cause) for i in near)
 
@@ -59,7 +59,7 @@ def _same_orbit(curve: Curve, step: int, share: float, cause: Cause) -> bool:
 
 
 def with_curve(curves: Sequence[Curve], new: Curve) -> list[Curve]:
-    """Known curves and a new one, without those that are part of another."""
+    """Add a new curve to the known ones, and drop curves that are part of another."""
     if any(_is_part(new, curve) for curve in curves):
         return list(curves)
     return [*(curve for curve in curves if not _is_part(curve, new)), new]

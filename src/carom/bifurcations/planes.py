@@ -13,7 +13,7 @@ from carom.parameters import Parameters
 __all__ = ["Plane"]
 
 ROUNDING = 1e-9
-"""Of places on the edge, in widths of the plane."""
+"""Tolerance for points on the edge, in widths of the plane."""
 
 
 @dataclass(frozen=True)
@@ -51,19 +51,19 @@ class Plane:
         return np.ptp([self.first_range, self.second_range], axis=1)
 
     def place_of(self, parameters: Parameters) -> tuple[float, float]:
-        """Values of both parameters, in the plane or outside."""
+        """Values of both parameters, whether inside the plane or outside."""
         numbers = Numbers.of(parameters)
         return axis(parameters, self.first).get(numbers), axis(parameters, self.second).get(numbers)
 
     def holds(self, x: float, y: float) -> bool:
-        """Whether a point lies in it, but for rounding."""
+        """Whether a point lies in the plane, within rounding."""
         return all(
             low - ROUNDING * (high - low) <= value <= high + ROUNDING * (high - low)
             for value, (low, high) in ((x, self.first_range), (y, self.second_range))
         )
 
     def axes(self, base: Parameters) -> tuple[Axis, Axis]:
-        """Both parameters, checked against what is known of the machine and its ranges."""
+        """Both parameters, checked for whether the machine allows them and their ranges."""
         found = axis(base, self.first), axis(base, self.second)
         for end in (0, 1):
             self.at(base, self.first_range[end], self.second_range[end])

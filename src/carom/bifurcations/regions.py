@@ -41,9 +41,9 @@ class RegionMap(Result):
     regions : tuple of Region
         Largest first.
     present : tuple of float or None
-        The machine's own place; ``None`` if it lies outside the plane.
+        Place of the machine itself; ``None`` if it lies outside the plane.
     present_motions : Motions
-        Of the machine.
+        Motions of the machine.
     unexplained : tuple of UnexplainedChange
         Changes of motions between neighbouring points of the grid that lie on none of the curves.
     lost : tuple of str
@@ -69,7 +69,7 @@ class RegionMap(Result):
 
     @property
     def everywhere(self) -> tuple[str, ...]:
-        """What holds in every region, in words."""
+        """Motions that are the same in every region, in words."""
         if not self.regions:
             return ()
         first, *others = (region.motions.parts for region in self.regions)
@@ -95,9 +95,9 @@ class RegionMap(Result):
 
     @property
     def codimension2(self) -> tuple[Codimension2Point, ...]:
-        """Points where two curves meet, each once; where more than two meet, with all their kinds.
+        """Points where two or more curves meet, each listed once with all its kinds.
 
-        A non-smooth Hopf bifurcation is a boundary equilibrium with orbits, and its points are told as such.
+        A non-smooth Hopf bifurcation is a boundary equilibrium with orbits, and its points are treated as such.
         """
         found: list[Codimension2Point] = []
         ordered = sorted(self.curves, key=lambda curve: curve.kind == "non-smooth-hopf")
@@ -113,9 +113,9 @@ class RegionMap(Result):
         return tuple(found)
 
     def _same(self, point: Codimension2Point, other: Codimension2Point) -> bool:
-        """Whether two points are the same place, and of the same orbit unless they have the same kinds.
+        """Whether two points are at the same place and have the same kinds, or belong to the same orbit.
 
-        A resonance is told apart from all else there: it may lie next to a point where two folds meet.
+        A resonance is never merged with a point of other kinds: it may lie next to a point where two folds meet.
         """
         alike = sorted(_parts(point)) == sorted(_parts(other))
         if not alike and ("resonance" in point.kind or "resonance" in other.kind):
@@ -130,7 +130,7 @@ def _parts(point: Codimension2Point) -> list[str]:
 
 
 def _joined(point: Codimension2Point, other: Codimension2Point) -> str:
-    """Kinds of both points; the name of the first is kept if it says all."""
+    """Kinds of both points: the kind of the first, extended by those kinds of the second that it lacks."""
     missing = [part for part in _parts(other) if part not in _parts(point)]
     return " + ".join([point.kind, *missing])
 
@@ -144,21 +144,20 @@ def map_regions(
     lasting: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> RegionMap:
-    """Draw the map of a plane: the curves of bifurcations, and the regions between them.
+    """Compute the map of a plane: the curves of bifurcations, and the regions between them.
 
-    Curves are followed from the special points of both parameters' diagrams through the present parameters (through the
-    middle of the plane if they lie outside), and from every change of motions between neighbouring points of the grid that
-    no curve explains: the bifurcation is found by bisection.  A change whose bifurcation cannot be followed is listed in
-    ``unexplained``.  A region that fits between the points of the grid, and that no curve from elsewhere enters, may be
-    missed.
+    Curves start from the special points of the diagrams along both parameters through the present parameters (through
+    the middle of the plane if they lie outside).  Further curves start from every change of motions between
+    neighbouring points of the grid that no curve explains; there the bifurcation is found by bisection.  A change whose
+    bifurcation cannot be followed is listed in ``unexplained``.  A region may be missed if it fits between the points
+    of the grid and no curve from elsewhere enters it.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        Of the machine.
     plane : Plane
     grid : int
-        Grid points a side at which motions are counted.
+        Number of grid points per side at which motions are counted.
     virtual : bool
         Follow bifurcations of virtual orbits too.
     lasting : bool
@@ -213,7 +212,7 @@ def map_regions(
 def _through_diagram(
     base: Parameters, plane: Plane, diagram: Diagram, virtual: bool, curves: list[Curve], lost: list[str]
 ) -> list[Curve]:
-    """Known curves, and those through the special points of a diagram; what fails is added to the lost ones."""
+    """Add to the known curves those through the special points of a diagram; failures are appended to ``lost``."""
     name = diagram.parameter
     for point in diagram.points:
         if point.kind not in KINDS or not (virtual or point.admissible) or point.branch.startswith("rubbing"):

@@ -16,12 +16,12 @@ from carom.parameters import Parameters
 __all__ = ["TURNS", "beside_resonance"]
 
 TURNS = {"resonance-1:1": 1.0, "resonance-1:2": -1.0}
-"""The multiplier that is double."""
+"""Value of the double multiplier at each resonance."""
 ASIDE = 1e-5
-"""What the sum of the pair lacks in ±2 at the point beside; some curves never lack more than 1e-4."""
+"""Distance of the pair's sum from ±2 at the start of the curve; on some curves it never exceeds 1e-4."""
 ARRIVED, ITERATIONS = 1e-10, 20
 DIFFERENCE = 6e-6
-"""Step of central differences: the third root of rounding."""
+"""Step of central differences: the cube root of the rounding error."""
 
 
 def beside_resonance(
@@ -29,8 +29,8 @@ def beside_resonance(
 ) -> tuple[tuple[float, float], Cause] | None:
     """A point of the Neimark–Sacker curve next to the resonance where it begins.
 
-    With the pair of multipliers ``e^{±iα}`` the sum ``2 cos α`` of the pair is prescribed; place, period and radial speed are
-    the unknowns.
+    For the pair of multipliers ``e^{±iα}`` the sum ``2 cos α`` is prescribed; place, period and radial speed are the
+    unknowns.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def beside_resonance(
 
 
 def _newton(residual: Callable[[np.ndarray], np.ndarray], guess: np.ndarray) -> np.ndarray | None:
-    """Root of a function by Newton's method with central differences; ``None`` if it is not reached."""
+    """Root of a function by Newton's method with central differences; ``None`` if it does not converge."""
     shifts = DIFFERENCE * np.eye(len(guess))
     for _ in range(ITERATIONS):
         value = residual(guess)

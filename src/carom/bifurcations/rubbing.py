@@ -1,15 +1,16 @@
 """Periodic motions with a stretch of lasting contact, and where lasting contact begins.
 
-A single-impact orbit has impacts of finite speed, and where it grazes, its radius has a maximum: the wall is met with a
-normal acceleration inward, so the new impact of vanishing speed is a bounce, not the beginning of a rub.  With
-``d > 0`` lasting contact begins elsewhere, on motions whose bounces accumulate: they chatter, slide and lift off, and
-the onset is where the chatter is complete at the very moment at which the normal force vanishes.  (With ``d = 0`` there is
-no chatter, and the onset lies on the single-impact orbit itself: :func:`~carom.bifurcations.conditions.pressed_on`.)
+A single-impact orbit has impacts of finite speed.  Where it grazes, its radius has a maximum: the acceleration at the
+wall points inward, so the new impact of vanishing speed is a bounce, not the beginning of a rub.  With ``d > 0``
+lasting contact begins elsewhere, on motions whose bounces accumulate: they chatter, slide and lift off.  At the onset
+the chatter is complete at the same moment at which the normal force vanishes.  (With ``d = 0`` there is no chatter, and
+the onset lies on the single-impact orbit itself: :func:`~carom.bifurcations.conditions.pressed_on`.)
 
-The motion from one lift-off to the next is a map of one variable (:mod:`~carom.bifurcations.lift_offs`): its fixed points
-are periodic motions with one lift-off a period, its slope is their only multiplier that is not zero, as contact forgets
-all else.  A branch of them ends where the lasting contact shrinks to nothing (its onset), or where the flights do: the
-normal force then just touches zero once a period, and beyond the rotor stays on the wall (permanent contact).
+The motion from one lift-off to the next is a map of one variable (:mod:`~carom.bifurcations.lift_offs`).  Its fixed
+points are periodic motions with one lift-off a period.  Its slope is their only nonzero multiplier, because no other
+disturbance survives the lasting contact.  A branch of them ends where the lasting contact shrinks to nothing (its
+onset), or where the flights do: the normal force then just touches zero once a period, and beyond that the rotor stays
+on the wall (permanent contact).
 """
 
 from __future__ import annotations
@@ -43,15 +44,15 @@ __all__ = [
 
 SAMPLES = 48
 HALVINGS = 10
-"""Of the angles between the last that has a next lift-off and the first that has none."""
+"""Bisections between an angle that has a next lift-off and a neighbouring one that has none."""
 STEPS = Steps(first=0.01, largest=0.05, smallest=1e-7, tolerance=1e-9, most_points=400)
 DIFFERENCE = 1e-6
 FORCE_SHARE = 0.05
-"""Landing force, relative to the largest on the branch, below which a branch that ends there ends in the onset."""
+"""Landing force, relative to the largest on the branch, below which its end is an onset or permanent contact."""
 SAME_PERIOD = 0.02
-"""Relative change of the period beyond which another motion has taken over."""
+"""Relative change of the period beyond which the motion counts as another one."""
 FINEST = 1e-11
-"""Relative step of the parameter at which the search for the end of a branch is over."""
+"""Relative step of the parameter at which the search for the end of a branch stops."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -65,9 +66,9 @@ class RubbingOrbit(Result):
     angle : float
         ``x = θ − φ`` at the lift-off, rad.
     lift_off : LiftOff
-        The next one.
+        The next lift-off.
     multiplier : float
-        By which a small change of the angle grows from lift-off to lift-off; the other multipliers are zero.
+        Factor by which a small change of the angle grows from lift-off to lift-off; the other multipliers are zero.
     """
 
     parameters: Parameters
@@ -78,7 +79,7 @@ class RubbingOrbit(Result):
 
     @property
     def period(self) -> float:
-        """In ``1/Ω``."""
+        """Period in ``1/Ω``."""
         return self.lift_off.time
 
     @property
@@ -87,7 +88,7 @@ class RubbingOrbit(Result):
         return abs(self.multiplier) < 1.0
 
     def trajectory(self, periods: float = 1.0) -> Trajectory:
-        """Follow it from a lift-off."""
+        """Follow the motion from a lift-off."""
         return simulate(
             Jeffcott(self.parameters), _start(self.parameters, self.whirl, self.angle), periods * self.period
         )
@@ -150,7 +151,7 @@ def rubbing_orbits(
 ) -> tuple[RubbingOrbit, ...]:
     """Periodic motions with one stretch of lasting contact a period, found from evenly spaced angles of lift-off.
 
-    Stable and unstable ones; two whose angles lie closer than ``2π/samples`` may be missed.
+    Stable and unstable ones are found; two whose angles lie closer than ``2π/samples`` may be missed.
 
     Parameters
     ----------
@@ -158,7 +159,7 @@ def rubbing_orbits(
     longest : float
         Longest period, in ``1/Ω``.
     samples : int
-        Angles tried in each direction of whirl.
+        Number of angles tried in each direction of whirl.
 
     Returns
     -------
@@ -184,7 +185,7 @@ def rubbing_orbits(
 
 
 def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float, float]) -> RubbingBranch:
-    """Follow a periodic motion with lasting contact along a parameter, to where lasting contact begins.
+    """Continue a periodic motion with lasting contact along a parameter, up to the onset of lasting contact.
 
     Parameters
     ----------
@@ -267,7 +268,7 @@ class _Map:
         return next_lift_off(rotor, self.whirl, angle)
 
     def shift(self, angle: float, value: float) -> float:
-        """How far it is from the last, in rad."""
+        """Angle from a lift-off to the next, in rad."""
         return shift_of(self.after(angle, value), self.whirl, angle)
 
     def multiplier(self, angle: float, value: float) -> float:
@@ -276,7 +277,7 @@ class _Map:
         return 1.0 + (ends[0] - ends[1]) / (2.0 * DIFFERENCE)
 
     def alike(self, period: float) -> Callable[[float, float], float]:
-        """The same shift, but only of motions with nearly this period."""
+        """The same function restricted to motions with nearly this period; ``nan`` for others."""
 
         def shift(angle: float, value: float) -> float:
             found = self.after(angle, value)
@@ -287,7 +288,7 @@ class _Map:
 
 
 def _why_it_ends(course: list[LiftOff], end: Literal[0, -1]) -> str:
-    """Why a branch ends at its first or last motion, where the equations do."""
+    """Reason why the equations, and so the branch, end at its first or last motion."""
     last = course[end]
     if len(course) > 1 and last.landing_force < FORCE_SHARE * max(entry.landing_force for entry in course):
         return "contact-onset" if last.contact_time < 0.5 * last.time else "permanent-contact"
@@ -295,7 +296,7 @@ def _why_it_ends(course: list[LiftOff], end: Literal[0, -1]) -> str:
 
 
 def _brackets(shift: Callable[[float], float], angles: list[float]) -> list[tuple[float, float]]:
-    """Intervals in which the lift-off comes back to its angle, those next to where there is no next lift-off included."""
+    """Intervals that contain a fixed point of the map, including those next to angles without a next lift-off."""
     brackets = []
 
     def note(low: float, at_low: float, high: float, at_high: float) -> None:
@@ -345,13 +346,14 @@ def end_of_motions(
 ) -> tuple[float, float]:
     """Last angle and value of a parameter at which the motion exists.
 
-    The equations end there, so they have no derivative.  A line predicts, the slope of the residual from inside corrects;
-    the step is doubled until it fails for the first time, then halved.
+    The equations end there, so they have no derivative at that point.  The predictor is a straight line; the corrector
+    uses the slope of the residual at a point before the end.  The step is doubled until it fails for the first time;
+    after each failure it is halved.
 
     Parameters
     ----------
     residual : callable
-        Of angle and value; ``nan`` where there is no such motion.
+        Function of angle and value; ``nan`` where there is no such motion.
     start : tuple of float
         Angle and value of a motion near the end.
     lean : float
@@ -359,9 +361,9 @@ def end_of_motions(
     step : float
         First change of the value, towards the end.
     slope : float
-        Derivative of the residual by the angle.
+        Derivative of the residual with respect to the angle.
     finest : float
-        Step of the value at which the search is over.
+        Step of the value at which the search stops.
 
     Returns
     -------
@@ -387,7 +389,7 @@ def end_of_motions(
 
 
 def _towards_end(residual: Callable[[float, float], float], points: np.ndarray, size: float) -> tuple[float, float]:
-    """The same from the points of a branch, shape (m, 2), the last of which is next to the end."""
+    """:func:`end_of_motions` from the points of a branch, shape (m, 2), the last of which is next to the end."""
     angle, value = points[-1].tolist()
     far = np.flatnonzero(np.abs(points[:, 1] - value) > 1e-6 * size)
     if not len(far):

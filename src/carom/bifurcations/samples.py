@@ -1,4 +1,4 @@
-"""Attractors found by simulation along a parameter: what a diagram of known motions leaves out."""
+"""Attractors found by simulation along a parameter, including those that a diagram of known motions lacks."""
 
 from __future__ import annotations
 
@@ -32,23 +32,24 @@ class AttractorSample(Result):
     Attributes
     ----------
     value : float
-        Of the parameter, in SI units if it is physical.
+        Value of the parameter, in SI units if it is physical.
     name : str
-        That of :class:`~carom.attractors.Attractor`: ``"levitation"``, ``"B1,d"``, ``"irregular bouncing"``, ``"rolling"``, …
+        Name as in :class:`~carom.attractors.Attractor`: ``"levitation"``, ``"B1,d"``, ``"irregular bouncing"``,
+        ``"rolling"``, …
     outcome : str
         Label of its :class:`~carom.outcome.Outcome`.
     whirl : str
         ``"forward"``, ``"backward"`` or ``"none"`` in the fixed frame.
     count : int
-        Disturbances that end on it.
+        Number of disturbances that end on it.
     share : float
         The same as a share of all disturbances followed at this value.
     known : int
-        Starts next to a motion known in closed form that end on it; they are no disturbances.
+        Number of starts next to a motion known in closed form that end on it; these are not disturbances.
     radial_speeds : ndarray
-        Of its impacts (at most 60), in ``c_r Ω``; empty without impacts.
+        Radial speeds of its impacts (at most 60), in ``c_r Ω``; empty without impacts.
     survival : Survival or None
-        Of irregular bouncing: how long it lasts.
+        How long it lasts, if it is irregular bouncing.
     """
 
     value: float
@@ -63,7 +64,7 @@ class AttractorSample(Result):
 
     @property
     def transient(self) -> bool:
-        """Whether it is no attractor but irregular bouncing that ends."""
+        """Whether it is not an attractor but irregular bouncing that ends."""
         return self.survival is not None and self.survival.transient
 
     @property
@@ -81,7 +82,7 @@ def sample_attractors(
     values: int = VALUES,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[AttractorSample, ...]:
-    """Follow disturbances to where they settle, at evenly spaced values of a parameter.
+    """Follow disturbances until they settle, at evenly spaced values of a parameter.
 
     Parameters
     ----------
@@ -89,16 +90,17 @@ def sample_attractors(
     parameter : str
     interval : tuple of float
     disturbances : DisturbanceSet
-        Those followed at each value.  Starts next to every known motion are followed besides; they count for no share.
+        Disturbances followed at each value.  Starts next to every known motion are followed too, but do not count for
+        the shares.
     values : int
     progress : callable, optional
-        Called with the share done.
+        Called with the fraction done.
 
     Returns
     -------
     tuple of AttractorSample
-        In growing order of the parameter.  Motions that were given up are left out; irregular bouncing that ends is an
-        ``"irregular transient"``, with the share of the disturbances that went through it for 1000 impacts and more.
+        In ascending order of the parameter.  Motions that were given up are left out.  Irregular bouncing that ends is
+        an ``"irregular transient"``, with the share of the disturbances that were in it for 1000 impacts or more.
     """
     tell = progress or (lambda _: None)
     found: list[AttractorSample] = []
@@ -139,7 +141,7 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
 
 
 def _impacts(rotor: Jeffcott, attractor: Attractor) -> np.ndarray:
-    """Radial speeds of the impacts on an attractor, one period's of a periodic one."""
+    """Radial speeds of the impacts on an attractor; for a periodic one those of one period."""
     if attractor.outcome not in BOUNCES:
         return np.empty(0)
     log = simulate(rotor, attractor.state, LONGEST, max_events=50 * SHOWN_IMPACTS).contacts

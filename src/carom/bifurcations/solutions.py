@@ -15,12 +15,12 @@ __all__ = ["Solution", "orbit_solutions"]
 
 
 class Solution(NamedTuple):
-    """A solution, without multipliers and certificate.
+    """A solution, without multipliers and without certified admissibility.
 
     Attributes
     ----------
     name : str
-        That of the orbit.
+        Name of the orbit.
     numbers : Numbers
         Parameters; with negative ``mu`` for backward slip.
     period, radial_speed : float
@@ -42,14 +42,14 @@ def orbit_solutions(
     ----------
     parameters : Parameters
     longest_period : float, optional
-        Look for periods up to this only, in ``1/Ω``.
+        Longest period searched, in ``1/Ω``.
     backward : bool
-        For orbits whose slip runs backward, instead of forward.
+        Whether to solve for orbits with backward slip instead of forward slip.
 
     Returns
     -------
     list of Solution
-        Those that leave the wall: with a positive radial speed.
+        Solutions with a positive radial speed, which meet the wall from inside.
     """
     rotor = Jeffcott(parameters)
     if rotor.equilibrium == 0.0:

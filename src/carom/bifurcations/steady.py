@@ -35,19 +35,19 @@ class SpecialValue:
     Attributes
     ----------
     kind : str
-        That of a :class:`~carom.bifurcations.branches.Bifurcation`, ``"boundary-equilibrium"``, ``"rub-fold"`` or
+        Kind of a :class:`~carom.bifurcations.branches.Bifurcation`, or ``"boundary-equilibrium"``, ``"rub-fold"`` or
         ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at every angle).
     branch : str
         Orbit or steady motion it belongs to.
     parameter : str
     value : float
-        In SI units if the parameter is physical.
+        Value of the parameter, in SI units if it is physical.
     period : float or None
     radial_speed : float or None
     admissible : bool
-        Whether it happens to a motion of the machine, or to one that just begins or ends to be one.
+        Whether it happens to a motion of the machine, or to one that just becomes or ceases to be one.
     detail : str
-        Of a boundary equilibrium ``"persistence"`` (levitation goes over into rub: a rub begins) or ``"non-smooth fold"``
+        For a boundary equilibrium ``"persistence"`` (levitation goes over into a rub) or ``"non-smooth fold"``
         (levitation and an unstable rub vanish together).
     """
 
@@ -83,14 +83,14 @@ class EquilibriumBranch(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RollingBranch(Result):
-    """Rolling round the bearing in backward whirl (:mod:`carom.closed_forms.whirl`) along the parameter.
+    """Rolling on the bearing in backward whirl (:mod:`carom.closed_forms.whirl`) along the parameter.
 
     Attributes
     ----------
     values, largest_force : ndarray, shape (m,)
-        The normal force, largest in a turn, is in ``m c_r Ω²``.
+        Values of the parameter, and the largest normal force over a turn in ``m c_r Ω²``.
     holds : ndarray of bool, shape (m,)
-        Whether a rotor that rolls goes on rolling.
+        Whether a rotor that rolls keeps rolling.
     """
 
     values: np.ndarray
@@ -99,7 +99,7 @@ class RollingBranch(Result):
 
 
 def rolling_branch(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> RollingBranch:
-    """Where the rotor can roll, on an even grid."""
+    """Rolling on an evenly spaced grid of the parameter."""
     base = Numbers.of(parameters)
     grid = np.linspace(*interval, SAMPLES)
     found = [rolling(Jeffcott(along.set(base, value).parameters)) for value in grid.tolist()]
@@ -123,24 +123,31 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
         for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
             root = bracketed_root(function, grid[i], grid[i + 1])
             at = along.set(base, root)
-            real = {"rub-fold": happens_to_rubs, "rolling-limit": _rolling_presses}.get(kind, lambda _: True)(at)
-            detail = _what_becomes_of_levitation(at) if kind == "boundary-equilibrium" else ""
+            real = {"rub-fold": happens_to_rubs, "rolling-limit": _rolling_keeps_contact}.get(kind, lambda _: True)(at)
+            detail = _boundary_kind(at) if kind == "boundary-equilibrium" else ""
             points.append(SpecialValue(kind, branch, along.name, root, None, None, real, detail))
     return points
 
 
-def _what_becomes_of_levitation(numbers: Numbers) -> str:
-    """Persistence where the synchronous rub lives on the other side, ``1 − ω² < μγ`` (:mod:`carom.bifurcations.boundary`)."""
+def _boundary_kind(numbers: Numbers) -> str:
+    """Persistence where the synchronous rub exists on the other side, ``1 − ω² < μγ``, otherwise non-smooth fold.
+
+    See :mod:`carom.bifurcations.boundary`.
+    """
     return "persistence" if 1.0 - numbers.omega**2 < numbers.mu * numbers.gamma else "non-smooth fold"
 
 
-def _rolling_presses(numbers: Numbers) -> bool:
+def _rolling_keeps_contact(numbers: Numbers) -> bool:
     """Whether the rotor stays on the wall at every angle while it rolls: ``s² − ω² > ρ``."""
     return numbers.radius_ratio**2 - numbers.omega**2 > numbers.rho
 
 
 def happens_to_rubs(numbers: Numbers) -> bool:
-    """Whether, at a fold of rubs, the rubs that meet are pressed on the wall: ``N = ρ cos x + 1 − ω²`` with ``tan x = −1/μ`` there."""
+    """Whether the rubs that meet at a fold are pressed on the wall.
+
+    The condition is ``N = ρ cos x + 1 − ω² > 0``, with ``cos x = −μ/√(1 + μ²)`` at the fold where
+    ``γ + μ(1 − ω²) > 0``.
+    """
     cosine = -numbers.mu / np.hypot(1.0, numbers.mu)
     return bool(numbers.rho * cosine + 1.0 - numbers.omega**2 > 0.0)
 
@@ -148,7 +155,7 @@ def happens_to_rubs(numbers: Numbers) -> bool:
 def equilibrium_branches(
     parameters: Parameters, along: Axis, interval: tuple[float, float]
 ) -> tuple[EquilibriumBranch, ...]:
-    """Levitation and both rubs on an even grid."""
+    """Levitation and both rubs on an evenly spaced grid of the parameter."""
     base = Numbers.of(parameters)
     grid = np.linspace(*interval, SAMPLES)
     kinds = ("contact-free", "stable rub", "saddle rub")

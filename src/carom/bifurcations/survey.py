@@ -1,4 +1,4 @@
-"""Curves seeded where the motions of neighbouring points of a plane differ, until each difference is explained."""
+"""Search for curves wherever the motions of neighbouring points of a plane differ, until each change is explained."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from carom.parameters import Parameters
 __all__ = ["Survey"]
 
 INSET = 1e-3
-"""Distance from its edges, in widths of the plane, of the outermost points that are looked at."""
+"""Distance of the outermost points from the edges, in widths of the plane."""
 BESIDE = 0.01
-"""Distance from a curve, in lengths of the line that it crosses, at which the motions on both sides are looked at."""
+"""Distance from a curve at which motions on both sides are compared, as a fraction of the line that it crosses."""
 MOST_CHANGES = 30
-"""Changes looked for between two neighbouring points."""
+"""Largest number of changes searched between two neighbouring points."""
 
 
 @dataclass(eq=False)
@@ -35,10 +35,10 @@ class Survey:
     parameters : Parameters
     plane : Plane
     curves : list of Curve
-        Those known before; what is found is added.
+        Curves known before; curves that are found are added.
     unexplained : list of UnexplainedChange
     seen : dict
-        A point for each set of motions met between the points of the grid.
+        A point for each set of motions found at or between the points of the grid.
     """
 
     parameters: Parameters
@@ -55,13 +55,13 @@ class Survey:
         return xs, ys
 
     def stand(self, place: np.ndarray) -> Stand:
-        """The motions at a point."""
+        """Determine the motions at a point, and record them in ``seen``."""
         motions = motions_at(self.plane.at(self.parameters, *place.tolist()))
         self.seen.setdefault(motions, (float(place[0]), float(place[1])))
         return Stand(place, motions)
 
     def explain_all(self, stands: Sequence[Sequence[Stand]], progress: Callable[[float], None]) -> None:
-        """Look at each line between neighbouring points of a grid whose motions differ."""
+        """Explain the changes between all neighbouring points of a grid whose motions differ."""
         for i, column in enumerate(stands):
             for j, here in enumerate(column):
                 for other in [*(next_column[j] for next_column in stands[i + 1 : i + 2]), *column[j + 1 : j + 2]]:
@@ -70,7 +70,7 @@ class Survey:
             progress((i + 1) / len(stands))
 
     def leave_resonances(self) -> None:
-        """Follow the Neimark–Sacker curves that begin at resonances 1:1 and 1:2 of curves known so far."""
+        """Follow the Neimark–Sacker curves that begin at the resonances 1:1 and 1:2 of the known curves."""
         for point in [point for curve in self.curves for point in curve.codimension2 if point.kind in TURNS]:
             cause = Cause("neimark-sacker", point.period, point.radial_speed)
             if point.admissible and not self._known(point.value, cause):
@@ -81,21 +81,21 @@ class Survey:
     def explain(self, first: Stand, last: Stand) -> None:
         """Find the cause of every change of motions on the straight line between two points.
 
-        Where known curves cross the line, the motions on both sides of the crossing are compared; what these curves do not
-        account for is looked for by bisection.
+        Where known curves cross the line, the motions on both sides of the crossing are compared.  Changes that these
+        curves do not account for are located by bisection.
         """
         line, here = last.place - first.place, first
         for start, end, kinds in self._crossed(first, last):
             near = self.stand(first.place + max(start - BESIDE, 0.0) * line)
             far = self.stand(first.place + min(end + BESIDE, 1.0) * line)
-            self._settle(here, near)
+            self._explain_changes(here, near)
             if not accounts_for(kinds, near.motions, far.motions):
-                self._settle(near, far)
+                self._explain_changes(near, far)
             here = far
-        self._settle(here, last)
+        self._explain_changes(here, last)
 
     def _crossed(self, first: Stand, last: Stand) -> list[tuple[float, float, set[str]]]:
-        """Crossings of the line by known curves, those next to each other together: first and last share, and kinds."""
+        """Crossings of the line by known curves, grouped if close together: first and last share, and kinds."""
         found = sorted(
             (share, curve.kind) for curve in self.curves for share in crossings(curve, first.place, last.place)
         )
@@ -107,18 +107,18 @@ class Survey:
                 groups.append((share, share, {kind}))
         return groups
 
-    def _settle(self, low: Stand, high: Stand) -> None:
+    def _explain_changes(self, low: Stand, high: Stand) -> None:
         """Explain or record the changes between two points one by one."""
         for _ in range(MOST_CHANGES):
             if low.motions == high.motions:
                 return
             nearer, further = change_between(self.parameters, self.plane, low, high)
-            self._account_for(nearer, further)
+            self._explain_bracket(nearer, further)
             low = further
         self._record(low, high, f"more than {MOST_CHANGES} changes between two neighbouring points")
 
-    def _account_for(self, low: Stand, high: Stand) -> None:
-        """Find or continue the curves that pass a narrow bracket."""
+    def _explain_bracket(self, low: Stand, high: Stand) -> None:
+        """Find or continue the curves through a narrow bracket; record the change if they do not explain it."""
         known, reasons = set(), []
         for cause in causes_between(self.parameters, self.plane, low, high):
             reason = "" if self._known(low.place, cause) else self._follow(low.place, cause)
@@ -133,7 +133,7 @@ class Survey:
         return any(passes(curve, place, cause) for curve in self.curves)
 
     def _follow(self, place: Place, cause: Cause) -> str:
-        """Continue a curve; why it failed, or nothing."""
+        """Continue a curve; return the reason if it failed, or an empty text."""
         at = self.plane.at(self.parameters, float(place[0]), float(place[1]))
         try:
             curve = continue_curve(cause.kind, at, self.plane, cause.unknowns)

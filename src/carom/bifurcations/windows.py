@@ -1,9 +1,9 @@
-"""Where along a parameter single-impact orbits are motions of the machine, and what ends each stretch.
+"""Windows of a parameter in which single-impact orbits are motions of the machine, and what ends each window.
 
-At some values of the parameter all orbits are known.  Between two of them an orbit that is admissible at both, and not
-near to losing that, is taken to be so throughout.  Every other orbit is followed from one value to the other, with the
-special points on the way: where it appears, vanishes, becomes virtual or changes its stability between the values, and
-where it comes near to that without doing so at either.
+At given values of the parameter all orbits are known.  An orbit that is admissible at two neighbouring values, and not
+close to becoming virtual, is taken to be admissible between them.  Every other orbit is continued from one value to the
+other.  The special points on the way show where it appears, vanishes, becomes virtual or changes its stability, even if
+it does so only between the values.
 """
 
 from __future__ import annotations
@@ -29,28 +29,28 @@ __all__ = ["OrbitWindows", "Window", "WindowEnd", "orbit_windows"]
 SAME = 1e-6
 """Relative difference of period and radial speed below which two solutions are the same."""
 MERGED = 1e-9
-"""Relative width of a gap that is none."""
+"""Relative width of a gap below which two windows are merged."""
 SHORT = 1e-3
-"""Period, in ``1/Ω``, below which a branch that ends ends because its period vanishes."""
+"""Period, in ``1/Ω``, below which the end of a branch is attributed to a vanishing period."""
 FAR = -1.0
-"""What an orbit that meets another between two values is short of being admissible, so that it surely stays virtual."""
+"""Margin at which an orbit without a partner at the next value is not followed: it surely stays virtual."""
 
 Level = Literal["possible", "stable"]
 
 
 @dataclass(frozen=True)
 class WindowEnd:
-    """Where a window ends.
+    """One end of a window.
 
     Attributes
     ----------
     value : float
-        Of the parameter.
+        Value of the parameter.
     kind : str
-        That of the special point there (:class:`~carom.bifurcations.Bifurcation`), ``"vanishing-period"``, or empty at
-        the end of what was searched.
+        Kind of the special point there (:class:`~carom.bifurcations.Bifurcation`), ``"vanishing-period"``, or empty at
+        the end of the searched range.
     name : str
-        Of the orbit that appears, vanishes or changes there; empty at the end of what was searched.
+        Name of the orbit that appears, vanishes or changes there; empty at the end of the searched range.
     period, radial_speed : float or None
         Its period in ``1/Ω`` and radial speed in ``c_r Ω``.
     """
@@ -64,7 +64,7 @@ class WindowEnd:
 
 @dataclass(frozen=True)
 class Window:
-    """A stretch of the parameter on which there is an orbit throughout."""
+    """An interval of the parameter throughout which there is an orbit."""
 
     low: WindowEnd
     high: WindowEnd
@@ -72,17 +72,17 @@ class Window:
 
 @dataclass(frozen=True)
 class OrbitWindows:
-    """Windows of single-impact orbits along one parameter, in growing order.
+    """Windows of single-impact orbits along one parameter, in ascending order.
 
     Attributes
     ----------
     parameter : str
     values : tuple of float
-        At which all orbits were looked for.
+        Values at which all orbits were searched.
     possible : tuple of Window
-        Where some orbit is admissible, stable or not.
+        Windows where some orbit is admissible, stable or not.
     stable : tuple of Window
-        Where some admissible orbit is stable.
+        Windows where some admissible orbit is stable.
     """
 
     parameter: str
@@ -92,7 +92,7 @@ class OrbitWindows:
 
 
 class _Member(NamedTuple):
-    """A solution at one value, and what is left until it is not admissible, or not stable, any more."""
+    """A solution at one value, with its margins of admissibility and of stability."""
 
     solution: Solution
     possible: float
@@ -120,10 +120,11 @@ def orbit_windows(
     parameter : str
         Dimensionless, or physical (in SI units; needs scales).
     values : sequence of float
-        In growing order: where to look for all orbits (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two
-        of them is found if an orbit that has it exists at one of them, or nearly so.
+        Values, in ascending order, at which all orbits are searched
+        (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two of them is found if its orbit
+        is admissible, or nearly so, at one of them.
     progress : callable, optional
-        Called with the share done, 0 to 1.
+        Called with the fraction done, 0 to 1.
 
     Returns
     -------
@@ -140,7 +141,7 @@ def orbit_windows(
     pieces: dict[Level, list[Window]] = {level: [] for level in _LEVELS}
     for place, (low, high) in enumerate(cells):
         left, right, pairs = columns[place], columns[place + 1], partners[place]
-        whole = {level: _held(left, right, pairs, near[level][place], level) for level in _LEVELS}
+        whole = {level: _holds_between(left, right, pairs, near[level][place], level) for level in _LEVELS}
         for level in _LEVELS:
             if whole[level]:
                 pieces[level].append(Window(WindowEnd(low), WindowEnd(high)))
@@ -179,9 +180,10 @@ def _member(solution: Solution) -> _Member:
 
 
 def _is_far_outside(numbers: Numbers, period: float, speed: float) -> bool:
-    """Whether some samples show the radius far beyond the wall: most orbits of long period are, soon after the impact.
+    """Whether some samples of the radius lie far beyond the wall.
 
-    All extrema of their radius would take long to find.
+    This is so for most orbits of long period, soon after the impact.  To find all extrema of their radius would take
+    long.
     """
     step = 0.5 / (1.0 + numbers.omega + numbers.gamma)
     return any(
@@ -191,10 +193,10 @@ def _is_far_outside(numbers: Numbers, period: float, speed: float) -> bool:
 
 
 def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
-    """Which solution on the right each one on the left goes over to, as far as Newton's method finds it at once.
+    """Index of the solution on the right into which each one on the left continues, where Newton's method finds it.
 
-    Where two solutions are close Newton's method may find the other one.  The letter of the name tells: without a fold on
-    the way each keeps its own.
+    Where two solutions are close, Newton's method may converge to the wrong one.  The letters of the names must
+    therefore agree: without a fold in between each solution keeps its letter.
     """
     found: dict[int, int] = {}
     for backward in (False, True):
@@ -222,10 +224,11 @@ def _same(period: float, speed: float, other_period: float, other_speed: float) 
 
 
 def _near_zero(columns: list[list[_Member]], partners: list[dict[int, int]], level: Level) -> list[set[int]]:
-    """For each cell, the solutions on its left that may pass zero and come back within it or the next.
+    """For each interval, the solutions at its left end whose margin may cross zero and return within it or the next.
 
-    Of three values of one sign the middle one is nearest to zero, and the parabola through them bends by more than
-    that: it may reach zero between them.  Those far from zero are left out.
+    The criterion looks at three successive margins of one sign.  If the middle one is nearest to zero and the parabola
+    through them is bent by more than its distance from zero, the margin may reach zero between them.  Margins far from
+    zero are left out.
     """
     near: list[set[int]] = [set() for _ in partners]
     for place, (first, second) in enumerate(pairwise(partners)):
@@ -242,8 +245,10 @@ def _near_zero(columns: list[list[_Member]], partners: list[dict[int, int]], lev
     return near
 
 
-def _held(left: list[_Member], right: list[_Member], pairs: dict[int, int], near: set[int], level: Level) -> bool:
-    """Whether one orbit is there from one value to the other."""
+def _holds_between(
+    left: list[_Member], right: list[_Member], pairs: dict[int, int], near: set[int], level: Level
+) -> bool:
+    """Whether one orbit has the property at both values, and is taken to have it between them."""
     return any(
         getattr(left[one], level) > 0.0 and getattr(right[other], level) > 0.0 and one not in near
         for one, other in pairs.items()
@@ -253,7 +258,7 @@ def _held(left: list[_Member], right: list[_Member], pairs: dict[int, int], near
 def _to_follow(
     left: list[_Member], right: list[_Member], pairs: dict[int, int], open_levels: list[tuple[Level, set[int]]]
 ) -> list[Solution]:
-    """Solutions that change between two values, or may: one of each branch, if possible from where it is admissible."""
+    """Solutions that change between two values, or may change; of a pair the one with the larger margin."""
     chosen = [member for index, member in enumerate(left) if index not in pairs and member.possible > FAR]
     chosen += [member for index, member in enumerate(right) if index not in pairs.values() and member.possible > FAR]
     for one, other in pairs.items():
@@ -267,7 +272,7 @@ def _to_follow(
 
 
 def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[float, float]) -> list[_Arc]:
-    """Arcs of the branches through some solutions at either end of an interval."""
+    """Arcs of the branches through the given solutions, each of which lies at one end of the interval."""
     arcs: list[_Arc] = []
     passed: list[tuple[Numbers, float, float]] = []
     for solution in solutions:
@@ -288,7 +293,7 @@ def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[flo
 
 
 def _arcs(branch: OrbitBranch) -> list[_Arc]:
-    """Parts between special points; the parameter grows, or falls, all along each."""
+    """Parts of a branch between its special points; along each the parameter is monotone."""
     marks = [
         (0.0, _branch_end(branch, 0)),
         *(
@@ -322,7 +327,7 @@ def _branch_end(branch: OrbitBranch, end: Literal[0, -1]) -> WindowEnd:
 def _halfway(
     branch: OrbitBranch, start: tuple[float, WindowEnd], end: tuple[float, WindowEnd]
 ) -> tuple[Numbers, float, float] | None:
-    """Orbit in the middle of an arc; ``None`` where Newton's method does not find it."""
+    """Orbit in the middle of an arc; ``None`` if Newton's method does not converge to one."""
     inner = np.arange(int(np.floor(start[0])) + 1, int(np.ceil(end[0])))
     ends = [_at_mark(branch, mark) for mark in (start, end)]
     values = np.array([ends[0][0], *branch.values[inner], ends[1][0]])
@@ -350,7 +355,7 @@ def _at_mark(branch: OrbitBranch, mark: tuple[float, WindowEnd]) -> tuple[float,
 
 
 def _joined(pieces: Iterable[Window]) -> tuple[Window, ...]:
-    """Windows that touch or overlap as one."""
+    """Merge windows that touch or overlap."""
     joined: list[Window] = []
     for piece in sorted(pieces, key=lambda window: window.low.value):
         if joined and piece.low.value <= joined[-1].high.value + MERGED * abs(piece.low.value):

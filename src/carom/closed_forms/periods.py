@@ -18,8 +18,8 @@ hence a bound of ``|F₁''|`` on any interval, and ``g(z) = Σ e^{mz}`` gives a 
 the bounds grow at the rate of ``|F₁''|`` itself, so the intervals need only shrink in proportion to the distance from
 the pole, unless the pole is one of the imaginary part alone (no damping and no friction).  An interval is discarded, or
 accepted as monotone, only when that bound proves it; one on which ``F₁`` cannot be distinguished from zero in double
-precision holds a double root, or a single one if ``F₁`` changes sign across it.  So all roots are counted correctly, down
-to the last pair.
+precision holds a double root, or a single one if ``F₁`` changes sign across it.  So all roots are counted correctly,
+down to the last pair.
 """
 
 from __future__ import annotations
@@ -88,9 +88,9 @@ class PeriodCondition:
     """``F₁`` of a system, its derivative and its bounds.
 
     :func:`carom.core.planar.returns` computes the same sums for the planar rotor alone.  Both are needed.  This class
-    takes any number of modes and many periods at a time, and gives the rounding error of each sum, which the proofs need.
-    The function takes less than a microsecond for one period, a hundredth of the time here; kernels that continuation
-    calls thousands of times use it.  The tests compare the two.
+    takes any number of modes and many periods at a time, and gives the rounding error of each sum, which the proofs
+    need.  The function takes less than a microsecond for one period, a hundredth of the time here; kernels that
+    continuation calls thousands of times use it.  The tests compare the two.
 
     Parameters
     ----------

@@ -21,25 +21,26 @@ unbalance drops out, and the threshold is the larger root for ``ρ = 0``.
 
 *Sliding faster than rolling* (``w > s``) friction slows the whirl: ``w' ≤ −γw − μ(w² − ω²) + p``.
 
-*Which motions can be periodic*, for ``γ, μ ≥ 0`` and not both zero (``docs/theory/lasting-contact.md`` derives and checks
-each step).
-With the friction force ``G`` and ``E = ½θ̇² − ρ cos x`` the equation ``W' = −γW − ρ sin x + G`` gives ``E' = −(γW − G)θ̇``.
+*Which motions can be periodic*, for ``γ, μ ≥ 0`` and not both zero (``docs/theory/lasting-contact.md`` derives and
+checks each step).  With the friction force ``G`` and ``E = ½θ̇² − ρ cos x`` the equation ``W' = −γW − ρ sin x + G``
+gives ``E' = −(γW − G)θ̇``.
 
 - A motion that slides with forward slip (``G = −μN``) has ``L' = −(γ + 2μ)θ̇²e^{2μx} ≤ 0`` for
-  ``L = ½θ̇²e^{2μx} + ∫(γ + ρ sin x + μ(ρ cos x + 1 − ω²))e^{2μx} dx``.  So if it is periodic without making a turn in the
-  co-rotating frame, it is a synchronous rub.
-- If it is periodic with a turn, ``θ̇`` keeps its sign, as paths in the plane of ``x`` and ``θ̇`` do not cross.  Over the turn
-  ``∮(γW + μN) dθ = 0``, so the mean of ``γW`` over the angle is that of ``−μN``, below zero.  So apart from the synchronous
-  rub there is no steady sliding whirl that is forward all the time, or forward in the mean over the angle.
-- Backward whirl (``W < 0`` over the whole turn).  ``γw + G`` has the mean zero over the angle, ``w = −W``.  Let ``A = s² − ω²`` and
-  ``γs > μA``.  Where slip is forward or none, ``γw + G ≥ h − μρ cos x`` with ``h = γw − μ(w² − ω²) > 0`` on ``0 ≤ w ≤ s``; where it is
-  backward, ``γw + G = γw + μN``, which exceeds ``−μρ cos x`` by ``γw + μN + μρ cos x > γs − μρ``.  For ``A ≥ ρ`` that is positive, and the mean is too.
-  For ``A < ρ`` contact at ``x = π`` requires ``w > s``, so slip is backward there and ``E ≥ ½(1 + √(ω² + ρ))² + ρ``, more than
-  ``½(1 + s)² + ρ``, the most that ``E`` can be where slip turns backward; and ``E`` falls while it is.  So no backward whirl in
-  lasting contact sustains itself for ``γ > μ(s² − ω²)/s``.
+  ``L = ½θ̇²e^{2μx} + ∫(γ + ρ sin x + μ(ρ cos x + 1 − ω²))e^{2μx} dx``.  So if it is periodic without making a turn in
+  the co-rotating frame, it is a synchronous rub.
+- If it is periodic with a turn instead, ``θ̇`` keeps its sign, as paths in the plane of ``x`` and ``θ̇`` do not cross.
+  Over the turn ``∮(γW + μN) dθ = 0``, so the mean of ``γW`` over the angle is that of ``−μN``, below zero.  So apart from the
+  synchronous rub there is no steady sliding whirl that is forward all the time, or forward in the mean over the angle.
+- Backward whirl (``W < 0`` over the whole turn).  ``γw + G`` has the mean zero over the angle, ``w = −W``.  Let
+  ``A = s² − ω²`` and ``γs > μA``.  Where slip is forward or none, ``γw + G ≥ h − μρ cos x`` with
+  ``h = γw − μ(w² − ω²) > 0`` on ``0 ≤ w ≤ s``; where it is backward, ``γw + G = γw + μN``, which exceeds ``−μρ cos x``
+  by ``γw + μN + μρ cos x > γs − μρ``.  For ``A ≥ ρ`` that is positive, and the mean is too.  For ``A < ρ`` contact at
+  ``x = π`` requires ``w > s``, so slip is backward there and ``E ≥ ½(1 + √(ω² + ρ))² + ρ``, more than
+  ``½(1 + s)² + ρ``, the most that ``E`` can be where slip turns backward; and ``E`` falls while it is.  So no backward
+  whirl in lasting contact sustains itself for ``γ > μ(s² − ω²)/s``.
 
-For lower damping there is a periodic sliding whirl near ``μ(w² − ω²) = γw``, but it is a repeller: the threshold between
-runaway and decay.
+For lower damping there is a periodic sliding whirl near ``μ(w² − ω²) = γw``, but it is a repeller: the threshold
+between runaway and decay.
 """
 
 from __future__ import annotations
@@ -203,8 +204,8 @@ def rub_limit(machine: Subject) -> float:
     Of its roots the larger is stable along the wall.  It is positive inside the disc ``κ² + γ² < ρ²``, and outside it
     where ``γ < κ/μ`` and the roots are real, ``γ + μκ ≤ ρ√(1 + μ²)``.  That line touches the circle at
     ``κ = ρμ/√(1 + μ²)``, ``γ = ρ/√(1 + μ²)``: for larger ``κ`` the rub ends in a fold on the line, for smaller ones its
-    force vanishes on the circle, where the contact-free equilibrium reaches the wall.  Above the limit there is no stable
-    rub; for positive damping below it there always is one.
+    force vanishes on the circle, where the contact-free equilibrium reaches the wall.  Above the limit there is no
+    stable rub; for positive damping below it there always is one.
 
     Parameters
     ----------

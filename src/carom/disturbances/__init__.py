@@ -1,9 +1,9 @@
 """Disturbances in engineering terms, and the starts of motions that result from them.
 
-A *model* says what happens to the rotor and by which coordinates it varies (for example size and direction of a kick).  A
-*plan* says which of these disturbances are tried: a :class:`Grid` of cells, each represented by its middle, or a seeded
-:class:`Sample` with every coordinate uniformly distributed.  Both give :class:`Starts`: states in the co-rotating frame,
-from which the motion is free.
+A *model* says what happens to the rotor and by which coordinates it varies (for example size and direction of a kick).
+A *plan* says which of these disturbances are tried: a :class:`Grid` of cells, each represented by its middle, or a
+seeded :class:`Sample` with every coordinate uniformly distributed.  Both give :class:`Starts`: states in the
+co-rotating frame, from which the motion is free.
 
 =======================  =====================================================================================
 :class:`VelocityKick`    a blow: the velocity changes at once, given by size and direction

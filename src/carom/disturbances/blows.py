@@ -22,7 +22,7 @@ __all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
 LONGEST_SHOCK = 1e4
-"""Longest duration, in ``1/Ω``: every pulse is followed to its end, which takes at most some 1600 turns of the shaft."""
+"""Longest duration, in ``1/Ω``: every pulse is followed to its end, over at most some 1600 turns of the shaft."""
 
 
 @dataclass(frozen=True)

@@ -1,14 +1,15 @@
 """Exact motion of the levitating rotor in a housing shaken by a half-sine pulse, contacts included.
 
 The housing carries magnetic bearings and touchdown bearing.  Relative to it, its acceleration
-``a(t) = â sin(νt) e^{iα}``, ``ν = π/T``, acts on a rigid rotor as a force ``−a`` per mass.  In the co-rotating frame that is
+``a(t) = â sin(νt) e^{iα}``, ``ν = π/T``, acts on a rigid rotor as a force ``−a`` per mass.  In the co-rotating frame
+that is
 
     Ü + (γ + 2i)U̇ + (ω² − 1 + iγ)U = ρe^{iφ} − (â e^{iα}/2i)(e^{s₁t} − e^{s₂t}),   s₁ = i(ν − 1),  s₂ = −i(ν + 1),
 
 so each of the two exponentials adds ``∓â e^{iα}/(2i D(s))`` times itself to the motion, with
-``D(s) = (s − λ₋)(s − λ₊)``.  They are two additional modes, with exponents of their own, that no impulse changes.  So the
-certified flight, the impacts and the lasting contact of :mod:`carom.core` apply unchanged during the pulse.  At its end
-the two modes are dropped, and position and velocity are kept: the housing then moves at constant velocity.
+``D(s) = (s − λ₋)(s − λ₊)``.  They are two additional modes, with exponents of their own, that no impulse changes.  So
+the certified flight, the impacts and the lasting contact of :mod:`carom.core` apply unchanged during the pulse.  At its
+end the two modes are dropped, and position and velocity are kept: the housing then moves at constant velocity.
 
 Limits: the housing is rigid and moves along a line; ``D(s)`` vanishes only for undamped levitation whose natural
 frequency is that of the pulse, which is refused.

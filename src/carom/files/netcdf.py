@@ -1,7 +1,7 @@
 """Datasets as netCDF files, written atomically and with a checksum.
 
-The checksum is appended to the file, where readers of netCDF ignore it.  Without it a changed number would go unnoticed,
-and the library that reads the file is not robust against damaged ones.
+The checksum is appended to the file, where readers of netCDF ignore it.  Without it a changed number would go
+unnoticed, and the library that reads the file is not robust against damaged ones.
 """
 
 from __future__ import annotations

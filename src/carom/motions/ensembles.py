@@ -92,8 +92,8 @@ def settle(
 ) -> Endings:
     """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
 
-    A motion ends early when its outcome is proven: when it slides into an absorbing neighbourhood of the synchronous rub
-    (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirls backward fast enough to go over to rolling
+    A motion ends early when its outcome is proven: when it slides into an absorbing neighbourhood of the synchronous
+    rub (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirls backward fast enough to go over to rolling
     (:func:`~carom.closed_forms.whirl.runaway_speed`).  ``simulate`` follows it until it has reached the rub or rolls.
 
     The result does not depend on the number of threads, to the last bit: motions do not influence each other.
@@ -110,8 +110,9 @@ def settle(
         Time after which a motion that has not settled is given up, in ``1/Ω``; by default
         :func:`~carom.motions.settling.longest_time` of its machine.
     patience : int
-        Impacts without recurrence after which bouncing counts as aperiodic.  With 0 all motions are followed to ``until``,
-        settled or not; otherwise each ends as soon as its outcome is known (criteria in :mod:`carom.core.fate`).
+        Impacts without recurrence after which bouncing counts as aperiodic.  With 0 all motions are followed to
+        ``until``, settled or not; otherwise each ends as soon as its outcome is known (criteria in
+        :mod:`carom.core.fate`).
     max_events : int
         Impacts and steps of lasting contact after which a motion is given up.
     threads : int, optional
@@ -126,7 +127,8 @@ def settle(
     Raises
     ------
     InputError
-        A start lies outside the wall, is too fast or not finite; ``which`` is no valid index; or a limit is out of range.
+        A start lies outside the wall, is too fast or not finite; ``which`` is no valid index; or a limit is out of
+        range.
     """
     rotors, which = _machines(machine, which)
     positions, velocities, which = np.broadcast_arrays(
@@ -233,10 +235,10 @@ def _settle_part(part: _Part, limits: _Limits) -> int:
     memory = fresh_memory(part.rotor, limits.patience, absorb=True)
     # Without the compiler, NumPy warns of divisions in lanes that do not use the result.
     with np.errstate(all="ignore"):
-        return int(follow_each(task, part.motions, part.counter, _workbench.tools(memory)))
+        return int(follow_each(task, part.motions, part.counter, _scratch.tools(memory)))
 
 
-class _Workbench(threading.local):
+class _Scratch(threading.local):
     """Scratch arrays of a thread, allocated once."""
 
     def __init__(self) -> None:
@@ -247,7 +249,7 @@ class _Workbench(threading.local):
         return Tools(self.lanes, memory, *self.log, self.work, self.rub, self.amplitudes)
 
 
-_workbench = _Workbench()
+_scratch = _Scratch()
 
 
 def _endings(motions: np.recarray, order: np.ndarray | slice, shape: tuple[int, ...]) -> Endings:

@@ -22,8 +22,8 @@ LONGEST_PIECE = 1.5
 class EnergyLedger(Table):
     """Energies of a motion over time in the fixed frame, in ``m c_r² Ω²``.
 
-    All arrays have shape (k,): values at ``times``, which begin at zero and contain the ends of all segments.  Works are
-    cumulative from the start; a positive work supplies energy to the rotor.
+    All arrays have shape (k,): values at ``times``, which begin at zero and contain the ends of all segments.  Works
+    are cumulative from the start; a positive work supplies energy to the rotor.
 
     Attributes
     ----------

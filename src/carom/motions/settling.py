@@ -57,8 +57,8 @@ class ClosedOrbit(Result):
 def fresh_memory(rotor: Jeffcott, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False) -> np.record:
     """Memory of a motion at its start, for :func:`~carom.motions.trajectories.follow`.
 
-    With a ``patience`` of zero the motion never counts as settled.  With ``absorb`` it ends as soon as it is proven to go
-    over to the synchronous rub or to rolling, otherwise when it has reached them.
+    With a ``patience`` of zero the motion never counts as settled.  With ``absorb`` it ends as soon as it is proven to
+    go over to the synchronous rub or to rolling, otherwise when it has reached them.
     """
     rub = _attracting_rub(rotor) if patience > 0 else None
     around = _rub_neighbourhood(rotor) if rub and absorb else None
@@ -132,7 +132,7 @@ def _rub_neighbourhood(rotor: Jeffcott) -> RubNeighbourhood | None:
 
 
 def _certain_runaway(rotor: Jeffcott) -> float:
-    """Speed of backward whirl beyond which sliding is proven to go over to lasting rolling; infinite if there is none."""
+    """Speed of backward whirl beyond which sliding provably goes over to lasting rolling; infinite if there is none."""
     runaway = runaway_speed(rotor)
     return runaway.certain * (1.0 + GIVEN_UP) if runaway.reaches_rolling and rolling(rotor).holds else np.inf
 

@@ -61,8 +61,8 @@ class ImpactMap(Result):
     duration : float
         Time of flight in ``1/Ω``.
     jacobian : ndarray or None, shape (3, 3)
-        Derivative of the image ``(θ, ṙ, θ̇)`` with respect to the section, including the saltation term for the change of
-        the time of impact.
+        Derivative of the image ``(θ, ṙ, θ̇)`` with respect to the section, including the saltation term for the change
+        of the time of impact.
     """
 
     outcome: Outcome

@@ -48,9 +48,9 @@ class Orbit(Result):
     ----------
     rotor : Jeffcott
     name : str
-        ``"B1,d"``: pair 1 of the periods; ``a`` and ``c`` have the shorter period of the pair, ``b`` and ``d`` the longer;
-        ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with backward slip begin
-        with ``R``.
+        ``"B1,d"``: pair 1 of the periods; ``a`` and ``c`` have the shorter period of the pair, ``b`` and ``d`` the
+        longer; ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with backward
+        slip begin with ``R``.
     period : float
         In ``1/Ω``.
     section : Section
@@ -160,9 +160,9 @@ class OrbitSet(Result, Sequence[Orbit]):
     complete : bool
         Whether there is provably no other root.
     slip_stays_forward : bool
-        Whether it is proven that the slip of every orbit inside the wall stays forward throughout its impacts.  Otherwise
-        orbits with backward slip are listed too, but orbits whose impacts stop the slip are not searched.  Only a rotor
-        about as small as its clearance can have either.
+        Whether it is proven that the slip of every orbit inside the wall stays forward throughout its impacts.
+        Otherwise orbits with backward slip are listed too, but orbits whose impacts stop the slip are not searched.
+        Only a rotor about as small as its clearance can have either.
     """
 
     rotor: Jeffcott
@@ -283,12 +283,12 @@ def longest_within_reach(rotor: Jeffcott) -> float | None:
 def slip_stays_forward(rotor: Jeffcott) -> bool:
     """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
 
-    After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in the
-    fixed frame.  There stiffness and unbalance change its velocity by less than ``ρ + ω²`` per unit of time.  So while it
-    stays inside, it has moved backward after a time ``τ``, measured along the tangent at the impact, by more than
-    ``b(τ) = s(1 − e^{−γτ})/γ − (ρ + ω²)τ²/2``.  Let ``b`` reach one clearance at ``τ₁ ≤ π``.  With a period above ``τ₁`` the
-    rotor would pass through the wall.  A shorter period ends at the place of the impact rotated forward by the angle ``T``,
-    where the rotor cannot be because ``b > 0``.
+    After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in
+    the fixed frame.  There stiffness and unbalance change its velocity by less than ``ρ + ω²`` per unit of time.  So
+    while it stays inside, it has moved backward after a time ``τ``, measured along the tangent at the impact, by more
+    than ``b(τ) = s(1 − e^{−γτ})/γ − (ρ + ω²)τ²/2``.  Let ``b`` reach one clearance at ``τ₁ ≤ π``.  With a period above
+    ``τ₁`` the rotor would pass through the wall.  A shorter period ends at the place of the impact rotated forward by
+    the angle ``T``, where the rotor cannot be because ``b > 0``.
     """
     parameters = rotor.parameters
     if parameters.mu == 0.0:
