@@ -125,7 +125,7 @@ def test_every_pair_of_parameters():
 def test_inputs_that_cannot_be_used():
     with pytest.raises(InputError, match="two different parameters"):
         Plane("gamma", "gamma", (0.0, 1.0), (0.0, 1.0))
-    with pytest.raises(InputError, match="two growing finite values"):
+    with pytest.raises(InputError, match="two finite values in ascending order"):
         Plane("gamma", "omega", (0.3, 0.1), (0.5, 1.0))
     with pytest.raises(InputError, match="one of: fold"):
         continue_curve("hopf", PAPER, PLANE)

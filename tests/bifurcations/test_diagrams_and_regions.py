@@ -190,7 +190,7 @@ def test_random_machines_have_maps_whose_curves_end_for_a_stated_reason():
 
 
 def test_inputs_that_cannot_be_used():
-    with pytest.raises(InputError, match="two growing finite values"):
+    with pytest.raises(InputError, match="two finite values in ascending order"):
         find_bifurcations(PAPER, "gamma", (0.3, 0.1))
     with pytest.raises(InputError, match="d = "):
         find_bifurcations(PAPER, "d", (0.5, 1.5))

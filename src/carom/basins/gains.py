@@ -209,7 +209,7 @@ def _values(parameters: Parameters, varied: Axis, given: tuple[float, float] | N
         given = AROUND[0] * now, min(AROUND[1] * now, varied.field.highest)
     low, high = given
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise InputError("ranges", f"{low:g},{high:g}", f"two growing finite values of {varied.name}")
+        raise InputError("ranges", f"{low:g},{high:g}", f"two finite values of {varied.name} in ascending order")
     for end in given:
         varied.field.check(end, end)
     return np.linspace(low, high, count)

@@ -135,7 +135,9 @@ def find_bifurcations(
     parameters = model_of(machine).parameters
     along = axis(parameters, parameter)
     if not (np.isfinite(interval).all() and interval[0] < interval[1]):
-        raise InputError(parameter, f"{interval[0]:g} to {interval[1]:g}", "an interval of two growing finite values")
+        raise InputError(
+            parameter, f"{interval[0]:g} to {interval[1]:g}", "an interval of two finite values in ascending order"
+        )
     tell = progress or (lambda _: None)
     followed = 1.0 if not attractors else FOLLOWING_SHARE
     branches: list[OrbitBranch] = []

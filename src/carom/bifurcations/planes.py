@@ -43,7 +43,9 @@ class Plane:
             raise InputError("plane", f"{self.first},{self.second}", "two different parameters")
         for name, limits in ((self.first, self.first_range), (self.second, self.second_range)):
             if not (np.isfinite(limits).all() and limits[0] < limits[1]):
-                raise InputError(name, f"{limits[0]:g} to {limits[1]:g}", "a range of two growing finite values")
+                raise InputError(
+                    name, f"{limits[0]:g} to {limits[1]:g}", "a range of two finite values in ascending order"
+                )
 
     @property
     def widths(self) -> np.ndarray:
