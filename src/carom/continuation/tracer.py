@@ -81,7 +81,7 @@ def continue_branch(
         No solution near the start.
     """
     if not interval[0] <= parameter <= interval[1] or interval[0] >= interval[1]:
-        raise InputError("interval", interval, f"two growing values with {parameter:g} between them")
+        raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
     start = np.append(np.asarray(unknowns, float), parameter)
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
     tracer = _Tracer(residual, sizes, interval, watches, steps or Steps(), folds)
