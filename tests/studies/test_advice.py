@@ -58,6 +58,6 @@ def test_a_machine_that_brings_back_the_share_is_not_told_to_change(advised):
 def test_the_words_promise_a_share_and_not_levitation_alone(advised):
     (line,) = advice_lines(dataclasses.replace(study_once(PAPER), advice=(advised,)))
     assert line.startswith(
-        "No value searched leaves levitation alone; the least change found that brings back 99 % is gamma = 0.4046 "
+        "No value searched leaves only levitation; the least change found that brings back 99 % is gamma = 0.4046 "
         "(4.05 times this machine's). All of 2,000 fresh disturbances of up to 2 c_r Ω came back"
     )

@@ -165,7 +165,7 @@ def test_interrupt_says_how_to_go_on(tmp_path, moment):
     output, errors = process.communicate()
 
     assert (process.returncode, output) == (130, "")
-    assert errors == f"carom: interrupted; the same command goes on with {store}\n"
+    assert errors == f"carom: interrupted; the same command resumes {store}\n"
 
 
 def test_plain_script_needs_no_main_guard(tmp_path):

@@ -109,7 +109,7 @@ def test_place_with_something_else_is_left_alone(tmp_path):
     (tmp_path / "there" / "thesis.tex").write_text("words")
     (tmp_path / "file").write_text("words")
 
-    with pytest.raises(InputError, match="holds something else than a sweep"):
+    with pytest.raises(InputError, match="holds something other than a sweep"):
         SweepStore(tmp_path / "there", PLAN)
     with pytest.raises(InputError, match="this is a file"):
         SweepStore(tmp_path / "file", PLAN)
@@ -184,7 +184,7 @@ def test_full_disk_is_one_line_and_loses_nothing(tmp_path, monkeypatch, call):
             run_sweep(PLAN, path, workers=1, threads=True, progress=lambda tally: kept.update(stored_bytes(path)))
 
     assert str(caught.value).startswith(f"--out = {path}: cannot be written (No space left on device); ")
-    assert "of 5 chunks are there whole; mend that, and the same command goes on" in str(caught.value)
+    assert "of 5 chunks are stored; fix this, and the same command resumes the sweep" in str(caught.value)
     assert not list((path / ".parts").iterdir())
     assert_nothing_lost(path, PLAN, kept)
 

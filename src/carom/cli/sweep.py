@@ -20,7 +20,7 @@ def sweep(
     file: Annotated[str, typer.Argument(metavar="SWEEP.toml", help="The sweep file.")],
     out: Annotated[
         str,
-        typer.Option(metavar="STORE", help="Directory of the results (Zarr); a sweep that is there is gone on with."),
+        typer.Option(metavar="STORE", help="Directory of the results (Zarr); an existing sweep is resumed."),
     ],
     settings: Settings = None,
     workers: Annotated[
@@ -35,15 +35,15 @@ def sweep(
         ),
     ] = None,
     retry_failed: Annotated[
-        bool, typer.Option("--retry-failed", help="Compute chunks again in which points failed.")
+        bool, typer.Option("--retry-failed", help="Compute chunks with failed points again.")
     ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Sweep a grid of machines: a study, or the basins of disturbances, at each point.
 
-    Results are stored chunk by chunk. Whatever ends the sweep, the same command goes on where it was. A point that fails
-    is recorded with its parameters and error, and the others go on. Python opens the store with carom.open_sweep or
-    xarray.open_zarr.
+    Results are stored chunk by chunk. After any interruption the same command resumes the sweep. A point that fails is
+    recorded with its parameters and error, and the other points are still computed. Python opens the store with
+    carom.open_sweep or xarray.open_zarr.
     """
     from carom.sweeps import load_sweep, run_sweep
 
@@ -67,7 +67,7 @@ def sweep(
             )
         except KeyboardInterrupt:
             kept = f"{last[0].done:,} of {plan.points:,} points are stored; " if last else ""
-            raise InterruptionError(f"interrupted; {kept}the same command goes on with {out}") from None
+            raise InterruptionError(f"interrupted; {kept}the same command resumes {out}") from None
     failures = _failures(plan, tally)
     if as_json:
         print_document(_document(plan, tally, failures))
@@ -76,7 +76,7 @@ def sweep(
 
 
 def _words(tally: Tally) -> str:
-    """Progress for people, short enough for 80 columns: how far, how fast, how long."""
+    """Describe the progress in less than 80 columns: points done, rate and time left."""
     parts = [f"{tally.done + tally.failed:,} of {tally.points:,} points", _rate(tally.rate, "points")]
     if tally.left is not None:
         parts.append(f"{_duration(tally.left)} left")

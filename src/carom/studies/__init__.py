@@ -1,17 +1,17 @@
-"""The main job: from a machine to a verdict.
+"""Study a machine: from its parameters to a verdict.
 
 ==================  ==================================================================================
 ``assembly``        :func:`study` and the frozen :class:`Study`
 ``ranges``          for which damping and stiffness equilibria exist, in closed form
-``orbit_ranges``    for which damping and stiffness single-impact orbits can happen, by search
-``alone``           where along damping and stiffness levitation is the only motion found
-``advice``          the least change of either that leaves it alone, checked by simulation
-``endings``         what became of simulated disturbances
-``verdict``         all of it in words
+``orbit_ranges``    for which damping and stiffness single-impact orbits are possible, by search
+``alone``           for which damping and stiffness levitation is the only motion found
+``advice``          the least change of either that leaves only levitation, checked by simulation
+``endings``         where simulated disturbances ended
+``verdict``         the results in words
 ``findings``        the paragraphs of the verdict
-``remedies``        what would change it, in words
+``remedies``        which changes would help, in words
 ``wording``         numbers with units
-``summaries``       its tables, as text
+``summaries``       the tables of a study, as text
 ``document``        results as JSON
 ==================  ==================================================================================
 """

@@ -1,4 +1,4 @@
-"""The least change of one gain that leaves levitation alone, or brings back a wanted share; checked by simulation."""
+"""The least change of one gain that leaves only levitation, or brings back a wanted share; checked by simulation."""
 
 from __future__ import annotations
 
@@ -21,36 +21,37 @@ from carom.studies.ranges import Gain, MotionRange, Span
 __all__ = ["WANTED", "Advice", "advise"]
 
 MARGINS = (0.05, 0.1, 0.2, 0.4)
-"""How far beyond the end of a range the advised damping or stiffness lies, relative to it; the next if the check fails."""
+"""Relative distances of the advised damping or stiffness from the end of a range, tried until a check passes."""
 CHECKED = 2000
-"""Disturbances of the check."""
+"""Number of disturbances of the check."""
 SEED = 2
-"""Of these; not that of any search, so that the check is a fresh sample."""
+"""Seed of these disturbances.  No search uses it, so the check is a fresh sample."""
 WANTED = 0.99
-"""Share of the disturbances that must come back where no value leaves levitation alone."""
+"""Share of the disturbances that must come back if no value leaves only levitation."""
 TRIED, TRIED_PATIENCE = 200, 2000
-"""Disturbances at each value on the way there, and impacts after which one of them counts as lost."""
+"""Disturbances at each value of that search, and number of impacts after which one of them counts as lost."""
 STEP = 1.15
-"""Ratio of the values of ``γ`` or ``ω`` tried on the way."""
+"""Ratio of successive values of ``γ`` or ``ω`` in that search."""
 
 
 @dataclass(frozen=True)
 class Advice:
-    """A value of one gain, the other as it is, and the fresh sample it was checked with.
+    """An advised value of one gain, with the other unchanged, and the fresh sample it was checked with.
 
     Attributes
     ----------
     gain : {"gamma", "omega"}
     value : float
     change : float
-        Ratio of the damping or stiffness to the machine's own; infinite where it has none.
+        Ratio of the advised damping or stiffness to that of the machine; infinite if the machine has none.
     alone : bool
-        Whether it lies where levitation is the only motion found.
+        Whether the value lies in a range in which levitation is the only motion found.
     margin : float
-        How far it lies beyond the end of that range, relative to the damping or stiffness; 0 where it is no such range.
+        Distance from the end of that range, relative to the damping or stiffness; 0 if there is no such range.
     returned : Share
-        Of the disturbances of the check that came back, with its interval.
+        Share of the disturbances of the check that came back, with its confidence interval.
     seed : int
+        Seed of these disturbances.
     fastest : float
         Largest speed of these disturbances, in ``c_r Ω``.
     """
@@ -71,28 +72,29 @@ def advise(
     ranges: tuple[MotionRange, ...],
     lost_up_to: float = 0.0,
 ) -> tuple[Advice, ...]:
-    """Advise a value of each gain, the least change first.
+    """Advise a value of each gain, sorted by the size of the change.
 
     Parameters
     ----------
     parameters : Parameters
     alone : tuple of LevitationAlone
     ranges : tuple of MotionRange
-        Of the contact-free motion and of orbits, which tell where to look if no value leaves levitation alone.
+        Ranges of the contact-free motion and of orbits.  They say where to search if no value leaves only levitation.
     lost_up_to : float
-        ``γ`` at which a disturbance is known to be lost: none up to it is said to leave levitation alone.
+        Largest ``γ`` at which a disturbance is known to be lost; no ``γ`` up to this value is advised as leaving only
+        levitation.
 
     Returns
     -------
     tuple of Advice
-        None for a machine that needs no change, or where nothing was found.
+        Empty if the machine needs no change, or if nothing was found.
     """
     if any(_own(parameters, found.gain) in span for found in alone for span in found.calm):
         return ()
-    found = [_leaving_alone(parameters, entry, lost_up_to) for entry in alone]
+    found = [_advise_only_levitation(parameters, entry, lost_up_to) for entry in alone]
     if not any(found):
         searched = {entry.gain: entry.searched for entry in ranges if entry.motion == "single-impact"}
-        found = [_bringing_back(parameters, gain, span) for gain, span in searched.items() if span is not None]
+        found = [_advise_wanted_share(parameters, gain, span) for gain, span in searched.items() if span is not None]
     advised = [advice for advice in found if advice is not None]
     return tuple(sorted(advised, key=lambda advice: abs(math.log(advice.change))))
 
@@ -102,14 +104,17 @@ def _own(parameters: Parameters, gain: Gain) -> float:
 
 
 def _power(gain: Gain) -> int:
-    """Damping is proportional to ``γ``, stiffness to ``ω²``."""
+    """Return the exponent of the gain: damping is proportional to ``γ``, stiffness to ``ω²``."""
     return 1 if gain == "gamma" else 2
 
 
-def _leaving_alone(parameters: Parameters, found: LevitationAlone, lost_up_to: float) -> Advice | None:
-    """Beyond the nearest end at which all disturbances of the check come back; else the best there is, if good enough."""
+def _advise_only_levitation(parameters: Parameters, found: LevitationAlone, lost_up_to: float) -> Advice | None:
+    """Advise the nearest value in a calm range at which all disturbances of the check come back.
+
+    If there is none, the value with the largest share is advised, provided that this share reaches ``WANTED``.
+    """
     best: Advice | None = None
-    for value, margin in _beyond_ends(parameters, found):
+    for value, margin in _values_in_calm_ranges(parameters, found):
         if found.gain == "gamma" and value <= lost_up_to:
             continue
         advice = _checked(parameters, found.gain, value, margin)
@@ -120,8 +125,8 @@ def _leaving_alone(parameters: Parameters, found: LevitationAlone, lost_up_to: f
     return best
 
 
-def _beyond_ends(parameters: Parameters, found: LevitationAlone) -> Iterator[tuple[float, float]]:
-    """Values inside the calm ranges with their margin, the nearest range first."""
+def _values_in_calm_ranges(parameters: Parameters, found: LevitationAlone) -> Iterator[tuple[float, float]]:
+    """Yield values inside the calm ranges with their margins, nearest range first."""
     own, power = _own(parameters, found.gain), _power(found.gain)
 
     def ends(span: Span) -> tuple[float, float]:
@@ -153,8 +158,8 @@ def _returned(parameters: Parameters, count: int, seed: int, patience: int = PAT
     return int(np.count_nonzero(ends.recovered))
 
 
-def _bringing_back(parameters: Parameters, gain: Gain, searched: Span) -> Advice | None:
-    """The nearest value tried, within what was searched, that brings back the share that is wanted."""
+def _advise_wanted_share(parameters: Parameters, gain: Gain, searched: Span) -> Advice | None:
+    """Advise the nearest value tried in the searched range at which the wanted share comes back."""
     own, low, high = _own(parameters, gain), searched.low.value, searched.high.value
     steps = int(math.log(high / low) / math.log(STEP)) + 1
     begin = min(max(own, low), high)
@@ -162,7 +167,7 @@ def _bringing_back(parameters: Parameters, gain: Gain, searched: Span) -> Advice
     for value in sorted(values, key=lambda value: abs(math.log(value / begin))):
         there = parameters.replace(**{gain: value})
         if abs(Jeffcott(there).equilibrium) < 1.0 and _returned(there, TRIED, 0, TRIED_PATIENCE) >= WANTED * TRIED:
-            if value == own:  # nothing needs to change for that share
+            if value == own:  # the machine itself reaches this share
                 return None
             advice = _checked(parameters, gain, value, 0.0)
             if advice.returned.fraction >= WANTED:

@@ -1,10 +1,10 @@
-"""Where along a gain levitation is the only motion found: no orbit, no rub, and nothing else in simulated disturbances.
+"""The values of a gain for which levitation is the only motion found: no orbit, no rub, and no other simulated ending.
 
-That no orbit with one impact a period and no synchronous rub exists is known for whole ranges (:mod:`carom.studies.ranges`,
+The ranges without orbits with one impact a period and without synchronous rubs are known (:mod:`carom.studies.ranges`,
 :mod:`carom.studies.orbit_ranges`).  Motions with several impacts, irregular bouncing and the like are known from
-simulation only: in each range disturbances are followed at several values, and where some end in such a motion, the
-range is cut back to where they do not.  Backward whirl is told apart, as it exists nearly everywhere and takes a fast
-start to get into.
+simulation only.  In each range disturbances are followed at several values.  Where some of them end in such a motion,
+the range is cut back to the values at which none does.  Backward whirl is treated separately, because it exists nearly
+everywhere and needs a fast start.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ from carom.studies.ranges import Edge, Gain, MotionRange, Span, free_spans, outs
 __all__ = ["LevitationAlone", "Met", "levitation_alone"]
 
 SEED = 1
-"""Of the disturbances; not that of the study's own sample."""
+"""Seed of the disturbances, different from that of the study's own sample."""
 COUNT = 1000
 FEW = 100
-"""Disturbances tried before all of them: enough to meet a motion that attracts many."""
+"""Number of disturbances tried first: enough to find a motion that attracts many of them."""
 RIM_PLACES, RIM_DIRECTIONS = 12, 8
-"""Starts on the wall at the largest speed: places round it, and directions at each."""
+"""Starts on the wall at the largest speed: number of places around it, and of directions at each place."""
 FEWEST, MOST, STEP = 5, 16, 0.12
-"""Values at which a range is looked at: how many, and their relative distance between these limits."""
+"""Values at which a range is sampled: least and greatest number, and the relative step wanted."""
 INSET = 1e-3
-"""Distance of the outermost of them from the ends, in shares of the range (of its logarithm)."""
+"""Distance of the outermost values from the ends, as a fraction of the logarithm of the range."""
 WIDTH = 1e-3
-"""Relative width to which the end of a simulated motion is bisected."""
+"""Relative width at which the bisection for the end of a simulated motion stops."""
 REMEMBERED = 16
-"""Motions found last that are tried again at the next value."""
+"""Number of starts lost last that are tried again at the next value."""
 
 Kind = Literal["levitation", "whirl", "other"]
 WHIRL = (Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
@@ -48,16 +48,16 @@ WHIRL = (Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 
 @dataclass(frozen=True)
 class Met:
-    """A motion other than levitation that a disturbance ended in where no orbit and no rub is known.
+    """A motion other than levitation in which a disturbance ended, at a value where no orbit and no rub is known.
 
     Attributes
     ----------
     motion : str
         Its name, as in :class:`~carom.attractors.Attractor`.
     value : float
-        Of the gain.
+        Value of the gain.
     position, velocity : complex
-        A state from which it is reached, co-rotating frame.
+        A start from which the motion is reached, co-rotating frame.
     """
 
     motion: str
@@ -68,23 +68,24 @@ class Met:
 
 @dataclass(frozen=True)
 class LevitationAlone:
-    """Where along one gain levitation is the only motion that was found, backward whirl aside.
+    """The values of one gain for which levitation is the only motion found, apart from backward whirl.
 
     Attributes
     ----------
     gain : {"gamma", "omega"}
     spans : tuple of Span
-        Disjoint, in growing order.  An end of kind ``"simulated"`` is one beyond which a disturbance ended in the motion
-        named there.
+        Disjoint, in ascending order.  Beyond an end of kind ``"simulated"`` a disturbance ended in the motion named
+        there.
     whirl : tuple of Span
-        The parts in which a disturbance got into backward whirl.
+        The parts of them in which a disturbance ended in backward whirl.
     met : tuple of Met
         At each end of kind ``"simulated"``, the motion just beyond it, in the order of the ends; then backward whirl.
     values : tuple of float
-        At which disturbances were followed and no motion but levitation, or backward whirl, was met.
+        Values at which disturbances were followed and all ended in levitation or backward whirl.
     disturbances, rim : int
-        Followed at each value: of the seeded sample, and on the wall at the largest speed.
+        Numbers of disturbances followed at each value: of the seeded sample, and on the wall at the largest speed.
     seed : int
+        Seed of the sample.
     fastest : float
         Largest speed of the disturbances, in ``c_r Ω``.
     """
@@ -101,28 +102,28 @@ class LevitationAlone:
 
     @property
     def calm(self) -> tuple[Span, ...]:
-        """The parts in which every disturbance came back."""
+        """The parts of the spans in which every disturbance came back."""
         return tuple(part for span in self.spans for part in outside(_inside(self.whirl, span), span))
 
 
 def levitation_alone(
     parameters: Parameters, gain: Gain, ranges: tuple[MotionRange, ...], count: int = COUNT
 ) -> LevitationAlone | None:
-    """Find where along a gain levitation is the only motion, by closed forms, search and simulation.
+    """Find the values of a gain for which levitation is the only motion, by closed forms, search and simulation.
 
     Parameters
     ----------
     parameters : Parameters
     gain : {"gamma", "omega"}
     ranges : tuple of MotionRange
-        Of the contact-free motion, of rubs and of orbits along this gain.
+        Ranges of the contact-free motion, of rubs and of orbits along this gain.
     count : int
-        Disturbances followed at each value.
+        Number of disturbances followed at each value.
 
     Returns
     -------
     LevitationAlone or None
-        ``None`` where orbits were not searched.
+        ``None`` if orbits were not searched.
     """
     free = free_spans(ranges, gain)
     if free is None:
@@ -131,7 +132,7 @@ def levitation_alone(
     spans: list[Span] = []
     whirl: list[Span] = []
     for span in free:
-        quiet, whirling = _looked_at(trial, span)
+        quiet, whirling = _sample_span(trial, span)
         spans += quiet
         whirl += whirling
     return LevitationAlone(
@@ -141,7 +142,7 @@ def levitation_alone(
 
 @dataclass(eq=False)
 class _Trial:
-    """Follows disturbances at one value after the other, and tries the motions found last again."""
+    """Follows disturbances at one value after another; starts that were lost last are tried again first."""
 
     parameters: Parameters
     gain: Gain
@@ -152,7 +153,7 @@ class _Trial:
     seen: dict[float, Met] = field(default_factory=dict)
 
     def at(self, value: float) -> Kind:
-        """What the disturbances come to at a value: the worst of it."""
+        """Return the worst kind of motion in which the disturbances end at a value."""
         rotor = Jeffcott(self.parameters.replace(**{self.gain: value}))
         places, speeds = _starts(rotor, self.count)
         again = [state for kind in ("other", "whirl") for state in self.last.get(kind, ())]
@@ -185,9 +186,10 @@ class _Trial:
     def _remember(
         self, kind: Kind, ends: Endings, positions: np.ndarray, velocities: np.ndarray, lost: np.ndarray
     ) -> None:
-        """Keep the starts, and where they ended: there the motion is met again as long as it exists.
+        """Keep lost starts and their final states, which reach the motion again as long as it exists.
 
-        Not so for backward whirl, which exists nearly everywhere: that it is reached is what counts.
+        Final states of backward whirl are not kept: it exists nearly everywhere, and only whether starts reach it
+        matters.
         """
         states = list(zip(positions[lost].tolist(), velocities[lost].tolist(), strict=True))
         if kind == "other":
@@ -200,7 +202,7 @@ _ORDER: tuple[Kind, ...] = ("levitation", "whirl", "other")
 
 
 def _starts(rotor: Jeffcott, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Starts on the wall at the largest speed, and the seeded sample, the fastest first."""
+    """Return the starts on the wall at the largest speed, followed by the seeded sample, fastest first."""
     places, speeds = DisturbanceSet(count, SEED).states(rotor)
     order = np.argsort(-np.abs(speeds), kind="stable")
     wall = np.exp(2j * math.pi * np.arange(RIM_PLACES) / RIM_PLACES)
@@ -210,12 +212,12 @@ def _starts(rotor: Jeffcott, count: int) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([rim_places, places[order]]), np.concatenate([rim_speeds, speeds[order]])
 
 
-def _looked_at(trial: _Trial, span: Span) -> tuple[list[Span], list[Span]]:
-    """The parts of a range that simulation leaves to levitation alone, and those of them with backward whirl."""
+def _sample_span(trial: _Trial, span: Span) -> tuple[list[Span], list[Span]]:
+    """Return the parts of a range without other motions in simulation, and the parts of these with backward whirl."""
     low, high = span.low.value, span.high.value
     inset = (high / low) ** INSET
     count = int(np.clip(math.ceil(math.log(high / low) / math.log1p(STEP)), FEWEST, MOST))
-    # From above: motions found last are followed down, and up again by bisection.
+    # Downward: motions found last are followed to lower values, and upward again by bisection.
     values = np.geomspace(high / inset, low * inset, count).tolist()
     kinds = [trial.at(value) for value in values]
     marks = [(value, kind) for value, kind in zip(values, kinds, strict=True)]
@@ -226,7 +228,7 @@ def _looked_at(trial: _Trial, span: Span) -> tuple[list[Span], list[Span]]:
 
 
 def _changes(trial: _Trial, high: float, kind: Kind, low: float, other: Kind) -> list[tuple[float, Kind]]:
-    """Bisect each change between two values; what was found on the way."""
+    """Bisect each change between two values; return all values sampled with their kinds."""
     found: list[tuple[float, Kind]] = []
     while kind != other and high - low > WIDTH * low:
         middle = math.sqrt(high * low)
@@ -242,7 +244,7 @@ def _changes(trial: _Trial, high: float, kind: Kind, low: float, other: Kind) ->
 
 
 def _parts(trial: _Trial, span: Span, marks: list[tuple[float, Kind]], wanted: tuple[Kind, ...]) -> list[Span]:
-    """Stretches between marks of the wanted kinds; at their ends the motion that was met beyond."""
+    """Return the spans between marks of the wanted kinds; their ends name the motion found beyond."""
     parts: list[Span] = []
     start: Edge | None = span.low if marks[0][1] in wanted else None
     for (value, kind), (after, next_kind) in pairwise(marks):

@@ -1,4 +1,4 @@
-"""Everything known about one machine at one speed, put together."""
+"""All results for one machine at one speed."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Progress = Callable[[float, str], None]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Study(Result):
-    """Every simple motion of a machine, a sample of disturbances, and what it all means.
+    """Every simple motion of a machine, the endings of a sample of disturbances, and a verdict.
 
     Attributes
     ----------
@@ -41,19 +41,19 @@ class Study(Result):
     orbits : OrbitSet
         Orbits with one impact a period.
     ranges : tuple of MotionRange
-        For which damping and which stiffness each motion exists, the other parameters fixed.
+        For which damping and which stiffness each motion exists, with the other parameters fixed.
     boundaries : tuple of BoundaryEquilibrium
-        Where, along damping and stiffness, the contact-free motion meets the wall, and what happens there.
+        Values of damping and stiffness at which the contact-free motion meets the wall, and what happens there.
     alone : tuple of LevitationAlone
-        Where along damping and stiffness levitation is the only motion found.
+        Values of damping and stiffness for which levitation is the only motion found.
     advice : tuple of Advice
-        The least change of either that leaves levitation alone, checked; none for a machine that needs no change.
+        The least change of either that leaves only levitation, checked by simulation; empty if no change is needed.
     attractors : AttractorSet
-        Where simulated disturbances, and starts next to the known motions, end.
+        The motions in which simulated disturbances, and starts next to the known motions, end.
     safe_damping : SafeDamping
         The damping above which all disturbances came back, found by simulation at other dampings too.
     fresh : DampingCheck or None
-        Where all disturbances of ``attractors`` came back: many others, at the machine's own damping, counted only.
+        If all disturbances of ``attractors`` came back: how many of a larger sample do, at the machine's own damping.
     """
 
     case: Case
@@ -91,7 +91,7 @@ class Study(Result):
 
     @property
     def zone(self) -> str | None:
-        """Zone of the contact-free amplitude; ``None`` where there is no contact-free motion."""
+        """Zone of the contact-free amplitude; ``None`` if there is no contact-free motion."""
         levitation = self.equilibria[0]
         return None if levitation.status == "virtual" else self.case.zones.zone(min(levitation.radius, 1.0))
 
@@ -106,11 +106,11 @@ class Study(Result):
         return tuple(dict.fromkeys(entry.gain for entry in self.ranges))
 
     def range_of(self, motion: Motion, gain: Gain) -> MotionRange | None:
-        """Where a motion exists along a gain; ``None`` if that was not found out."""
+        """Return the range of a motion along a gain; ``None`` if it was not determined."""
         return next((entry for entry in self.ranges if (entry.motion, entry.gain) == (motion, gain)), None)
 
     def alone_along(self, gain: Gain) -> LevitationAlone | None:
-        """Where along a gain levitation is the only motion found; ``None`` if that was not searched."""
+        """Return where along a gain levitation is the only motion found; ``None`` if that was not searched."""
         return next((entry for entry in self.alone if entry.gain == gain), None)
 
     @property
@@ -120,12 +120,12 @@ class Study(Result):
 
     @property
     def wording(self) -> Wording:
-        """Turns the results of this study into text."""
+        """Formatter of the results of this study as text."""
         return Wording(self.rotor.scales)
 
     @cached_property
     def verdict(self) -> Verdict:
-        """What it all means, in words."""
+        """The verdict, in words."""
         return verdict(self)
 
     def to_dict(self) -> dict[str, Any]:
@@ -134,13 +134,13 @@ class Study(Result):
 
 
 def study(machine: Subject, *, progress: Progress | None = None) -> Study:
-    """Study a machine: its simple motions, where they exist, and what becomes of disturbances.
+    """Study a machine: its simple motions, where they exist, and where disturbances end.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
     progress : callable, optional
-        Called with the share done (0 to 1) and what is done next, in words.
+        Called with the share done (0 to 1) and a description of the next step.
 
     Returns
     -------
@@ -194,5 +194,5 @@ def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[
 
 
 def _gains(parameters: Parameters) -> tuple[Gain, ...]:
-    """Without damping nothing comes back whatever the stiffness, so stiffness is not looked at then."""
+    """Return the gains to vary; with negative damping nothing comes back at any stiffness: vary damping only."""
     return ("gamma", "omega") if parameters.gamma >= 0 else ("gamma",)

@@ -1,7 +1,7 @@
-"""Results as JSON: one place for what ``--json`` prints and what ``study.json`` holds.
+"""Results as JSON: the documents that ``--json`` prints and that ``study.json`` holds.
 
 Complex numbers are ``[re, im]``.  Times are in ``1/Ω`` and lengths in ``c_r``, in the co-rotating frame, unless the key
-ends in ``_si``; those keys are there where the machine is known.  What is not finite is ``null``.
+ends in ``_si``; those keys exist if the machine is known.  Values that are not finite are ``null``.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ __all__ = ["as_json", "orbits_document", "study_document", "trajectory_document"
 
 
 def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
-    """Write a document as one JSON object: plain types only, ``null`` for what is not finite.
+    """Return a document as the text of one JSON object; values that are not finite become ``null``.
 
-    What is not printable is escaped.
+    Characters that are not printable are escaped.
     """
     text = json.dumps(_plain(document), indent=indent, ensure_ascii=False, allow_nan=False)
     if text.replace("\n", "").isprintable():
@@ -52,7 +52,7 @@ def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
 def orbits_document(
     parameters: Parameters, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet, machine: Any = None
 ) -> dict[str, Any]:
-    """Equilibria and periodic orbits."""
+    """Return the document of equilibria and periodic orbits."""
     scales = parameters.scales
     return {
         "parameters": parameters.as_dict(),
@@ -66,7 +66,7 @@ def orbits_document(
 
 
 def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
-    """One motion, its impacts and its lasting contacts; velocities are those just before the impact."""
+    """Return the document of one motion with its impacts and lasting contacts; velocities are those before impacts."""
     log = trajectory.contacts
     impacts = zip(log.time, log.angle, log.radial_speed, log.angular_speed, log.normal_impulse, strict=True)
     keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
@@ -91,7 +91,7 @@ def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
 
 
 def study_document(study: Study) -> dict[str, Any]:
-    """Everything a study found."""
+    """Return the document of a study, with all its results."""
     case, say = study.case, study.wording
     return {
         "name": case.name,
@@ -377,7 +377,7 @@ def _limit(limit: DampingLimit, scales: Scales | None) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """Only what JSON knows."""
+    """Convert a value to the types of JSON."""
     if isinstance(value, dict):
         return {key: _plain(entry) for key, entry in value.items()}
     if isinstance(value, list | tuple):

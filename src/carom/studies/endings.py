@@ -1,4 +1,4 @@
-"""What became of disturbances: counts and words about the attractors they reached."""
+"""Where disturbances ended: counts and descriptions of the attractors they reached."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class KickSize:
     Attributes
     ----------
     speed : float
-        In ``c_r Ω``.
+        Size of the kicks, in ``c_r Ω``.
     directions : int
-        How many were tried.
+        Number of directions tried.
     recovered : int
-        How many came back to levitation.
+        Number of kicks that came back to levitation.
     lost : dict of str to int
-        Where the others ended: name of the attractor and how many.
+        Number of the other kicks by the attractor in which they ended.
     """
 
     speed: float
@@ -49,20 +49,20 @@ class KickSize:
 
 
 def ending_words(attractor: str) -> str:
-    """Name of an attractor as an engineer would say it: ``bouncing on B1,d``, ``rolling backward whirl``."""
+    """Return the name of an attractor for an engineer: ``bouncing on B1,d``, ``rolling backward whirl``."""
     if attractor[:1] in ("B", "R") and attractor[1:2].isdigit():
         return f"bouncing on {attractor}"
     return _WORDS.get(attractor, attractor)
 
 
 def ending_phrase(attractor: str) -> str:
-    """The same after a verb: ``ends bouncing on B1,d``, ``ends in rolling backward whirl``."""
+    """Return the same to follow a verb: (ends) ``bouncing on B1,d``, (ends) ``in rolling backward whirl``."""
     words = ending_words(attractor)
     return words if words.startswith(("bouncing", "unresolved")) else f"in {words}"
 
 
 def touching(found: AttractorSet) -> tuple[Ending, ...]:
-    """Disturbances in which the rotor touched the wall."""
+    """Return the disturbances in which the rotor touched the wall."""
     return tuple(
         ending
         for ending in found.disturbances
@@ -71,16 +71,16 @@ def touching(found: AttractorSet) -> tuple[Ending, ...]:
 
 
 def hardest_impulse(found: AttractorSet) -> float:
-    """Largest normal impulse in any disturbance, in ``m c_r Ω``."""
+    """Return the largest normal impulse in any disturbance, in ``m c_r Ω``."""
     return max((ending.hardest_impulse for ending in found.disturbances), default=0.0)
 
 
 def kick_sizes(found: AttractorSet) -> tuple[KickSize, ...]:
-    """Kicks out of levitation by size, the smallest first."""
+    """Return the kicks out of levitation grouped by size, smallest first."""
     kicks = sorted((ending for ending in found.endings if ending.start.kind == "kick"), key=lambda e: e.start.speed)
     sizes: list[list[Ending]] = []
     for ending in kicks:
-        # A kick in another direction has the same size to rounding.
+        # Kicks of one size in different directions have speeds that are equal up to rounding.
         if not sizes or not math.isclose(ending.start.speed, sizes[-1][0].start.speed, rel_tol=1e-9):
             sizes.append([])
         sizes[-1].append(ending)
@@ -88,7 +88,7 @@ def kick_sizes(found: AttractorSet) -> tuple[KickSize, ...]:
 
 
 def largest_all_back(found: AttractorSet) -> float | None:
-    """Largest of the sizes tried up to which kicks in all directions tried came back, in ``c_r Ω``."""
+    """Return the largest size tried up to which all kicks in all directions came back, in ``c_r Ω``; else ``None``."""
     back = None
     for size in kick_sizes(found):
         if size.lost:
@@ -106,7 +106,7 @@ def _size(alike: list[Ending]) -> KickSize:
 
 
 def shown_example(found: AttractorSet, attractor: Attractor) -> Ending:
-    """The start to show for an attractor: a disturbance with contact if there is one, the one that settles first."""
+    """Choose the example of an attractor: the first to settle, among disturbances with contact if there are any."""
     endings = found.ending_on(attractor.name)
     for choice in (
         [ending for ending in endings if ending.start.disturbance and ending.impacts > 0],

@@ -28,7 +28,7 @@ MOST_NAMES = 8
 
 
 def stable_rub(study: Study) -> Equilibrium | None:
-    """The synchronous rub that can hold the rotor, if there is one."""
+    """Return the stable, admissible synchronous rub, which can hold the rotor, if there is one."""
     return next((rub for rub in study.rubs if rub.stable and rub.status == "admissible"), None)
 
 
@@ -54,7 +54,7 @@ def _levitation(study: Study) -> str:
 
 
 def _loss_of_levitation(study: Study) -> list[str]:
-    """How levitation ends if one gain is turned far enough from where it is."""
+    """Say how levitation ends if one gain is changed far enough."""
     say = study.wording
     places: dict[str, list[str]] = {}
     for boundary in study.boundaries:
@@ -107,13 +107,13 @@ def _rub_load(study: Study, rub: Equilibrium) -> str:
 
 
 def _of_force(study: Study, force: float) -> str:
-    """What a force says about the wall, as a part of a sentence."""
+    """Return a clause on whether the rigid wall is a valid model under a force; empty if it is."""
     text = no_rigid_wall(indentation_of_force(study.case.parameters, force))
     return f"; {text}" if text else ""
 
 
 def _of_hit(study: Study, impulse: float) -> str:
-    """What the normal impulse of a hit says about the wall."""
+    """Return a clause on whether the rigid wall is a valid model for the normal impulse of a hit; empty if it is."""
     parameters = study.case.parameters
     text = no_rigid_wall(indentation_of_hit(parameters, impulse / (1.0 + parameters.d)))
     return f"; {text}" if text else ""
@@ -165,7 +165,7 @@ def _stable_orbit(study: Study, orbit: Orbit) -> str:
 
 
 def names_of(orbits: list[Orbit]) -> str:
-    """List the names of orbits, not more than a few."""
+    """List the names of orbits, at most ``MOST_NAMES`` of them."""
     names = [orbit.name for orbit in orbits]
     few = MOST_NAMES - 1
     return listed(names if len(names) <= MOST_NAMES else [*names[:few], f"{len(names) - few} more"])
@@ -182,7 +182,7 @@ def _disturbances(study: Study) -> str:
 
 
 def _smallest_kick(study: Study, sizes: tuple[KickSize, ...]) -> str:
-    """Between which of the sizes tried kicks begin to be lost."""
+    """Say between which of the sizes tried the first kicks are lost."""
     say = study.wording
     place = next((place for place, size in enumerate(sizes) if size.lost), None)
     if place is None:
@@ -212,7 +212,7 @@ def _endings(study: Study) -> str:
 
 
 def _irregular(found: AttractorSet) -> str:
-    """How long irregular bouncing lasts, where it was met."""
+    """Say how long irregular bouncing lasts, if any was found."""
     if found.transient is not None:
         return f" On the way some bounced irregularly for long: {found.transient.words}."
     lasting = next((member for member in found if member.survival is not None), None)
@@ -220,7 +220,7 @@ def _irregular(found: AttractorSet) -> str:
 
 
 def _fresh_words(study: Study) -> str:
-    """What became of many other disturbances, where all of the few came back."""
+    """Say how a larger sample of disturbances ended, if all of the first sample came back."""
     fresh = study.fresh
     if fresh is None:
         return ""
@@ -256,7 +256,7 @@ def _backward_whirl(study: Study) -> str:
 
 
 def _interrupted(study: Study, roll: Rolling) -> str:
-    """Why rolling has two limits, where they differ in the digits shown."""
+    """Explain the two limits of rolling, if they differ in the digits shown."""
     every_angle, bound = (study.wording.gain("gamma", limit) for limit in (roll.largest_damping, roll.damping_bound))
     if every_angle == bound:
         return ""
@@ -264,13 +264,13 @@ def _interrupted(study: Study, roll: Rolling) -> str:
 
 
 def _perhaps(study: Study, runaway: Runaway) -> str:
-    """From which lower speed on the unbalance decides whether backward whirl runs away."""
+    """Name the lower speed from which the unbalance decides whether backward whirl runs away."""
     certain, average = study.wording.velocity(runaway.certain), study.wording.velocity(runaway.average)
     return "" if certain == average else f", and it may get there from about {average} on"
 
 
 def _with_weight(study: Study, force: float) -> str:
-    """A force, and how many times the weight of the rotor that is."""
+    """Return a force with its multiple of the weight of the rotor."""
     text, scales = study.wording.force(force), study.rotor.scales
     if scales is None:
         return text
@@ -304,7 +304,7 @@ _POSSIBLE: dict[Motion, str] = {
 
 
 def _safe_damping(study: Study) -> str:
-    """What simulations at other dampings add to the ranges."""
+    """Say what simulations at other dampings showed."""
     say, safe = study.wording, study.safe_damping
     limit, name, checks = safe.within_reach, say.gain_name("gamma"), safe.checks
     if not checks:
@@ -322,7 +322,10 @@ def _safe_damping(study: Study) -> str:
 
 
 def _limit_words(study: Study, limit: DampingLimit | None) -> str:
-    """Above which damping disturbances came back, and what went last; a simulated limit with the digits known."""
+    """Say above which damping disturbances came back, and which motion vanished last.
+
+    Of a simulated limit only the known digits are written.
+    """
     say = study.wording
     if limit is None:
         return ""
@@ -339,7 +342,7 @@ def _limit_words(study: Study, limit: DampingLimit | None) -> str:
 
 
 def _faster_words(study: Study) -> str:
-    """What becomes of faster disturbances."""
+    """Say how many of the faster disturbances were lost."""
     say, faster = study.wording, study.safe_damping.faster
     if faster is None:
         return ""
@@ -359,4 +362,4 @@ FINDINGS = {
     "Disturbances tried": _disturbances,
     "What would change it": _remedies,
 }
-"""Topics in the order of the verdict, and what writes them."""
+"""Topics in the order of the verdict, with the functions that write them."""

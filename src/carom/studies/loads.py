@@ -1,4 +1,4 @@
-"""Loads of the wall as JSON: what steel would give way by under them, and the force of rolling."""
+"""Loads on the wall as JSON: the indentation of steel under them, and the force of rolling."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ __all__ = ["rolling_document", "wall_document"]
 
 
 def wall_document(indentation: float) -> dict[str, Any]:
-    """Least indentation of a wall of solid steel, in clearances, and whether a rigid wall is a model there."""
+    """Return the least indentation of a wall of solid steel, in clearances, and whether the rigid wall is valid."""
     return {"indentation": indentation, "rigid_wall": not gives_way(indentation)}
 
 
 def rolling_document(rotor: Jeffcott) -> dict[str, Any]:
-    """Rolling backward whirl: whether it goes on once it is there, and its force."""
+    """Return whether rolling backward whirl sustains itself, with its speed and force."""
     roll, scales = rolling(rotor), rotor.scales
     document: dict[str, Any] = {"holds": roll.holds, "speed": roll.speed, "largest_force": roll.largest_force}
     if scales is not None:

@@ -1,4 +1,4 @@
-"""For which damping, and for which stiffness, orbits with one impact a period can happen: by search."""
+"""For which damping, and for which stiffness, orbits with one impact a period are possible: by search."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from carom.studies.ranges import Edge, Gain, MotionRange, Span
 __all__ = ["single_impact_ranges"]
 
 FINEST_STEP = {"gamma": 0.1, "omega": 0.05}
-"""Relative step of the values at which all orbits are looked for."""
+"""Relative step between the values at which all orbits are computed."""
 NEARBY = 1e-6
-"""Relative distance from an edge at which the certified orbits must agree with it."""
+"""Relative distance from an edge at which the certified lists of orbits must confirm it."""
 
 Progress = Callable[[float], None]
 
@@ -26,7 +26,7 @@ Progress = Callable[[float], None]
 def single_impact_ranges(
     parameters: Parameters, gain: Gain, progress: Progress | None = None
 ) -> tuple[MotionRange, ...]:
-    """Where single-impact orbits are motions of the machine (:func:`~carom.bifurcations.orbit_windows`).
+    """Find where single-impact orbits are motions of the machine (:func:`~carom.bifurcations.orbit_windows`).
 
     Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a
     quarter of the machine's own to four times it.
@@ -35,15 +35,15 @@ def single_impact_ranges(
     ----------
     parameters : Parameters
     gain : {"gamma", "omega"}
-        The one that is varied.
+        The gain that is varied.
     progress : callable, optional
         Called with the share done, 0 to 1.
 
     Returns
     -------
     tuple of MotionRange
-        Of all admissible orbits, and of the stable ones.  Empty where no search is possible: stiffness without damping,
-        or with so little of it that the orbits are too many to list.
+        Ranges of all admissible orbits, and of the stable ones.  Empty if no search is possible: for stiffness without
+        damping, or with so little damping that there are too many orbits to list.
     """
     values = _values(parameters, gain)
     if values is None:
@@ -65,7 +65,7 @@ def single_impact_ranges(
 
 
 def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
-    """Values to look at, in geometric progression, at all of which the list of orbits is complete."""
+    """Return the values to search, in geometric progression; the list of orbits is complete at each of them."""
     if gain == "omega":
         lowest, highest = 0.5 * parameters.omega, 2.0 * parameters.omega
     else:
@@ -74,7 +74,7 @@ def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
         while lowest < 0.1 * highest and not _can_search(parameters.replace(gamma=lowest)):
             lowest *= 2.0
         highest = min(highest, DIMENSIONLESS_FIELDS[gain].highest)
-        # A soft rotor is so far overdamped there that one of its exponents hardly decays.
+        # A soft rotor is so strongly overdamped there that one of its exponents decays very slowly.
         while highest > 4.0 * max(lowest, parameters.gamma) and not _can_search(parameters.replace(gamma=highest)):
             highest *= 0.5
     limits = DIMENSIONLESS_FIELDS[gain]
@@ -96,7 +96,7 @@ def _span(parameters: Parameters, gain: Gain, window: Window, stable: bool) -> S
 
 
 def _edge(parameters: Parameters, gain: Gain, end: WindowEnd, inward: float, stable: bool) -> Edge:
-    """Turn the end of a window into an edge; it is certified if the orbits close by agree on both sides."""
+    """Turn the end of a window into an edge; it is certified if the orbits found close by on both sides confirm it."""
     if not end.kind:
         return Edge(end.value)
     there = [

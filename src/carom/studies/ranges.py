@@ -1,7 +1,7 @@
 """For which damping, and for which stiffness, a motion exists: exact for equilibria.
 
-Damping and stiffness are the gains a designer can turn.  Each is varied alone, all other parameters as they are, and is
-written as ``gamma`` or ``omega`` here; the scales turn them into N s/m and N/m.
+Damping and stiffness are the gains that a designer can change.  Each is varied alone, with all other parameters fixed,
+and is written as ``gamma`` or ``omega`` here; the scales convert them to N s/m and N/m.
 """
 
 from __future__ import annotations
@@ -43,15 +43,15 @@ class Edge:
     value : float
         ``gamma`` or ``omega``; 0 and infinity are possible.
     kind : str
-        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"``; to an orbit what is listed
-        in :class:`~carom.bifurcations.Bifurcation`, or ``"vanishing-period"``; empty where nothing does, at the end of
-        the axis or of a search.
+        What happens there: ``"boundary-equilibrium"``, ``"rub-fold"``, ``"rolling-limit"`` or ``"simulated"``; for
+        orbits a kind of :class:`~carom.bifurcations.Bifurcation`, or ``"vanishing-period"``.  Empty if nothing happens
+        there, at the end of the axis or of a search.
     period : float or None
-        Of the orbit that appears, vanishes or changes there, in ``1/Ω``.
+        Period of the orbit that appears, vanishes or changes there, in ``1/Ω``.
     certified : bool
-        Whether it is exact, or confirmed by the certified orbits close by on both sides.
+        Whether the edge is exact, or confirmed by the certified orbits close by on both sides.
     motion : str
-        Where kind is ``"simulated"``, in what a disturbance ended beyond.
+        For the kind ``"simulated"``: the motion in which a disturbance ended beyond the edge.
     """
 
     value: float
@@ -93,16 +93,16 @@ class Threshold:
 
 @dataclass(frozen=True)
 class MotionRange:
-    """Where along one gain a motion exists, all other parameters fixed.
+    """The values of one gain for which a motion exists, all other parameters fixed.
 
     Attributes
     ----------
     motion : {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
     gain : {"gamma", "omega"}
     spans : tuple of Span
-        Disjoint, in growing order.
+        Disjoint, in ascending order.
     searched : Span or None
-        What was searched; ``None`` where the range follows in closed form for all values from zero on.
+        The range searched; ``None`` if the spans follow from a closed form for all values from zero on.
     step : float
         Relative step of the search; 0 for a closed form.
     """
@@ -115,7 +115,7 @@ class MotionRange:
 
     @property
     def thresholds(self) -> tuple[Threshold, ...]:
-        """The edges at which something happens."""
+        """The edges at which the motion appears or vanishes."""
         found = []
         for span in self.spans:
             if span.low.kind:
@@ -130,7 +130,7 @@ class MotionRange:
 
 
 def outside(spans: tuple[Span, ...], within: Span) -> tuple[Span, ...]:
-    """Return the parts of ``within`` that none of the spans covers."""
+    """Return the parts of ``within`` that no span covers."""
     gaps, start = [], within.low
     for span in spans:
         if span.low.value > start.value:
@@ -142,7 +142,7 @@ def outside(spans: tuple[Span, ...], within: Span) -> tuple[Span, ...]:
 
 
 def common(first: tuple[Span, ...], second: tuple[Span, ...]) -> tuple[Span, ...]:
-    """Return where spans of both families overlap."""
+    """Return the overlaps of two sets of spans."""
     overlaps = [
         Span(max(one.low, other.low, key=_value), min(one.high, other.high, key=_value))
         for one in first
@@ -156,7 +156,7 @@ def _value(edge: Edge) -> float:
 
 
 def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
-    """Where, along one gain, the contact-free motion exists and neither a rub nor a single-impact orbit does.
+    """Return where along one gain the contact-free motion exists, but neither a rub nor a single-impact orbit.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] 
     Returns
     -------
     tuple of Span, or None
-        Within what was searched for orbits; ``None`` if nothing was.
+        Within the range searched for orbits; ``None`` if orbits were not searched.
     """
     here = {entry.motion: entry for entry in ranges if entry.gain == gain}
     orbits = here.get("single-impact")
@@ -181,16 +181,16 @@ ZERO, INFINITE = Edge(0.0), Edge(math.inf)
 
 
 def contact_free_range(parameters: Parameters, gain: Gain) -> MotionRange:
-    """Where the contact-free equilibrium lies inside the wall.
+    """Return where the contact-free equilibrium lies inside the wall.
 
-    ``|U*| < 1`` is ``ρ² < (1 − ω²)² + γ²``, from (3.7) of the source paper; its ends are
+    ``|U*| < 1`` is ``ρ² < (1 − ω²)² + γ²``, from (3.7) of the source paper; the ends of the range are
     :func:`~carom.bifurcations.boundary.boundary_values`.
 
     Parameters
     ----------
     parameters : Parameters
     gain : {"gamma", "omega"}
-        The one that is varied, from zero on.
+        The gain that is varied, from zero on.
 
     Returns
     -------
@@ -204,19 +204,19 @@ def contact_free_range(parameters: Parameters, gain: Gain) -> MotionRange:
 
 
 def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
-    """Where a synchronous rub exists with the wall pushing, not pulling.
+    """Return where a synchronous rub exists in which the wall pushes the rotor and does not pull it.
 
-    In the plane of ``γ`` and ``κ = 1 − ω²`` that is a disc and a wedge beside it, derived in
-    :func:`~carom.closed_forms.whirl.rub_limit`; its edges are a fold and a circle, on which the contact-free equilibrium lies on the
-    wall.  The larger normal force is always the stable rub's, ``ρ(cos x − μ sin x) = (1 + μ²)N − κ + μγ > 0``.  So where
-    a rub exists, a stable one exists.
+    In the plane of ``γ`` and ``κ = 1 − ω²`` this region is a disc and an adjacent wedge, derived in
+    :func:`~carom.closed_forms.whirl.rub_limit`.  Its edges are a fold and a circle; on the circle the contact-free
+    equilibrium lies on the wall.  The rub with the larger normal force is always the stable one,
+    ``ρ(cos x − μ sin x) = (1 + μ²)N − κ + μγ > 0``.  So where a rub exists, a stable one exists.
 
     Parameters
     ----------
     parameters : Parameters
-        Of the rigid rotor; for the stiffness, with ``gamma >= 0``.
+        Parameters of the rigid rotor; ``gamma >= 0`` if the stiffness is varied.
     gain : {"gamma", "omega"}
-        The one that is varied, from zero on.
+        The gain that is varied, from zero on.
 
     Returns
     -------
@@ -242,16 +242,16 @@ def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
 
 
 def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
-    """Where the rotor, once it rolls round the bearing in backward whirl, goes on rolling at every angle.
+    """Return where a rotor that rolls around the bearing in backward whirl keeps rolling at every angle.
 
     ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)``, derived in :mod:`carom.closed_forms.whirl`.
 
     Parameters
     ----------
     parameters : Parameters
-        With ``gamma >= 0`` for the stiffness.
+        With ``gamma >= 0`` if the stiffness is varied.
     gain : {"gamma", "omega"}
-        The one that is varied, from zero on.
+        The gain that is varied, from zero on.
 
     Returns
     -------
@@ -263,6 +263,6 @@ def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
 
 
 def _leg(hypotenuse: float, leg: float) -> float:
-    """Other leg of a right-angled triangle, zero if there is none."""
+    """Return the other leg of a right-angled triangle, zero if there is none."""
     square = (hypotenuse - leg) * (hypotenuse + leg)
     return math.sqrt(square) if square > 0 else 0.0

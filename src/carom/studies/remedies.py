@@ -1,4 +1,4 @@
-"""Where levitation alone is left and what is advised, in words."""
+"""Where levitation is the only motion found, and what is advised, in words."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ __all__ = ["advice_lines", "alone_sentences", "check_words"]
 
 
 def alone_sentences(study: Study, gain: Gain) -> list[str]:
-    """Where along a gain levitation is alone, and what that rests on."""
+    """Say where along a gain levitation is the only motion found, and on which evidence."""
     say, name = study.wording, study.wording.gain_name(gain)
     found, orbits = study.alone_along(gain), study.range_of("single-impact", gain)
     if found is None or orbits is None:
-        return [f"Which {name} would leave levitation alone was not found out."]
+        return [f"Which {name} would leave only levitation was not determined."]
     met = _met(study, found)
     if not found.spans:
-        return [f"No {name} in the range searched leaves levitation alone{met}."]
+        return [f"No {name} in the range searched leaves only levitation{met}."]
     where = say.where(gain, found.spans, orbits.searched)
-    aside = ", backward whirl aside," if _rolls(study, gain) else ""
+    apart = ", apart from backward whirl," if _rolls(study, gain) else ""
     tried = f"{found.disturbances + found.rim:,} disturbances"
     rests = f"no rub and no orbit with one impact a period exists there{met}"
     simulated = f"simulated at each of {counted(len(found.values), 'value')} of {name} there"
     return [
-        f"Levitation alone{aside} is left {where}: {rests}.",
+        f"Levitation is the only motion found{apart} {where}: {rests}.",
         f"{tried} of up to {say.velocity(found.fastest)} were {simulated}: {_came_back(study, found)}.",
     ]
 
@@ -44,7 +44,7 @@ def _rolls(study: Study, gain: Gain) -> bool:
 
 
 def _met(study: Study, found: LevitationAlone) -> str:
-    """Where other motions that were met cut the ranges back."""
+    """Say which other motions were found beyond the ends of the ranges."""
     say = study.wording
     ends = {(edge.motion, edge.value) for span in found.spans for edge in (span.low, span.high) if edge.motion}
     parts = [f"{ending_words(motion)} was met beyond {say.gain(found.gain, value)}" for motion, value in sorted(ends)]
@@ -61,7 +61,7 @@ def _came_back(study: Study, found: LevitationAlone) -> str:
 
 
 def advice_lines(study: Study) -> list[str]:
-    """What is advised, the least change first, and how it was checked; one paragraph or none."""
+    """Return the advice, the least change first, and how it was checked: one paragraph or none."""
     if not study.advice:
         return []
     sentences = [_advised(study, advice, first=place == 0) for place, advice in enumerate(study.advice)]
@@ -76,17 +76,17 @@ def _advised(study: Study, advice: Advice, *, first: bool) -> str:
     if math.isinf(advice.change):
         own = "this machine has none"
     if advice.alone:
-        start = "The least change found that leaves levitation alone is" if first else "The other gain would do it with"
+        start = "The least change found that leaves only levitation is" if first else "The other gain would do it with"
         own += f", {number(100.0 * advice.margin, 2)} % beyond the end of the range"
     else:
         share = f"brings back {number(100.0 * WANTED, 3)} %"
-        start = f"No value searched leaves levitation alone; the least change found that {share} is"
+        start = f"No value searched leaves only levitation; the least change found that {share} is"
         start = start if first else "The other gain would do it with"
     return f"{start} {what} ({own}). {_capital(check_words(study, advice))}."
 
 
 def check_words(study: Study, advice: Advice) -> str:
-    """How an advised value was checked: the fresh disturbances, their largest speed, and how many came back."""
+    """Say how an advised value was checked: number and largest speed of the fresh disturbances, how many came back."""
     returned = advice.returned
     sample = f"{number(returned.total, 6)} fresh disturbances of up to {study.wording.velocity(advice.fastest)}"
     if returned.count == returned.total:

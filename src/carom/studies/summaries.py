@@ -1,4 +1,4 @@
-"""The tables of a study, as text: what a terminal and a report show alike."""
+"""The tables of a study, as text: the same in the terminal and in the report."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class ValueRow:
-    """A parameter: symbol, words and value with its unit."""
+    """A parameter: symbol, description, and value with its unit."""
 
     symbol: str
     words: str
@@ -49,17 +49,17 @@ class MotionRow:
     ----------
     name : str
     state : str
-        ``"stable"``, ``"unstable"``, ``"not possible"``, ``"seen"`` (met by disturbances, its stability not computed),
-        ``"transient"`` (it ends) or ``"undecided"`` (given up).
+        ``"stable"``, ``"unstable"``, ``"not possible"``, ``"seen"`` (disturbances ended there; its stability was not
+        computed), ``"transient"`` (it ends) or ``"undecided"`` (its end was not found).
     period : str
     size : str
-        Radius of a steady motion, or radial speed of the impacts.
+        Radius of a steady motion, or radial speed of impacts.
     impulse : str
         Normal impulse of an impact.
     force : str
         Force of lasting contact, or mean force of impacts.
     trials : str
-        How many disturbances ended there.
+        Number of disturbances that ended there.
     remark : str
     """
 
@@ -111,7 +111,7 @@ _EVENTS = {
 
 
 def machine_rows(case: Case) -> list[ValueRow]:
-    """The machine in SI units; empty where only dimensionless numbers are known."""
+    """Return the rows of the machine in SI units; empty if only dimensionless numbers are known."""
     if case.machine is None:
         return []
     return [
@@ -121,7 +121,7 @@ def machine_rows(case: Case) -> list[ValueRow]:
 
 
 def dimensionless_rows(case: Case) -> list[ValueRow]:
-    """The dimensionless parameters."""
+    """Return the rows of the dimensionless parameters."""
     return [
         ValueRow(field.symbol, field.words, f"{getattr(case.parameters, name):.9g}")
         for name, field in DIMENSIONLESS_FIELDS.items()
@@ -129,13 +129,13 @@ def dimensionless_rows(case: Case) -> list[ValueRow]:
 
 
 def motion_rows(study: Study, most_virtual: int = 8) -> list[MotionRow]:
-    """All motions: steady ones, orbits, and what else disturbances ended in.
+    """Return the rows of all motions: steady ones, orbits, and other motions in which disturbances ended.
 
     Parameters
     ----------
     study : Study
     most_virtual : int
-        Orbits that are not possible are left out if there are more of them.
+        If more orbits than this are not possible, they are left out.
     """
     rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors, most_virtual)
     simple = {"levitation", "synchronous rub", *(orbit.name for orbit in study.orbits)}
@@ -150,7 +150,7 @@ def simple_motion_rows(
     found: AttractorSet | None = None,
     most_virtual: int = 8,
 ) -> list[MotionRow]:
-    """Equilibria and orbits; with the number of disturbances that ended there, if any were simulated."""
+    """Return the rows of equilibria and orbits, with the number of disturbances that ended there, if simulated."""
     rows = []
     for entry in equilibria:
         name = "levitation" if entry.kind == "contact-free" else "synchronous rub" if entry.stable else ""
@@ -221,7 +221,7 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Para
 
 
 def threshold_rows(study: Study) -> list[ThresholdRow]:
-    """Every threshold of damping and stiffness."""
+    """Return a row for every threshold of damping and stiffness."""
     say = study.wording
     rows = []
     for entry in study.thresholds:
@@ -246,7 +246,10 @@ def _digits(edge: Edge) -> str:
 
 
 def range_rows(study: Study) -> list[tuple[str, ...]]:
-    """For each motion, where it exists along each gain of ``study.gains``; last, where levitation alone is left, and what is advised."""
+    """Return rows that say where each motion exists along each gain of ``study.gains``.
+
+    The last rows say where levitation is the only motion found, and what is advised.
+    """
     say = study.wording
     rows = []
     for motion, name in MOTIONS.items():
@@ -259,19 +262,19 @@ def range_rows(study: Study) -> list[tuple[str, ...]]:
 
 
 def _alone_rows(study: Study) -> list[tuple[str, ...]]:
-    """Where levitation alone is left, what is advised, and how that was checked."""
+    """Say where levitation is the only motion found, what is advised, and how that was checked."""
     say = study.wording
     alone, advised = [], []
     for gain in study.gains:
         found, orbits = study.alone_along(gain), study.range_of("single-impact", gain)
-        alone.append(say.where(gain, found.spans, orbits.searched) if found and orbits else "not found out")
+        alone.append(say.where(gain, found.spans, orbits.searched) if found and orbits else "not determined")
         advice = next((entry for entry in study.advice if entry.gain == gain), None)
         advised.append(f"{say.gain(gain, advice.value)}, where {check_words(study, advice)}" if advice else "none")
     return [("levitation alone, backward whirl aside", *alone), ("advised", *advised)]
 
 
 def kick_rows(study: Study) -> list[tuple[str, str, str]]:
-    """For each size of kick: how many directions came back, and where the others ended."""
+    """Return for each size of kick how many directions came back, and where the others ended."""
     rows = []
     for size in kick_sizes(study.attractors):
         lost = [f"{count} {ending_words(name)}" for name, count in size.lost.items()]

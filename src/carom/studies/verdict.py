@@ -1,7 +1,7 @@
-"""The verdict of a study in words: what the machine does, what may hold it, what would change that, what is unknown.
+"""The verdict of a study in words: what the machine does, what may hold it, which changes help, what is unknown.
 
-It never promises that a machine recovers.  Disturbances are samples, and motions that none of them meets may exist, so
-the best verdict is that everything tried came back.
+It never promises that a machine recovers.  Disturbances are samples, and motions that none of them reached may exist.
+The best possible verdict is that every disturbance tried came back.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ NOT_COVERED = (
 
 @dataclass(frozen=True)
 class Finding:
-    """A part of the verdict; each line of its text is a paragraph."""
+    """A topic of the verdict; each line of its text is a paragraph."""
 
     topic: str
     text: str
@@ -43,12 +43,12 @@ class Finding:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a study says.
+    """The conclusion of a study.
 
     Attributes
     ----------
     level : {"no-contact-free-motion", "may-not-come-back", "all-tried-came-back"}
-        The verdict for programs.
+        The verdict as a code for programs.
     headline : str
     findings : tuple of Finding
     """
@@ -59,12 +59,12 @@ class Verdict:
 
     @property
     def text(self) -> str:
-        """All of it as plain text."""
+        """The whole verdict as plain text."""
         return "\n\n".join([self.headline, *(f"{finding.topic}: {finding.text}" for finding in self.findings)])
 
 
 def verdict(study: Study) -> Verdict:
-    """Put a study in words."""
+    """Write the verdict of a study."""
     findings = [Finding(topic, write(study)) for topic, write in FINDINGS.items()]
     findings.append(Finding("Not covered", "\n".join(NOT_COVERED)))
     level, headline = _headline(study)
@@ -94,7 +94,7 @@ def _headline(study: Study) -> tuple[Level, str]:
 
 
 def _fastest(study: Study) -> str:
-    """Largest speed of the disturbances tried."""
+    """Return the largest speed of the disturbances tried."""
     return study.wording.velocity(study.attractors.fastest)
 
 

@@ -1,4 +1,4 @@
-"""Numbers in an engineer's words: SI units where the machine is known, units of the equations where it is not."""
+"""Numbers with units as text: in SI units if the machine is known, otherwise in units of the equations."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _GAIN_WORDS: dict[Gain, str] = {"gamma": "damping", "omega": "stiffness"}
 
 
 def number(value: float, digits: int = 4) -> str:
-    """Write a number with this many significant digits and thousands apart: ``1,400``, ``0.0725``, ``2.38e9``."""
+    """Write a number with the given significant digits and thousands separators: ``1,400``, ``0.0725``, ``2.38e9``."""
     if value == 0:
         return "0"
     if not math.isfinite(value):
@@ -31,17 +31,17 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def counted(count: int, noun: str) -> str:
-    """``1 orbit``, ``2 orbits``."""
+    """Write a count with its noun: ``1 orbit``, ``2 orbits``."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def listed(items: list[str]) -> str:
-    """``a``, ``a and b``, ``a, b and c``."""
+    """Join words: ``a``, ``a and b``, ``a, b and c``."""
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
 
 
 def no_rigid_wall(indentation: float) -> str:
-    """Say that a rigid wall is no model, for a load under which solid steel gives way by this many clearances; else nothing."""
+    """Say that the rigid wall is not a valid model if the indentation of steel, in clearances, is large; else nothing."""
     if not gives_way(indentation):
         return ""
     share = f"{number(100.0 * indentation, 2)} %" if indentation < 10.0 else f"{number(indentation, 2)} times"
@@ -79,7 +79,7 @@ class Wording:
         return self._quantity(value, "velocity", "m/s", "c_r Ω")
 
     def force(self, value: float) -> str:
-        """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as loads of bearings are told in N."""
+        """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as bearing loads are usually given in N."""
         if self.scales is not None and abs(value) * self.scales.force >= 1e5:
             return _with_prefix(value * self.scales.force, "N", least=1.0)
         return self._plain(value, "force", "N", "m c_r Ω²")
@@ -95,13 +95,13 @@ class Wording:
         return _with_prefix(value * self.scales.power, "W", least=1.0)
 
     def per_second(self, period: float) -> str:
-        """How often something of this period, in ``1/Ω``, happens."""
+        """Write the frequency of an event with this period, in ``1/Ω``."""
         if self.scales is None:
             return f"{number(2.0 * math.pi / period, 3)} times a turn"
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
     def gain(self, gain: Gain, value: float) -> str:
-        """Damping or stiffness given as ``gamma`` or ``omega``, with its unit; a bare number where the machine is not known."""
+        """Damping or stiffness given as ``gamma`` or ``omega``, with its unit if the machine is known."""
         if self.scales is None:
             return number(value)
         return f"{number(self.gain_in_si(gain, value))} {self.gain_unit(gain)}"
@@ -117,19 +117,19 @@ class Wording:
         return "N s/m" if gain == "gamma" else "N/m"
 
     def gain_name(self, gain: Gain) -> str:
-        """``damping`` or ``stiffness``; the dimensionless name where the machine is not known."""
+        """Return ``damping`` or ``stiffness``; the dimensionless name if the machine is not known."""
         return gain if self.scales is None else _GAIN_WORDS[gain]
 
     def where(self, gain: Gain, spans: tuple[Span, ...], searched: Span | None = None) -> str:
         """Say for which values of a gain something holds: ``below 3,408 N s/m``."""
         if not spans:
-            return f"for no value{self._looked_at(gain, searched)}"
+            return f"for no value{self._range_searched(gain, searched)}"
         low, high = (searched.low.value, searched.high.value) if searched else (0.0, math.inf)
         parts = []
         for span in spans:
             from_start, to_end = span.low.value <= low, span.high.value >= high
             if from_start and to_end:
-                return f"for every value{self._looked_at(gain, searched)}"
+                return f"for every value{self._range_searched(gain, searched)}"
             if from_start:
                 parts.append(f"below {self.gain(gain, span.high.value)}")
             elif to_end:
@@ -138,7 +138,7 @@ class Wording:
                 parts.append(f"from {self.gain(gain, span.low.value)} to {self.gain(gain, span.high.value)}")
         return " and ".join(parts)
 
-    def _looked_at(self, gain: Gain, searched: Span | None) -> str:
+    def _range_searched(self, gain: Gain, searched: Span | None) -> str:
         if searched is None:
             return ""
         return f" searched ({self.gain(gain, searched.low.value)} to {self.gain(gain, searched.high.value)})"
@@ -155,7 +155,7 @@ class Wording:
 
 
 def _with_prefix(value: float, unit: str, least: float = 0.1) -> str:
-    """Three digits and the first prefix that leaves at least ``least``: ``0.668 mm`` rather than ``668 µm``."""
+    """Write three digits with the largest prefix that leaves at least ``least``: ``0.668 mm``, not ``668 µm``."""
     size = abs(value)
     if size == 0:
         return f"0 {unit}"

@@ -1,16 +1,16 @@
-"""Sweeps: studies or basins on a grid of machines, by many workers, stored as they come, gone on with at any time.
+"""Sweeps: studies or basins on a grid of machines, computed by many workers, stored by chunks, resumable.
 
 ==================  =================================================================================
 ``sweep_file``      :func:`load_sweep`: TOML text to a plan
 ``plan``            :class:`SweepPlan`: the grid, its chunks and its seeds
 ``variables``       what is stored for each point
-``studies``         what a study finds out at a point
-``basins``          where a sample of disturbances ends at a point
-``chunk``           from the number of a chunk to its arrays
-``layout``          a store before its first chunk
+``studies``         what a study computes at a point
+``basins``          where the disturbances of a sample end at a point
+``chunk``           computes the arrays of a chunk from its number
+``layout``          creates the store, without chunks
 ``store``           the Zarr store, :func:`open_sweep`
-``local``           processes and threads
-``cluster``         Dask workers
+``local``           chunks computed by processes and threads of this machine
+``cluster``         chunks computed by Dask workers
 ``running``         :func:`run_sweep`
 ==================  =================================================================================
 """

@@ -1,4 +1,4 @@
-"""What a sweep of basins finds out at a point of its grid: where a seeded sample of disturbances ends."""
+"""What a sweep of basins computes at a point of its grid: where the disturbances of a seeded sample end."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ OUTCOMES = Dimension(
     tuple(ending.label for ending in ENDINGS),
 )
 BATCH = 65_536
-"""Starts followed at a time: memory does not grow with their number."""
+"""Starts followed at a time, so that memory use does not grow with their total number."""
 _COST, _COST_OF_START = 0.002, 1e-4
 _KICKS = ("kick", "kick-plane")
 
@@ -51,12 +51,12 @@ class BasinsTask:
     starts : int
         Disturbances at each point.
     disturbance : str
-        Kind of a model of :mod:`carom.disturbances`.
+        Kind of disturbance: the name of a model of :mod:`carom.disturbances`.
     sizes : tuple of (str, value, bool)
-        Its arguments: name, value, and whether that is in SI units.  One in SI units stays the same in SI units whatever
-        the scales of the point are.
+        Arguments of that model: name, value, and whether the value is in SI units.  A value in SI units is the same at
+        all points; it is converted with the scales of each point.
     has_scales : bool
-        Whether mass, clearance and speed are known, and results are stored in SI units too.
+        Whether mass, clearance and speed are known, so that results are stored in SI units too.
     """
 
     starts: int
@@ -93,16 +93,16 @@ class BasinsTask:
 
     @property
     def seconds(self) -> float:
-        """Rough time a point takes."""
+        """Estimated computing time of a point, in seconds."""
         return _COST + _COST_OF_START * self.starts
 
     def describe(self) -> dict[str, Any]:
-        """What identifies it."""
+        """Return what identifies the task, as plain data for JSON."""
         sizes = {name: {"value": _plain(value), "si": si} for name, value, si in self.sizes}
         return {"kind": self.kind, "starts": self.starts, "disturbance": {"kind": self.disturbance, **sizes}}
 
     def model(self, scales: Scales | None) -> Disturbance:
-        """Return the model of the disturbances for a machine with these scales."""
+        """Return the disturbance model for a machine with these scales."""
         chosen = MODELS[self.disturbance]
         sizes = {}
         for name, value, si in self.sizes:
@@ -111,13 +111,13 @@ class BasinsTask:
         return model
 
     def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
-        """Numbers of one machine, by the names of the variables; a name that is left out has none.
+        """Compute the values of one machine by variable name; a variable without a value is left out.
 
         Parameters
         ----------
         case : Case
         seed : SeedSequence
-            Of this point.
+            Seed of this point.
         """
         from carom.basins.kicks import smallest_lost
         from carom.basins.shares import Share
@@ -156,12 +156,12 @@ class BasinsTask:
 
 
 def _plain(value: Any) -> Any:
-    """Size as JSON knows it."""
+    """Return a size as plain data for JSON: a complex number as a list of two."""
     return [value.real, value.imag] if isinstance(value, complex) else value
 
 
 def _follow(rotor: Jeffcott, starts: Starts) -> tuple[np.ndarray, int]:
-    """Outcomes of the starts that exist, and their impacts."""
+    """Return the outcomes of the starts that exist, and the total number of their impacts."""
     from carom.motions.ensembles import settle
 
     decided = starts.exists & ~starts.undecided

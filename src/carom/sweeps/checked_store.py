@@ -1,4 +1,4 @@
-"""The store of a sweep as Zarr reads it: a chunk that is damaged or missing is named, and never taken for what it is not."""
+"""The store of a sweep as Zarr reads it: a damaged or missing chunk raises an error and is never read as data."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ __all__ = ["CheckedStore"]
 
 
 class CheckedStore(WrapperStore[LocalStore]):
-    """A store that is read only, and whose metadata have been checked."""
+    """A read-only store whose metadata have been checked before; each chunk is checked when it is read."""
 
     def __init__(self, store: LocalStore) -> None:
         super().__init__(store)
@@ -33,21 +33,21 @@ class CheckedStore(WrapperStore[LocalStore]):
 
     @classmethod
     def at(cls, path: Path) -> Self:
-        """The store in a directory."""
+        """Open the store in a directory."""
         return cls(LocalStore(path, read_only=True))
 
     async def get(self, key: str, prototype: BufferPrototype, byte_range: ByteRequest | None = None) -> Buffer | None:
-        """Return the bytes of a file, or None where there is none and need not be any.
+        """Return the bytes of a file, or None if it does not exist and need not exist.
 
         Raises
         ------
         InputError
-            It belongs to a finished chunk and is damaged or missing.
+            The file belongs to a finished chunk and is damaged or missing.
         """
         found = await self._store.get(key, prototype, byte_range)
         name, _, place = key.partition("/c/")
         if place and found is None and self._finished(place):
-            found = await self._store.get(key, prototype, byte_range)  # it may have come since
+            found = await self._store.get(key, prototype, byte_range)  # it may have been written since
             if found is None:
                 raise self._damage(key, "missing")
         if place and found is not None and not is_whole(found.to_bytes(), self._sizes[name]):
@@ -55,7 +55,7 @@ class CheckedStore(WrapperStore[LocalStore]):
         return found
 
     def _finished(self, place: str) -> bool:
-        """Whether a chunk has a status; a variable with a dimension of its own has one more number in its place."""
+        """Whether a chunk has a status file; the key of a variable with a dimension of its own has one more index."""
         status = self._store.root / STATUS.name / "c" / place
         return status.is_file() or status.parent.is_file()
 
@@ -65,5 +65,5 @@ class CheckedStore(WrapperStore[LocalStore]):
 
 
 def _size(array: dict[str, Any]) -> int:
-    """Bytes of a chunk of an array."""
+    """Return the number of bytes of a chunk of an array."""
     return math.prod(array["chunk_grid"]["configuration"]["chunk_shape"]) * np.dtype(array["data_type"]).itemsize

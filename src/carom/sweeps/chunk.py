@@ -1,4 +1,4 @@
-"""One chunk of a sweep: from its number to its arrays, the same wherever and whenever it is computed."""
+"""One chunk of a sweep: computed from its number alone, so that its arrays are the same wherever and whenever."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ class Failure:
     Attributes
     ----------
     point : tuple of int
-        Its place in the grid.
+        Index of the point in the grid.
     values : dict
-        The parameters that vary, in SI units or dimensionless.
+        Values of the parameters that vary, in SI units or dimensionless.
     error : str
-        What went wrong, on one line.
+        Error message, on one line.
     """
 
     point: tuple[int, ...]
@@ -39,16 +39,16 @@ class Failure:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Chunk(Result):
-    """What was found out about the points of a chunk.
+    """The results at the points of a chunk.
 
     Attributes
     ----------
     number : int
     arrays : dict of ndarray
-        One for each variable, and ``status``; shape of the part of the grid, then of the variable's own dimension.
+        One for each variable, and ``status``.  Shape: that of the chunk, followed by the variable's own dimension.
     failures : tuple of Failure
     processor : str
-        Kind of the processor that computed it; empty if none did.
+        Kind of the processor that computed the chunk; empty if it was not computed.
     """
 
     number: int
@@ -58,7 +58,7 @@ class Chunk(Result):
 
 
 def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
-    """Compute all points of a chunk; one that fails is recorded and the others go on.
+    """Compute all points of a chunk; a point that fails is recorded, and the others are still computed.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
     Returns
     -------
     Chunk
-        Depends on the arguments alone, to the last bit.
+        Depends on the arguments alone, bit for bit.
     """
     arrays = _empty(plan, number)
     corner = tuple(part.start for part in plan.region(number))
@@ -78,9 +78,9 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
         place = tuple(at - start for at, start in zip(point, corner, strict=True))
         try:
             found = plan.task.evaluate(plan.case_at(point), plan.seed_of(point))
-        except Exception as problem:  # noqa: BLE001  (whatever it is: it is told, and the sweep goes on)
+        except Exception as problem:  # noqa: BLE001  (any error is recorded, and the sweep continues)
             arrays["status"][place] = Status.FAILED
-            failures.append(Failure(point, plan.values(point), _told(problem)))
+            failures.append(Failure(point, plan.values(point), _error_line(problem)))
             continue
         for name, value in found.items():
             arrays[name][place] = value
@@ -89,7 +89,7 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
 
 
 def failed_chunk(plan: SweepPlan, number: int, error: str) -> Chunk:
-    """Return a chunk of which nothing is known but an error: whoever computed it has gone."""
+    """Return a chunk whose points all failed with the same error, because its worker was lost."""
     arrays = _empty(plan, number)
     arrays["status"][...] = Status.FAILED
     failures = tuple(Failure(point, plan.values(point), error) for point in plan.points_of(number))
@@ -106,6 +106,6 @@ def _empty(plan: SweepPlan, number: int) -> dict[str, np.ndarray]:
     return arrays
 
 
-def _told(problem: Exception) -> str:
+def _error_line(problem: Exception) -> str:
     words: Any = problem if isinstance(problem, CaromError) else f"{type(problem).__name__}: {problem}"
     return " ".join(str(words).split())[:_LONGEST_MESSAGE]

@@ -25,27 +25,27 @@ __all__ = ["SLURM", "connect", "on_cluster"]
 OPTION = "--scheduler"
 SLURM = "slurm"
 _PATIENCE = "20s"
-_LOOK_AROUND = 2.0
-"""Seconds without a result after which to look for workers that have come."""
+_POLL = 2.0
+"""Seconds without a result after which to look for new workers."""
 
 
 def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Generator[Chunk, None, None]:
-    """Compute chunks on the workers of a cluster, in the order in which they become ready.
+    """Compute chunks on the workers of a cluster, and yield them in the order in which they become ready.
 
-    Workers may come and go: what a worker that is lost was computing is given to another by the scheduler, and a chunk
-    that the scheduler gives up, as too many workers were lost with it, is told as failed.
+    Workers may join and leave.  If a worker is lost, the scheduler gives its chunks to another one.  If too many
+    workers are lost while they compute the same chunk, the scheduler gives it up, and the chunk is recorded as failed.
 
     Parameters
     ----------
     plan : SweepPlan
     numbers : iterator of int
-        Taken one by one: as many as the workers of the moment can work on.
+        Numbers of the chunks.  Only as many are taken as the present workers can work on.
     client : distributed.Client
 
     Raises
     ------
     CaromError
-        The scheduler is lost, or a worker has another version of carom.
+        The scheduler is lost, or a worker cannot load carom or has another version of it.
     """
     from distributed import CancelledError, KilledWorker
 
@@ -56,7 +56,7 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
     def submit() -> None:
         slots = sum(client.ncores().values()) or 1
         for number in islice(numbers, max(AHEAD * slots - len(pending), 0)):
-            # Impure, and with a key of its own: a chunk that is tried again is computed again.
+            # Impure, so each task gets its own key: a chunk that is tried again is really computed again.
             future = client.submit(_compute, plan, number, here, pure=False)
             pending[future] = number
             future.add_done_callback(ready.put)
@@ -65,22 +65,22 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
         submit()
         while pending:
             try:
-                future = ready.get(timeout=_LOOK_AROUND)
+                future = ready.get(timeout=_POLL)
             except Empty:
-                submit()  # to workers that have come since
+                submit()  # to workers that have joined since
                 continue
             number = pending.pop(future)
             try:
                 chunk = future.result()
             except KilledWorker:
                 chunk = failed_chunk(plan, number, "too many workers were lost while they computed it")
-            except (ImportError, AttributeError, RuntimeError) as problem:  # chunks themselves raise nothing
+            except (ImportError, AttributeError, RuntimeError) as problem:  # computing a chunk raises nothing itself
                 reason = " ".join(str(problem.__cause__ or problem).split())
                 raise CaromError(f"a worker cannot load carom ({reason}); install {here['carom']} there") from None
             submit()
             yield chunk
     except (CancelledError, OSError) as problem:
-        words = f"lost the scheduler ({type(problem).__name__}); what was finished is kept, the same command goes on"
+        words = f"lost the scheduler ({type(problem).__name__}); finished chunks are kept; resume with the same command"
         raise CaromError(words) from None
     finally:
         client.cancel(list(pending))
@@ -93,10 +93,10 @@ def connect(scheduler: str, workers: int | None) -> Iterator[Client]:
     Parameters
     ----------
     scheduler : str
-        Address such as ``"tcp://host:8786"``, the scheduler's file, or ``"slurm"``: jobs of a SLURM cluster as described in the
-        configuration of dask-jobqueue.
+        Address such as ``"tcp://host:8786"``, path of the scheduler's file, or ``"slurm"`` for jobs of a SLURM cluster,
+        which the configuration of dask-jobqueue describes.
     workers : int, optional
-        With ``"slurm"``: how many workers to ask for.
+        Number of workers to ask for, with ``"slurm"``.
 
     Yields
     ------
@@ -105,7 +105,7 @@ def connect(scheduler: str, workers: int | None) -> Iterator[Client]:
     Raises
     ------
     InputError
-        There is no scheduler, or Dask is not installed.
+        The scheduler cannot be reached, or Dask is not installed.
     """
     try:
         from distributed import Client
@@ -138,7 +138,7 @@ def _connected(kind: type[Client], scheduler: str, workers: int | None) -> Itera
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep tracebacks of lost connections, which are told as one line, out of the output."""
+    """Keep the tracebacks of lost connections out of the output; the error is one line instead."""
     loggers = [logging.getLogger(name) for name in logging.root.manager.loggerDict if name.startswith("distributed")]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
@@ -169,7 +169,7 @@ def _slurm_jobs(workers: int | None) -> Iterator[object]:
 
 
 def _compute(plan: SweepPlan, number: int, wanted: dict[str, str]) -> Chunk:
-    """Compute a chunk on a worker, if it has the same carom and what that stands on."""
+    """Compute a chunk on a worker, if it has the same versions of carom and its numerical libraries."""
     if other := other_version(versions(), wanted):
         name, there, here = other
         raise CaromError(f"the worker on {gethostname()} has {name} {there}, this is {here}; install the same on both")

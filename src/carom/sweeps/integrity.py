@@ -1,8 +1,8 @@
-"""What tells a whole file of a store from a damaged one: a checksum that was written with it.
+"""Checksums that tell an intact file of a store from a damaged one.
 
-Chunks end with their checksum, in the way of Zarr's codec ``crc32c``, so that every reader of Zarr notices.  What carom writes
-beside them are records: JSON with the checksum of its content.  One of these holds the sums of all files that are written
-before the first chunk.
+Chunks end with their checksum, as Zarr's codec ``crc32c`` writes it, so that every Zarr reader detects damage.  The
+other files that carom writes are records: JSON with the checksum of its content.  One record holds the checksums of all
+files that are written before the first chunk.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _SEAL = 4
 
 
 class DamagedError(Exception):
-    """A record is not as it was written."""
+    """A record does not match its checksum."""
 
 
 def seal(data: bytes) -> bytes:
@@ -30,20 +30,21 @@ def seal(data: bytes) -> bytes:
 
 
 def is_whole(sealed: bytes, size: int) -> bool:
-    """Whether data are as long as they should be and agree with the checksum at their end.
+    """Whether data have the expected length and agree with the checksum at their end.
 
-    The length matters: eight bytes of ones, say, agree with their end, and so does the checksum of nothing.
+    The length must be checked too: eight bytes with all bits set happen to agree with the checksum at their end, and so
+    does an empty file with its checksum appended.
     """
     return len(sealed) == size + _SEAL and seal(unseal(sealed)) == sealed
 
 
 def unseal(sealed: bytes) -> bytes:
-    """Data without the checksum at their end."""
+    """Return data without the checksum at their end."""
     return sealed[:-_SEAL]
 
 
 def record(content: Any) -> bytes:
-    """JSON of content with its checksum."""
+    """Return content as JSON with its checksum."""
     return json.dumps({"content": content, "crc32c": crc32c(json.dumps(content).encode())}, indent=1).encode()
 
 
@@ -53,8 +54,9 @@ def read_record(file: Path) -> Any:
     Raises
     ------
     DamagedError
+        The record does not match its checksum.
     OSError
-        It is not there, or cannot be read.
+        The file does not exist, or cannot be read.
     """
     data = file.read_bytes()
     try:
@@ -67,18 +69,18 @@ def read_record(file: Path) -> Any:
 
 
 def sums(path: Path) -> bytes:
-    """Record of the checksums of all files in a directory."""
+    """Return a record of the checksums of all files in a directory."""
     files = sorted(file for file in path.rglob("*") if file.is_file())
     return record({file.relative_to(path).as_posix(): _sum(file) for file in files})
 
 
 def damaged_metadata(path: Path) -> str | None:
-    """Name of the first file of a store, of those written before its chunks, that is not as it was written.
+    """Return the name of the first damaged or missing file of those written before the chunks, or None.
 
     Raises
     ------
     OSError
-        One cannot be read.
+        A file cannot be read.
     """
     name = SUMS
     try:

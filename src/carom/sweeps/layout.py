@@ -1,4 +1,4 @@
-"""A store before its first chunk: its arrays, their attributes, and the plan it belongs to."""
+"""Create a store without chunks: its arrays, their attributes, and the plan it belongs to."""
 
 from __future__ import annotations
 
@@ -24,51 +24,53 @@ from carom.sweeps.versions import other_version, versions
 __all__ = ["FAILURES", "OPTION", "PARTS", "ROOT", "attributes_of", "check_same", "create", "is_new"]
 
 OPTION, ROOT = "--out", "zarr.json"
-"""Name of the place in errors, and of the file that says what a store holds."""
+"""Name of the directory in errors, and of the file that describes what a store holds."""
 FAILURES, PARTS = "failures", ".parts"
 
 
 def is_new(path: Path) -> bool:
-    """Whether a store is to be made; refuse a place that holds something else."""
+    """Whether a store must be created; refuse a directory that holds something else."""
     if not path.exists():
         return True
     if not path.is_dir():
-        raise InputError(OPTION, path, "must be a directory, there or to be made; this is a file")
+        raise InputError(OPTION, path, "must be a directory, existing or new; this is a file")
     if _is_store(path):
         return False
     if any(path.iterdir()):
-        raise InputError(OPTION, path, "holds something else than a sweep; give another directory")
+        raise InputError(OPTION, path, "holds something other than a sweep; give another directory")
     return True
 
 
 def _is_store(path: Path) -> bool:
-    """Whether there is a store, be it damaged."""
+    """Whether a directory holds a store, intact or damaged."""
     if (path / SUMS).exists():
         return True
     return (path / ROOT).exists() and '"plan_digest"' in (path / ROOT).read_text("utf-8", "replace")
 
 
 def attributes_of(path: Path, option: str) -> dict[str, Any]:
-    """Attributes of a store.
+    """Return the attributes of a store.
 
     Raises
     ------
     InputError
-        There is none, or its metadata are damaged.
+        There is no store, or its metadata are damaged.
     """
     if not _is_store(path):
         raise InputError(option, path, "must be a directory that a sweep was written to")
     if name := damaged_metadata(path):
-        remedy = "bring it back from a copy, or begin anew in another directory"
+        remedy = "restore it from a backup, or start anew in another directory"
         raise InputError(
-            option, path, f"its file {name} is damaged or missing, without which its numbers mean nothing; {remedy}"
+            option,
+            path,
+            f"its file {name} is damaged or missing, and its numbers cannot be interpreted without it; {remedy}",
         )
     attributes: dict[str, Any] = json.loads((path / ROOT).read_bytes())["attributes"]
     return attributes
 
 
 def check_same(path: Path, plan: SweepPlan) -> None:
-    """Refuse a store that belongs to another plan, was begun by another version, or is damaged beyond its chunks."""
+    """Refuse a store with another plan, with other versions, or with damage outside its chunks."""
     attributes = attributes_of(path, OPTION)
     there, wanted = json.loads(attributes["plan"]), json.loads(json.dumps(plan.describe()))
     if there != wanted:
@@ -76,11 +78,13 @@ def check_same(path: Path, plan: SweepPlan) -> None:
         raise InputError(OPTION, path, f"belongs to another plan (its {where}); give another directory")
     if other := other_version(attributes["versions"], versions()):
         name, then, now = other
-        raise InputError(OPTION, path, f"was begun with {name} {then}, this is {now}; go on with that, or begin anew")
+        raise InputError(
+            OPTION, path, f"was begun with {name} {then}, this is {now}; resume it with {then}, or start anew"
+        )
 
 
 def _difference(there: Any, wanted: Any, where: str = "") -> str:
-    """Words for the first entry in which two plans differ."""
+    """Describe the first entry in which two plans differ."""
     if isinstance(there, dict) and isinstance(wanted, dict) and there.keys() == wanted.keys():
         for key in there:
             if there[key] != wanted[key]:
@@ -94,7 +98,7 @@ def _difference(there: Any, wanted: Any, where: str = "") -> str:
 
 
 def create(path: Path, plan: SweepPlan) -> None:
-    """Make the store without a chunk, beside its place, and move it there, unless another sweep has just done so."""
+    """Create the store in a staging directory and move it into place, unless another sweep has just created it."""
     made = path.absolute().parent / f".{path.name}.{secrets.token_hex(4)}.part"
     try:
         made.mkdir(parents=True)
@@ -157,9 +161,8 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
         attributes=STATUS.attributes,
         **common,
     )
-    with (
-        warnings.catch_warnings()
-    ):  # that the Zarr 3 specification does not describe it yet; without, readers look round
+    with warnings.catch_warnings():
+        # Zarr warns that its specification 3 does not describe consolidated metadata yet, which spare readers a search.
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)
 

@@ -24,24 +24,24 @@ from carom.sweeps.plan import SweepPlan
 __all__ = ["AHEAD", "on_processes", "on_threads"]
 
 AHEAD = 2
-"""Chunks that a worker has been given: one to compute, and one so that it need not wait for the next."""
+"""Chunks assigned to a worker at a time: one to compute, and one more so that it need not wait."""
 TRIES = 2
-"""Processes that a chunk may end before it counts as failed; any of them may have been stopped from outside."""
+"""Number of processes that end during a chunk until it counts as failed; one may have been killed from outside."""
 _FALSE_STARTS = 3
 _ENVIRONMENT = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-"""Of a worker: one thread of linear algebra."""
+"""Environment of a worker: linear algebra uses one thread."""
 
 
 def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generator[Chunk, None, None]:
-    """Compute chunks on threads of this process, in the order in which they become ready.
+    """Compute chunks on threads of this process, and yield them in the order in which they become ready.
 
-    The kernels run without Python's lock; what is done in Python takes turns.
+    The kernels release Python's global interpreter lock; Python code runs in one thread at a time.
 
     Parameters
     ----------
     plan : SweepPlan
     numbers : iterator of int
-        Taken one by one: as many as can be worked on.
+        Numbers of the chunks.  Only as many are taken as the workers can work on.
     workers : int
     """
     pool = ThreadPoolExecutor(workers, thread_name_prefix="carom-sweep")
@@ -58,28 +58,28 @@ def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generat
 
 
 def on_processes(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generator[Chunk, None, None]:
-    """Compute chunks in processes of their own, in the order in which they become ready.
+    """Compute chunks in worker processes, and yield them in the order in which they become ready.
 
-    A process that ends on its own - killed, out of memory - is replaced, and its chunk is tried once more.  The processes are
-    started by loky, which does not run the script that started them again: it needs no ``if __name__ == "__main__"``.
+    A process that ends unexpectedly (killed, out of memory) is replaced, and its chunk is tried once more.  loky starts
+    the processes without running the calling script again, so the script needs no ``if __name__ == "__main__"``.
 
     Parameters
     ----------
     plan : SweepPlan
     numbers : iterator of int
-        Taken one by one: as many as can be worked on.
+        Numbers of the chunks.  Only as many are taken as the workers can work on.
     workers : int
 
     Raises
     ------
     CaromError
-        Processes do not even start.
+        The worker processes end before they begin to compute.
     """
-    crew = _Crew(plan, numbers, workers)
+    pool = _Pool(plan, numbers, workers)
     try:
-        yield from crew.chunks()
+        yield from pool.chunks()
     finally:
-        crew.dismiss()
+        pool.dismiss()
 
 
 @dataclass(eq=False)
@@ -90,8 +90,8 @@ class _Worker:
     given: deque[int] = field(default_factory=deque)
 
 
-class _Crew:
-    """Worker processes, each with a pipe: numbers of chunks go in, chunks come out."""
+class _Pool:
+    """Worker processes, each with a pipe: it receives numbers of chunks and sends chunks."""
 
     def __init__(self, plan: SweepPlan, numbers: Iterator[int], size: int) -> None:
         self.plan, self.numbers = plan, numbers
@@ -101,10 +101,10 @@ class _Crew:
         first = list(islice(numbers, size))
         self.numbers = chain(first, numbers)
         for _ in first:
-            self._hire()
+            self._start_worker()
 
     def chunks(self) -> Iterator[Chunk]:
-        """All chunks."""
+        """Yield all chunks as they become ready."""
         while any(worker.given or not worker.ready for worker in self.workers):
             pipes = {worker.pipe: worker for worker in self.workers}
             for pipe in connection.wait(list(pipes)):
@@ -112,15 +112,15 @@ class _Crew:
                 try:
                     told = worker.pipe.recv()
                 except (EOFError, OSError):
-                    yield from self._lost(worker)
+                    yield from self._replace(worker)
                     continue
                 if isinstance(told, Warning):
-                    warnings.warn(told, stacklevel=1)  # the same words from several workers are shown once
+                    warnings.warn(told, stacklevel=1)  # a warning that several workers send is shown once
                     continue
                 if isinstance(told, Chunk):
                     worker.given.remove(told.number)
                 worker.ready = True
-                self._give(worker)
+                self._assign(worker)
                 if isinstance(told, Chunk):
                     yield told
 
@@ -132,7 +132,7 @@ class _Crew:
             worker.process.join()
             worker.pipe.close()
 
-    def _hire(self) -> None:
+    def _start_worker(self) -> None:
         from loky.backend import get_context
 
         context = get_context("loky")
@@ -140,21 +140,21 @@ class _Crew:
         process = context.Process(
             target=_serve, args=(self.plan, theirs), daemon=True, name="carom-sweep", env=_ENVIRONMENT
         )
-        with _interruptions_kept():
+        with _interrupts_blocked():
             process.start()
         theirs.close()
         self.workers.append(_Worker(process, ours))
 
-    def _give(self, worker: _Worker) -> None:
+    def _assign(self, worker: _Worker) -> None:
         for number in islice(self.numbers, AHEAD - len(worker.given)):
             worker.given.append(number)
             try:
                 worker.pipe.send(number)
-            except OSError:  # it has ended, as its pipe will tell
+            except OSError:  # the process has ended: its pipe reports this in chunks()
                 return
 
-    def _lost(self, worker: _Worker) -> Iterator[Chunk]:
-        """A process has ended: what it was given goes to others."""
+    def _replace(self, worker: _Worker) -> Iterator[Chunk]:
+        """Replace a worker process that has ended, and assign its chunks to others."""
         worker.process.join()
         worker.pipe.close()
         self.workers.remove(worker)
@@ -168,7 +168,7 @@ class _Crew:
                 words = f"the process that computed it ended ({_ending(worker.process)}), {TRIES} times"
                 yield failed_chunk(self.plan, again.pop(0), words)
         self.numbers = chain(again, self.numbers)
-        self._hire()
+        self._start_worker()
 
 
 def _ending(process: BaseProcess) -> str:
@@ -177,7 +177,7 @@ def _ending(process: BaseProcess) -> str:
 
 
 def _serve(plan: SweepPlan, pipe: connection.Connection) -> None:
-    """Compute what comes through the pipe until its other end is closed; say what there was to warn of, then the chunk."""
+    """Compute the chunks requested through the pipe until it is closed; send the warnings of each, then the chunk."""
     numbers: queue.SimpleQueue[int] = queue.SimpleQueue()
     threading.Thread(target=_receive, args=(pipe, numbers), daemon=True).start()
     try:
@@ -193,7 +193,7 @@ def _serve(plan: SweepPlan, pipe: connection.Connection) -> None:
 
 
 def _receive(pipe: connection.Connection, numbers: queue.SimpleQueue[int]) -> None:
-    """Take numbers; end at once, in the middle of a chunk, when the process that would have stored it is gone."""
+    """Receive numbers; exit at once, even during a chunk, when the process that stores the chunks has ended."""
     try:
         while True:
             numbers.put(pipe.recv())
@@ -203,7 +203,7 @@ def _receive(pipe: connection.Connection, numbers: queue.SimpleQueue[int]) -> No
 
 @contextmanager
 def _put_off() -> Iterator[None]:
-    """Put off a Ctrl-C that another thread receives, which a mask of this one does not keep from being handled here."""
+    """Defer a Ctrl-C that another thread receives: the signal mask of this thread does not block its handler here."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -218,8 +218,8 @@ def _put_off() -> Iterator[None]:
 
 
 @contextmanager
-def _interruptions_kept() -> Iterator[None]:
-    """Processes started here have no ear for Ctrl-C, which is ours to treat; one in the meantime is heard afterwards."""
+def _interrupts_blocked() -> Iterator[None]:
+    """Let processes started inside ignore Ctrl-C; this process handles it, afterwards if it comes meanwhile."""
     if not hasattr(signal, "pthread_sigmask"):
         with _put_off():
             yield
@@ -229,7 +229,7 @@ def _interruptions_kept() -> Iterator[None]:
     from loky.backend import resource_tracker as loky_tracker
 
     for tracker in (resource_tracker, loky_tracker):
-        tracker.ensure_running()  # else started with the first process, and unblocks what is blocked here
+        tracker.ensure_running()  # otherwise it starts with the first process and unblocks the signal
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         with _put_off():

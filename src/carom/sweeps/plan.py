@@ -1,4 +1,4 @@
-"""The plan of a sweep: a grid of machines, what is found out about each, and how the grid is cut into chunks."""
+"""The plan of a sweep: a grid of machines, what is computed for each, and how the grid is divided into chunks."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ if TYPE_CHECKING:
 __all__ = ["MOST_CHUNKS", "GridAxis", "SweepPlan", "Task", "cut"]
 
 MOST_CHUNKS = 1_000_000
-"""Chunks of a sweep: each is some files."""
+"""Largest number of chunks of a sweep: each chunk is several files."""
 SECONDS_A_CHUNK = 4.0
-"""Rough time a chunk takes where its size is left open."""
+"""Estimated computing time of a chunk whose size is not given."""
 
 Spacing = Literal["linear", "log", "list"]
 
 
 class Task(Protocol):
-    """What is found out at each point of a grid."""
+    """What is computed at each point of a grid."""
 
     @property
     def kind(self) -> str:
-        """Name of the table of the sweep file."""
+        """Name of its table in the sweep file."""
 
     @property
     def variables(self) -> tuple[Variable, ...]:
@@ -49,13 +49,13 @@ class Task(Protocol):
 
     @property
     def seconds(self) -> float:
-        """Rough time a point takes."""
+        """Estimated computing time of a point, in seconds."""
 
     def describe(self) -> dict[str, Any]:
-        """What identifies it, as JSON knows it."""
+        """Return what identifies the task, as plain data for JSON."""
 
     def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
-        """Numbers of one machine, by the names of the variables."""
+        """Compute the values of one machine by variable name."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class GridAxis:
         A field of a machine, or a dimensionless parameter.
     spacing : {"linear", "log", "list"}
     given : tuple of float
-        First and last value, or all of a list; in SI units or dimensionless.
+        First and last value, or all values of a list; in SI units or dimensionless.
     count : int
     """
 
@@ -91,13 +91,13 @@ class GridAxis:
         return {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}[self.name]
 
     def describe(self) -> dict[str, Any]:
-        """What identifies it."""
+        """Return what identifies the axis, as plain data for JSON."""
         return {"name": self.name, "spacing": self.spacing, "values": list(self.given), "count": self.count}
 
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """What a sweep does.  It holds no list of points or chunks, however many there are.
+    """What a sweep does.  Its memory use does not depend on the number of points or chunks.
 
     Attributes
     ----------
@@ -108,11 +108,11 @@ class SweepPlan:
     chunk_shape : tuple of int
         Points of a chunk along each axis.
     seed : int
-        Each point has random numbers of its own, which follow from this seed and the number of the point alone.
+        The random numbers of a point follow from this seed and the number of the point alone.
     fixed : mapping of str to float
-        Dimensionless numbers that were set: they stay whatever the axes do to mass, clearance and speed.
+        Dimensionless numbers that were set.  They keep their values when the axes change mass, clearance or speed.
     sources : mapping of str to str
-        Texts of the sweep file and of the machine file, for the record.
+        Texts of the sweep file and of the machine file, which the store keeps.
     """
 
     case: Case
@@ -144,7 +144,7 @@ class SweepPlan:
         return math.prod(self.chunk_grid)
 
     def place(self, number: int) -> tuple[int, ...]:
-        """Return the place of a chunk among the chunks."""
+        """Return the index of a chunk in the grid of chunks."""
         return tuple(int(place) for place in np.unravel_index(number, self.chunk_grid))
 
     def region(self, number: int) -> tuple[slice, ...]:
@@ -159,22 +159,22 @@ class SweepPlan:
         return math.prod(part.stop - part.start for part in self.region(number))
 
     def points_of(self, number: int) -> Iterator[tuple[int, ...]]:
-        """Places in the grid of the points of a chunk, the last axis fastest."""
+        """Yield the indices of the points of a chunk in the grid; the last axis varies fastest."""
         region = self.region(number)
         for place in np.ndindex(*(part.stop - part.start for part in region)):
             yield tuple(part.start + step for part, step in zip(region, place, strict=True))
 
     def values(self, point: tuple[int, ...]) -> dict[str, float]:
-        """Parameters that vary, at a point of the grid."""
+        """Return the values of the parameters that vary, at a point of the grid."""
         return {axis.name: float(axis.values[place]) for axis, place in zip(self.axes, point, strict=True)}
 
     def case_at(self, point: tuple[int, ...]) -> Case:
-        """Return the machine at a point: the same, to the last bit, as with ``--set``.
+        """Return the machine at a point, bit for bit the same as with ``--set``.
 
         Raises
         ------
         InputError
-            There is no such machine.
+            The parameters of this point do not describe a machine.
         """
         case, values = self.case, {**self.fixed, **self.values(point)}
         numbers = {name: value for name, value in values.items() if name in DIMENSIONLESS_FIELDS}
@@ -184,12 +184,12 @@ class SweepPlan:
         return Case(case.name, machine.parameters.replace(**numbers), machine, case.zones)
 
     def seed_of(self, point: tuple[int, ...]) -> np.random.SeedSequence:
-        """Random numbers of a point, whoever computes it, in whichever chunk."""
+        """Return the seed of a point, which does not depend on its chunk or worker."""
         number = int(np.ravel_multi_index(point, self.shape))
         return np.random.SeedSequence(self.seed, spawn_key=(number,))
 
     def describe(self) -> dict[str, Any]:
-        """What identifies the plan: two with the same description have the same results."""
+        """Return what identifies the plan: two plans with the same description have the same results."""
         scales = self.case.parameters.scales
         return {
             "parameters": self.case.parameters.as_dict(),
@@ -208,20 +208,21 @@ class SweepPlan:
 
 
 def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...]:
-    """Shape of the chunks of a grid: whole runs of the last axes.
+    """Return the shape of the chunks of a grid; a chunk extends along the last axes first.
 
     Parameters
     ----------
     shape : tuple of int
-        Of the grid.
+        Shape of the grid.
     task : Task
     chunk : int, optional
-        Largest number of points of a chunk; by default what takes some seconds, and no more chunks than allowed.
+        Largest number of points of a chunk.  By default a chunk takes some seconds, and there are fewer chunks than
+        allowed.
 
     Raises
     ------
     InputError
-        Too many chunks.
+        There would be too many chunks.
     """
     points = math.prod(shape)
     wanted = chunk or max(int(SECONDS_A_CHUNK / task.seconds), -(-points // (MOST_CHUNKS // 4)), 1)

@@ -1,4 +1,4 @@
-"""Run a sweep: compute what is waiting, wherever, and write it down."""
+"""Run a sweep: compute the waiting chunks with the chosen workers, and store them."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ __all__ = ["Tally", "run_sweep"]
 
 @dataclass(frozen=True)
 class Tally:
-    """How far a sweep is.
+    """Progress of a sweep.
 
     Attributes
     ----------
     store : Path
     points, done, failed : int
-        Of the grid; what is neither done nor failed is waiting.
+        Numbers of points of the grid; points that are neither done nor failed are waiting.
     computed : int
         Points computed by this run.
     seconds : float
-        Time since it began.
+        Time since this run began.
     damaged : tuple of int
-        Chunks that were finished before, and of which a file was damaged or missing; they are computed again.
+        Finished chunks of which a file was damaged or missing; they are computed again.
     """
 
     store: Path
@@ -75,23 +75,23 @@ def run_sweep(
 ) -> Tally:
     """Compute all points of a sweep that are not in its store yet.
 
-    Each chunk is written once, whole, as soon as it is there: whatever ends this function, the same call goes on from what
-    was finished.  What was finished before is compared with its checksums, and computed again if it is damaged.  The results
-    do not depend, to the last bit, on who computes what (on processors of one kind).
+    Each chunk is stored as soon as it is computed, completely or not at all.  If this function is interrupted for any
+    reason, the same call resumes the sweep.  Chunks finished before are compared with their checksums, and damaged ones
+    are computed again.  On processors of one kind the results are bit for bit the same, whichever workers compute them.
 
     Parameters
     ----------
     plan : SweepPlan
     store : path
-        Directory of the Zarr store; made if it is not there.
+        Directory of the Zarr store; created if it does not exist.
     workers : int, optional
-        Processes on this machine, by default one for each core at hand.
+        Number of processes on this machine, by default one for each available core.
     threads : bool
-        Threads of this process instead.
+        Use threads of this process instead of processes.
     scheduler : str or distributed.Client, optional
         Compute on a Dask cluster instead: address or file of its scheduler, ``"slurm"``, or a client.
     retry_failed : bool
-        Compute chunks again in which points failed.
+        Compute chunks with failed points again.
     progress : callable, optional
         Called with a :class:`Tally` after each chunk.
 
@@ -102,17 +102,19 @@ def run_sweep(
     Raises
     ------
     InputError
-        The store cannot be written, is being written by another sweep, belongs to another plan, or is damaged beyond its
-        chunks.
+        The store cannot be written, is being written by another sweep, belongs to another plan, or is damaged outside
+        its chunks.
     CaromError
-        There is nobody to compute.
+        No worker can compute.
     """
     if workers is not None and workers < 1:
         raise InputError("--workers", workers, "must be a whole number of at least 1")
     if scheduler is not None and threads:
-        raise InputError("--threads", "given", "goes without --scheduler, whose workers compute")
+        raise InputError("--threads", "given", "must be left out with --scheduler, whose workers compute")
     if scheduler not in (None, "slurm") and workers is not None:
-        raise InputError("--workers", workers, "goes without --scheduler ADDRESS, whose workers compute; or with slurm")
+        raise InputError(
+            "--workers", workers, "must be left out with --scheduler ADDRESS, whose workers compute; allowed with slurm"
+        )
     book = SweepStore(store, plan)
     began, computed = time.monotonic(), 0
 

@@ -1,10 +1,10 @@
-"""The Zarr store of a sweep: written chunk by chunk, each once and whole, by one process; read by any.
+"""The Zarr store of a sweep: one process writes it, each chunk completely or not at all; any process can read it.
 
-Every variable is an array over the grid in the Zarr 3 format, uncompressed, so that a chunk of it is a file that holds
-the bytes of the numbers and their checksum.  The file of ``status`` is written after all others: a chunk is finished as soon
-as it is there, whatever happens next.  Failures are told in ``failures/<chunk>.json``, kinds of processors in
-``processors.json``.  What is finished is compared with its checksums before a sweep goes on: a chunk of which a file is
-damaged or missing is waiting again.
+Every variable is an uncompressed array over the grid in the Zarr 3 format.  A chunk of it is one file that holds the
+bytes of the numbers and their checksum.  The file of ``status`` is written last: a chunk counts as finished as soon as
+this file exists.  Failures are recorded in ``failures/<chunk>.json``, kinds of processors in ``processors.json``.
+Before a sweep is resumed, finished chunks are compared with their checksums; a chunk of which a file is damaged or
+missing is computed again.
 """
 
 from __future__ import annotations
@@ -39,27 +39,28 @@ __all__ = ["SweepStore", "open_sweep"]
 
 _LOCK = ".lock"
 _WRITERS = 8
-"""Files that are brought to the disk at the same time; the system gathers them."""
+"""Files that are synchronized to the disk at the same time; the system combines these writes."""
 
 
 class SweepStore:
-    """A store that belongs to a plan; use it in a ``with`` statement to write.
+    """The store of a plan; open it in a ``with`` statement to write.
 
     Parameters
     ----------
     path : path
-        Directory; made if it is not there.
+        Directory; created if it does not exist.
     plan : SweepPlan
 
     Attributes
     ----------
     damaged : list of int
-        Chunks that were finished and of which a file is damaged or missing: they are waiting again.
+        Finished chunks of which a file is damaged or missing; they are waiting again.
 
     Raises
     ------
     InputError
-        The place cannot be written, holds something else, belongs to another plan, or is damaged beyond its chunks.
+        The directory cannot be written, holds something else, belongs to another plan, or is damaged outside its
+        chunks.
     """
 
     def __init__(self, path: str | os.PathLike[str], plan: SweepPlan) -> None:
@@ -75,18 +76,20 @@ class SweepStore:
             if is_new(self.path):
                 create(self.path, plan)
             check_same(self.path, plan)
-            self._look()
+            self._scan()
         except OSError as problem:
             raise self._refusal(problem) from None
         self._lock = FileLock(self.path / _LOCK, timeout=0)
         self._writers: ThreadPoolExecutor | None = None
 
-    # ------------------------------------------------------------------------------------------- what is there
+    # ------------------------------------------------------------------------------------------------- reading
 
-    def _look(self) -> None:
-        """Find out what is finished, by the files of the status, and compare with its checksums what is new."""
+    def _scan(self) -> None:
+        """Find the finished chunks by their status files, and compare newly found ones with their checksums."""
         self.damaged = []
-        for number in np.flatnonzero(_there(self.path / STATUS.name / "c", self.plan) & ~self._finished).tolist():
+        for number in np.flatnonzero(
+            _chunks_with_status(self.path / STATUS.name / "c", self.plan) & ~self._finished
+        ).tolist():
             failed = self._failed_points(number)
             if failed is None:
                 self.damaged.append(number)
@@ -98,7 +101,7 @@ class SweepStore:
         self._points = _points(self._finished, self.plan)
 
     def _failed_points(self, number: int) -> int | None:
-        """Failed points of a finished chunk, or None if a file of it is damaged or missing."""
+        """Return the number of failed points of a finished chunk, or None if a file of it is damaged or missing."""
         try:
             data = [file.read_bytes() for file in self._files(number).values()]
             if not all(map(is_whole, data, self._sizes)):
@@ -111,7 +114,7 @@ class SweepStore:
         return failed
 
     def _record(self, number: int) -> list[dict[str, Any]]:
-        """What is told about the failed points of a chunk."""
+        """Return the records of the failed points of a chunk."""
         file = _failure_file(self.path, number)
         try:
             points: list[dict[str, Any]] = read_record(file)["points"]
@@ -121,7 +124,7 @@ class SweepStore:
         return points
 
     def _files(self, number: int) -> dict[str, Path]:
-        """Files of a chunk by the names of the variables; the one of the status, which is written last, comes last."""
+        """Return the files of a chunk by variable name; that of the status, which is written last, comes last."""
         key = "/".join(("c", *map(str, self.plan.place(number))))
         files = {
             variable.name: self.path / variable.name / key / "/".join("0" * len(variable.shape))
@@ -131,22 +134,22 @@ class SweepStore:
 
     @property
     def done(self) -> int:
-        """Points that have been computed, failed ones left out."""
+        """Number of points that were computed without failure."""
         return self._points - self.failed
 
     @property
     def failed(self) -> int:
-        """Points that failed."""
+        """Number of points that failed."""
         return sum(self._failed.values())
 
     def waiting(self, retry_failed: bool = False) -> Iterator[int]:
-        """Chunks that are not finished, in order; then those with failures, if they are to be tried again."""
+        """Yield the chunks that are not finished, in order; then those with failures, if they are to be tried again."""
         again = sorted(self._failed) if retry_failed else []
         yield from (int(number) for number in np.flatnonzero(self._finished == 0))
         yield from again
 
     def failures(self, most: int = 20) -> list[dict[str, Any]]:
-        """The first points that failed: place, parameters and error of each."""
+        """Return the first failed points: index in the grid, parameters and error of each."""
         found: list[dict[str, Any]] = []
         for number in sorted(self._failed):
             found += self._record(number)
@@ -163,9 +166,9 @@ class SweepStore:
                 stack.callback(self._lock.release)
                 for directory in (PARTS, FAILURES):
                     (self.path / directory).mkdir(exist_ok=True)
-                for part in (self.path / PARTS).iterdir():  # of a process that was killed
+                for part in (self.path / PARTS).iterdir():  # left by a process that was killed
                     part.unlink()
-                self._look()  # now that nobody else writes
+                self._scan()  # again, as no other process can write now
                 stack.pop_all()
         except Timeout:
             raise InputError(OPTION, self.path, "another sweep is writing to it; let it end, or stop it") from None
@@ -183,12 +186,12 @@ class SweepStore:
         self._lock.release()
 
     def write(self, chunk: Chunk) -> None:
-        """Write a chunk: its arrays, then what failed, then its status; on return it is on the disk.
+        """Write a chunk: its arrays and failures, then its status.  On return it is on the disk.
 
         Raises
         ------
         InputError
-            It cannot be written; nothing that was written before is lost.
+            The chunk cannot be written; chunks written before are kept.
         """
         if self._writers is None:
             raise RuntimeError("the store is not open for writing")
@@ -203,7 +206,7 @@ class SweepStore:
         if chunk.failures:
             files[failures] = record({"chunk": number, "points": [asdict(failure) for failure in chunk.failures]})
         try:
-            self._note(chunk.processor)
+            self._record_processor(chunk.processor)
             list(self._writers.map(self._write_file, files, files.values()))
             list(self._writers.map(sync_directory, {file.parent for file in files}))
             self._write_file(status, status_data)
@@ -219,16 +222,16 @@ class SweepStore:
         if chunk.failures:
             self._failed[number] = len(chunk.failures)
 
-    def _note(self, processor: str) -> None:
-        """Write down a kind of processor that computed a chunk; warn if it is not the first."""
+    def _record_processor(self, processor: str) -> None:
+        """Record a new kind of processor that computed a chunk; warn if it is not the first kind."""
         if not processor or processor in self._processors:
             return
         if self._processors:
             others = differences(processor, self._processors[0])
             warnings.warn(
-                f"{self.path} was begun on a processor of another kind ({others}): from here on numbers may differ in their last "
-                "bits from what they would be there, and with them where irregular motions end; for the same bits everywhere, "
-                "begin anew and go on with processors of one kind only",
+                f"{self.path} was begun on a processor of another kind ({others}): from here on the last bits of "
+                "numbers may differ from those of the first kind, and irregular motions may then end elsewhere; "
+                "for the same bits everywhere, start anew and use processors of one kind only",
                 CaromWarning,
                 stacklevel=2,
             )
@@ -243,12 +246,12 @@ class SweepStore:
         if not told:
             place = f": {problem.filename}" if problem.filename and Path(problem.filename) != self.path else ""
             return InputError(
-                OPTION, self.path, f"cannot be read or written ({reason}{place}); mend that or give another directory"
+                OPTION, self.path, f"cannot be read or written ({reason}{place}); fix this or give another directory"
             )
         finished = int(np.count_nonzero(self._finished))
-        kept = f"{finished} of {self.plan.chunks} chunks are there whole"
+        kept = f"{finished} of {self.plan.chunks} chunks are stored"
         return InputError(
-            OPTION, self.path, f"cannot be written ({reason}); {kept}; mend that, and the same command goes on"
+            OPTION, self.path, f"cannot be written ({reason}); {kept}; fix this, and the same command resumes the sweep"
         )
 
 
@@ -262,13 +265,14 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     Returns
     -------
     xarray.Dataset
-        Over the axes of the sweep, read when needed; ``status`` tells which points were computed.  A chunk of which a file is
-        damaged or missing raises an :class:`~carom.outcome.InputError` that names it when it is read.
+        Variables over the axes of the sweep; data are read when needed.  ``status`` says which points were computed.
+        Reading a chunk of which a file is damaged or missing raises an :class:`~carom.outcome.InputError` that names
+        the file.
 
     Raises
     ------
     InputError
-        There is no such store, or it is damaged beyond its chunks.
+        There is no such store, or it is damaged outside its chunks.
     """
     import xarray
 
@@ -288,8 +292,8 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
 # ------------------------------------------------------------------------------------------------------------ chunks
 
 
-def _there(directory: Path, plan: SweepPlan) -> np.ndarray:
-    """Which chunks have a file of their status, by the names of these files."""
+def _chunks_with_status(directory: Path, plan: SweepPlan) -> np.ndarray:
+    """Return which chunks have a status file, shape (chunks,); only the names of files are read."""
     found = np.zeros(plan.chunk_grid, bool)
     names = [{str(place) for place in range(count)} for count in plan.chunk_grid]
 
@@ -309,7 +313,7 @@ def _there(directory: Path, plan: SweepPlan) -> np.ndarray:
 
 
 def _points(finished: np.ndarray, plan: SweepPlan) -> int:
-    """Points of the finished chunks; those at the ends of the grid are smaller."""
+    """Return the number of points of the finished chunks; the last chunks along an axis may be smaller."""
     weights = finished.reshape(plan.chunk_grid).astype(np.int64)
     for count, chunk, chunks in reversed(list(zip(plan.shape, plan.chunk_shape, plan.chunk_grid, strict=True))):
         sizes = np.full(chunks, chunk)
@@ -323,7 +327,7 @@ def _failure_file(path: Path, number: int) -> Path:
 
 
 def _padded(plan: SweepPlan, values: np.ndarray, fill: float) -> bytes:
-    """Bytes of a Zarr chunk: at the ends of the grid it reaches beyond, and is as large as all others."""
+    """Return the bytes of a Zarr chunk; all have the same size, so chunks at the ends of the grid are padded."""
     whole = plan.chunk_shape + values.shape[len(plan.shape) :]
     if values.shape == whole:
         return np.ascontiguousarray(values).tobytes()

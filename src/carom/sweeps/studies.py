@@ -1,4 +1,4 @@
-"""What a sweep of studies finds out at a point of its grid: a fixed set of numbers and flags."""
+"""What a sweep of studies computes at a point of its grid: a fixed set of numbers and flags."""
 
 from __future__ import annotations
 
@@ -55,13 +55,14 @@ class StudyTask:
     Attributes
     ----------
     disturbances : int
-        Simulated at each point, as :func:`~carom.find_attractors` does; zero for closed forms only.
+        Number simulated at each point with :func:`~carom.find_attractors`; zero for closed forms only.
     least_damping : bool
-        Whether to search the least safe damping too, with as many fresh disturbances at each damping that is checked.
+        Whether to search for the least safe damping too, with the same number of fresh disturbances at each damping
+        checked.
     zone_limits : tuple of float
         Limits of the amplitude zones.
     has_scales : bool
-        Whether mass, clearance and speed are known, and results are stored in SI units too.
+        Whether mass, clearance and speed are known, so that results are stored in SI units too.
     """
 
     disturbances: int
@@ -84,17 +85,17 @@ class StudyTask:
 
     @property
     def seconds(self) -> float:
-        """Rough time a point takes."""
+        """Estimated computing time of a point, in seconds."""
         search = _COST_OF_SEARCH + self.disturbances * _COST_OF_CHECK if self.least_damping else 0.0
         return _COST + self.disturbances * _COST_OF_DISTURBANCE + search
 
     @property
     def starts(self) -> int:
-        """Motions planned at each point, searches aside."""
+        """Number of motions simulated at each point, without those of searches."""
         return self.disturbances
 
     def describe(self) -> dict[str, Any]:
-        """What identifies it."""
+        """Return what identifies the task, as plain data for JSON."""
         return {
             "kind": self.kind,
             "disturbances": self.disturbances,
@@ -103,13 +104,13 @@ class StudyTask:
         }
 
     def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
-        """Numbers of one machine, by the names of the variables; a name that is left out has none.
+        """Compute the values of one machine by variable name; a variable without a value is left out.
 
         Parameters
         ----------
         case : Case
         seed : SeedSequence
-            Of this point.
+            Seed of this point.
         """
         from carom.models import Jeffcott
 
@@ -167,7 +168,7 @@ class StudyTask:
         safe = least_safe_damping(rotor.parameters, seed=seed, count=max(self.disturbances, 1), threads=1)
 
         def above(limit: DampingLimit | None) -> float:
-            """Zero where nothing survives, infinite where something does up to the highest damping looked at."""
+            """Return the limit: zero if nothing survives, infinite if something survives at the highest damping."""
             if limit is None:
                 return 0.0
             return math.inf if limit.above > safe.highest and limit.evidence != "closed form" else limit.above

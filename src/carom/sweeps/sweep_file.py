@@ -1,4 +1,4 @@
-"""The sweep file: TOML text to a plan, with errors of one line."""
+"""The sweep file: read TOML text into a plan, with one-line errors."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _REMEDY = 'must hold machine = "...", a table [axes.NAME] for each axis, and a [
 _LONGEST_AXIS = 1_000_000
 _MOST_STARTS = 10**12
 _ANY_SCALES = Scales(1.0, 1.0, 1.0)
-"""With which sizes are checked where those of the machine are not known, as its file has errors of its own."""
+"""Scales used to check sizes if the machine file has errors, so that the scales of the machine are unknown."""
 
 
 class _Table(pydantic.BaseModel):
@@ -103,7 +103,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     path : path
         TOML file; see ``examples/sweep-gains.toml``.
     settings : iterable of str
-        Texts ``"name=value"`` as in ``--set``, besides those of the file.
+        Texts ``"name=value"`` as in ``--set``, applied in addition to those of the file.
 
     Returns
     -------
@@ -112,7 +112,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     Raises
     ------
     InputError
-        The file, or the machine file it names, cannot be used.  It tells all errors at once.
+        The file, or the machine file it names, cannot be used.  The message lists all errors at once.
     """
     name, content = read_toml(path, _WHAT, _REMEDY)
     problems = Problems()
@@ -136,7 +136,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
 
 
 def _read(model: type[_Model], content: object, where: str, besides: Iterable[str] = ()) -> _Model:
-    """Check the entries of a table; `besides` are names of other tables, for the errors of unknown names."""
+    """Check the entries of a table; `besides` are names of other tables that errors about unknown names may suggest."""
     if not isinstance(content, dict):
         raise InputError(where, shown(content), f"must be a table [{where}]")
     try:
@@ -171,13 +171,13 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
 
 
 def _check_varied(axes: list[str], settings: list[str]) -> None:
-    """No setting may touch what an axis varies."""
+    """Refuse settings that change a parameter that an axis varies."""
     names = {setting.partition("=")[0].strip(): "set" for setting in settings}
     problems = Problems()
     problems.errors += [
         InputError(f"axes.{name}", "varied", "is set too; do one of the two") for name in axes if name in names
     ]
-    unknown = [name for name in names if name not in _PARAMETERS]  # an error of the settings
+    unknown = [name for name in names if name not in _PARAMETERS]  # reported as an error of the settings
     problems.attempt(
         check_names,
         {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
@@ -241,7 +241,7 @@ def _number(where: str, field: Field, given: object) -> float:
 
 
 def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> Task:
-    """What is to be found out at each point; without a case only its errors are."""
+    """Return the task of each point; without a case the table is only checked for errors."""
     if ("study" in tables) == ("basins" in tables):
         found = "both" if "study" in tables else "neither"
         raise InputError(_WHAT, found, "must hold a [study] or a [basins] table, one of them alone")
@@ -277,7 +277,7 @@ def _basins(given: object, scales: Scales | None) -> BasinsTask:
 
 
 def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, _Sizes]:
-    """Kind and sizes of a disturbance."""
+    """Read the kind and the sizes of a disturbance."""
     where = "basins.disturbance"
     kind = table.get("kind")
     if not isinstance(kind, str) or kind not in MODELS:
@@ -311,7 +311,7 @@ def _unknown(where: str, given: object, known: Mapping[str, Any]) -> InputError:
 def _size(
     where: str, given: object, kind: str, field: dataclasses.Field[Any], scales: Scales | None
 ) -> tuple[str, Any, bool]:
-    """Name of a size, its value - of a complex one, from its two parts - and whether that is in SI units."""
+    """Read a size: its name, its value (complex from two parts), and whether it is in SI units."""
     scale = MODELS[kind].measured_in.get(field.name, "")
     if not scale:
         return field.name, given, False

@@ -1,4 +1,4 @@
-"""What a sweep stores for each point of its grid: names, words, units and flags, without a number."""
+"""The variables that a sweep stores for each point of its grid: names, descriptions, units and flags."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _OWN_UNITS = {
 
 
 class Status:
-    """What has become of a point of the grid."""
+    """State of a point of the grid."""
 
     WAITING, DONE, FAILED = 0, 1, 2
 
@@ -57,10 +57,10 @@ class Variable:
     name : str
     words : str
     kind : {"number", "count", "flag"}
-        Stored as double, as 64-bit or as 8-bit integer; where there is none, as NaN or as -1.
+        Stored as double, as 64-bit or as 8-bit integer; a missing value is stored as NaN or -1.
     unit : str
     scale : str
-        The property of :class:`~carom.parameters.Scales` that turns it into SI units; empty for a pure number.
+        The property of :class:`~carom.parameters.Scales` that converts it to SI units; empty for a pure number.
     flags : tuple of str
         Meanings of 0, 1, 2, ...
     along : Dimension, optional
@@ -81,7 +81,7 @@ class Variable:
 
     @property
     def fill(self) -> float | int:
-        """What stands where there is no number."""
+        """Value that is stored where there is no number."""
         return np.nan if self.kind == "number" else -1
 
     @property
@@ -109,7 +109,7 @@ class _Status(NamedTuple):
 
 
 def flag_attributes(values: Sequence[int], meanings: Sequence[str]) -> dict[str, Any]:
-    """Attributes that tell what the values of a flag mean."""
+    """Return the attributes that say what the values of a flag mean."""
     words = " ".join(meaning.replace("-", "_").replace(" ", "_") for meaning in meanings)
     return {"flag_values": list(values), "flag_meanings": words}
 
@@ -122,11 +122,11 @@ STATUS = _Status(
         **flag_attributes((Status.WAITING, Status.DONE, Status.FAILED), ("waiting", "done", "failed")),
     },
 )
-"""The variable that is written last: a chunk is finished as soon as its status is there."""
+"""The variable that is written last: a chunk is finished as soon as its status is stored."""
 
 
 def with_si(variables: Sequence[Variable], has_scales: bool) -> tuple[Variable, ...]:
-    """Give variables their own units, and where scales are known a second one in SI units each, ``name_si``."""
+    """Return variables with their units and, if scales are known, a second one ``name_si`` in SI units for each."""
     found = []
     for variable in variables:
         if not variable.scale:

@@ -1,4 +1,4 @@
-"""What decides the bits of a result: versions of software, and kinds of processors."""
+"""What the last bits of a result depend on: versions of software, and kinds of processors."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from carom.sweeps.integrity import DamagedError, read_record
 __all__ = ["PROCESSORS", "differences", "other_version", "processors_of", "versions"]
 
 PROCESSORS = "processors.json"
-"""File of a store with the kinds of processors that computed its chunks, the first one first."""
+"""File of a store with the kinds of processors that computed its chunks, in the order of their first use."""
 
 
 def versions() -> dict[str, str]:
-    """Of carom, and of what its kernels are compiled by and its numbers are drawn by."""
+    """Return the versions of carom, of its compiler (Numba, llvmlite) and of its random numbers (NumPy)."""
     return {name: version(name) for name in ("carom", "numpy", "numba", "llvmlite")}
 
 
 def other_version(there: Mapping[str, str], here: Mapping[str, str]) -> tuple[str, str, str] | None:
-    """The first name under which the versions differ, and both of them."""
+    """Return the first package whose versions differ, with both versions, or None."""
     return next(((name, there.get(name, "?"), own) for name, own in here.items() if there.get(name) != own), None)
 
 
 def processors_of(path: Path, option: str) -> list[str]:
-    """Kinds of processors that computed the chunks of a store, as :func:`carom.core.target.processor` names them.
+    """Return the kinds of processors of a store's chunks, as :func:`carom.core.target.processor` names them.
 
     Raises
     ------
@@ -38,13 +38,13 @@ def processors_of(path: Path, option: str) -> list[str]:
     except FileNotFoundError:
         return []
     except DamagedError:
-        remedy = "delete it: it tells on which kinds of processors chunks were computed, and nothing else"
+        remedy = "delete it: it only says on which kinds of processors chunks were computed"
         raise InputError(option, path, f"its file {PROCESSORS} is damaged; {remedy}") from None
     return found
 
 
 def differences(here: str, there: str) -> str:
-    """Words for what one kind of processor has and another has not."""
+    """Describe in which features two kinds of processors differ."""
     own, other = here.split(), there.split()
     only = [word for word in own if word not in other], [word for word in other if word not in own]
     return "; ".join(

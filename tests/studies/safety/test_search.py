@@ -170,7 +170,7 @@ def test_well_balanced_stiff_machine_is_safe_at_any_damping():
     assert len(find_equilibria(Jeffcott(stiff))) == 3
     assert safe.rub is safe.orbits is safe.simulated is safe.within_reach is None
     assert safe.at_all.motion == "rolling"
-    assert safe.words.startswith("At no damping looked at was a disturbance lost.")
+    assert safe.words.startswith("No disturbance was lost at any damping tried.")
 
 
 def test_without_friction_nothing_rolls():

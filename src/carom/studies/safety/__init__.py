@@ -1,8 +1,8 @@
-"""The least damping above which no contact motion is met, and which motion sets it.
+"""The least damping above which no contact motion is found, and the motion that determines it.
 
 ==============  ==============================================================================================
-``limits``      :class:`DampingLimit`, :class:`SafeDamping`: what was found, in words too
-``losses``      disturbances that are lost, and variants of them, at any damping
+``limits``      :class:`DampingLimit`, :class:`SafeDamping`: the results, also in words
+``losses``      search for lost disturbances and their variants, at any damping
 ``search``      :func:`least_safe_damping`
 ==============  ==============================================================================================
 """

@@ -1,4 +1,4 @@
-"""The least damping above which no contact motion survives, and which motion sets it."""
+"""The least damping above which no contact motion survives, and the motion that determines it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from carom.studies.safety.losses import DampingCheck
 __all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "unsettled_words", "within_reach"]
 
 MOST_CHECKS = 120
-"""Fresh samples that a search may take; its statement holds for all of them together."""
+"""Largest number of fresh samples of a search; the confidence holds for all of them together."""
 
 Evidence = Literal["closed form", "search", "simulation"]
 
@@ -33,12 +33,13 @@ class DampingLimit:
     motion : str
         ``"synchronous rub"``, ``"rolling"``, or the name of an orbit or attractor.
     gamma : float
-        The largest damping at which it was found or is known to exist; of simulation, at which a disturbance was lost.
+        The largest damping at which the motion was found or is known to exist; for simulation, the largest damping at
+        which a disturbance was lost.
     above : float
-        A damping from which on it is gone, the same as ``gamma`` where that is exact; of simulation the least one at which
-        none of the fresh disturbances was lost, infinite if there is none.
+        A damping above which the motion does not exist, equal to ``gamma`` if that is exact; for simulation, the least
+        damping checked at which no fresh disturbance was lost, infinite if there is none.
     evidence : {"closed form", "search", "simulation"}
-        A closed form; a search over dampings by motions that are complete at each of them; simulated disturbances.
+        A closed form; a search over dampings with a complete list of motions at each; simulated disturbances.
     """
 
     motion: str
@@ -48,43 +49,43 @@ class DampingLimit:
 
     @property
     def digits(self) -> int:
-        """Digits of ``above`` that are known: of a simulated limit two or three, by the width of its bracket."""
+        """Number of known digits of ``above``: two or three for a simulated limit, by the width of its bracket."""
         if self.evidence != "simulation":
             return 5
         return 3 if self.above <= 1.02 * self.gamma else 2
 
     @property
     def settles(self) -> bool:
-        """Whether the motion has settled: of irregular bouncing it is not known whether it ever ends."""
+        """Whether the motion has settled; it is not known whether irregular bouncing ever ends."""
         return not self.motion.startswith(("irregular", "unresolved"))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SafeDamping(Result):
-    """How much damping it takes that no contact motion survives, the other parameters as they are.
+    """The damping above which no contact motion survives, the other parameters fixed.
 
     Attributes
     ----------
     parameters : Parameters
-        ``gamma`` is the machine's own and has no effect beyond the range looked at.
+        Those of the machine; its own ``gamma`` only affects the range searched.
     rub : DampingLimit or None
         Stable synchronous rub; ``None`` if there is none with positive damping.
     orbits : DampingLimit or None
         Admissible orbits with one impact a period, stable or not.
     simulated : DampingLimit or None
-        Whatever the simulated disturbances ended in, other than levitation.
+        Any motion other than levitation in which simulated disturbances ended.
     rolling : DampingLimit or None
-        Rolling in backward whirl, which takes a fast start to get into.
+        Rolling in backward whirl, which only a fast start reaches.
     runaway : Runaway
-        How fast, at the limit ``within_reach``.
+        How fast this start must be, at the limit ``within_reach``.
     lowest, highest : float
-        Range of ``gamma`` that was looked at for orbits and by simulation.
+        Range of ``gamma`` that was searched for orbits and by simulation.
     sample : DisturbanceSet
-        How many fresh disturbances were tried at each damping checked, and which kinds.
+        Number and kinds of fresh disturbances tried at each damping checked.
     checks : tuple of DampingCheck
-        The dampings above the limit at which fresh disturbances were tried, growing; none was lost there.
+        Checks at dampings above the limit, in ascending order; none of their fresh disturbances was lost.
     faster : DampingCheck or None
-        Disturbances up to twice as fast at the first of these dampings.
+        Disturbances up to twice as fast, tried at the first of these dampings.
     """
 
     parameters: Parameters
@@ -101,7 +102,7 @@ class SafeDamping(Result):
 
     @property
     def within_reach(self) -> DampingLimit | None:
-        """The limit that counts for the disturbances tested: all but rolling, unless they reached it.
+        """The limit for the disturbances tested; rolling counts only if they reached it.
 
         ``None`` if levitation is the only motion at any positive damping.
         """
@@ -109,7 +110,7 @@ class SafeDamping(Result):
 
     @property
     def at_all(self) -> DampingLimit | None:
-        """The limit that counts for any start, however fast: rolling included."""
+        """The limit for any start, however fast; rolling is included."""
         limits = [limit for limit in (self.within_reach, self.rolling) if limit]
         return max(limits, key=lambda limit: limit.above, default=None)
 
@@ -117,21 +118,21 @@ class SafeDamping(Result):
     def share_below(self) -> float:
         """Largest share of disturbances that may be lost at any of the dampings checked, at 95 % confidence.
 
-        With a share ``p`` none of ``n`` is lost with a probability of ``(1 − p)ⁿ``.  That this happens at any of the samples
-        a search may take, though more than this share is lost there, has a probability below 5 %.
+        If the share ``p`` is lost, none of ``n`` disturbances is lost with a probability of ``(1 − p)ⁿ``.  The returned
+        share is so large that this happens in any of the samples that a search may take with a probability below 5 %.
         """
         return -math.expm1(math.log((1.0 - CONFIDENCE) / MOST_CHECKS) / self.sample.count)
 
     @property
     def words(self) -> str:
-        """What was found, and what it rests on."""
+        """The results and their evidence, in words."""
         parts = (self._reach(), self._checked(), self._faster(), self._rolling())
         return " ".join(sentence for sentence in parts if sentence)
 
     def _reach(self) -> str:
         limit = self.within_reach
         if limit is None:
-            return "At no damping looked at was a disturbance lost."
+            return "No disturbance was lost at any damping tried."
         if limit.above > self.highest:
             return f"Contact motions survive up to the highest damping looked at, {self._damping(self.highest)}."
         if limit.evidence != "simulation":
@@ -198,7 +199,7 @@ def unsettled_words(motion: str) -> str:
 
 
 def rounded_up(value: float, digits: int) -> float:
-    """Return the least number with so many digits that is not below a positive one."""
+    """Round a positive number up to the given number of significant digits."""
     near = Decimal(f"{value:.{digits - 1}e}")
     exact = Decimal(value)
     if near < exact:
@@ -207,7 +208,7 @@ def rounded_up(value: float, digits: int) -> float:
 
 
 def share_words(share: float) -> str:
-    """Say that less than a share is lost, rounded to the weaker side: ``fewer than 1 in 1,200 are lost``."""
+    """Say that less than a share is lost, rounded to the larger share: ``fewer than 1 in 1,200 are lost``."""
     if share >= 0.1:
         return f"less than {math.ceil(100.0 * share)} % are lost"
     one_in = 1.0 / share
@@ -218,7 +219,7 @@ def share_words(share: float) -> str:
 def within_reach(
     rub: DampingLimit | None, orbits: DampingLimit | None, simulated: DampingLimit | None
 ) -> DampingLimit | None:
-    """Limit that counts for the disturbances tried: that known exactly, unless one was lost above it."""
+    """Return the limit for the disturbances tried: the largest known one, unless a disturbance was lost above it."""
     known = max((limit for limit in (rub, orbits) if limit), key=lambda limit: limit.above, default=None)
     if simulated and (known is None or simulated.gamma > known.above):
         return simulated

@@ -1,8 +1,8 @@
-"""Search dampings for disturbances that are lost: from above downward, and upward from those that were lost last.
+"""Search for disturbances that are lost at high damping, with fresh samples and with variants of starts lost before.
 
-The share of disturbances that is lost shrinks to slivers before the last of them comes back, so a sample alone finds the end
-too early.  Starts that were lost are therefore varied, within what the disturbances may be, and followed at more and more
-damping until no variant is lost.  Fresh disturbances have the last word.
+With growing damping the share of lost disturbances becomes very small before it vanishes, so a sample alone gives a
+limit that is too low.  Lost starts are therefore varied, within the limits of the disturbances, and followed at higher
+and higher damping until no variant is lost.  Finally, fresh disturbances check the result.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from carom.results import Result
 __all__ = ["DampingCheck", "Loss", "Losses", "try_disturbances"]
 
 FIRST_LOOK = 256
-"""Disturbances of a sample that are followed first; the others only if none of these is lost."""
+"""Number of disturbances of a sample that are followed first; the others follow only if none of these is lost."""
 VARIANTS = 768
-"""Variants of lost starts that are followed at each damping on the way up."""
+"""Number of variants of lost starts that are followed at each damping of the upward search."""
 KEPT = 64
-"""Lost starts that are varied."""
+"""Largest number of lost starts that are varied."""
 FINEST = 1e-5
-"""Least change of a variant, in clearances and in largest speeds; the greatest is one."""
+"""Least size of a change, relative to the clearance and to the largest speed; the greatest is one."""
 FIRST_STEP, GROWTH, LAST_STEP = 0.08, 1.5, 2e-3
-"""Relative steps of damping on the way up: of the first, how they grow, and below which the search ends."""
+"""Relative steps of damping in the upward search: the first, their factor of growth, and the least."""
 SLOW = 4e-3
-"""Relative distance above the fold of the rub within which what is left of it holds motions for thousands of turns."""
+"""Relative distance above the fold of the rub: within it motions stay near the vanished rub for thousands of turns."""
 
 
 @dataclass(frozen=True)
@@ -45,9 +45,9 @@ class DampingCheck:
     ----------
     gamma : float
     lost : int
-        How many did not come back to levitation.
+        Number of disturbances that did not come back to levitation.
     sample : DisturbanceSet
-        Which were tried.
+        The disturbances tried.
     """
 
     gamma: float
@@ -58,8 +58,8 @@ class DampingCheck:
     def share_below(self) -> float:
         """Largest share that may be lost at this damping, at 95 % confidence.
 
-        Where none is lost, the ``p`` with which that has a probability of 5 %, ``1 − 0.05^(1/n)``; otherwise the upper end of
-        :class:`~carom.basins.Share`.
+        If none is lost, this is the share at which that has a probability of 5 %, ``1 − 0.05^(1/n)``; otherwise the
+        upper end of the interval of :class:`~carom.basins.Share`.
         """
         if self.lost:
             return Share.of(self.lost, self.sample.count, drawn=True).high
@@ -67,7 +67,7 @@ class DampingCheck:
 
 
 def try_disturbances(rotor: Jeffcott, sample: DisturbanceSet, threads: int | None = None) -> DampingCheck:
-    """Follow disturbances, every one of them, and count those that do not come back."""
+    """Follow all disturbances of a sample, and count those that do not come back."""
     endings = settle(rotor, *sample.states(rotor), threads=threads)
     return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
 
@@ -79,11 +79,11 @@ class Loss(Result):
     Attributes
     ----------
     rotor : Jeffcott
-        With that damping.
+        The rotor with that damping.
     kicked : ndarray of bool, shape (n,)
-        Which are kicks of the levitating rotor.
+        Which starts are kicks of the levitating rotor.
     positions, velocities : ndarray of complex, shape (n,)
-        Of the starts, co-rotating frame.
+        The starts, co-rotating frame.
     endings : Endings
     """
 
@@ -100,7 +100,7 @@ class Loss(Result):
 
     @property
     def motion(self) -> str:
-        """Name of the motion in which the first of them ended."""
+        """Name of the motion in which the first start ended."""
         _, names = name_motions(self.rotor, self.endings.outcomes[:1], _some(self.endings, slice(1)))
         return names[0]
 
@@ -108,18 +108,18 @@ class Loss(Result):
         return len(self.kicked)
 
     def __getitem__(self, chosen: np.ndarray) -> Loss:
-        """Some of them."""
+        """Return some of the starts."""
         kicked, positions, velocities = self.kicked[chosen], self.positions[chosen], self.velocities[chosen]
         return Loss(self.rotor, kicked, positions, velocities, _some(self.endings, chosen))
 
     @property
     def ways(self) -> dict[Outcome, Loss]:
-        """The same by how they ended."""
+        """The starts grouped by their outcome."""
         outcomes = self.endings.outcomes
         return {Outcome(code): self[outcomes == code] for code in np.unique(outcomes)}
 
     def onward(self, fastest: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the starts, and the states in which they ended as far as those are starts within the clearance too."""
+        """Return the starts, and those of their final states that are not faster than allowed, as further starts."""
         slow = np.abs(self.endings.velocities) <= fastest
         return (
             np.concatenate([self.kicked, np.zeros(slow.sum(), bool)]),
@@ -133,15 +133,15 @@ def _some(endings: Endings, chosen: np.ndarray | slice) -> Endings:
 
 
 class Losses:
-    """Follows disturbances, and variants of lost ones, at any damping of a machine.
+    """Follows disturbances and variants of lost ones, at any damping of a machine.
 
     Parameters
     ----------
     parameters : Parameters
     sample : DisturbanceSet
-        How many disturbances to try at each damping, the seed of all that is random, and how fast they may be.
+        Number of disturbances at each damping, seed of all random numbers, and largest speed.
     rub_limit : float
-        Damping up to which a synchronous rub is known to exist; 0 if it is not.
+        Damping up to which a synchronous rub is known to exist; 0 if none is known.
     threads : int, optional
     """
 
@@ -150,7 +150,7 @@ class Losses:
         self.random = np.random.default_rng(sample.seed)
 
     def fresh(self, gamma: float, count: int) -> DampingCheck | Loss:
-        """Follow a sample that was never used before; the lost ones as soon as there are any."""
+        """Follow a new sample; return the lost starts as soon as there are any, otherwise the check."""
         sample = DisturbanceSet(count, self._new_seed(), self.sample.fastest)
         rotor = self._rotor(gamma)
         positions, velocities = sample.states(rotor)
@@ -163,12 +163,12 @@ class Losses:
         return DampingCheck(gamma, 0, sample)
 
     def faster(self, gamma: float, count: int, times: float) -> DampingCheck:
-        """Follow disturbances up to so many times as fast."""
+        """Follow disturbances that may be ``times`` as fast."""
         sample = DisturbanceSet(count, self._new_seed(), times * self.sample.fastest)
         return try_disturbances(self._rotor(gamma), sample, self.threads)
 
     def climb(self, lost: Loss, highest: float) -> Loss:
-        """Vary lost starts at more and more damping; the last that were lost."""
+        """Vary lost starts at higher and higher damping; return those lost at the highest."""
         step = FIRST_STEP
         while step > LAST_STEP and lost.gamma < highest:
             gamma = min(lost.gamma * (1.0 + step), highest)
@@ -182,9 +182,10 @@ class Losses:
         return lost
 
     def vary(self, lost: Loss, gamma: float) -> Loss | None:
-        """Follow lost starts and variants of them at another damping; those that are lost there too.
+        """Follow lost starts and their variants at another damping; return those that are lost there too.
 
-        What goes over to the synchronous rub where that is known to exist is left out: its end is known better.
+        Starts that end in the synchronous rub where it is known to exist are left out: its limit is known in closed
+        form.
         """
         rotor = self._rotor(gamma)
         kicked, positions, velocities = lost.onward(self.sample.fastest)
@@ -210,7 +211,7 @@ class Losses:
     def _lost(
         self, rotor: Jeffcott, kicked: np.ndarray, positions: np.ndarray, velocities: np.ndarray, explained: float = 0.0
     ) -> Loss | None:
-        """Follow starts; those that did not come back, if there are any."""
+        """Follow starts; return those that did not come back, or ``None``."""
         if not len(kicked):
             return None
         endings = settle(rotor, positions, velocities, threads=self.threads)
@@ -224,7 +225,7 @@ class Losses:
 
 
 def _within(points: np.ndarray, radius: float) -> np.ndarray:
-    """Points drawn back into a disc."""
+    """Move points outside a disc radially onto its edge."""
     sizes = np.abs(points) / radius
     drawn: np.ndarray = points / np.maximum(sizes * (1.0 + 1e-15), 1.0)
     return drawn

@@ -20,25 +20,25 @@ from carom.studies.safety.losses import DampingCheck, Loss, Losses
 __all__ = ["FRESH", "least_safe_damping"]
 
 FRESH = 10_000
-"""Fresh disturbances at each damping that is checked."""
+"""Number of fresh disturbances at each damping that is checked."""
 SCANNED = 0.1
-"""Part of them that is followed at each damping on the first way down."""
+"""Fraction of them that is followed at each damping of the first downward search."""
 GRID = 32
-"""Dampings looked at on the first way down, in geometric progression."""
+"""Number of dampings of the first downward search, in geometric progression."""
 BELOW = 5
-"""Dampings of the grid below the first with a loss at which other ways to be lost are looked for."""
+"""Number of grid points below the first loss at which other lost motions are searched."""
 LOWEST = 0.02
 HIGHEST = 8.0
-"""Range of ``γ`` looked at, in units of the largest of 1, ``ω`` and (the upper end only) the machine's own ``γ``."""
+"""Range of ``γ`` searched, in units of the largest of 1, ``ω`` and (for the upper end only) the machine's own ``γ``."""
 SEARCHED = 1e-9
-"""Relative width to which the end of the single-impact orbits is bisected."""
+"""Relative width at which the bisection for the end of the single-impact orbits stops."""
 MARGIN, WIDEST = 0.01, 0.04
-"""How far above the last loss the checks begin, relative to it; the first grows by half with each that fails, up to the second."""
+"""Relative distance of the first check above the last loss: at first, and at most; it grows by half with each failure."""
 NEARBY = (1.0, 1.01, 1.03, 1.06, 1.1, 1.15, 1.2, 1.3, 1.4, 1.5, 1.7, 2.0)
 ONWARD = 1.25
-"""Dampings that are checked, relative to the first of them; beyond the last the next ones by this factor up to the highest."""
+"""Dampings checked, relative to the first; beyond the list, each is ``ONWARD`` times the previous one."""
 FASTER, FASTER_SHARE = 2.0, 0.25
-"""Speed of faster disturbances, relative to that of the others, and how many of them are tried, relative to ``count``."""
+"""Speed of the faster disturbances relative to that of the others, and their number relative to ``count``."""
 
 Progress = Callable[[float], None]
 
@@ -53,40 +53,41 @@ def least_safe_damping(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> SafeDamping:
-    """Find the least damping above which no contact motion is met by a standard set of disturbances.
+    """Find the least damping above which no disturbance of a standard set ends in a contact motion.
 
-    The synchronous rub (:func:`~carom.closed_forms.whirl.rub_limit`) and rolling (:func:`~carom.closed_forms.whirl.rolling`) have closed forms.
-    Single-impact orbits are complete at each damping; their uppermost limit is bisected.  What else there may be (orbits
-    with several impacts, irregular bouncing, motions with rub) and what is met at all is left to simulation: from the
-    highest damping down, samples of disturbances are followed until some are lost; these, of every way to be lost, are
-    varied at more and more damping until no variant is lost any more; then fresh disturbances are tried just above and
-    at many dampings up to the highest, and where one is lost, the search goes on upward from there.
+    The synchronous rub (:func:`~carom.closed_forms.whirl.rub_limit`) and rolling
+    (:func:`~carom.closed_forms.whirl.rolling`) have closed forms.  The list of single-impact orbits is complete at each
+    damping; their upper limit is found by bisection.  Other motions (orbits with several impacts, irregular bouncing,
+    motions with rub), and which motions disturbances reach, are found by simulation.  From the highest damping
+    downward, samples of disturbances are followed until some are lost.  For each outcome, the lost starts are varied at
+    higher and higher damping until no variant is lost.  Then fresh disturbances are tried just above and at many
+    dampings up to the highest.  If one of them is lost, the search continues upward from there.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        Of the planar rotor.
+        Planar rotor.
     seed : int
-        Of all that is random.
+        Seed of all random numbers.
     count, fastest : int, float
-        Fresh disturbances at each damping that is checked, and their largest speed; see
+        Number of fresh disturbances at each damping that is checked, and their largest speed; see
         :class:`~carom.attractors.DisturbanceSet`.
     highest : float, optional
-        Largest ``γ`` to look at.
+        Largest ``γ`` to search.
     threads : int, optional
-        By default as many as there are cores; the result does not depend on it.
+        By default one for each core; the result does not depend on it.
     progress : callable, optional
         Called with the share done, 0 to 1.
 
     Returns
     -------
     SafeDamping
-        The same for the same arguments.
+        Equal for equal arguments.
 
     Raises
     ------
     InputError
-        ``highest`` is not above the lowest damping looked at, or ``count`` is below 1.
+        ``highest`` is not above the lowest damping searched, or ``count`` is below 1.
     """
     parameters = model_of(machine).parameters
     tell = progress or (lambda share: None)
@@ -134,7 +135,7 @@ def _rolling_limit(roll: Rolling) -> DampingLimit | None:
 
 
 def _end_of_orbits(parameters: Parameters, grid: np.ndarray) -> DampingLimit | None:
-    """Go down the grid to the first damping with an admissible single-impact orbit, and bisect above it."""
+    """Search the grid downward for the first damping with an admissible single-impact orbit, and bisect above it."""
     clear, found, name = math.inf, 0.0, ""
     for gamma in grid.tolist():
         name = _orbit_at(parameters, gamma)
@@ -157,20 +158,20 @@ def _end_of_orbits(parameters: Parameters, grid: np.ndarray) -> DampingLimit | N
 
 
 def _orbit_at(parameters: Parameters, gamma: float) -> str:
-    """Name of an admissible single-impact orbit, a stable one if there is; empty if there is none."""
+    """Return the name of an admissible single-impact orbit, a stable one if possible; empty if there is none."""
     real = [orbit for orbit in orbits_within_reach(Jeffcott(parameters.replace(gamma=gamma))) if orbit.admissible]
     return min(real, key=lambda orbit: not orbit.stable).name if real else ""
 
 
 class _Search:
-    """The largest damping at which a disturbance was lost, and the dampings above at which fresh ones were not."""
+    """Search for the largest damping at which a disturbance is lost, with checks by fresh disturbances above it."""
 
     def __init__(self, losses: Losses, grid: np.ndarray, known: float, progress: Progress) -> None:
         self.losses, self.grid, self.known, self.tell = losses, grid, known, progress
         self.highest, self.count = float(grid[0]), losses.sample.count
 
     def run(self) -> tuple[DampingLimit | None, tuple[DampingCheck, ...]]:
-        """Return the limit, if any disturbance was lost, and the checks passed above it in growing order."""
+        """Return the limit, if any disturbance was lost, and the checks passed above it in ascending order."""
         last = self._first_loss()
         self.tell(0.3)
         checks: list[DampingCheck] = []
@@ -198,7 +199,7 @@ class _Search:
         return DampingLimit(last.motion, last.gamma, above, "simulation") if last else None
 
     def _first_loss(self) -> Loss | None:
-        """Go down the grid to the first losses, and up again from every way to be lost there and a little below."""
+        """Search the grid downward for the first losses, then upward from each outcome found there or just below."""
         count = max(1, int(SCANNED * self.count))
         ways: dict[Outcome, Loss] = {}
         left = BELOW
@@ -213,12 +214,12 @@ class _Search:
         return max(climbed, key=lambda loss: loss.gamma, default=None)
 
     def _climbed(self, lost: Loss) -> Loss:
-        """Climb with each way to be lost of these."""
+        """Search upward from each outcome of these lost starts; return the highest loss."""
         climbed = [self.losses.climb(way, self.highest) for way in lost.ways.values()]
         return max(climbed, key=lambda loss: loss.gamma)
 
     def _ladder(self, base: float, margin: float, passed: list[DampingCheck]) -> Iterator[float]:
-        """Dampings to check: from just above the last loss to the highest, without those next to one that has passed."""
+        """Yield the dampings to check, from just above the last loss to the highest, except near a passed check."""
         lowest = float(self.grid[-1])
         first = max(base * (1.0 + margin), lowest)
         if base >= self.highest:
