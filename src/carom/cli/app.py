@@ -1,4 +1,4 @@
-"""All commands together, and the one place where errors become a line of text and an exit code."""
+"""All commands, and the only place where errors become a line of text and an exit code."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ __all__ = ["app", "main"]
 
 FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
 AGAIN = 0.01
-"""Seconds after which an interruption that was lost is made again."""
+"""Seconds after which a lost interrupt is raised again."""
 
-# The error of a wrong option or argument, wherever this typer keeps its click.
+# The error of a wrong option or argument; different versions of typer keep click in different places.
 UsageError: type[Exception] = typer.BadParameter.__bases__[0]
 
 app = typer.Typer(
@@ -81,16 +81,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: 0; 1 for a failure that is not the user's; 2 for input that cannot be used; 130 if interrupted.
+        Exit code: 0 for success; 1 for a failure not caused by the input; 2 for input that cannot be used; 130 if
+        interrupted.
     """
-    if sys.stdout is None:  # closed by the caller: output goes nowhere
+    if sys.stdout is None:  # closed by the caller: discard the output
         sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # terminals that know no Greek get escapes
+        if isinstance(stream, io.TextIOWrapper):  # terminals that cannot show Greek letters get escapes
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
-        with _interruptions_heeded(), _warnings_on_one_line():
+        with _lost_interrupts_repeated(), _warnings_on_one_line():
             code = app(args=words, prog_name="carom", standalone_mode=False)
             sys.stdout.flush()
     except CaromError as problem:
@@ -101,26 +102,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
         message = getattr(problem, "format_message", problem.__str__)()
         return _complain(f"{message} (carom --help tells what is allowed)", BAD_INPUT)
     except (KeyboardInterrupt, typer.Abort) as problem:
-        if isinstance(problem.__cause__, EOFError):  # which the library of commands takes for Ctrl-D
+        if isinstance(problem.__cause__, EOFError):  # which typer takes for Ctrl-D
             return _unexpected(problem.__cause__)
         return _complain("interrupted", INTERRUPTED)
     except BrokenPipeError:
         _close_quietly()
         return FAILURE
     except OSError as problem:
-        _let_output_go()
+        _discard_unwritten_output()
         where = f" ({problem.filename})" if problem.filename else ""
         return _complain(f"cannot read or write{where}: {problem.strerror or problem}", FAILURE)
-    except Exception as problem:  # noqa: BLE001  (the last resort: no traceback reaches a user)
+    except Exception as problem:  # noqa: BLE001  (last resort: a user sees no traceback)
         return _unexpected(problem)
-    if code == INTERRUPTED:  # caught by the library of commands, which says nothing
+    if code == INTERRUPTED:  # caught by typer, which prints nothing
         return _complain("interrupted", INTERRUPTED)
     return code if isinstance(code, int) else 0
 
 
 @contextmanager
-def _interruptions_heeded() -> Iterator[None]:
-    """Interrupt again where Python cannot hand an interruption on: in finalizers and callbacks of weak references."""
+def _lost_interrupts_repeated() -> Iterator[None]:
+    """Repeat an interrupt that Python cannot propagate: in finalizers and callbacks of weak references."""
     usual = sys.unraisablehook
 
     def told(lost: sys.UnraisableHookArgs) -> None:
@@ -140,7 +141,7 @@ def _interruptions_heeded() -> Iterator[None]:
 
 @contextmanager
 def _warnings_on_one_line() -> Iterator[None]:
-    """Show a user what carom itself warns of as one line, without the place in the code."""
+    """Show a warning of carom itself as one line, without its place in the code."""
     usual = warnings.showwarning
 
     def shown(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
@@ -157,7 +158,7 @@ def _warnings_on_one_line() -> Iterator[None]:
 
 
 def _unexpected(problem: BaseException) -> int:
-    """Say that something went wrong that nobody thought of; whoever looks for it gets the traceback."""
+    """Report an unexpected error; with ``CAROM_DEBUG=1`` raise it to show the traceback."""
     if os.environ.get("CAROM_DEBUG") == "1":
         raise problem
     name = type(problem).__name__
@@ -165,7 +166,7 @@ def _unexpected(problem: BaseException) -> int:
 
 
 def _refuse(problem: CaromError) -> int:
-    """Say what is wrong with the input; each thing wrong with a file has a line of its own."""
+    """Report errors of the input, each on its own line."""
     lines = str(problem).split("\n") if isinstance(problem, InputError) else [str(problem)]
     for line in lines:
         _complain(line, BAD_INPUT)
@@ -173,13 +174,13 @@ def _refuse(problem: CaromError) -> int:
 
 
 def _complain(message: str, code: int) -> int:
-    """Say on one line what went wrong."""
+    """Print an error on one line."""
     print(f"carom: {printable(' '.join(message.split()))}", file=sys.stderr)  # noqa: T201
     return code
 
 
-def _let_output_go() -> None:
-    """Drop what the output did not take: the interpreter would try again at its end, and complain in its own words."""
+def _discard_unwritten_output() -> None:
+    """Discard unwritten output; otherwise the interpreter tries again at exit and prints an error of its own."""
     try:
         sys.stdout.flush()
     except OSError:
@@ -187,5 +188,5 @@ def _let_output_go() -> None:
 
 
 def _close_quietly() -> None:
-    """Whoever read the output has gone: let the interpreter flush what is left to nowhere."""
+    """Redirect output whose reader has gone to the null device, because the interpreter still flushes at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,4 +1,4 @@
-"""The options of ``carom basins``, and what they ask for."""
+"""The options of ``carom basins``, and the plans they describe."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ CELLS = 60
 RELEASES = 360
 STARTS = 10_000
 MOST_STARTS = 5_000_000
-"""More would not fit into the memory of a common machine; larger sets are the business of sweeps."""
+"""More would not fit into the memory of a common computer; use a sweep for larger sets."""
 _OPTIONS = {
     "kick": ("fastest",),
     "kick-plane": ("fastest",),
@@ -51,7 +51,7 @@ _OPTIONS = {
     "slice": (),
     "state": ("fastest",),
 }
-"""Kinds of disturbances, and the options that say more about each."""
+"""Kinds of disturbances, and the options that belong to each."""
 KINDS = tuple(_OPTIONS)
 
 Kind = Annotated[str, typer.Option(metavar="KIND", help=f"What happens to the rotor: {', '.join(KINDS)}.")]
@@ -72,10 +72,11 @@ Release = Annotated[
     typer.Option(metavar="MOTION", help="Of a release from the wall: fixed (the default), rotating or rolling."),
 ]
 GainsWanted = Annotated[
-    str | None, typer.Option(metavar="NxM", help="Map the share that comes back against two parameters.")
+    str | None, typer.Option(metavar="NxM", help="Map the share that comes back over two parameters.")
 ]
 Plane = Annotated[
-    str | None, typer.Option(metavar="NAME,NAME", help="These, by default stiffness,damping (P and D gain).")
+    str | None,
+    typer.Option(metavar="NAME,NAME", help="The two parameters, by default stiffness,damping (P and D gain)."),
 ]
 FirstRange = Annotated[
     str | None, typer.Option("--x", metavar="A,B", help="Range of the first, by default half to twice.")
@@ -83,7 +84,7 @@ FirstRange = Annotated[
 SecondRange = Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second.")]
 Wanted = Annotated[
     float | None,
-    typer.Option(metavar="SHARE", help="Share that is to come back, for the least change; by default 0.99."),
+    typer.Option(metavar="SHARE", help="Share that must come back, for the least change; by default 0.99."),
 ]
 Threads = Annotated[
     int | None, typer.Option(metavar="N", min=1, help="Cores to use; the result does not depend on it.")
@@ -95,17 +96,17 @@ Out = Annotated[
 
 @dataclass(frozen=True)
 class Gains:
-    """The gain map that is asked for.
+    """The gain map requested by the options.
 
     Attributes
     ----------
     names : tuple of str
-        Its two parameters.
+        Names of its two parameters.
     ranges : tuple
         First and last value of each, or None.
     shape : tuple of int
     wanted : float
-        Share that is to come back.
+        Share of the disturbances that must come back.
     """
 
     names: tuple[str, str]
@@ -117,7 +118,7 @@ class Gains:
 def read_gains(
     parameters: Parameters, cells: str | None, plane: str | None, x: str | None, y: str | None, wanted: float | None
 ) -> Gains | None:
-    """Return the gain map that is asked for, if one is; what else is said of it is refused without."""
+    """Return the gain map requested, or ``None``; options that belong to one are refused without ``--gains``."""
     more = {"--plane": plane, "--x": x, "--y": y, "--wanted": wanted}
     if cells is None:
         for option, value in more.items():
@@ -142,7 +143,7 @@ def read_plan(
     starts: int | None,
     seed: int | None,
 ) -> Plan:
-    """Disturbances from the options."""
+    """Return the disturbances described by the options."""
     from carom.disturbances import Grid, Sample
 
     if kind not in KINDS:
@@ -199,7 +200,7 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
     if kind == "shock":
         return BaseShock(size("peak", "acceleration", None), size("duration", "time", None))
     if kind == "unbalance":
-        # The unbalance that would just fill the clearance.
+        # By default the unbalance whose contact-free whirl just reaches the wall.
         return UnbalanceStep(size("before", "length", abs(complex(parameters.omega**2 - 1.0, parameters.gamma))))
     if kind == "release":
         motion = sizes["release"] or "fixed"
@@ -213,7 +214,7 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
 
 
 def _cells(option: str, text: str, dimensions: int) -> tuple[int, ...]:
-    """Read ``60x60``."""
+    """Read a number of cells such as ``60x60``."""
     example, least = ("60x60" if dimensions == 2 else "360"), (2 if option == "--gains" else 1)
     match = re.fullmatch("[x×X]".join([r"\s*([0-9]{1,30})\s*"] * dimensions), text)
     cells = tuple(int(number) for number in match.groups()) if match else ()
@@ -229,7 +230,7 @@ def _cells(option: str, text: str, dimensions: int) -> tuple[int, ...]:
 def _plane(
     parameters: Parameters, plane: str | None, x: str | None, y: str | None
 ) -> tuple[tuple[str, str], tuple[Any, Any]]:
-    """Names and ranges of the two parameters of a gain map."""
+    """Return the names and ranges of the two parameters of a gain map."""
     from carom.bifurcations import axis
     from carom.cli.starts import read_range
 

@@ -1,4 +1,4 @@
-"""Tables of basins and gain maps, for people."""
+"""Tables of basins and gain maps for the terminal."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _NAMES = {
 
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
-    """Print what was tried, where it ends, and how much it takes."""
+    """Print the disturbances tried, where they end, and the smallest that is lost."""
     from rich import box
     from rich.table import Table
 
@@ -97,7 +97,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
 
 
 def _sure(found: GainMap, wanted: float, reach: int) -> str:
-    """For how many machines a sample shows the wanted share, and how large it has to be to show it."""
+    """Say for how many machines the sample shows the wanted share, and how large a sample is needed to show it."""
     from carom.basins.shares import starts_enough
 
     sure = int((found.dataset["recovered_low"].values >= wanted).sum())
@@ -127,7 +127,7 @@ def _tried(basin: Basin) -> str:
 
 
 def _touching(basin: Basin) -> str:
-    """How many met the wall, and how many of these come back."""
+    """Say how many disturbances touched the wall, and how many of these came back."""
     met, back = int(basin.touched.sum()), int((basin.touched & basin.recovered).sum())
     if not met:
         return f"None of the {basin.starts} touched the wall."
@@ -143,7 +143,7 @@ _LOSSES = {
 
 
 def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[str]:
-    """From which size on disturbances are lost, for those that have a size."""
+    """Say from which size on disturbances are lost, if they have a size."""
     from carom.basins.losses import has_sizes, size_coordinate
 
     if not has_sizes(basin.plan.model):
@@ -185,7 +185,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
 
 
 def _where(basin: Basin, smallest: SmallestLoss) -> str:
-    """Direction of the smallest loss."""
+    """Describe the direction of the smallest lost disturbance."""
     angle = smallest.angle or 0.0
     if smallest.kind == "release":
         whirl = "backward" if smallest.backward else "forward"

@@ -1,4 +1,4 @@
-"""``carom basins``: where disturbances go, and which gains bring back more of them."""
+"""``carom basins``: where disturbances end, and which gains bring back more of them."""
 
 from __future__ import annotations
 
@@ -65,8 +65,8 @@ def basins(
 ) -> None:
     """Find where disturbances go: what share comes back, the smallest that does not, and the gains that help.
 
-    Every start is followed to where it settles. Values without a unit are dimensionless: lengths in clearances, times in
-    1/Omega; those of a parameter of the machine are in SI units. With --gains the share that comes back is mapped
+    Every start is followed to where it settles. Values without a unit are dimensionless: lengths in clearances, times
+    in 1/Omega; those of a parameter of the machine are in SI units. With --gains the share that comes back is mapped
     against P and D gain, or any two parameters.
     """
     from carom.parameters import load
@@ -113,7 +113,7 @@ class _Answer:
 
     @cached_property
     def document(self) -> dict[str, Any]:
-        """All of it as JSON knows it."""
+        """Return the answer as plain data for JSON."""
         from carom.basins.document import basin_document
 
         wanted = {} if self.asked is None else {"wanted": self.asked.wanted}
@@ -121,7 +121,7 @@ class _Answer:
 
 
 def _follow(question: _Question, tell: Tell) -> _Answer:
-    """Basin, smallest loss and harmless speed of a machine; and its gain map, if that is asked for."""
+    """Compute the basin, smallest loss and harmless speed of a machine, and the gain map if requested."""
     from carom.basins import harmless_kick, smallest_loss
     from carom.basins import map_basins as classify
     from carom.basins.losses import has_sizes
@@ -163,7 +163,7 @@ def _map(question: _Question, asked: Gains, tell: Tell) -> tuple[GainMap, GainCh
 
 
 def _source(machine: str, settings: list[str] | None) -> dict[str, str]:
-    """Where the machine comes from."""
+    """Describe where the machine comes from."""
     text = Path(machine).read_bytes()
     return {
         "machine_file": Path(machine).name,
@@ -182,7 +182,7 @@ def _print(answer: _Answer) -> None:
 
 
 def _write(out: str, answer: _Answer) -> None:
-    """Fill the directory, whole or not at all."""
+    """Write all files to the directory, or none."""
     from carom.plots import basin as draw_basin
     from carom.plots import gain_map as draw_map
     from carom.plots import save

@@ -22,12 +22,13 @@ Out = Annotated[
     str | None, typer.Option(metavar="DIR", help="Write the figure and the JSON document to this directory.")
 ]
 Virtual = Annotated[
-    bool, typer.Option("--virtual", help="Follow orbits of higher pairs too that are virtual wherever looked at.")
+    bool, typer.Option("--virtual", help="Also follow orbits of higher pairs that are virtual at all values examined.")
 ]
 Lasting = Annotated[
     bool,
     typer.Option(
-        "--lasting", help="Follow periodic motions with a stretch of rub too, to where lasting contact begins or stays."
+        "--lasting",
+        help="Also follow periodic motions with a phase of rub, to where lasting contact begins or becomes permanent.",
     ),
 ]
 Sampled = Annotated[
@@ -43,9 +44,9 @@ Seed = Annotated[
     int | None, typer.Option(metavar="N", min=0, help="Seed of these disturbances, by default 0; with --attractors.")
 ]
 NEAR = (0.25, 2.5)
-"""Default range of a parameter, in its present value."""
+"""Default range of a parameter, relative to its present value."""
 _NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacker"}
-"""Bifurcations whose names keep hyphens or capitals."""
+"""Names of bifurcations that keep hyphens or capitals."""
 
 
 def bifurcations(
@@ -67,7 +68,7 @@ def bifurcations(
 
     Follows all equilibria and all orbits with one impact a period; lists folds, period doublings, Neimark-Sacker
     points, grazing, boundary equilibria, non-smooth Hopf points, folds of rubs and the limit of rolling.  Along the
-    speed it is a run-up diagram: damping and stiffness stay, what they mean to the rotor changes with the speed.
+    speed it is a run-up diagram: damping and stiffness stay fixed, their dimensionless values change with the speed.
     """
     from carom.bifurcations import Numbers, axis, find_bifurcations
     from carom.bifurcations.documents import diagram_document
@@ -115,16 +116,19 @@ def regions(
     ] = None,
     y: Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second.")] = None,
     settings: Settings = None,
-    grid: Annotated[int, typer.Option(metavar="N", min=2, max=400, help="Points a side that decide the regions.")] = 24,
+    grid: Annotated[
+        int,
+        typer.Option(metavar="N", min=2, max=400, help="Number of grid points per axis that determine the regions."),
+    ] = 24,
     virtual: Virtual = False,
     lasting: Lasting = False,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
-    """Map the plane of two parameters: curves of bifurcations, where they meet, and the regions between.
+    """Map the plane of two parameters: curves of bifurcations, their meeting points, and the regions between them.
 
-    Curves are followed from the bifurcations met on the two lines through the machine as it is, and from every change of
-    motions between neighbouring points of the grid.  Changes that no curve explains are listed.
+    Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
+    of motions between neighbouring points of the grid.  Changes that no curve explains are listed.
     """
     from carom.bifurcations import Plane, axis, map_regions
     from carom.bifurcations.documents import regions_document
@@ -161,7 +165,7 @@ def regions(
 
 
 def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
-    """Range of a parameter: as given, or around its present value."""
+    """Return the range of a parameter: as given, or around its present value."""
     from carom.bifurcations import Numbers
 
     if given is not None:
@@ -193,7 +197,7 @@ def _write(directory: Path, stem: str, figure: Figure, document: dict[str, Any])
 
 
 def _shown(varied: Axis, value: float) -> str:
-    """A value with its unit; a shaft speed in rpm too."""
+    """Write a value with its unit; a shaft speed also in rpm."""
     import math
 
     text = f"{value:.10g}" + (f" {varied.field.unit}" if varied.field.unit else "")
@@ -201,7 +205,7 @@ def _shown(varied: Axis, value: float) -> str:
 
 
 def _named(kind: str) -> str:
-    """Kind of a bifurcation in words."""
+    """Return the kind of a bifurcation in words."""
     return _NAMED.get(kind, kind.replace("-", " "))
 
 
@@ -241,7 +245,7 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
 
 
 def _print_attractors(diagram: Diagram) -> None:
-    """Ranges of the parameter over which disturbances met each motion, and over which only a start next to it did."""
+    """Print the ranges in which disturbances reached each motion, and those in which only a start next to it did."""
     from rich import box
     from rich.table import Table
 
@@ -297,5 +301,5 @@ def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
 
 
 def _quantity(varied: Axis) -> str:
-    """Name of a parameter with its unit."""
+    """Return the name of a parameter with its unit."""
     return f"{varied.name} ({varied.field.unit})" if varied.field.unit else varied.name

@@ -1,4 +1,4 @@
-"""Tables on narrow terminals: no word and no number is cut; text columns wrap, and gaps shrink first."""
+"""Tables on narrow terminals: text columns wrap and gaps shrink, but no word and no number is cut."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ if TYPE_CHECKING:
 __all__ = ["fitted"]
 
 _PADDINGS = ((0, 1, 0, 0), (0, 0))
-"""Between columns, from the wider to the narrower; the box adds one to each."""
+"""Paddings between columns, from wide to narrow; the box adds one to each."""
 
 
 def fitted(screen: Console, table: Table) -> Table:
-    """Give columns widths at which words stay whole, if the table is wider than the screen; otherwise leave it.
+    """Fit a table to the screen: if it is too wide, choose column widths at which words stay whole.
 
     Parameters
     ----------
     screen : rich.console.Console
     table : rich.table.Table
-        Of plain text, with all its rows.  Columns that do not wrap keep their cells in one line; their headings wrap.
+        A table of plain text, with all its rows.  Columns that do not wrap keep their cells in one line; their headings
+        wrap.
 
     Returns
     -------
@@ -49,7 +50,7 @@ def fitted(screen: Console, table: Table) -> Table:
         if sum(least) <= room:
             break
     else:
-        # Not even the words fit: the longest ones are broken, and still nothing is lost.
+        # Not even the words fit: the longest ones are broken, but no text is lost.
         while sum(least) > max(room, len(least)):
             least[least.index(max(least))] -= 1
     widths = _widened(least, most, room)
@@ -60,7 +61,7 @@ def fitted(screen: Console, table: Table) -> Table:
 
 
 def _texts(column: Column) -> list[str]:
-    """Heading and cells of a column."""
+    """Return the heading and the cells of a column."""
     return [str(column.header), *(str(cell) for cell in column.cells)]
 
 
@@ -69,7 +70,7 @@ def _widest(parts: list[str]) -> int:
 
 
 def _widened(least: list[int], most: list[int], room: int) -> list[int]:
-    """Widths that use the room: each step goes to the column that would have the most lines."""
+    """Widen columns to use the available width: each step widens the column that would have the most lines."""
     widths = list(least)
     for _ in range(room - sum(widths)):
         crowded = [high / width if width < high else 0.0 for width, high in zip(widths, most, strict=True)]

@@ -1,4 +1,4 @@
-"""Contact logs to files, whole or not at all."""
+"""Contact logs as files, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ __all__ = ["check_file", "write_csv", "write_netcdf"]
 
 
 def check_file(option: str, path: str) -> None:
-    """Refuse early what cannot become a file.
+    """Refuse early a path that cannot become a file.
 
     Raises
     ------
     InputError
-        Naming the option.
+        The path cannot be written; the error names the option.
     """
     target = Path(path)
     if not path.strip() or "\0" in path:
@@ -51,7 +51,7 @@ def check_file(option: str, path: str) -> None:
 
 
 def write_csv(motion: Trajectory, path: str) -> None:
-    """Write impacts and lasting contacts in the order of time, in SI units where the machine is known.
+    """Write impacts and lasting contacts as CSV in order of time, in SI units if the machine is known.
 
     A lasting contact fills only ``kind``, ``time`` and ``end``.
     """
@@ -77,7 +77,7 @@ def write_csv(motion: Trajectory, path: str) -> None:
 
 
 def write_netcdf(motion: Trajectory, path: str) -> None:
-    """Write impacts and lasting contacts as netCDF, in SI units where the machine is known."""
+    """Write impacts and lasting contacts as netCDF, in SI units if the machine is known."""
     content = bytes(_dataset(motion).to_netcdf(engine="h5netcdf"))  # in memory: HDF5 crashes when the disk is full
     with _refusals("--netcdf", path):
         write_whole(Path(path), content)
@@ -120,7 +120,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
 
 @contextmanager
 def _refusals(option: str, path: str) -> Iterator[None]:
-    """Errors of writing, as those of the option."""
+    """Turn errors of writing into errors of the option."""
     try:
         yield
     except OSError as problem:

@@ -22,7 +22,7 @@ def orbits(
 ) -> None:
     """List equilibria and periodic orbits, stable or not.
 
-    All orbits with one impact a period, with the argument that there are no more.
+    Lists all orbits with one impact a period, with the argument that there are no more.
     """
     from carom.parameters import load
 

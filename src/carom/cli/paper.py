@@ -27,9 +27,9 @@ def paper(
 ) -> None:
     """Reproduce the paper carom builds on: its figures and numbers.
 
-    Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Every number it prints stands beside ours,
-    and its propositions beside what holds of them. Misprinted formulas are evaluated beside the
-    right ones; figure 6b gains the curves of grazing and period doubling and the regions a stable rub divides.
+    Mora, Budd, Glendinning and Keogh, Proc. R. Soc. A 470, 20130490 (2014). Every number it prints is compared with
+    ours, and each of its propositions is tested. Misprinted formulas are evaluated beside the correct ones. Figure 6b
+    also shows the curves of grazing and period doubling, and the regions divided by a stable rub.
     """
     with progress("loading") as tell:
         if out is not None:

@@ -1,4 +1,4 @@
-"""What ``carom regions`` prints."""
+"""The tables that ``carom regions`` prints."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["curve_table", "meeting_table", "present_words", "region_table", "unexplained_table"]
 
 Names = tuple[str, str]
-"""Both parameters with their units."""
+"""Names of both parameters with their units."""
 
 
 def _table(title: str, *headings: str) -> Table:
@@ -29,7 +29,7 @@ def _place(point: tuple[float, float]) -> str:
 
 
 def curve_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> Table:
-    """Curves with the orbits they belong to; those of virtual orbits only are dim."""
+    """Return the table of curves with their orbits; curves that only virtual orbits have are dim."""
     table = _table("Curves", "bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "")
     for curve in found.curves:
         first, last = (_place(tuple(curve.points[end])) for end in (0, -1))
@@ -42,7 +42,7 @@ def curve_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> 
 
 
 def meeting_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> Table:
-    """Codimension-2 points."""
+    """Return the table of codimension-2 points."""
     table = _table("Where two happen at once, and resonances", "kinds", *names, "period (1/Ω)", "")
     for point in found.codimension2:
         kinds = " + ".join(named(kind) for kind in point.kind.split(" + "))
@@ -52,7 +52,7 @@ def meeting_table(found: RegionMap, names: Names, named: Callable[[str], str]) -
 
 
 def region_table(found: RegionMap, names: Names) -> Table:
-    """Regions by their numbers in figure and JSON."""
+    """Return the table of regions, with their numbers in figure and JSON."""
     table = _table("Regions", "#", "share", f"for example at {', '.join(names)}", "region", "motions")
     for number, region in enumerate(found.regions, start=1):
         words = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
@@ -62,7 +62,7 @@ def region_table(found: RegionMap, names: Names) -> Table:
 
 
 def unexplained_table(found: RegionMap, names: Names) -> Table:
-    """Changes of motions on no curve."""
+    """Return the table of changes of motions that lie on no curve."""
     table = _table("Changes of motions on no curve found", f"at {', '.join(names)}", "what changes", "why no curve")
     for change in found.unexplained:
         table.add_row(_place(change.point), change.words, change.reason)
@@ -70,7 +70,7 @@ def unexplained_table(found: RegionMap, names: Names) -> Table:
 
 
 def present_words(found: RegionMap, axes: tuple[Axis, Axis]) -> str:
-    """Where the machine is, in one sentence."""
+    """Say in one sentence in which region the machine lies."""
     words = ", ".join(part for part in found.present_motions.parts if part not in found.everywhere)
     if found.present is None:
         return f"The machine as it is lies outside this plane: {found.present_motions.words}"

@@ -1,4 +1,4 @@
-"""What is printed for people, whatever names and files hold."""
+"""Output to the terminal that is safe for any names and file contents."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ __all__ = ["Screen"]
 
 
 class Screen(Console):
-    """A console that shows the control characters of texts as escapes; its own colours and cursor stay.
+    """A console that shows control characters in texts as escapes; its own colours and cursor control still work.
 
-    A text that is printed as such is one line.  Line breaks inside tables and other renderables are theirs and stay.
+    A plain text is printed as one line.  Line breaks inside tables and other renderables are kept.
     """
 
     def print(self, *objects: Any, **options: Any) -> None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["simulate"]
 
 LONGEST = 20_000.0
-"""Time in ``1/Ω`` after which a motion that has not settled is given up."""
+"""Time in ``1/Ω`` at which the simulation of a motion that has not settled stops."""
 MOST_EVENTS = 1_000_000
 
 
@@ -83,7 +83,7 @@ def simulate(
 
 
 def _read(case: Case, start: str | None, kick: str | None, until: str | None) -> tuple[State | Kick, float | None]:
-    """Read the start and the end: what is wrong is refused before the kernels are loaded."""
+    """Read the start and the end, and refuse wrong input before the kernels are loaded."""
     from carom.cli.starts import read_kick, read_start, read_time
 
     scales = case.parameters.scales

@@ -1,4 +1,4 @@
-"""Starts, kicks, times and ranges from text: dimensionless, or with units where the machine is known."""
+"""Read starts, kicks, times and ranges from text: dimensionless, or with units if the machine is known."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def read_start(text: str, scales: Scales | None) -> State:
     Raises
     ------
     InputError
-        Naming ``--start``, the value and what is allowed.
+        The text cannot be read; the error names ``--start``, the value and what is allowed.
     """
     parts = _split("--start", text, (4,), _START)
     x, y = (read_size("--start", part, "length", scales).own(scales) for part in parts[:2])
@@ -54,7 +54,7 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
     Raises
     ------
     InputError
-        Naming ``--kick``.
+        The text cannot be read; the error names ``--kick``.
     """
     speed, *angle = _split("--kick", text, (1, 2), _KICK)
     size = read_size("--kick", speed, "velocity", scales).own(scales)
@@ -70,7 +70,7 @@ def read_time(text: str, scales: Scales | None, option: str = "--until") -> floa
     Raises
     ------
     InputError
-        Naming the option.
+        The text cannot be read; the error names the option.
     """
     return read_positive(option, text, "time", scales)
 
@@ -81,7 +81,7 @@ def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> f
     Raises
     ------
     InputError
-        Naming the option.
+        The text cannot be read; the error names the option.
     """
     size = read_size(option, text, kind, scales).own(scales)
     if not size > 0:
@@ -96,7 +96,7 @@ def read_value(option: str, text: str, varied: Axis) -> float:
     Raises
     ------
     InputError
-        Naming the option.
+        The text cannot be read; the error names the option.
     """
     try:
         return read_quantity(varied.field, text)
@@ -105,12 +105,12 @@ def read_value(option: str, text: str, varied: Axis) -> float:
 
 
 def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
-    """Read ``A,B``, the ends of a range of a parameter in either order; they come back with the smaller first.
+    """Read ``A,B``, the ends of a range of a parameter in either order; return the smaller one first.
 
     Raises
     ------
     InputError
-        Naming the option.
+        The text cannot be read; the error names the option.
     """
     allowed = f"must be two different values of {varied.name} with a comma between them"
     first, second = (read_value(option, part, varied) for part in _split(option, text, (2,), allowed))

@@ -1,4 +1,4 @@
-"""``carom study``: the main job."""
+"""``carom study``: the study of a machine."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def study(
 ) -> None:
     """Study a machine: the verdict in words and numbers, and a report.
 
-    Every simple motion of the machine with its stability, the damping and stiffness at which each appears or vanishes,
-    and where 200 simulated disturbances end. With --out also figures, study.json and report.html.
+    Finds every simple motion of the machine with its stability, the damping and stiffness at which each appears or
+    vanishes, and where 200 simulated disturbances end. With --out it also writes figures, study.json and report.html.
     """
     from carom.parameters import load
 

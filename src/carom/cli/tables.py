@@ -1,4 +1,4 @@
-"""Results as tables for people."""
+"""Results as tables for the terminal."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ if TYPE_CHECKING:
 __all__ = ["print_motion", "print_orbits", "print_study"]
 
 FIRST_EVENTS, LAST_EVENTS = 20, 8
-"""Contacts shown of a long log."""
+"""Numbers of contacts shown at the beginning and at the end of a long log."""
 MOST_NUMBERS = 40
-"""Orbits beyond which virtual ones are left out of the tables of numbers."""
+"""Number of orbits above which the tables of numbers leave out virtual ones."""
 TEXT_WIDTH = 110
-"""Columns beyond which running text is hard to read."""
+"""Largest width of running text, in columns; longer lines are hard to read."""
 NARROW = 116
-"""Columns below which remarks have to give way."""
+"""Width in columns below which the table of motions leaves out remarks, unless a motion is not possible."""
 _STYLES = {
     "stable": "bold",
     "seen": "bold",
@@ -58,7 +58,7 @@ _LEVELS = {
 
 
 def print_study(console: Console, study: Study, report: Path | None) -> None:
-    """Verdict, motions, thresholds and kicks of a study."""
+    """Print the verdict, motions, thresholds and kicks of a study."""
     verdict = study.verdict
     headline = Text(f"{study.case.name}: {verdict.headline}", style=_LEVELS[verdict.level])
     console.print(headline, width=min(console.width, TEXT_WIDTH))
@@ -83,7 +83,7 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
 
 
 def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet) -> None:
-    """Equilibria and orbits, with the numbers of the equations and in SI units."""
+    """Print equilibria and orbits, in units of the equations and in SI units."""
     values = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
     console.print(Text(f"{case.name}: {values}"))
     console.print()
@@ -100,7 +100,7 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
 
 
 def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
-    """How a motion ended, and its contacts."""
+    """Print how a motion ended, and its contacts."""
     say = Wording(case.parameters.scales)
     log, contacts = motion.contacts, motion.lasting_contacts
     console.print(Text(motion.outcome.meaning, style="bold"))
@@ -201,7 +201,7 @@ def _kicks(rows: list[tuple[str, str, str]]) -> Table:
 
 
 def _events(say: Wording, motion: Trajectory) -> Table:
-    """Impacts and lasting contacts in the order of time; the middle of a long log is left out."""
+    """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
     table = _table("Contacts")
     for heading in (
         "time",

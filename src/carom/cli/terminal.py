@@ -1,4 +1,4 @@
-"""What the commands share: their common options, output and progress."""
+"""Options, output and progress that the commands share."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ Settings = Annotated[
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 
 PIPE_WIDTH = 140
-"""Columns of tables where the output is no terminal."""
+"""Width of tables, in columns, if the output is not a terminal."""
 PATIENCE = 0.7
-"""Seconds without a progress bar."""
+"""Seconds before a progress bar appears."""
 _CLOCK = len("0:00:00")
 
 
 class InterruptionError(Exception):
-    """A command was interrupted and has something to say about it."""
+    """A command was interrupted; the message says what was kept and how to resume."""
 
 
 def console(errors: bool = False) -> Console:
-    """Console for people; plain text where the output is no terminal."""
+    """Return a console for the output or the errors; plain text if the stream is not a terminal."""
     from carom.cli.screen import Screen
 
     stream = sys.stderr if errors else sys.stdout
@@ -56,17 +56,17 @@ def print_document(document: dict[str, Any]) -> None:
 
 @contextmanager
 def progress(words: str) -> Iterator[Callable[[float, str], None]]:
-    """Progress bar on the error stream for what takes longer than a moment; nothing where that is no terminal.
+    """Show a progress bar on the error stream for longer tasks; nothing if that stream is not a terminal.
 
     Parameters
     ----------
     words : str
-        What is done first.
+        Description of the first step.
 
     Yields
     ------
     callable
-        To be called with the share done, 0 to 1, and what is done next.
+        To be called with the share done, 0 to 1, and a description of the next step.
     """
     if not sys.stderr.isatty():
         yield lambda share, words: None
@@ -85,7 +85,7 @@ def progress(words: str) -> Iterator[Callable[[float, str], None]]:
 
 
 def _bar() -> Progress:
-    """Bar, clock and words; where a terminal is narrow the bar gives way, then the end of the words, never the clock."""
+    """Return a bar with clock and words; a narrow terminal shortens first the bar, then the words, never the clock."""
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
     from rich.table import Column
 

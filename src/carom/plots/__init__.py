@@ -1,7 +1,7 @@
-"""Figures for print.  They take results and compute nothing.
+"""Figures for print.  They draw results and compute nothing.
 
-Every function returns a :class:`matplotlib.figure.Figure` made under carom's own style sheet, shows nothing, and leaves
-the settings and the backend of the user alone.  What the colours mean is told in :mod:`carom.plots.style`.
+Every function returns a :class:`matplotlib.figure.Figure` drawn with carom's own style sheet.  It shows nothing and
+does not change the user's settings or backend.  :mod:`carom.plots.style` explains what the colours mean.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where the axes, legends and titles of a figure go: measured without drawing, and then kept."""
+"""Layout of the axes, legends and titles of a figure: measured without drawing, and then fixed."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ __all__ = ["arrange", "without_layout", "write_plain_ticks"]
 
 
 def arrange(figure: Figure) -> None:
-    """Give axes, legends and titles their places and the axes their ticks, and keep them so.
+    """Lay out axes, legends, titles and ticks, and fix this layout.
 
-    Drawing later neither moves anything nor makes ticks, which would get the settings of the user.
+    Later drawing neither moves anything nor creates ticks, which would take the settings of the user.
 
     Parameters
     ----------
     figure : matplotlib.figure.Figure
-        A figure with all that takes room; to be called under the style sheet.  If it has its places, nothing is done.
+        A complete figure; call this under the style sheet.  If the figure has been laid out before, nothing is done.
     """
     if isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine):
         return
@@ -36,7 +36,7 @@ def arrange(figure: Figure) -> None:
     engine = ConstrainedLayoutEngine()
     canvas = figure.canvas
     _Gauge(figure)
-    # Spines reach no farther than their axes, and asking them makes all ticks again.
+    # Spines do not extend beyond their axes, and measuring them would create all ticks again.
     spines = [spine for axes in _every_axes(figure) for spine in axes.spines.values() if spine.get_in_layout()]
     for spine in spines:
         spine.set_in_layout(False)
@@ -48,16 +48,17 @@ def arrange(figure: Figure) -> None:
         figure.set_canvas(canvas)
         for spine in spines:
             spine.set_in_layout(True)
-    for axis in _every_axis(figure):  # makes the ticks that are missing
+    for axis in _every_axis(figure):  # creates the missing ticks
         axis.get_major_ticks()
         axis.get_minor_ticks()
     figure.set_layout_engine("none")
 
 
 def write_plain_ticks(figure: Figure) -> None:
-    """Write numbers at ticks as text where they need no power of ten.
+    """Write numbers at ticks as plain text unless they need a power of ten.
 
-    They look the same; parsing each of them as mathematics, time and again, would take most of the time of a figure.
+    They look the same as mathematical text, which is parsed for each tick and each drawing: that would take most of the
+    time of a figure.
     """
     for axis in _every_axis(figure):
         formatter = axis.get_major_formatter()
@@ -67,9 +68,9 @@ def write_plain_ticks(figure: Figure) -> None:
 
 @contextmanager
 def without_layout(figure: Figure) -> Iterator[None]:
-    """Let matplotlib write a figure that keeps its places by one drawing.
+    """Let matplotlib save a figure with a fixed layout by drawing it once.
 
-    It draws all figures with a layout engine twice, even with the engine that stands for none.
+    Matplotlib draws every figure with a layout engine twice, even if the engine is the placeholder that does nothing.
     """
     engine = figure.get_layout_engine()
     if not isinstance(engine, PlaceHolderLayoutEngine):
@@ -84,7 +85,7 @@ def without_layout(figure: Figure) -> Iterator[None]:
 
 
 def _settled(figure: Figure) -> bool:
-    """Whether room was made for what is there: no axes take less than they were given, and none wants other ticks."""
+    """Whether one layout pass was enough: no axes shrink to keep an aspect ratio, and none needs other ticks."""
     return all(axes.get_aspect() == "auto" for axes in figure.axes) and all(
         np.array_equal([tick.get_loc() for tick in axis.get_major_ticks()], axis.get_majorticklocs())
         for axis in _every_axis(figure)
@@ -97,7 +98,7 @@ def _every_axis(figure: Figure) -> Iterator[Axis]:
 
 
 def _every_axes(figure: Figure) -> Iterator[Axes]:
-    """All axes of a figure, with second axes and enlarged views inside others."""
+    """Return all axes of a figure, including secondary axes and insets."""
     for axes in figure.axes:
         yield from _with_children(axes)
 
@@ -109,7 +110,7 @@ def _with_children(axes: Axes) -> Iterator[Axes]:
 
 
 class _Gauge(FigureCanvasBase):
-    """A canvas to measure on: a text that many figures show is measured once."""
+    """A canvas for measuring: a text that many figures show is measured once."""
 
     def get_renderer(self) -> RendererAgg:
         return _renderer(self.figure.dpi)
@@ -117,5 +118,5 @@ class _Gauge(FigureCanvasBase):
 
 @lru_cache(4)
 def _renderer(dpi: float) -> RendererAgg:
-    """Matplotlib keeps the measures of texts with the renderer that took them, so this one is kept."""
+    """Return a cached renderer: matplotlib caches the sizes of texts by renderer."""
     return RendererAgg(1, 1, dpi)  # type: ignore[no-untyped-call]

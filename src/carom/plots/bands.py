@@ -1,4 +1,4 @@
-"""Lasting contact: the parts of a motion during which the rotor slides or rolls along the wall, as broad bands."""
+"""Lasting contact as broad bands: the parts of a motion during which the rotor slides or rolls along the wall."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ __all__ = ["bands_on_the_circle", "bands_over_time", "drawing_times", "flying"]
 
 _KINDS = ("slide", "roll")
 _STEP = 0.03
-"""Angle [rad] from point to point of a band: its chords leave the circle by less than the width of a line."""
+"""Angle [rad] between points of a band: its chords deviate from the circle by less than the width of a line."""
 _MOST_POINTS = 20_000
-"""Points of a band at most; it has then gone round the circle many times, and more would not be seen."""
+"""Largest number of points of a band: it then covers the circle many times, and more points would not be visible."""
 
 
 def flying(trajectory: Trajectory, times: Floats) -> NDArray[np.bool_]:
-    """Which times belong to free flight; the end of a contact does where a flight follows."""
+    """Return which times belong to free flight; the end of a contact does if a flight follows."""
     free = np.ones(times.shape, bool)
     for span in trajectory.lasting_contacts:
         free &= (times < span.start) | ((times >= span.end) & (span.end < trajectory.time))
@@ -33,18 +33,18 @@ def flying(trajectory: Trajectory, times: Floats) -> NDArray[np.bool_]:
 
 
 def drawing_times(trajectory: Trajectory) -> Floats:
-    """Times at which a motion is drawn: dense in flight, of a lasting contact only its two ends.
+    """Return the times at which a motion is drawn: dense in flight, only the two ends of a lasting contact.
 
     In contact the radius is 1, and :func:`bands_on_the_circle` draws the rest.
     """
-    # Enough points for smooth turns, few enough for a file one can mail.
+    # Enough points for smooth curves, but few enough for a small file.
     times = trajectory.sample(int(np.clip(60.0 * trajectory.time, 2000, 12000)))
     ends = [moment for span in trajectory.lasting_contacts for moment in (span.start, span.end)]
     return times[flying(trajectory, times) | np.isin(times, ends)]
 
 
 def bands_over_time(axes: Axes, trajectory: Trajectory) -> None:
-    """Mark lasting contact on the wall line of a radius over time."""
+    """Mark lasting contact on the wall line of a plot of the radius over time."""
     for kind in _KINDS:
         spans = [span for span in trajectory.lasting_contacts if span.kind == kind]
         times = np.array([moment for span in spans for moment in (span.start, span.end, np.nan)])
@@ -66,7 +66,7 @@ def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since:
 def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: float) -> Complex:
     start = max(span.start, since)
     position, velocity = trajectory.at(np.linspace(start, span.end, 16))
-    # On the wall the angular speed is the tangential one; the fixed frame adds the turn of the shaft, 1.
+    # On the wall (radius 1) the angular speed equals the tangential speed; the fixed frame adds the shaft speed, 1.
     fastest = float(np.abs((position.conj() * velocity).imag + (frame == "fixed")).max())
     points = int(np.ceil((span.end - start) * fastest / _STEP)) + 2
     end = span.end

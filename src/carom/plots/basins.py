@@ -29,12 +29,12 @@ if TYPE_CHECKING:
 __all__ = ["basin"]
 
 Bend = Callable[[Floats, Floats], tuple[Floats, Floats]]
-"""From coordinates of cells to those of the axes."""
+"""Maps coordinates of cells to those of the axes."""
 
 _PALER = (0.0, 0.4, 0.65, 0.8)
-"""How much white the further motions of one outcome are mixed with."""
+"""Shares of white mixed into the colours of the first, second, ... motion of one outcome."""
 _CHORDS = 120
-"""Straight edges at least in a ring of cells."""
+"""Least number of straight edges in a ring of cells."""
 _RING = (0.82, 0.98)
 """Inner and outer radius of the ring that shows releases from the wall."""
 _BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
@@ -43,7 +43,7 @@ _BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")
 
 @dataclass(frozen=True)
 class _Shown:
-    """A motion as it is drawn."""
+    """The look of a motion."""
 
     index: int
     look: Look
@@ -69,9 +69,9 @@ class _Shown:
 
 @styled
 def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None = None) -> Figure:
-    """Draw where disturbances end, in the way that fits them.
+    """Draw where disturbances end, as a picture that depends on their kind.
 
-    Kicks and shocks by size and direction: a polar picture, and beside it the shares at each size.  Kicks by their parts
+    Kicks and shocks by size and direction: a polar picture, and beside it the shares at each size.  Kicks by components
     and slices of states: a plane.  Releases from the wall: a ring.  Samples: a bar for each motion with its confidence
     interval.
 
@@ -79,13 +79,13 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
     ----------
     basin : carom.basins.Basin
     smallest : carom.basins.SmallestLoss, optional
-        Smallest kick or shock found that is lost, to be marked among its like.
+        Smallest kick or shock found that is lost, to be marked in a picture of kicks or shocks.
     title : str, optional
 
     Returns
     -------
     matplotlib.figure.Figure
-        180 mm wide, or 88 mm for one plane.  In SI units where the machine is known.
+        180 mm wide, or 88 mm for one plane.  In SI units if the machine is known.
     """
     motions = _shown(basin)
     kind, grid = basin.plan.model.kind, basin.dataset["outcome"].dims != ("start",)
@@ -101,7 +101,7 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
 
 
 def _shown(basin: Basin) -> list[_Shown]:
-    """Motions in the order of their outcome; those of one outcome differ in how pale they are."""
+    """Return the looks of the motions, sorted by outcome; those of one outcome differ in paleness."""
     index, outcomes, shares = basin.dataset["motion"].values, basin.outcomes, basin.fractions
     found = []
     for place, name in enumerate(basin.motions):
@@ -129,19 +129,19 @@ def _paler(colour: str, white: float) -> str:
 
 
 def _ink(colour: str) -> str:
-    """Colour of hatching on a ground: a darker one of the same hue, or white on dark grounds."""
+    """Return the colour of hatching: a darker shade of the background, or white on dark backgrounds."""
     red, green, blue = to_rgb(colour)
     dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.3
     return "#ffffff" if dark else to_hex((0.72 * red, 0.72 * green, 0.72 * blue))
 
 
 def _flat(x: Floats, y: Floats) -> tuple[Floats, Floats]:
-    """Coordinates of cells that are those of the axes."""
+    """Return coordinates unchanged: those of the cells are those of the axes."""
     return x, y
 
 
 def _paint(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown], bend: Bend = _flat) -> None:
-    """Paint cells, given by their edges, in the colours of the motions; `bend` takes their corners into the axes."""
+    """Paint cells, given by their edges, in the colours of the motions; `bend` maps their corners to the axes."""
     order = {entry.index: place for place, entry in enumerate(motions)}
     places = np.full(index.shape, np.nan)
     for entry in motions:
@@ -163,12 +163,12 @@ def _paint(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequenc
 
 
 def _nodes(edges: Floats) -> Floats:
-    """Middles of cells, and the outermost edges."""
+    """Return the centres of cells, and the outermost edges."""
     return np.concatenate([edges[:1], 0.5 * (edges[1:] + edges[:-1]), edges[-1:]])
 
 
 def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions: Sequence[_Shown]) -> None:
-    """Hatch the areas of motions, so that they are told apart in grey too."""
+    """Hatch the areas of motions, so that they can be distinguished in greyscale too."""
     for entry in motions:
         inside = (index == entry.index).astype(float)
         if entry.hatch and inside.any():
@@ -186,7 +186,7 @@ def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
     figure = Figure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS))
     grid = figure.add_gridspec(1, 2, width_ratios=(1.25, 1.0))
     round_, beside = figure.add_subplot(grid[0], projection="polar"), figure.add_subplot(grid[1])
-    parts = -(-_CHORDS // cells[1])  # cells are drawn with straight edges: wide ones in parts, so that rings look round
+    parts = -(-_CHORDS // cells[1])  # cells have straight edges: divide wide ones so that rings look round
     index = np.repeat(dataset["motion"].values.T, parts, axis=0)
     _paint(round_, direction.edges(parts * cells[1]), factor * size.edges(cells[0]), index, motions)
     round_.set_title("(a)", loc="left", y=1.0)
@@ -201,7 +201,7 @@ def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
 
 
 def _rule(axes: Axes, high: float) -> None:
-    """Rings and rays of a polar picture, white above the colours."""
+    """Draw rings and rays of a polar picture, white on top of the colours."""
     axes.set_ylim(0.0, high)
     axes.grid(visible=True, color="#ffffff", lw=0.3, alpha=0.7)
     axes.set_axisbelow(False)
@@ -209,14 +209,14 @@ def _rule(axes: Axes, high: float) -> None:
     axes.tick_params(axis="x", pad=1)
     if isinstance(axes, PolarAxes):
         axes.set_rlabel_position(22.5)
-    # A label on the outermost ring would cover the frame.
+    # A label on the outermost ring would overlap the frame.
     axes.yaxis.set_major_locator(MaxNLocator(4, prune="both"))
     for tick in axes.yaxis.get_ticklabels():
         tick.set_bbox({"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8})
 
 
 def _stacked(axes: Axes, basin: Basin, motions: Sequence[_Shown]) -> None:
-    """Share of each motion at each size, stacked."""
+    """Draw the share of each motion at each size, stacked."""
     size = basin.coordinates[0]
     factor, label = _axis(size, basin.scales)
     index = basin.dataset["motion"].values
@@ -301,7 +301,7 @@ def _outward(basin: Basin) -> complex:
 
 
 def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
-    """Places on the wall, coloured by what a release there leads to."""
+    """Draw the places on the wall, coloured by the motion to which a release there leads."""
     figure = Figure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
     axes = figure.subplots()
     cells = basin.dataset["motion"].values
@@ -324,7 +324,7 @@ def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
 
 
 def _bars(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
-    """Shares of a sample with their confidence intervals."""
+    """Draw the shares of a sample with their confidence intervals."""
     figure = Figure(figsize=(0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
     axes = figure.subplots()
     for row, entry in enumerate(reversed(motions)):
@@ -354,7 +354,7 @@ def _bars(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
 
 
 def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
-    """Factor from dimensionless values to those shown, and the label with its unit."""
+    """Return the factor from dimensionless values to those shown, and the label with its unit."""
     if scales is None or not coordinate.scale:
         unit = {
             "velocity": r"$c_\mathrm{r}\Omega$",
@@ -369,7 +369,7 @@ def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
 def _finish(
     figure: Figure, motions: Sequence[_Shown], title: str | None, more: Sequence[Artist], columns: int
 ) -> Figure:
-    """Title and legend below."""
+    """Add the title, and the legend below."""
     if title:
         figure.suptitle(title)
     handles: list[Any] = [*(entry.patch for entry in motions), *more]

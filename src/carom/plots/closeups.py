@@ -1,4 +1,4 @@
-"""Which parts of a picture are too small to be seen and deserve a picture of their own."""
+"""Find the parts of a picture that are too small to be visible and need a close-up."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from carom.plots.plane import Complex
 __all__ = ["Closeup", "closeups"]
 
 _SMALL = 0.15
-"""Paths that stay within this distance [c_r] of their first point, and points nearer to them, are crowded together."""
+"""Distance [c_r] within which a small path stays from its first point, and within which points join its close-up."""
 
 
 @dataclass
@@ -22,9 +22,9 @@ class Closeup:
     Attributes
     ----------
     members : list of int
-        Indices of the paths it is about.
+        Indices of the paths that it enlarges.
     places : list of numpy.ndarray
-        Everything it has to show, complex positions in units of the clearance.
+        Everything that it must show: complex positions in units of the clearance.
     """
 
     members: list[int] = field(default_factory=list)
@@ -38,12 +38,12 @@ class Closeup:
 
     @property
     def half(self) -> float:
-        """Half the side of the square: twice what it shows, so that names find room beyond the wall."""
+        """Half the side of the square: twice the extent of its content, which leaves room for names beyond the wall."""
         low, high = self._corners()
         return max(high.real - low.real, high.imag - low.imag)
 
     def distance(self, place: complex) -> float:
-        """Distance of a point from the nearest thing shown."""
+        """Return the distance of a point from the nearest position shown."""
         return min(float(np.abs(shown - place).min()) for shown in self.places)
 
     def _corners(self) -> tuple[complex, complex]:
@@ -59,14 +59,14 @@ def closeups(paths: Sequence[Complex], points: Sequence[complex], most: int = 2)
     paths : sequence of numpy.ndarray
         Complex positions along each path, in units of the clearance.
     points : sequence of complex
-        Points that belong into a close-up when they are near one of its paths.
+        Points that belong to a close-up if they are near one of its paths.
     most : int
-        Largest number of close-ups; those with most members are kept.
+        Largest number of close-ups; those with the most members are kept.
 
     Returns
     -------
     list of Closeup
-        From the left of the plane to its right.
+        Sorted from left to right in the plane.
     """
     found: list[Closeup] = []
     for i, line in enumerate(paths):

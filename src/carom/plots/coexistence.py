@@ -39,7 +39,7 @@ _LARGEST = 26.0
 
 
 def rows_of(diagram: Diagram) -> list[str]:
-    """Rows that have anything in them."""
+    """Return the rows that are not empty."""
     present = {_row_of_sample(sample) for sample in diagram.attractors}
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     exists = {
@@ -53,21 +53,21 @@ def rows_of(diagram: Diagram) -> list[str]:
 
 
 def row_of_point(branch: str) -> str | None:
-    """Row in which a special point of a branch is marked; ``None`` if it has a place in another panel."""
+    """Return the row in which a special point of a branch is marked; ``None`` if it belongs to another panel."""
     if branch.startswith("rubbing"):
         return "bouncing with rub"
     return "backward whirl" if branch == "rolling" else None
 
 
 def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
-    """Draw a bar over the range of every motion: broad where it is stable, a thin dashed line where it repels.
+    """Draw a bar over the range of every motion: broad where it is stable, a thin dashed line where it is unstable.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     diagram : carom.bifurcations.Diagram
     unit : float
-        What the parameter is divided by.
+        Divisor of the parameter.
     """
     rows = rows_of(diagram)
     heights = {row: float(len(rows) - place) for place, row in enumerate(rows)}
@@ -95,7 +95,7 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
 
 
 def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]]:
-    """Ranges of the stable and of the unstable motions of each row."""
+    """Return the ranges of the stable and of the unstable motions of each row."""
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     marks = [point.value for point in diagram.points if point.radial_speed is None]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
@@ -118,7 +118,7 @@ def _interval(first: float, second: float) -> Interval:
 
 
 def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[Interval]:
-    """Steps of a growing grid where a motion exists, up to the special point that ends it between two values."""
+    """Return the intervals of an ascending grid where a motion exists, up to the special points at which it ends."""
     steps = []
     for i in range(len(values) - 1):
         low, high = float(values[i]), float(values[i + 1])
@@ -131,7 +131,7 @@ def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[
 
 
 def _on_orbits(branches: tuple[OrbitBranch, ...]) -> tuple[list[Interval], list[Interval]]:
-    """Stretches of branches with stable and with unstable orbits; each has the look of the orbit it touches."""
+    """Return the intervals of branches with stable and with unstable orbits; each has the look of its orbit."""
     stable: list[Interval] = []
     unstable: list[Interval] = []
     for branch in branches:
@@ -149,7 +149,7 @@ def _on_orbits(branches: tuple[OrbitBranch, ...]) -> tuple[list[Interval], list[
 
 
 def _joined(intervals: list[Interval]) -> list[Interval]:
-    """Overlapping intervals joined to one."""
+    """Merge overlapping intervals."""
     joined: list[Interval] = []
     for low, high in sorted(intervals):
         if joined and low <= joined[-1][1] + 1e-12 * abs(high):
@@ -165,9 +165,9 @@ def _row_of_sample(sample: AttractorSample) -> str:
 
 
 def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:
-    """Area in proportion to the share of disturbances; a motion that none of them reached is a small empty ring.
+    """Draw a dot whose area is proportional to the share of disturbances.
 
-    Irregular bouncing that ends is a cross.
+    A motion that none of them reached is a small empty ring.  Irregular bouncing that ends is a cross.
     """
     if sample.transient:
         size = _LARGEST * max(sample.share, 0.1)

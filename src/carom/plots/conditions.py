@@ -23,11 +23,11 @@ __all__ = ["period_condition"]
 
 _INK = LOOKS["path"].colour
 _SAME_PERIOD = 1e-6
-"""Relative difference below which an orbit belongs to a root: far above rounding, far below the distance of roots."""
+"""Relative difference below which an orbit belongs to a root: far above rounding, far below the spacing of roots."""
 _MOST_NAMES = 10
-"""Names that fit above the frame; of more roots only those with an admissible orbit are named."""
+"""Largest number of names above the frame; if there are more roots, only those with an admissible orbit are named."""
 _LINEAR = 0.05
-"""Where the scale of F1 goes over from linear to logarithmic."""
+"""Value of F1 at which the scale changes from linear to logarithmic."""
 
 
 @styled
@@ -70,7 +70,7 @@ def period_condition(orbits: OrbitSet, periods: ArrayLike, values: ArrayLike, *,
 
 
 def _ordinate(axes: Axes, condition: Floats) -> str:
-    """Choose the scale of F1 and return the axis label that tells it.
+    """Choose the scale of F1 and return the axis label that states it.
 
     F1 dips a little below zero, where the roots are, and peaks high above it at the resonances.
     """
@@ -90,7 +90,7 @@ def _ordinate(axes: Axes, condition: Floats) -> str:
 
 
 def _limits(axes: Axes, times: Floats, bound: float) -> None:
-    """Show the bound where the curve reaches it or nearly so; a bound far away is told in words only."""
+    """Set the limits to show the bound if the curve nearly reaches it; a distant bound is only named in the legend."""
     right = float(times[-1])
     if bound > right and bound < 1.3 * right:
         right = bound
@@ -110,7 +110,7 @@ def _bound(axes: Axes, orbits: OrbitSet) -> None:
 
 
 def _roots(axes: Axes, orbits: OrbitSet) -> None:
-    """Roots on the zero line; the names of their orbits stand above the frame."""
+    """Mark the roots on the zero line; the names of their orbits stand above the frame."""
     roots = np.asarray(orbits.periods, dtype=float)
     if not len(roots):
         axes.plot([], [], linestyle="none", label="no root: no orbit with one impact per period")
@@ -173,7 +173,7 @@ def _belongs(orbit: Orbit, root: float) -> bool:
 
 
 def _name(found: list[Orbit]) -> str:
-    """Both orbits of a root in one name, ``B1,a/c``."""
+    """Return one name for both orbits of a root, ``B1,a/c``."""
     stem, comma, _ = found[0].name.rpartition(",")
     letters = "/".join(sorted(orbit.name.rpartition(",")[2] for orbit in found))
     return orbit_symbol(f"{stem}{comma}{letters}")

@@ -1,4 +1,4 @@
-"""Bifurcation diagrams along one parameter, and the looks of their points and of the curves in two.
+"""Bifurcation diagrams along one parameter, and the looks of special points and of curves in two parameters.
 
 Conventions of the field: stable solid, unstable dashed, virtual faint; every kind of special point has its own marker.
 """
@@ -75,13 +75,13 @@ BOUNDARIES = MappingProxyType(
         "non-smooth fold": Look("#009e73", "levitation and saddle rub vanish", marker="8"),
     }
 )
-"""Markers of boundary equilibria of which it is known what becomes of levitation (read-only)."""
+"""Markers of boundary equilibria for which the fate of levitation is known (read-only)."""
 
 FAINT = 0.3
 """Opacity of curves that only virtual orbits have."""
 _MET: dict[str, Any] = {"marker": ".", "ms": 3.2, "mew": 0.0, "color": "#1a1a1a"}
 _UNMET: dict[str, Any] = {"marker": "o", "ms": 2.2, "mew": 0.4, "mfc": "none", "mec": "#1a1a1a"}
-"""Impacts of motions that disturbances met, and of those that only a start next to them did."""
+"""Looks of impacts of motions that disturbances reached, and of motions that only a start next to them reached."""
 _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
 
 
@@ -96,9 +96,10 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        180 mm wide.  Above the radial speed of the orbits at the impact; in the middle what keeps the equilibria
-        admissible: the clearance left to contact-free levitation and the normal force of the rubs; below which motions
-        exist: broad bars where they are stable, and what simulated disturbances settled to.  The shaft speed is in rpm.
+        180 mm wide, with three panels.  Upper: the radial speed of the orbits at the impact.  Middle: the gap of
+        contact-free levitation and the normal force of the rubs, which must be positive.  Lower: which motions exist,
+        with broad bars where they are stable, and the motions to which simulated disturbances settled.  The shaft speed
+        is in rpm.
     """
     rows = len(rows_of(diagram))
     strip = 0.18 * rows
@@ -126,7 +127,7 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
 
 
 def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float) -> list[Look]:
-    """Mark the special points in the panels; the looks of those in view, each once."""
+    """Mark the special points in the panels; return the looks of the visible ones, each once."""
     upper, lower, below = panels
     rows = rows_of(diagram)
     heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
@@ -148,7 +149,7 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
 
 
 def _attractor_speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
-    """Impacts of simulated attractors."""
+    """Draw the impacts of simulated attractors."""
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
         axes.plot(values, sample.radial_speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
@@ -179,13 +180,13 @@ def branch_line(
     axes : matplotlib.axes.Axes
     branch : carom.bifurcations.OrbitBranch
     places : ndarray, shape (n,)
-        Where on the branch the quantity is known, growing; see :class:`~carom.bifurcations.Bifurcation`.
+        Places on the branch at which the quantity is known, ascending; see :class:`~carom.bifurcations.Bifurcation`.
     values, heights : ndarray, shape (n,)
         The parameter, in the unit drawn, and the quantity.
     special_heights : ndarray, optional
         The quantity at the special points, interpolated by default.
     unit : float
-        What the parameter of special points is divided by.
+        Divisor of the parameter of special points.
     """
     special = [point for point in branch.special if places[0] <= point.place <= places[-1]]
     extra = np.array([point.place for point in special])
@@ -195,7 +196,7 @@ def branch_line(
     where = np.concatenate([places, extra])[order]
     x = np.concatenate([values, [point.value / unit for point in special]])[order]
     y = np.concatenate([heights, special_heights])[order]
-    # A stretch has the look of the orbit it touches.
+    # An interval has the look of the orbit it touches.
     looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
     whole = where == np.floor(where)
     nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
@@ -213,7 +214,7 @@ def branch_line(
 
 
 def _runs(looks: np.ndarray) -> list[tuple[int, int, str]]:
-    """Stretches of equal looks, each reaching to the first point of the next."""
+    """Return the runs of equal looks, each extended to the first point of the next."""
     changes = np.flatnonzero(looks[1:] != looks[:-1]) + 1
     starts = [0, *changes.tolist()]
     ends = [*changes.tolist(), len(looks) - 1]
@@ -245,7 +246,7 @@ def _top(branch: EquilibriumBranch) -> float:
 
 
 def _height(diagram: Diagram, branch: str, value: float) -> float:
-    """Where an equilibrium's special point lies: levitation ends at zero, the rubs meet at their common force."""
+    """Return the height of an equilibrium's special point: zero for levitation, the common force where rubs meet."""
     if branch == "contact-free":
         return 0.0
     rubs = [entry for entry in diagram.equilibria if entry.kind == "stable rub"]
@@ -256,19 +257,19 @@ def _height(diagram: Diagram, branch: str, value: float) -> float:
 
 
 def mark_point(axes: Axes, kind: str, x: float, y: float, admissible: bool = True) -> None:
-    """Mark a special point; hollow where it happens to virtual motions only."""
+    """Mark a special point; hollow if only virtual motions have it."""
     _mark(axes, POINTS[kind], x, y, admissible)
 
 
 def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
     face = look.colour if admissible else "none"
-    # What is no bifurcation stays behind.
+    # Points that are not bifurcations are drawn behind the others.
     size, order = (3.6, 4.9) if look is POINTS["radius-extremum"] else (5.0, 5.0)
     axes.plot([x], [y], ls="none", marker=look.marker, ms=size, mfc=face, mec=look.colour, mew=0.8, zorder=order)
 
 
 def _limits(diagram: Diagram) -> tuple[float, float]:
-    """Range that shows what is admissible, with a margin of the virtual."""
+    """Return the range of all admissible values, with a margin for virtual ones."""
     speeds = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
     speeds += [sample.radial_speeds for sample in diagram.attractors]
     shown = np.concatenate([*speeds, [0.0]])
@@ -293,7 +294,7 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
 
 
 def _attractor_key(diagram: Diagram) -> list[Line2D]:
-    """What the marks of simulated motions mean, and which disturbances they are shares of."""
+    """Return the legend entries of simulated motions, with the disturbances that the shares refer to."""
     entries = []
     for met, style, words in ((True, _MET, "impacts after a disturbance"), (False, _UNMET, "after a start next to it")):
         if any(len(sample.radial_speeds) for sample in diagram.attractors if sample.met == met):
@@ -315,12 +316,12 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
 
 
 def point_key(look: Look) -> Line2D:
-    """Entry of a special point in a legend."""
+    """Return the legend entry of a special point."""
     return Line2D([], [], ls="none", marker=look.marker, ms=5.0, color=look.colour, label=look.words)
 
 
 def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:
-    """Draw a curve in the plane of two parameters, faint where it is one of virtual motions only."""
+    """Draw a curve in the plane of two parameters, faint if only virtual motions have it."""
     look = CURVES[curve.kind]
     x, y = (curve.points / units).T
     for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):

@@ -1,4 +1,4 @@
-"""Figures to files, whole or not at all, and the same bytes every time."""
+"""Figures as files: written completely or not at all, with the same bytes every time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from carom.plots.style import drawing
 
 __all__ = ["save"]
 
-# What would otherwise tie a file to the day it was made.
+# Without these settings a file would contain the date of its creation.
 _UNDATED: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},
     "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
@@ -35,8 +35,8 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
     figure : matplotlib.figure.Figure
         Figure to write; PNG at 300 dots per inch.
     path_stem : path-like
-        Path without the ending, which is added as it is: ``"out/orbit"`` gives ``out/orbit.svg``.  Missing folders are
-        made.
+        Path without the file ending, which is appended: ``"out/orbit"`` gives ``out/orbit.svg``.  Missing folders are
+        created.
     formats : sequence of {"svg", "pdf", "png"}
         Formats to write.
 

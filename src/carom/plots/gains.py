@@ -1,4 +1,4 @@
-"""Gain maps: what share of the disturbances comes back, against two parameters of the machine."""
+"""Gain maps: the share of the disturbances that comes back, over two parameters of the machine."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["gain_map"]
 
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
-"""Shares at which contours are drawn, and their lines."""
+"""Shares at which contours are drawn, and their line styles."""
 _MEASURES = {
     "recovered": ("share of the disturbances that comes back", True),
     "integrity": ("largest size of which none is lost, of the largest tried", True),
@@ -34,17 +34,17 @@ _MEASURES = {
     "boundary_basin_entropy": ("boundary basin entropy of the outcomes", False),
     "smallest_unrecovered_kick": ("smallest kick tried that does not come back", False),
 }
-"""What shades can tell, and whether it is a share."""
+"""Measures that shades can show: their words, and whether they are shares."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
-_TOLD_BY = MappingProxyType({"boundary_basin_entropy": "basin_entropy", "smallest_unrecovered_kick": "recovered"})
-"""Measures that some machines do not have, which is a finding, and one that all have then."""
+_JUDGED_BY = MappingProxyType({"boundary_basin_entropy": "basin_entropy", "smallest_unrecovered_kick": "recovered"})
+"""Measures that may have no value at some machines; for each, the measure that shows whether it was computed."""
 _NONE = MappingProxyType(
     {
         "boundary_basin_entropy": "one outcome only: no boundary",
         "smallest_unrecovered_kick": "every kick tried comes back",
     }
 )
-"""Why a machine that levitates does not have it."""
+"""Why such a measure has no value at a machine that levitates."""
 
 
 @styled
@@ -65,19 +65,19 @@ def gain_map(
         Least change that reaches a wanted share, to be drawn as an arrow.
     title : str, optional
     measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy", "smallest_unrecovered_kick"}
-        What the shades tell; the contours are those of the share that comes back.
+        The measure that the shades show; contours always show the share that comes back.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 126 mm wide.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Both axes in SI units where the parameters are physical.
+        Axes in SI units if the parameters are physical.
 
     Raises
     ------
     InputError
-        No such measure, or the disturbances of the map do not have it.
+        There is no such measure, or it is not defined for the disturbances of the map.
     """
     known = _known(found)
     if measure not in known:
@@ -99,7 +99,7 @@ def gain_map(
     blank = {"no-levitation": grounded, "none": np.ma.getmaskarray(values) & ~grounded}
     words = {"none": _NONE.get(measure, "")}
     if found.present_share.count and _within(edges, here, grounded):
-        # The cell of a machine that levitates, where a part comes back, would contradict the star on it.
+        # The star marks a machine that levitates; without these words its cell would seem to contradict it.
         words["no-levitation"] = "no levitation without contact (in the middle of the cell)"
     handles: list[Line2D | Patch] = [*blank_cells(drawn, edges, blank, words)]
     handles += _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
@@ -120,19 +120,19 @@ def gain_map(
 
 
 def _known(found: GainMap) -> list[str]:
-    """Measures that the disturbances of a map have: some only on a grid of them."""
+    """Return the measures that are defined for the disturbances of a map: some need a grid of them."""
     levitates = found.dataset["levitates"].values > 0.0
     return [
         name
         for name in _MEASURES
-        if name in found.dataset and np.isfinite(found.dataset[_TOLD_BY.get(name, name)].values[levitates]).all()
+        if name in found.dataset and np.isfinite(found.dataset[_JUDGED_BY.get(name, name)].values[levitates]).all()
     ]
 
 
 def _shades(
     figure: Figure, axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, words: str, share: bool
 ) -> None:
-    """Shades of a measure, perhaps a share, and their bar."""
+    """Draw the shades of a measure, possibly a share, with their colour bar."""
     highest = 1.0 if share else max(float(values.filled(0.0).max()), 1e-3)
     bar = colour_bar(figure, axes, shaded_cells(axes, edges, values, vmin=0.0, vmax=highest), words)
     if share:
@@ -140,7 +140,7 @@ def _shades(
 
 
 def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.ndarray) -> bool:
-    """Whether a place lies in one of these cells."""
+    """Whether a point lies in one of these cells."""
     row, column = (int(np.searchsorted(along, value)) - 1 for along, value in zip(edges, place, strict=True))
     return 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1] and bool(cells[row, column])
 
@@ -148,7 +148,7 @@ def _within(edges: tuple[Floats, Floats], place: tuple[float, float], cells: np.
 def _arrow(
     axes: Axes, here: tuple[float, float], there: tuple[float, float], found: GainMap, change: GainChange
 ) -> Line2D:
-    """Arrow from the present machine along the least change, and its entry in the legend."""
+    """Draw an arrow from the present machine along the least change; return its legend entry."""
     for colour, width in (("white", 1.6), ("#d55e00", 0.9)):
         axes.annotate("", there, here, arrowprops={"arrowstyle": "-|>", "color": colour, "lw": width, "shrinkA": 4})
     changes = ", ".join(
@@ -160,7 +160,7 @@ def _arrow(
 
 
 def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> list[Line2D]:
-    """Contours of the share, dark with a white rim so that they show on every shade; their entries in the legend."""
+    """Draw contours of the share, dark with a white outline, visible on every shade; return their legend entries."""
     levels = {level: line for level, line in _LEVELS.items() if share.min() < level <= share.max()}
     if not levels:
         return []
@@ -174,6 +174,6 @@ def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> li
 
 
 def _label(axis: Axis) -> str:
-    """Words of a parameter; those of a position controller have names of their own."""
+    """Return the label of a parameter; stiffness and damping are named as gains of a position controller."""
     name = _NAMES.get(axis.name)
     return f"{name}: {parameter_label(axis)}" if name else parameter_label(axis)

@@ -1,4 +1,4 @@
-"""The radius over time: how near the wall the rotor runs, and when it strikes."""
+"""The radius over time: how near to the wall the rotor runs, and when it hits the wall."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ def radius(
     Returns
     -------
     matplotlib.figure.Figure
-        Radius in units of the clearance over time in units of 1/Omega.  Where the machine is known a second pair of
-        axes tells mm and ms.
+        Radius in units of the clearance over time in units of 1/Omega.  If the machine is known, a second pair of
+        axes shows mm and ms.
     """
     if hasattr(motion, "path"):
         title = title or orbit_title(cast("Orbit", motion))
@@ -83,7 +83,7 @@ def radius(
 
 
 def draw_radius(axes: Axes, motion: Trajectory | Orbit, zones: Zones | None = None, periods: int = _PERIODS) -> None:
-    """The same without title, legend and second axes."""
+    """Draw the same without title, legend and second axes."""
     history = _of_orbit(cast("Orbit", motion), periods) if hasattr(motion, "path") else _of_trajectory(motion)
     scales = motion.rotor.scales
     _set_range(axes, history, zones)
@@ -100,7 +100,7 @@ def draw_radius(axes: Axes, motion: Trajectory | Orbit, zones: Zones | None = No
 
 @dataclass(frozen=True)
 class _History:
-    """What is drawn: radius over time, impact times and whether each was in forward whirl."""
+    """The data drawn: radius over time, impact times, and whether each impact was in forward whirl."""
 
     times: Floats
     radius: Floats
@@ -134,12 +134,12 @@ def _of_trajectory(trajectory: Trajectory) -> _History:
 
 
 def _set_range(axes: Axes, history: _History, zones: Zones | None) -> None:
-    """From the bearing centre to just beyond the wall; enlarged where a motion stays near the wall."""
+    """Show the range from the bearing centre to just beyond the wall; enlarge a motion that stays near the wall."""
     lowest, highest = float(history.radius.min()), max(1.0, float(history.radius.max()))
     whole = zones is not None or lowest < 0.5 or highest - lowest < 1e-9
     bottom = 0.0 if whole else lowest - 0.12 * (highest - lowest)
     axes.set_ylim(bottom, highest + 0.06 * (highest - bottom))
-    # The strip at the right is for the letters of the zones.
+    # The strip at the right shows the letters of the zones.
     axes.set_xlim(0.0, (float(history.times[-1]) or 1.0) * (1.0 if zones is None else 1.025))
 
 
@@ -168,7 +168,7 @@ def _curve(axes: Axes, history: _History) -> None:
 
 
 def _marks(axes: Axes, history: _History) -> None:
-    """Impacts on the wall line, and the end where the motion did not simply run out of time."""
+    """Mark impacts on the wall line, and the end of the motion unless only its time was over."""
     size = marker_size(len(history.impacts))
     for meaning, chosen in (("forward", history.forward), ("backward", ~history.forward)):
         if chosen.any():
@@ -209,9 +209,9 @@ def _bands(axes: Axes, zones: Zones) -> None:
 
 
 def _second_axes(axes: Axes, scales: Scales | None) -> None:
-    """The same time in ms and the same radius in mm, where the machine is known.
+    """Add axes with the time in ms and the radius in mm, if the machine is known.
 
-    Near the wall the gap that is left, in micrometres, says more than a radius with many equal digits.
+    Near the wall the gap in micrometres is shown instead, because the radii would have many equal digits.
     """
     if scales is None:
         return
@@ -226,7 +226,7 @@ def _second_axes(axes: Axes, scales: Scales | None) -> None:
 
 
 def _linear(factor: float, zero: float = 0.0) -> tuple[_Conversion, _Conversion]:
-    """Conversion ``factor (x - zero)`` to the second axis, and back."""
+    """Return the conversion ``factor (x - zero)`` to the second axis, and its inverse."""
     return (
         lambda value: np.multiply(np.subtract(value, zero), factor),
         lambda value: np.add(np.divide(value, factor), zero),

@@ -41,7 +41,7 @@ def orbit(orbit: Orbit, periods: int | None = None, *, axes: Sequence[Axes] | No
     """Draw a periodic orbit in the co-rotating and in the fixed frame.
 
     In the co-rotating frame the orbit closes after one period.  In the fixed frame it is quasi-periodic unless its
-    period is a rational part of a turn of the shaft, so that several periods are drawn.
+    period is a rational multiple of a turn of the shaft, so several periods are drawn.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def orbit(orbit: Orbit, periods: int | None = None, *, axes: Sequence[Axes] | No
 def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
     look = LOOKS[orbit_look(orbit)]
     times, line = orbit_path(orbit, periods)
-    # The fixed frame, in which the position is Z = U e^(it) with the time in 1/Omega.
+    # In the fixed frame the position is Z = U e^(it), with the time t in 1/Omega.
     turn = np.exp(1j * times) if frame == "fixed" else np.ones_like(times)
     line = line * turn
     path(axes, line, look, label=f"orbit ({look.words})", width=None if periods == 1 else 0.6)
@@ -95,9 +95,9 @@ def _draw_orbit(axes: Axes, orbit: Orbit, frame: Frame, periods: int) -> None:
 
 
 def _pattern_length(period: float) -> int:
-    """Number of periods after which the fixed-frame pattern comes nearest to closing.
+    """Return the number of periods after which the fixed-frame pattern is nearest to closing.
 
-    It is sought among the 5 to 16 periods that an eye can follow, and fewer where 8 turns of the shaft hold no more.
+    It is chosen from 5 to 16 periods, which the eye can follow, or from fewer if 8 turns of the shaft contain no more.
     """
     most = int(np.clip(8.0 * math.tau / period, 1, 16))
     counts = np.arange(min(5, most), most + 1)
@@ -123,7 +123,7 @@ def motion(
     since : float
         Draw only what happens from this time on [1/Omega], to leave out a transient.
     fade : bool
-        Draw the beginning pale, so that what the motion settles to stands out.
+        Draw the beginning pale, to emphasize the motion that it settles to.
     title : str, optional
         Title of the figure.  Default: number of impacts and outcome in words.
     axes : sequence of two matplotlib.axes.Axes, optional
@@ -173,7 +173,7 @@ def _motion_title(trajectory: Trajectory) -> str:
 
 
 def _levitation(axes: Axes, equilibrium: complex) -> None:
-    """Mark the contact-free equilibrium; hollow where it lies beyond the wall."""
+    """Mark the contact-free equilibrium; hollow if it lies beyond the wall."""
     virtual = abs(equilibrium) > 1.0
     words = LOOKS["contact-free"].words
     point(axes, equilibrium, "contact-free", hollow=virtual, label=f"{words} (virtual)" if virtual else words)

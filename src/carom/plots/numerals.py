@@ -1,4 +1,4 @@
-"""Numerals of the regions of a plane: where no curve crosses them, or beside the region with a leader into it."""
+"""Numerals of the regions of a plane, placed clear of all curves, or beside the region with a leader line into it."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ _SIZE = 8.0
 _HALF_DIGIT, _HALF_HEIGHT = 2.0, 2.8
 """Half of the width of a digit and of its height [pt]."""
 _MARGIN = 2.0
-"""Between a numeral and a line [pt]."""
+"""Least distance between a numeral and a line [pt]."""
 _COLOUR = "#3d4f66"
 _BETTER = 1.2
-"""How much more room than a region's own point another one must have."""
+"""Factor by which another point must have more room than the point of the region itself."""
 _RINGS, _DIRECTIONS = np.arange(3.0, 60.0, 3.0), np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
-"""Distances [pt] and directions in which a place for the numeral of a sliver is looked for."""
+"""Distances [pt] and directions in which a place for the numeral of a thin region is searched."""
 _LEADER, _APART = 12.0, 2.0
-"""Length of a leader at least; how far from a curve one is that does not cross it [pt]."""
+"""Least length of a leader line; least distance between a leader line and the curves that it does not cross [pt]."""
 
 
 def number_regions(axes: Axes, found: RegionMap, units: Floats) -> None:
-    """Write the numerals of all regions into axes that already hold all else, with their limits and their place.
+    """Write the numerals of all regions into axes that are otherwise complete and laid out.
 
     Parameters
     ----------
     axes : matplotlib.axes.Axes
     found : carom.bifurcations.RegionMap
-        Its curves and marked points are what numerals keep clear of.
+        Numerals keep clear of its curves and marked points.
     units : numpy.ndarray, shape (2,)
-        What the two parameters are divided by.
+        Divisors of the two parameters.
     """
     figure = axes.get_figure(root=True)
     if figure is None:
@@ -61,14 +61,14 @@ def number_regions(axes: Axes, found: RegionMap, units: Floats) -> None:
         _write(axes, number, candidates[chosen])
         taken = np.vstack([taken, _outline(number, places[chosen])])
     for number, foot, place in slivers:
-        aside, within = _aside(place, curves, taken, frame, _half(number))
+        aside, within = _place_beside(place, curves, taken, frame, _half(number))
         there = axes.transData.inverted().transform(aside * point)
         _write(axes, number, *((there,) if within else (foot, there)))
         taken = np.vstack([taken, _outline(number, aside)])
 
 
 def _drawn(axes: Axes, found: RegionMap, units: Floats) -> Floats:
-    """Points of all curves, one a pixel, and the points where they meet [pixels]."""
+    """Return the points of all curves, one per pixel, and their meeting points [pixels]."""
     lines = [np.zeros((0, 2))]
     for curve in found.curves:
         places = axes.transData.transform(curve.points / units)
@@ -82,28 +82,28 @@ def _drawn(axes: Axes, found: RegionMap, units: Floats) -> Floats:
 
 
 def _half(number: int) -> Floats:
-    """Half of the width and height of a numeral with its margin [pt]."""
+    """Return half of the width and height of a numeral with its margin [pt]."""
     return np.array([_HALF_DIGIT * len(str(number)), _HALF_HEIGHT]) + _MARGIN
 
 
 def _room(places: Floats, taken: Floats, frame: Floats, half: Floats) -> Floats:
-    """By how much a numeral at each place could grow until it met a line or the frame; it has no room below 1."""
+    """Return the factor by which a numeral at each place could grow until it meets a line; it fits from 1 on."""
     room: Floats = (np.minimum(places - frame[0], frame[1] - places) / half).min(axis=1)
     if len(taken):
         room = np.minimum(room, (np.abs(places[:, None] - taken) / half).max(axis=2).min(axis=1))
     return room
 
 
-def _aside(place: Floats, curves: Floats, taken: Floats, frame: Floats, half: Floats) -> tuple[Floats, bool]:
-    """Nearest place around another one that has room for a numeral, and whether no curve lies between the two.
+def _place_beside(place: Floats, curves: Floats, taken: Floats, frame: Floats, half: Floats) -> tuple[Floats, bool]:
+    """Find the nearest place around a point with room for a numeral, and whether no curve lies between the two.
 
-    One without a curve between is preferred; if none has room, the roomiest that was looked at.
+    A place without a curve in between is preferred.  If none has room, the one with the most room is returned.
     """
     ways = np.transpose([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)])
     around = place + _RINGS[:, None, None] * ways
     room = np.array([_room(ring, taken, frame, half) for ring in around])
     for chosen in np.argwhere(room >= 1.0):
-        if _apart(place, around[tuple(chosen)], curves):
+        if _line_is_clear(place, around[tuple(chosen)], curves):
             return around[tuple(chosen)], True
     room[_RINGS < _LEADER] = -np.inf
     fit = np.flatnonzero(room.max(axis=1) >= 1.0)
@@ -111,9 +111,9 @@ def _aside(place: Floats, curves: Floats, taken: Floats, frame: Floats, half: Fl
     return around[ring, int(np.argmax(room[ring]))], False
 
 
-def _apart(first: Floats, second: Floats, curves: Floats) -> bool:
+def _line_is_clear(first: Floats, second: Floats, curves: Floats) -> bool:
     """Whether the straight line between two places keeps clear of all curves."""
-    # Only what lies in the box of the line can be near it: few of the thousands of points of the curves.
+    # Only points in the bounding box of the line can be near it: few of the thousands of points of the curves.
     low, high = np.minimum(first, second) - _APART, np.maximum(first, second) + _APART
     near = curves[((curves >= low) & (curves <= high)).all(axis=1)]
     path = first + np.linspace(0.0, 1.0, 40)[:, None] * (second - first)
@@ -121,13 +121,13 @@ def _apart(first: Floats, second: Floats, curves: Floats) -> bool:
 
 
 def _outline(number: int, place: Floats) -> Floats:
-    """Middle, corners and middles of the edges of a written numeral: others keep clear of them."""
+    """Return the centre, corners and edge midpoints of a numeral, which others must keep clear of."""
     steps = np.array([[x, y] for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)])
     return np.asarray(place + steps * (_half(number) - _MARGIN))
 
 
 def _write(axes: Axes, number: int, foot: Floats, aside: Floats | None = None) -> None:
-    """A numeral at a point, or aside of it with a thin line to a dot at the point."""
+    """Write a numeral at a point, or beside it with a thin line to a dot at the point."""
     leader = None
     if aside is not None:
         axes.plot(*foot, ls="none", marker=".", ms=3.0, mew=0.0, color=_COLOUR, zorder=7, gid="foot")

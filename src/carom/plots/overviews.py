@@ -1,4 +1,4 @@
-"""Everything a machine can do, in one picture of the co-rotating frame."""
+"""All equilibria and periodic orbits of a machine in one picture of the co-rotating frame."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ __all__ = ["equilibria_and_orbits"]
 _ORDER = {"virtual": 0, "unstable": 1, "stable": 2}
 _STATUS = {"admissible": "admissible", "boundary": "on the wall"}
 _MOST_VIRTUAL = 8
-"""Beyond this many virtual orbits their paths and names are left out, since they would hide the physical ones."""
+"""Number of virtual orbits above which their paths and names are left out, since they would hide the physical ones."""
 _LABEL_RING = 1.17
 """Radius of the ring around the clearance circle on which the names sit."""
 
@@ -110,7 +110,7 @@ def equilibria_and_orbits(
 
 
 def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
-    """The whole circle at the left, close-ups at the right: one as large as the whole, or two above each other."""
+    """Return axes for the whole circle (left) and the close-ups (right): one of the same size, or two stacked."""
     if axes is not None or not count:
         figure, whole = one_axes(axes, (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS))
         return figure, whole, []
@@ -152,7 +152,7 @@ def _draw(
 
 
 def _draw_equilibrium(axes: Axes, equilibrium: Equilibrium) -> None:
-    """Filled where it can be observed (stable and not virtual), hollow otherwise, grey where virtual."""
+    """Draw it filled if it can be observed (stable and not virtual), hollow otherwise, grey if virtual."""
     virtual = equilibrium.status == "virtual"
     kind = "stable" if equilibrium.stable else "unstable"
     state = LOOKS["virtual"].words if virtual else f"{_STATUS[equilibrium.status]}, {kind}"
@@ -183,7 +183,7 @@ def _enlarge(whole: Axes, panel: Axes, closeup: Closeup, tag: str) -> None:
 def _name(
     axes: Axes, shown: Sequence[_Drawn], ring: float, gap: float, tags: Sequence[tuple[str, complex]] = ()
 ) -> None:
-    """Names on a ring around the clearance circle, joined to the impact points by thin lines."""
+    """Write names on a ring around the clearance circle, joined to the impact points by thin lines."""
     labels = [(orbit_symbol(d.orbit.name), d.orbit.position, LOOKS[d.meaning].colour) for d in shown]
     labels += [(tag, middle, "#1a1a1a") for tag, middle in tags]
     angles = spread_angles([np.angle(anchor) for _, anchor, _ in labels], gap)

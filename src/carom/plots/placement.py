@@ -1,4 +1,4 @@
-"""Labels that do not overlap: move them apart along a line or around a circle, and no farther than needed."""
+"""Labels that do not overlap: move them apart along a line or around a circle, as little as possible."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ["spread", "spread_angles"]
 
 
 def spread(wanted: ArrayLike, gap: float, low: float = -np.inf, high: float = np.inf) -> NDArray[np.float64]:
-    """Positions at least `gap` apart, in the order of the wanted ones and nearest to them in the least-squares sense.
+    """Return positions at least `gap` apart, in the order of the wanted ones and nearest in the least-squares sense.
 
     With ``y_i = x_i - i gap`` the task is to find the non-decreasing sequence nearest to y: isotonic regression by
     pooling adjacent violators.
@@ -21,7 +21,7 @@ def spread(wanted: ArrayLike, gap: float, low: float = -np.inf, high: float = np
     gap : float
         Smallest distance between two positions.
     low, high : float
-        Limits the positions stay within, as long as there is room for all of them; otherwise they start at `low`.
+        Limits of the positions, if there is room for all of them; otherwise the positions start at `low`.
 
     Returns
     -------
@@ -40,13 +40,13 @@ def spread(wanted: ArrayLike, gap: float, low: float = -np.inf, high: float = np
         pools.append((mean, count))
     flat = np.repeat([mean for mean, _ in pools], [count for _, count in pools])
     placed = np.empty_like(positions)
-    # Limits on a sequence that is spread are limits on the flattened one: its last member is shifted most.
+    # Limits on the spread sequence become limits on the flattened one y, whose last member is shifted the most.
     placed[order] = np.maximum(np.minimum(flat, high - (offsets[-1] if len(offsets) else 0.0)), low) + offsets
     return placed
 
 
 def spread_angles(wanted: ArrayLike, gap: float) -> NDArray[np.float64]:
-    """The same around a circle [rad]: the circle is cut where the labels leave the widest space."""
+    """Return the same around a circle [rad]; the circle is cut in the widest gap between labels."""
     angles = np.asarray(wanted, dtype=float)
     if len(angles) < 2:
         return angles.copy()

@@ -1,4 +1,4 @@
-"""What all pictures of the clearance share: the circle, paths, arrows, impacts and the legend."""
+"""Parts that all pictures of the clearance share: the circle, paths, arrows, impacts and the legend."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ Floats = NDArray[np.float64]
 
 MANY_POINTS = 40_000
 MANY_MARKERS = 2_000
-"""Beyond these numbers a line or markers are stored as pixels inside vector files, which stay small."""
+"""Numbers above which a line or markers are stored as pixels inside vector files, to keep the files small."""
 
 Frame = Literal["rotating", "fixed"]
 
@@ -58,7 +58,7 @@ _FRAMES = {"rotating": ("co-rotating frame", "U"), "fixed": ("fixed frame", "Z")
 
 
 def clearance_circle(axes: Axes, reach: float = 1.12) -> None:
-    """Draw the circle the rotor centre cannot leave and set equal axes around it."""
+    """Draw the circle that the rotor centre cannot leave, and set equal axes around it."""
     _wall(axes, np.linspace(0.0, 2.0 * np.pi, 721))
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
@@ -76,9 +76,9 @@ def _wall(axes: Axes, angle: Floats) -> None:
 
 
 def label_frame(axes: Axes, frame: Frame, scales: Scales | None, note: str = "") -> None:
-    """Title and axis labels of a picture in the frame ``"rotating"`` or ``"fixed"``."""
+    """Set title and axis labels of a picture in the frame ``"rotating"`` or ``"fixed"``."""
     words, symbol = _FRAMES[frame]
-    # With its height given, matplotlib need not look for the labels that a title must keep clear of.
+    # With a given height, matplotlib need not measure the labels that the title must keep clear of.
     free = axes.xaxis.get_ticks_position() in ("bottom", "default")
     axes.set_title(f"{words}{', ' if note else ''}{note}", y=1.0 if free else None)
     axes.set_xlabel(axis_length("position", rf"Re ${symbol}$", scales))
@@ -86,11 +86,11 @@ def label_frame(axes: Axes, frame: Frame, scales: Scales | None, note: str = "")
 
 
 def path(axes: Axes, position: Complex, look: Look, label: str | None = None, width: float | None = None) -> None:
-    """Draw a path; where it is beyond the wall it is drawn faint and dotted, whatever its look.
+    """Draw a path; parts beyond the wall are faint and dotted, whatever its look.
 
     An empty `label` keeps the path out of the legend.
     """
-    # A hair's breadth of room keeps the impact points themselves, at radius 1, out of the faint part.
+    # A small tolerance keeps the impact points themselves, at radius 1, out of the faint part.
     outside = np.abs(position) > 1.0 + 1e-9
     beyond = LOOKS["outside"]
     for part, drawn, words in ((~outside, look, look.words), (outside, beyond, beyond.words)):
@@ -111,7 +111,7 @@ def path(axes: Axes, position: Complex, look: Look, label: str | None = None, wi
 
 
 def _with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Widen each run by one sample on both sides, so that two parts of a line meet."""
+    """Widen each run by one sample on both sides, so that adjacent parts of a line meet."""
     wide = part.copy()
     wide[1:] |= part[:-1]
     wide[:-1] |= part[1:]
@@ -121,7 +121,7 @@ def _with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
 def faded_path(axes: Axes, position: Complex, look: Look, pieces: int = 60) -> None:
     """Draw a path whose beginning is pale and whose end has the full colour.
 
-    Opaque tints instead of transparency: where a path crosses itself, transparency would make dots.
+    Opaque tints are used, because transparency would show dots where a path crosses itself.
     """
     colour = np.array(to_rgb(look.colour))
     position = position[: np.flatnonzero(~np.isnan(position)).max(initial=0) + 1]
@@ -137,7 +137,7 @@ def faded_path(axes: Axes, position: Complex, look: Look, pieces: int = 60) -> N
 
 
 def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float = 0.4) -> None:
-    """Put an arrow head on a path, at a fraction of its length, pointing forward in time."""
+    """Draw an arrow head on a path, at a fraction of its length, pointing forward in time."""
     position = _longest_piece(position)
     length = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(position)))))
     if length[-1] == 0.0:
@@ -163,7 +163,7 @@ def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float =
 
 
 def _longest_piece(position: Complex) -> Complex:
-    """Of a path with gaps (nan) the piece with most samples."""
+    """Return the piece with the most samples of a path with gaps (nan)."""
     pieces = np.split(position, np.flatnonzero(np.isnan(position)))
     longest = max(pieces, key=len)
     return longest[~np.isnan(longest)]
@@ -172,8 +172,8 @@ def _longest_piece(position: Complex) -> Complex:
 def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | None = None) -> None:
     """Mark impact points, one marker for forward and one for backward whirl in the fixed frame.
 
-    The rotor whirls forward where its fixed-frame angular speed, the co-rotating one plus 1, is positive just before
-    the impact.
+    The rotor whirls forward if its fixed-frame angular speed, the co-rotating one plus 1, is positive just before the
+    impact.
     """
     forward = np.asarray(angular_speed) > -1.0
     size = marker_size(len(forward)) if size is None else size
@@ -183,13 +183,13 @@ def impacts(axes: Axes, position: Complex, angular_speed: Floats, size: float | 
 
 
 def orbit_path(orbit: Orbit, periods: int) -> tuple[Floats, Complex]:
-    """Times from an impact on, evenly spread over whole periods, and positions in the co-rotating frame."""
+    """Return evenly spaced times from an impact over whole periods, and positions in the co-rotating frame."""
     times = np.linspace(0.0, periods * orbit.period, periods * max(400, int(60.0 * orbit.period)) + 1)
     return times, orbit.path(times)
 
 
 def marker_size(count: int) -> float:
-    """Marker size [pt] that shrinks as markers get many."""
+    """Return the marker size [pt], which decreases with the number of markers."""
     return float(np.clip(5.0 - 0.9 * np.log10(max(count, 1) / 6.0), 2.2, 5.0))
 
 
@@ -231,7 +231,7 @@ def magnifier(axes: Axes, shown: Complex, margin: float = 0.25) -> Axes | None:
     Returns
     -------
     matplotlib.axes.Axes or None
-        The inner axes with its piece of the circle drawn, or None where `shown` is large enough to be seen as it is.
+        The inner axes with its piece of the circle drawn, or None if `shown` is large enough to be visible.
     """
     low, high = complex(shown.real.min(), shown.imag.min()), complex(shown.real.max(), shown.imag.max())
     middle, half = (low + high) / 2.0, max(high.real - low.real, high.imag - low.imag) / 2.0 * (1.0 + margin)
@@ -246,7 +246,7 @@ def magnifier(axes: Axes, shown: Complex, margin: float = 0.25) -> Axes | None:
     inner.set_xticks(())
     inner.set_yticks(())
     inner.set_title(f"enlarged {times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
-    # The layout would otherwise take the enlarged piece for part of the page.
+    # Otherwise the layout would reserve space for the enlarged piece.
     inner.set_in_layout(False)
     axes.indicate_inset_zoom(inner, edgecolor="#808080", lw=0.4, alpha=1.0)
     return inner
@@ -254,14 +254,14 @@ def magnifier(axes: Axes, shown: Complex, margin: float = 0.25) -> Axes | None:
 
 def look_closer(axes: Axes, middle: complex, half: float) -> None:
     """Show the square of half-width `half` around `middle`, with its piece of the clearance circle."""
-    # Only the arc in view, so finely that impact points lie on it at any enlargement.
+    # Only the visible arc, so finely resolved that impact points lie on it at any enlargement.
     _wall(axes, np.angle(middle) + np.linspace(-4.0 * half, 4.0 * half, 361))
     axes.set_xlim(middle.real - half, middle.real + half)
     axes.set_ylim(middle.imag - half, middle.imag + half)
 
 
 def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
-    """Axes of a new figure of that size [inch], or those of the user with their figure."""
+    """Return axes of a new figure of that size [inch], or those of the user with their figure."""
     if axes is None:
         figure = Figure(figsize=size)
         return figure, figure.subplots()
@@ -272,13 +272,13 @@ def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes
 
 
 def key(figure: Figure, drawn: Iterable[Axes], columns: int) -> Legend:
-    """Legend of everything labelled in the axes, each word once, below the figure where no data are."""
+    """Add a legend of everything labelled in the axes, without duplicates, below the figure."""
     handles, words = _unique(drawn)
     return figure.legend(handles, words, loc="outside lower center", ncols=min(columns, len(words)))
 
 
 def legend_below(axes: Axes, columns: int = 2) -> Legend:
-    """The same legend below one axes, for axes that belong to a figure of the user."""
+    """Add the same legend below one axes that belongs to a figure of the user."""
     handles, words = _unique([axes])
     return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(columns, len(words)))
 

@@ -1,4 +1,4 @@
-"""Maps of the plane of two parameters: curves of bifurcations, where they meet, and the regions between."""
+"""Maps of the plane of two parameters: curves of bifurcations, their meeting points, and the regions between."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ __all__ = ["region_map"]
 
 _BLACK, _MACHINE, _UNEXPLAINED = "#1a1a1a", "#f0e442", "#cc0000"
 _LONGEST_HALF = 92
-"""Letters of a region's words that fit in half of the width."""
+"""Number of characters of a region's description that fit in half of the width."""
 _LINE, _ROOM = 0.135, 9
-"""Height of a line of the list of regions [inch], and lines for which the figure has room."""
+"""Height of a line of the list of regions [inch], and number of lines that fit in the figure."""
 
 
 @styled
@@ -41,8 +41,8 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        180 mm wide; curves of virtual orbits are faint.  Regions have the numbers of the JSON document.  One too thin for
-        its numeral has it beside, with a leader.
+        180 mm wide; curves of virtual orbits are faint.  Regions have the numbers of the JSON document.  The
+        numeral of a thin region stands beside it, with a leader line.
     """
     listed = [
         f"{number}: {region.motions.source_region}: {_words(found, region)}"
@@ -55,7 +55,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)), layout="constrained")
     drawn = figure.subplots()
     units = np.array([parameter_unit(axis) for axis in axes])
-    # The broad line of non-smooth Hopf bifurcations lies below that of the boundary equilibria.
+    # Draw the broad line of non-smooth Hopf bifurcations below that of the boundary equilibria.
     for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
         curve_line(drawn, curve, units)
     drawn.set_xlabel(parameter_label(axes[0]))
@@ -72,12 +72,12 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
 
 
 def _words(found: RegionMap, region: Region) -> str:
-    """Motions of a region but for those of all regions."""
+    """Describe the motions of a region, without those that all regions have."""
     return ", ".join(part for part in region.motions.parts if part not in found.everywhere)
 
 
 def _curve_key(found: RegionMap) -> list[Line2D]:
-    """Entries of the curves, with the orbits they belong to."""
+    """Return the legend entries of the curves, with their orbits."""
     lines = []
     for kind, look in CURVES.items():
         if any(curve.kind == kind for curve in found.curves):
@@ -90,7 +90,7 @@ def _curve_key(found: RegionMap) -> list[Line2D]:
 
 
 def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D]:
-    """Mark where curves meet, resonances, changes without a curve and the machine; their entries for the legend."""
+    """Mark meeting points, resonances, changes without a curve and the machine; return their legend entries."""
     entries: dict[str, Line2D] = {}
 
     def mark(place: tuple[float, float], words: str, marker: str, size: float, face: str, edge: str = _BLACK) -> None:

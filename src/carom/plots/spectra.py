@@ -27,12 +27,12 @@ _LINEAR_UP_TO = 2.0
 def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
     """Draw the non-trivial multipliers of orbits next to the unit circle: one marker shape for each orbit.
 
-    An orbit is stable where all its multipliers lie inside the circle; one that leaves through +1 is a fold, through
-    -1 a period doubling, elsewhere a torus.  Where a multiplier is larger than 2 the plane outside the unit circle is
-    drawn with a logarithmic radius: a multiplier keeps its direction and is drawn at the distance
-    1 + log10 of its modulus.  The axes then say so and carry no numbers; circles tell the modulus.
+    An orbit is stable if all its multipliers lie inside the circle.  A multiplier that leaves it through +1 means a
+    fold, through -1 a period doubling, elsewhere a torus.  If the modulus of a multiplier exceeds 2, the plane outside
+    the unit circle has a logarithmic radius: a multiplier keeps its direction and is drawn at the distance 1 + log10 of
+    its modulus.  The axis labels then say so and the axes have no numbers; circles show the modulus.
 
-    Of more than twelve orbits the virtual ones share one small marker.
+    If there are more than twelve orbits, the virtual ones share one small marker.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def _endless(shapes: Sequence[str], count: int) -> list[str]:
 
 
 def _compress(values: Complex) -> Complex:
-    """Inside the unit circle as it is; outside at the distance 1 + log10 of the modulus, in the same direction."""
+    """Map values outside the unit circle to the distance 1 + log10 of their modulus; values inside are unchanged."""
     modulus = np.maximum(np.abs(values), 1.0)
     return values / modulus * (1.0 + np.log10(modulus))
 

@@ -1,8 +1,8 @@
-"""The one look of all figures: style sheet, widths, and what each colour means.
+"""The common style of all figures: style sheet, widths, and what each colour means.
 
-A colour, line or marker in a figure of carom always means the same thing.  Every meaning is told by colour *and* by
-line or marker, so that figures read in grey and for colour-blind eyes; the hues are those of Okabe and Ito (2008)
-but for wine.
+A colour, line or marker in a figure of carom always has the same meaning.  Every meaning is shown by colour *and* by
+line or marker, so that figures can be read in greyscale and by colour-blind readers.  The hues are those of Okabe and
+Ito (2008), except wine.
 
 =====================  ==========================  ====================================================
 key of :data:`LOOKS`   drawn as                    means
@@ -63,7 +63,7 @@ TWO_COLUMNS = 180 / 25.4
 """Width of a two-column figure [inch]: 180 mm."""
 
 ZONE_SHADES = ("#ffffff", "#faf7ef", "#f5f0e1", "#efe7d0")
-"""Background of the vibration zones A, B, C, D: the darker, the worse."""
+"""Background of the vibration zones A, B, C, D; darker is worse."""
 
 _SHEET = "carom.plots.carom"
 
@@ -79,13 +79,13 @@ class Look:
     words : str
         Legend text.
     line : str or tuple
-        Matplotlib line style; ``"none"`` where the meaning is a point.
+        Matplotlib line style; ``"none"`` if the meaning is a point.
     width : float
         Line width [pt].
     marker : str
-        Matplotlib marker; ``"none"`` where the meaning is a line.
+        Matplotlib marker; ``"none"`` if the meaning is a line.
     hatch : str
-        Matplotlib hatch of areas; empty where the colour alone is told apart from all others in grey.
+        Matplotlib hatch of areas; empty if the colour alone differs from all others in greyscale.
     """
 
     colour: str
@@ -138,7 +138,7 @@ OUTCOMES = MappingProxyType(
         "event-limit": Look("#a6a6a6", "limit of events reached"),
     }
 )
-"""Where motions end, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own."""
+"""Looks of endings, by the label of their :class:`~carom.outcome.Outcome`; irregular bouncing has a look of its own."""
 
 WORKS = MappingProxyType(
     {
@@ -150,15 +150,15 @@ WORKS = MappingProxyType(
         "unbalance": Look("#e69f00", "work of unbalance", line=(0, (6, 1, 1, 1)), width=0.9),
     }
 )
-"""The accounts of an energy ledger."""
+"""Looks of the entries of an energy ledger."""
 
 
 @contextmanager
 def applied() -> Iterator[None]:
     """Apply carom's style sheet inside a ``with`` block.
 
-    The sheet starts from matplotlib's defaults, so a figure does not depend on the settings of the user, and all of
-    ``matplotlib.rcParams`` is as before once the block ends.
+    The sheet starts from matplotlib's defaults, so a figure does not depend on the settings of the user.  When the
+    block ends, ``matplotlib.rcParams`` is restored.
     """
     with matplotlib.style.context(_SHEET, after_reset=True):
         yield
@@ -166,10 +166,10 @@ def applied() -> Iterator[None]:
 
 @contextmanager
 def drawing() -> Iterator[None]:
-    """The same for the time of a drawing, which no search for garbage interrupts.
+    """Apply the style sheet for a drawing, with the garbage collector switched off.
 
-    A figure is tens of thousands of small objects that refer to each other. Looking through them for garbage while they
-    are made finds none, and takes a quarter of the time.
+    A figure consists of tens of thousands of small objects that refer to each other. Collecting garbage while they are
+    created finds none, and takes a quarter of the time.
     """
     collecting = gc.isenabled()
     gc.disable()
@@ -184,9 +184,9 @@ def drawing() -> Iterator[None]:
 def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
     """Run a drawing function under carom's style sheet.
 
-    A figure of its own is laid out before the sheet is taken away, and its layout then stays: ticks made later would
-    get the settings of the user, and a layout done anew for each file would make each file a little different.  Axes of
-    the user, given as the keyword `axes`, keep the layout of the user.
+    A new figure is laid out before the style sheet is removed, and its layout is then fixed.  Ticks created later would
+    take the settings of the user, and a new layout for each file would make the files differ slightly.  Axes of the
+    user, given as the keyword `axes`, keep the layout of the user.
     """
 
     @wraps(draw)

@@ -1,4 +1,4 @@
-"""Maps of sweeps: one of the stored numbers or flags against the parameters that were varied."""
+"""Maps of sweeps: one of the stored numbers or flags over the parameters that were varied."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ BLANKS = MappingProxyType(
         "failed": Look("#ffffff", "failed", hatch="xxxx"),
     }
 )
-"""Why a cell has no value: told apart, and from shades and flags too, by hatching, so by all eyes and in grey."""
+"""Why a cell has no value: distinguished by hatching, also in greyscale and for colour-blind readers."""
 _NONE = MappingProxyType(
     {
         "smallest_unrecovered_kick": "every kick tried came back",
@@ -48,9 +48,9 @@ _NONE = MappingProxyType(
         "least_damping_rolling": "contact survives all damping tried",
     }
 )
-"""What it means that a number does not exist, or is infinite, in a machine that was computed."""
+"""What it means if a number does not exist, or is infinite, for a machine that was computed."""
 _LEVITATING = ("zone", "smallest_unrecovered_kick", "smallest_unrecovered_kick_angle")
-"""What a study stores of machines that levitate only."""
+"""Variables that have values only for machines that levitate."""
 _SHARES = MappingProxyType(
     {
         "recovered": "",
@@ -58,15 +58,15 @@ _SHARES = MappingProxyType(
         "recovered_high": "share that came back to levitation, upper end of 95 % confidence",
     }
 )
-"""Numbers shown in percent, and their words where the stored ones need those of another variable."""
+"""Numbers shown in percent, and their words if the stored words refer to another variable."""
 _SHADES = "cividis"
-"""Told apart by all eyes and in grey (Nuñez, Anderton, Renslow 2018)."""
+"""Colour map that can be read by colour-blind readers and in greyscale (Nuñez, Anderton, Renslow 2018)."""
 _INK = "#8c8c8c"
-"""Hatching and edges of cells without a value."""
+"""Colour of the hatching and edges of cells without a value."""
 _PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
-"""Numbers on a logarithmic axis that are written plainly, and the largest ratio of its ends with such ticks."""
+"""Range of plain numbers on a logarithmic axis, and largest ratio of its ends with such ticks."""
 _FLAGS = ("#dbe4f0", "#56739f", "#e8c26a", "#7a4f1d")
-"""Colours of the values of a flag: told apart by all eyes, and in grey."""
+"""Colours of the values of a flag, distinguishable by colour-blind readers and in greyscale."""
 
 
 @styled
@@ -76,7 +76,7 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     Parameters
     ----------
     data : xarray.Dataset
-        From :func:`carom.open_sweep`; of more than two axes, choose values first: ``data.sel(friction=0.15)``.
+        From :func:`carom.open_sweep`.  If it has more than two axes, select values first: ``data.sel(friction=0.15)``.
     name : str
         The variable.
     title : str, optional
@@ -86,12 +86,12 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     Returns
     -------
     matplotlib.figure.Figure
-        Axes in SI units where the parameters are physical, logarithmic where the sweep is.
+        Axes in SI units if the parameters are physical, logarithmic if the sweep is.
 
     Raises
     ------
     InputError
-        No such variable, or one with another number of dimensions.
+        There is no such variable, or it has another number of dimensions.
     """
     if name not in data:
         raise InputError("name", name, f"one of: {', '.join(map(str, data.data_vars))}")
@@ -127,7 +127,7 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
 
 
 def _plain_ticks(axis: AnyAxis, values: np.ndarray) -> None:
-    """Ticks at 1, 2, 5, 10, ..., written as plain numbers; a range of many decades keeps its powers of ten."""
+    """Set ticks at 1, 2, 5, 10, ... as plain numbers; a range of many decades keeps powers of ten."""
     low, high = float(values.min()), float(values.max())
     if _PLAIN[0] <= low and high <= min(_PLAIN[1], _PLAIN_RATIO * low):
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
@@ -136,7 +136,7 @@ def _plain_ticks(axis: AnyAxis, values: np.ndarray) -> None:
 
 
 def _ticks(axis: AnyAxis, values: xarray.DataArray) -> None:
-    """Ticks of a share in percent, and those of a count at whole numbers."""
+    """Set ticks: of a share in percent, of a count at whole numbers."""
     if values.name in _SHARES:
         axis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
     elif _counts(values):
@@ -144,18 +144,18 @@ def _ticks(axis: AnyAxis, values: xarray.DataArray) -> None:
 
 
 def _counts(values: xarray.DataArray) -> bool:
-    """Whether a number counts something."""
+    """Whether a variable is a count."""
     known = values.values[np.isfinite(values.values)]
     return values.attrs.get("units") == "1" and bool((known == np.round(known)).all())
 
 
 def _reasons(data: xarray.Dataset, values: xarray.DataArray) -> dict[str, np.ndarray]:
-    """Where there is no value, by the key of :data:`BLANKS` that says why."""
+    """Return the cells without a value, by the key of :data:`BLANKS` that says why."""
     blank, status = ~np.isfinite(np.asarray(values.values, float)), data["status"].transpose(*values.dims).values
     reasons = {"waiting": blank & (status == 0), "failed": blank & (status == 2)}
     rest = blank & (status == 1)
     grounded = np.zeros(rest.shape, bool)
-    if "possible" in data:  # Kicks and the like start out of levitation: none is possible where there is none.
+    if "possible" in data:  # Kicks and similar disturbances start from levitation, so none is possible without it.
         grounded = rest & (data["possible"].values == 0)
     elif _plain_name(values) in _LEVITATING:
         grounded = rest & (data["levitates"].values == 0)
@@ -163,7 +163,7 @@ def _reasons(data: xarray.Dataset, values: xarray.DataArray) -> dict[str, np.nda
 
 
 def cell_edges(values: Floats, logarithmic: bool = False) -> Floats:
-    """Edges of the cells around values: halfway between them on their axis."""
+    """Return the edges of the cells around values: halfway between them on their axis."""
     along = np.log(values) if logarithmic else np.asarray(values, float)
     steps = np.diff(along) if len(along) > 1 else np.ones(1)
     edges = np.concatenate(
@@ -179,7 +179,7 @@ def _shades(
     values: xarray.DataArray,
     reasons: Mapping[str, np.ndarray],
 ) -> None:
-    """Shades of a number with their bar, or colours of a flag; a legend of the flag and of cells without a value."""
+    """Draw a number as shades with a colour bar, or a flag as colours; add a legend of the flag and of blank cells."""
     shown = np.ma.masked_invalid(np.asarray(values.values, float))
     look: dict[str, Any] = {}
     meanings = str(values.attrs.get("flag_meanings", "")).split()
@@ -205,7 +205,7 @@ def _shades(
 
 
 def shaded_cells(axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, **look: Any) -> QuadMesh:
-    """Cells in shades of their values, given by their edges; masked ones are left out.
+    """Draw cells, given by their edges, in shades of their values; masked ones are left out.
 
     Parameters
     ----------
@@ -213,13 +213,13 @@ def shaded_cells(axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedA
     edges : tuple of numpy.ndarray, shapes (n + 1,) and (m + 1,)
     values : numpy.ma.MaskedArray, shape (n, m)
     **look
-        Colour map and its ends, as for ``pcolormesh``.
+        Colour map and its limits, as for ``pcolormesh``.
     """
     return axes.pcolormesh(*edges, values.T, rasterized=True, gid="cells", **{"cmap": _SHADES, **look})
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, words: str) -> Colorbar:
-    """Bar of the shades of cells."""
+    """Add the colour bar of shaded cells."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02)
     bar.set_label(words)
     bar.outline.set_linewidth(0.5)
@@ -229,7 +229,7 @@ def colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, words: str) -> Colorb
 def blank_cells(
     axes: Axes, edges: tuple[Floats, Floats], reasons: Mapping[str, np.ndarray], words: Mapping[str, str]
 ) -> list[Patch]:
-    """Draw cells without a value so that they tell why.
+    """Draw cells without a value so that their hatching says why.
 
     Parameters
     ----------
@@ -238,12 +238,12 @@ def blank_cells(
     reasons : mapping of str to numpy.ndarray of bool, shape (n, m)
         Cells by the key of :data:`BLANKS`.
     words : mapping of str to str
-        What the legend says instead of the words of that look.
+        Legend texts that replace the words of these looks.
 
     Returns
     -------
     list of matplotlib.patches.Patch
-        Legend entries of those that occur.
+        Legend entries of the reasons that occur.
     """
     handles = []
     for key, cells in reasons.items():
@@ -257,7 +257,7 @@ def blank_cells(
 
 
 def _outline(edges: tuple[Floats, Floats], cells: np.ndarray) -> Path:
-    """Cells as one path, so that hatching runs on from one to the next: a rectangle for each run along a row."""
+    """Return cells as one path, so that hatching is continuous: a rectangle for each run along a row."""
     rectangles = []
     for row, inside in enumerate(cells.T):
         turns = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
@@ -268,12 +268,12 @@ def _outline(edges: tuple[Floats, Floats], cells: np.ndarray) -> Path:
 
 
 def _plain_name(values: xarray.DataArray) -> str:
-    """Name of a variable, whatever its unit."""
+    """Return the name of a variable without the suffix of its unit."""
     return str(values.name).removesuffix("_si")
 
 
 def _label(values: xarray.DataArray) -> str:
-    """Words and unit of a variable."""
+    """Return the words and the unit of a variable."""
     words, unit = _SHARES.get(str(values.name)) or values.attrs["long_name"], values.attrs.get("units", "1")
     own = {"c_r": r"$c_\mathrm{r}$", "Omega^2": r"$\Omega^2$", "Omega": r"$\Omega$", "m": "$m$"}
     if unit == "1":

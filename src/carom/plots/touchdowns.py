@@ -1,4 +1,4 @@
-"""What happens in a touchdown: radius, regime and whirl, forces and energies over the same time."""
+"""A touchdown over time: radius, regime and whirl, forces and energies."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ _WIDE_RANGE = 50.0
 
 @styled
 def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = None) -> Figure:
-    """Draw a touchdown as an engineer reads it: four panels over one time axis.
+    """Draw a touchdown in four panels over one time axis.
 
     Parameters
     ----------
     trajectory : carom.motions.trajectories.Trajectory
     ledger : carom.motions.ledger.EnergyLedger
-        Its energies.
+        Energies of the motion.
     title : str, optional
 
     Returns
@@ -105,7 +105,7 @@ def _ribbon(axes: Axes, start: float, end: float, bottom: float, colour: str) ->
 
 
 def _whirl(trajectory: Trajectory) -> list[tuple[float, float, bool]]:
-    """Stretches of forward and backward whirl in the fixed frame: start, end, whether forward."""
+    """Return the intervals of forward and backward whirl in the fixed frame: start, end, whether forward."""
     times = trajectory.sample(_SAMPLES)
     position, velocity = trajectory.at(times)
     forward = (position.conj() * (velocity + 1j * position)).imag > 0.0
@@ -128,7 +128,7 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Forces in N and impulses in N s (right axis) where the machine is known, else in ``m c_r Ω²`` and ``m c_r Ω``.
+        Forces in N and impulses in N s (right axis) if the machine is known, otherwise in ``m c_r Ω²`` and ``m c_r Ω``.
         Without lasting contact there is no force to draw, and the panel says so.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
@@ -149,7 +149,7 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 
 
 def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
-    """Normal and friction force over the stretches of lasting contact."""
+    """Draw normal and friction force over the intervals of lasting contact."""
     times = _contact_times(trajectory)
     normal, friction = (part * (scales.force if scales else 1.0) for part in trajectory.forces(times))
     gaps = np.isnan(times)
@@ -167,7 +167,7 @@ def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -
 
 
 def _contact_times(trajectory: Trajectory) -> Floats:
-    """Times to draw lasting contact at, a gap (nan) after each stretch."""
+    """Return the times at which lasting contact is drawn, with a gap (nan) after each interval."""
     pieces = []
     for span in trajectory.lasting_contacts:
         count = max(50, int(_SAMPLES * (span.end - span.start) / trajectory.time))
@@ -177,14 +177,14 @@ def _contact_times(trajectory: Trajectory) -> Floats:
 
 
 def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
-    """Stems for the normal impulses, on an axis of their own at the right."""
+    """Draw the normal impulses as stems, on a separate axis at the right."""
     beside = axes.twinx()
     log = trajectory.contacts
     heights = log.normal_impulse * (scales.impulse if scales else 1.0)
     look = LOOKS["stable"]
     beside.vlines(log.time, 0.0, heights, color=look.colour, lw=0.5)
     beside.plot(log.time, heights, "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
-    # Room above for the words where there is no force.
+    # Leave room above for the words that say that there is no force.
     beside.set_ylim(0.0, None if trajectory.lasting_contacts else 1.25 * heights.max())
     beside.set_ylabel("impulse (N s)" if scales else r"impulse ($m c_r \Omega$)")
     axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
@@ -198,7 +198,7 @@ def energies(ledger: EnergyLedger, scales: Scales | None = None, *, axes: Axes |
     ----------
     ledger : carom.motions.ledger.EnergyLedger
     scales : carom.parameters.Scales, optional
-        Turns the energies into J.
+        Scales that convert the energies to J.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
 

@@ -32,37 +32,37 @@ __all__ = [
 
 
 def orbit_symbol(name: str) -> str:
-    """Orbit name as mathematics: ``"B1,d"`` becomes B with the subscript 1,d."""
+    """Return an orbit name as mathematical text: ``"B1,d"`` becomes B with the subscript 1,d."""
     letter, subscript = name[:1], name[1:].replace(" ", r"\,")
     return rf"${letter}_{{\mathrm{{{subscript}}}}}$" if subscript else f"${letter}$"
 
 
 def orbit_look(orbit: Orbit) -> str:
-    """Key of :data:`carom.plots.style.LOOKS` that says what kind of orbit this is."""
+    """Return the key of :data:`carom.plots.style.LOOKS` for the kind of an orbit."""
     if not orbit.admissible:
         return "virtual"
     return "stable" if orbit.stable else "unstable"
 
 
 def orbit_words(orbit: Orbit) -> str:
-    """Name and kind of an orbit, for example ``B1,d — admissible, stable``."""
+    """Return the name and kind of an orbit, for example ``B1,d — admissible, stable``."""
     return f"{orbit_symbol(orbit.name)} \N{EM DASH} {LOOKS[orbit_look(orbit)].words}"
 
 
 def orbit_title(orbit: Orbit) -> str:
-    """The same, with the reason where the orbit is virtual."""
+    """Return the same, with the reason if the orbit is virtual."""
     return orbit_words(orbit) if orbit.admissible or not orbit.reason else f"{orbit_words(orbit)}: {orbit.reason}"
 
 
 def ending(outcome: Outcome) -> str:
-    """How a motion ended, in words short enough for a legend."""
+    """Describe how a motion ended, briefly enough for a legend."""
     if outcome.label in OUTCOMES:
         return OUTCOMES[outcome.label].words
     return "chatter, goes over into lasting contact" if outcome.label == "chatter" else outcome.label.replace("-", " ")
 
 
 def number(value: float, digits: int = 4) -> str:
-    """A number for a label, without trailing zeros; powers of ten as mathematics."""
+    """Write a number for a label, without trailing zeros; powers of ten as mathematical text."""
     text = f"{value:.{digits}g}"
     if "e" not in text:
         return text
@@ -71,17 +71,17 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def counted(count: int, noun: str) -> str:
-    """``no impact``, ``1 impact``, ``2 impacts``."""
+    """Write a count with its noun: ``no impact``, ``1 impact``, ``2 impacts``."""
     return f"{count or 'no'} {noun}" if count <= 1 else f"{count} {noun}s"
 
 
 def times_larger(ratio: float) -> str:
-    """An enlargement to two digits."""
+    """Write an enlargement with two digits."""
     return f"{float(f'{ratio:.2g}'):.0f}"
 
 
 def time_in_words(time: float, scales: Scales | None) -> str:
-    """A dimensionless time with its unit, and in ms where the machine is known."""
+    """Write a dimensionless time with its unit, and in ms if the machine is known."""
     text = rf"{number(time)} $/\,\Omega$"
     return text if scales is None else f"{text} ({_seconds(time * scales.time)})"
 
@@ -91,25 +91,25 @@ def _seconds(time: float) -> str:
 
 
 def axis_length(words: str, symbol: str, scales: Scales | None) -> str:
-    """Axis label of a length in units of the clearance, whose size is told where the machine is known."""
+    """Return the axis label of a length in clearances, with the size of the clearance if the machine is known."""
     size = "" if scales is None else f" = {number(1e3 * scales.clearance, 3)} mm"
     return rf"{words} {symbol} (units of $c_\mathrm{{r}}${size})"
 
 
 def axis_time(scales: Scales | None) -> str:
-    """Axis label of the dimensionless time."""
+    """Return the axis label of the dimensionless time."""
     if scales is None:
         return r"time $t$ (units of $1/\Omega$)"
     return rf"time $t$ (units of $1/\Omega$ = {number(1e3 * scales.time, 3)} ms)"
 
 
 def parameter_unit(axis: Axis) -> float:
-    """What values of a parameter are divided by for a figure: a shaft speed is shown in rpm."""
+    """Return the divisor of a parameter in figures: a shaft speed is shown in rpm."""
     return math.pi / 30.0 if axis.name == "speed" else 1.0
 
 
 def parameter_label(axis: Axis) -> str:
-    """Words, symbol and unit of a parameter."""
+    """Return the words, symbol and unit of a parameter."""
     field = axis.field
     unit = "rpm" if axis.name == "speed" else field.unit
     symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
@@ -119,5 +119,5 @@ def parameter_label(axis: Axis) -> str:
 
 
 def turns(time: float) -> str:
-    """Dimensionless time as turns of the shaft."""
+    """Write a dimensionless time as turns of the shaft."""
     return f"{number(time / math.tau, 3)} turns of the shaft"

@@ -1,7 +1,7 @@
 """The report of a study: one self-contained HTML page, its figures as files, and the numbers as JSON.
 
 ==============  ====================================================
-``directory``   the place to write to: checked early, filled whole
+``directory``   the output directory: checked early, filled completely or not at all
 ``figures``     the figures of a study with their captions
 ``page``        the HTML page
 ==============  ====================================================

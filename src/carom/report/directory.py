@@ -1,4 +1,4 @@
-"""A directory that receives files whole, or not at all."""
+"""An output directory that receives all files of a report or none."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ MANIFEST = "study.json"
 
 
 def check_directory(path: str, option: str) -> Path:
-    """Refuse early what cannot become, or is not, a directory to write to.
+    """Refuse early a path that is not, or cannot become, a writable directory.
 
-    Rights alone do not tell (read-only and special file systems, quotas, names too long): it is tried, without a trace.
+    Permissions alone do not decide this (read-only and special file systems, quotas, names too long), so writing is
+    tried and undone.
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ def check_directory(path: str, option: str) -> Path:
     ------
     InputError
     """
-    allowed = "must be a directory to write to, there or to be made"
+    allowed = "must be a directory to write to, existing or new"
     if not path.strip() or "\0" in path:
         raise InputError(option, repr(path), allowed)
     directory = Path(path)
@@ -61,27 +62,27 @@ def check_directory(path: str, option: str) -> Path:
 
 @contextmanager
 def filled_at_once(path: str, option: str) -> Iterator[Path]:
-    """Give an empty directory to fill; when all is there, move its files to their place.
+    """Provide an empty staging directory; when the block ends, move its files to the target directory.
 
-    Files of the same name are replaced, each in one step.  Figures that an earlier study left there and this one does
-    not have are removed; all other files stay as they are.  If anything goes wrong before the move, nothing is changed.
+    Files of the same name are replaced, each atomically.  Figures of an earlier study that this one does not have are
+    removed; all other files stay as they are.  If an error occurs before the move, nothing is changed.
 
     Parameters
     ----------
     path : str
-        The place.
+        The target directory.
     option : str
         Name of the input, for errors.
 
     Yields
     ------
     Path
-        A directory in the place, or beside it where it is to be made.
+        The staging directory: inside the target, or beside it if the target does not exist yet.
 
     Raises
     ------
     InputError
-        The place cannot be written.
+        The target cannot be written.
     """
     target = check_directory(path, option)
     try:
@@ -94,11 +95,11 @@ def filled_at_once(path: str, option: str) -> Iterator[Path]:
 
 @contextmanager
 def _staging(target: Path) -> Iterator[Path]:
-    """Make an empty directory on the file system of a place; remove it and what was made for it, if still empty."""
+    """Create an empty directory on the file system of a target; at the end remove it, and created parents if empty."""
     there = target.exists()
     home = target if there else target.absolute().parent
     missing = [directory for directory in (home, *home.parents) if not directory.exists()]
-    # Named before it is made, so that an interruption at any moment cleans up.
+    # Its name is chosen before it is created, so that it is removed after an interruption at any moment.
     made = home / f".carom.{secrets.token_hex(4)}.part"
     try:
         made.mkdir(parents=True)
@@ -116,20 +117,20 @@ def _move(made: Path, target: Path) -> None:
         return
     files = sorted(file.relative_to(made) for file in made.rglob("*") if file.is_file())
     _remove_stale_figures(target, files)
-    # What others are read from comes last.
+    # The page and the manifest, which refer to the figures, come last.
     for file in sorted(files, key=lambda name: len(name.parts), reverse=True):
         (target / file).parent.mkdir(parents=True, exist_ok=True)
         (made / file).replace(target / file)
 
 
 def _remove_stale_figures(target: Path, files: list[Path]) -> None:
-    """Remove the figures that the study that is there names as its own, except those about to be replaced."""
+    """Remove the figures that the existing study lists as its own, except those about to be replaced."""
     try:
         names = json.loads((target / MANIFEST).read_text(encoding="utf-8"))["figures"]
         stale = [Path(name) for name in names]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):  # damaged: its figures stay
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):  # missing or damaged: keep the figures
         return
     for file in stale:
         if len(file.parts) == 2 and file.parts[0] == FIGURES and file.parts[1] != ".." and file not in files:
-            with suppress(OSError, ValueError):  # the latter from a name that no file can have
+            with suppress(OSError, ValueError):  # ValueError: a name that no file can have
                 (target / file).unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""The figures of a study, with captions in words."""
+"""The figures of a study, with captions."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ from carom.studies.endings import ending_phrase, shown_example
 __all__ = ["Picture", "pictures"]
 
 MOST_ORBITS = 6
-"""Orbits with figures of their own."""
+"""Largest number of orbits with figures of their own."""
 MOST_ENDINGS = 5
-"""Examples of disturbances with a figure."""
+"""Largest number of disturbances shown as examples."""
 MOST_VIRTUAL = 16
-"""Virtual orbits beyond which the overview leaves them out."""
+"""Number of virtual orbits above which the overview leaves them out."""
 PANELS = (
     " From top to bottom: distance from the bearing centre; kind of contact and direction of whirl; load on the bearing; "
     "energies and works."
 )
 LONGEST_SHOWN = 1000.0
-"""Time that an example shows at most, in ``1/Ω``."""
+"""Longest time that an example shows, in ``1/Ω``."""
 SHOWN_TAIL = 4.0
-"""Time constants of levitation that an example shows after its last contact."""
+"""Time that an example shows after its last contact, in time constants of levitation."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Picture:
         ``"motions"``, ``"disturbances"`` or ``"method"``.
     caption : str
     draw : callable
-        Gives the figure.
+        Returns the figure.
     """
 
     name: str
@@ -59,7 +59,7 @@ class Picture:
 
 
 def pictures(study: Study) -> list[Picture]:
-    """All figures of a study in the order of the report.
+    """Return all figures of a study in the order of the report.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _of_orbit(study: Study, orbit: Orbit) -> Iterator[Picture]:
 
 
 def _zones(study: Study, radii: np.ndarray) -> Zones | None:
-    """Zones to draw; none where a motion never leaves the last one, so that it is drawn enlarged."""
+    """Return the zones to draw; ``None`` if a motion stays in the last zone, so that it is drawn enlarged."""
     zones = study.case.zones
     return zones if float(radii.min()) <= zones.limits[-1] else None
 
@@ -142,7 +142,7 @@ def _file_name(attractor: str) -> str:
 
 
 def _history(study: Study, example: Ending) -> Figure:
-    """The motion until it has settled, with forces and energies; of levitation a little longer, as it dies out."""
+    """Draw the motion until it has settled, with forces and energies; a return to levitation a little longer."""
     decay = -float(study.rotor.system.exponents.real.max())
     tail = SHOWN_TAIL / decay if example.outcome is Outcome.LEVITATED and decay > 0 else 0.0
     end = min(example.time + tail, LONGEST_SHOWN)

@@ -1,4 +1,4 @@
-"""The HTML page of a study: self-contained, for screen and paper, light and dark."""
+"""The HTML page of a study: self-contained, for screen and print, in light and dark colours."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ __all__ = ["report_page", "write_report"]
 REPORT = "report.html"
 FORMATS = ("svg",)
 SCREEN_SCALE = 1.3
-"""Figures are made for print; a screen is farther away."""
+"""Enlargement of the figures on a screen: they are made for print, and a screen is farther away."""
 
 Progress = Callable[[float, str], None]
 
 
 @dataclass(frozen=True)
 class InlineFigure:
-    """A figure as it stands in the page."""
+    """A figure as it is embedded in the page."""
 
     section: str
     caption: str
@@ -52,19 +52,19 @@ def write_report(study: Study, directory: str, progress: Progress | None = None)
     ----------
     study : Study
     directory : str
-        Where to; made if it is not there.  Files of an earlier study are replaced, other files stay.
+        Target directory, created if it does not exist.  Files of an earlier study are replaced; other files stay.
     progress : callable, optional
-        Called with the share done, 0 to 1, and what is done next, in words.
+        Called with the share done, 0 to 1, and a description of the next step.
 
     Returns
     -------
     Path
-        The page.
+        Path of the page.
 
     Raises
     ------
     InputError
-        The directory cannot be written; then nothing has changed.
+        The directory cannot be written; nothing has been changed then.
     """
     tell = progress or (lambda share, words: None)
     wanted = pictures(study)
@@ -83,7 +83,7 @@ def write_report(study: Study, directory: str, progress: Progress | None = None)
 
 
 def report_page(study: Study, figures: list[InlineFigure]) -> str:
-    """The page as text.
+    """Return the page as text.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
     Returns
     -------
     str
-        HTML that needs nothing else.
+        Self-contained HTML.
     """
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters["formulas"] = _with_subscripts
@@ -132,7 +132,7 @@ _COMMAND = re.compile(r"`(carom \w+)`")
 
 
 def _with_subscripts(text: str) -> Markup:
-    """Write ``c_r``, ``B1,d``, ``F1`` and ``Omega`` as formulas, and commands as such."""
+    """Write ``c_r``, ``B1,d``, ``F1`` and ``Omega`` as formulas, and commands as code."""
 
     def formula(match: re.Match[str]) -> str:
         letter, index = (part for part in match.groups() if part)
@@ -152,9 +152,9 @@ _REFERENCE = re.compile(r'(xlink:href="#|url\(#)([^")]+)')
 
 
 def _inline(picture: Picture, text: str, prefix: str) -> InlineFigure:
-    """Turn a figure file into a part of the page: it scales, and its identifiers are its own."""
+    """Prepare a figure file for the page: make it scalable, and its identifiers unique."""
     svg = _METADATA.sub("", _PROLOGUE.sub("", text))
-    # Identifiers must differ within a page, and every figure has an "axes_1": keep those that are referred to.
+    # Identifiers must be unique within a page, but every figure has an "axes_1".  Keep only those that are referred to.
     used = {match[2] for match in _REFERENCE.finditer(svg)}
     svg = _IDENTIFIER.sub(lambda match: f' id="{prefix}{match[1]}"' if match[1] in used else "", svg)
     svg = _REFERENCE.sub(lambda match: f"{match[1]}{prefix}{match[2]}", svg)

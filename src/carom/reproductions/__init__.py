@@ -1,1 +1,1 @@
-"""Published results computed again: each paper in a room of its own."""
+"""Reproductions of published results: one package for each paper."""

@@ -1,4 +1,4 @@
-"""The source paper, all of it: its figures 2 to 6 drawn again, and its numbers and misprints beside ours.
+"""Reproduction of the source paper: its figures 2 to 6, and its numbers, misprints and propositions compared with ours.
 
 >>> from carom.reproductions import mora2014
 >>> found = mora2014.reproduce()                      # all results, in less than a second once compiled
@@ -13,7 +13,7 @@
 ...     print(claim.place, claim.statement, claim.holds, claim.found)
 >>> mora2014.write_paper(found, "out")                # figure-2.svg, figure-2.png, …, paper.json, table.md
 
-``carom paper --out DIR`` does the same.  The parts can be had alone: :func:`shown_motions` (figure 2),
+``carom paper --out DIR`` does the same.  The parts are available separately: :func:`shown_motions` (figure 2),
 :func:`period_functions`, :func:`period_pairs` and :func:`birth` (figure 3), :func:`first_pair` (figures 4 and 6a),
 :func:`radius_diagram` (figure 5), :func:`four_curves` and :func:`damping_stiffness_plane` (figure 6b).
 """

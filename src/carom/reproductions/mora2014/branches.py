@@ -1,4 +1,4 @@
-"""The first pair of orbits along the damping: what figures 4, 5 and 6a are drawn from."""
+"""The first pair of orbits along the damping, from which figures 4, 5 and 6a are drawn."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from carom.results import Result
 __all__ = ["FirstPair", "first_pair"]
 
 DAMPINGS = (0.002, 0.2)
-"""Range of the damping; without any there are infinitely many orbits."""
+"""Range of the damping; without damping there are infinitely many orbits."""
 NEGATIVE = -0.52
-"""Where the branches of negative damping, which no machine has, are looked for."""
+"""Lowest damping to which the branch at negative damping, which no machine has, is followed."""
 STEPS = Steps(first=0.005, largest=0.02)
 
 
@@ -28,7 +28,7 @@ class FirstPair(Result):
     Attributes
     ----------
     slow, fast : OrbitBranch
-        ``B1,a`` and ``B1,b`` with the fold between them; ``B1,c`` and ``B1,d`` with theirs.
+        ``B1,a`` and ``B1,b`` with the fold between them (slow); ``B1,c`` and ``B1,d`` with theirs (fast).
     negative : OrbitBranch
         ``B1,a`` and ``B1,c`` at negative damping, where they meet.
     hopf : HopfSide
@@ -42,11 +42,11 @@ class FirstPair(Result):
 
     @property
     def branches(self) -> tuple[OrbitBranch, ...]:
-        """All three."""
+        """All three branches."""
         return self.slow, self.fast, self.negative
 
     def special(self, kind: str, letter: str) -> Bifurcation:
-        """The special point of a kind at positive damping, or any damping, named after ``B1,letter``."""
+        """Return the special point of a kind on ``B1,letter``; of several, the one at the largest damping."""
         found = [
             point
             for branch in self.branches
@@ -57,14 +57,14 @@ class FirstPair(Result):
 
 
 def first_pair() -> FirstPair:
-    """Follow the first pair of orbits from ``γ = 0.1`` to both sides, and to negative damping.
+    """Follow the first pair of orbits from ``γ = 0.1`` in both directions, and at negative damping.
 
     Returns
     -------
     FirstPair
     """
     orbits = find_orbits(Jeffcott(machine_at(0.1)))
-    # Without damping the search for all orbits has no end; these two have short periods.
+    # Without positive damping the search for all orbits would not end; these two have short periods.
     undamped = find_orbits(Jeffcott(machine_at(-0.3)), 1.0)
     return FirstPair(
         slow=continue_orbit(orbits["B1,b"], "gamma", DAMPINGS, STEPS),

@@ -13,7 +13,7 @@ __all__ = ["markdown", "paper_document"]
 
 
 def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> dict[str, Any]:
-    """All numbers beside the printed ones, the misprints, the curves and regions of figure 6b.
+    """Return all numbers with the printed ones, the misprints, and the curves and regions of figure 6b.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def _region(region: NamedRegion) -> dict[str, Any]:
 
 
 def markdown(found: Reproduction) -> str:
-    """Tables of the numbers, the misprints and the regions.
+    """Return tables of the numbers, the misprints and the regions.
 
     Parameters
     ----------
@@ -164,6 +164,6 @@ def _with_unit(text: str, unit: str) -> str:
 
 
 def _table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
-    """A table; bars inside cells are escaped."""
+    """Return a table in Markdown; vertical bars inside cells are escaped."""
     cells = [[cell.replace("|", "\\|") for cell in row] for row in rows]
     return [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *cells)]

@@ -19,7 +19,7 @@ from carom.results import Result
 __all__ = ["Extremum", "ExtremumLine", "RadiusDiagram", "extremum_lines", "radius_diagram", "radius_extrema"]
 
 SAMPLES = 96
-"""Pieces of the period in which extrema are looked for."""
+"""Number of subintervals of the period in which extrema are searched."""
 SAME_TIME = 1e-3
 """Distance in time, in periods, of the two extrema that meet at a located point."""
 
@@ -50,10 +50,10 @@ class ExtremumLine(Result):
     Attributes
     ----------
     places : ndarray, shape (m,)
-        Where on the branch: index of the orbit before plus the fraction of the step.
+        Position on the branch: index of the previous orbit plus the fraction of the step.
     gammas, radii : ndarray, shape (m,)
     highest : ndarray of bool, shape (m,)
-        Where it is a maximum.
+        Where the extremum is a maximum.
     """
 
     places: np.ndarray
@@ -69,9 +69,9 @@ class RadiusDiagram(Result):
     Attributes
     ----------
     slow, fast : tuple of ExtremumLine
-        Of ``B1,a`` and ``B1,b``, and of ``B1,c`` and ``B1,d``.
+        Extrema of ``B1,a`` and ``B1,b`` (slow), and of ``B1,c`` and ``B1,d`` (fast).
     gammas, levitation : ndarray, shape (m,)
-        Damping and radius of the contact-free equilibrium, which is virtual where that is above 1.
+        Damping and radius of the contact-free equilibrium, which is virtual where the radius exceeds 1.
     """
 
     slow: tuple[ExtremumLine, ...]
@@ -81,7 +81,7 @@ class RadiusDiagram(Result):
 
 
 def radius_diagram(pair: FirstPair) -> RadiusDiagram:
-    """Find what figure 5 shows along the branches of the first pair of orbits.
+    """Compute figure 5 along the branches of the first pair of orbits.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def radius_diagram(pair: FirstPair) -> RadiusDiagram:
 
 
 def radius_extrema(numbers: Numbers, period: float, speed: float) -> list[Extremum]:
-    """Every local extremum of the radius strictly between the impacts of an orbit, in the order of time.
+    """Return every local extremum of the radius strictly between the impacts of an orbit, in order of time.
 
     Parameters
     ----------
@@ -125,8 +125,8 @@ def radius_extrema(numbers: Numbers, period: float, speed: float) -> list[Extrem
 def extremum_lines(branch: OrbitBranch) -> tuple[ExtremumLine, ...]:
     """Follow every extremum of the radius along a branch of orbits.
 
-    A stretch ends where two extrema are born or vanish (``"radius-extremum"`` of
-    :class:`~carom.bifurcations.Bifurcation`); its lines reach to that point.
+    A segment ends where two extrema are born or vanish (``"radius-extremum"`` of
+    :class:`~carom.bifurcations.Bifurcation`); its lines extend to that point.
 
     Parameters
     ----------
@@ -162,12 +162,12 @@ def extremum_lines(branch: OrbitBranch) -> tuple[ExtremumLine, ...]:
 
 
 def flattest(point: Bifurcation) -> Extremum:
-    """Where the radius stands still without an extremum, at the birth of two of them."""
+    """Return the point of an orbit at which two extrema of the radius are born: its rate is zero but keeps its sign."""
     times = np.linspace(0.0, point.period, 8 * SAMPLES + 1)
     at = point.numbers, point.period, point.radial_speed
     rates = np.array([grazing_equations(*at, time)[0] for time in times.tolist()])
     size = np.abs(rates)
-    # The rate touches zero without a change of sign; where it crosses there is a proper extremum.
+    # The rate touches zero without a change of sign; where the sign changes, there is a proper extremum.
     touching = np.flatnonzero(
         (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (np.sign(rates[:-2]) == np.sign(rates[2:]))
     )
@@ -179,7 +179,7 @@ def flattest(point: Bifurcation) -> Extremum:
 
 
 def _meeting(turn: Bifurcation, count: int) -> list[Extremum]:
-    """Extrema at the birth of two, as many as the stretch has: those that pass it, and the newborn twice or not at all."""
+    """Return the extrema at the birth of two, as many as the segment has: the newborn one twice or not at all."""
     newborn = flattest(turn)
     found = radius_extrema(turn.numbers, turn.period, turn.radial_speed)
     passing = [entry for entry in found if abs(entry.time - newborn.time) > SAME_TIME * turn.period]

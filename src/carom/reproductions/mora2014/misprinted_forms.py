@@ -1,7 +1,7 @@
-"""The misprints of the source paper: what the printed form gives beside the right one.
+"""The misprints of the source paper: the values of the printed formulas compared with the correct ones.
 
-Each is evaluated on motions of the machine; the right value comes from the general code of the package, which does not
-know the printed formulas.
+Each is evaluated on motions of the machine; the correct value comes from the general code of the package, which does
+not use the printed formulas.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ from carom.reproductions.mora2014.source import SCALES, machine_at
 __all__ = ["Misprint", "misprints", "printed_matrix", "printed_second_form"]
 
 LONG = 200.0
-"""Period, in ``1/Ω``, at which the leading term of ``F₁`` is right to four digits at ``γ = 0.1``."""
+"""Period, in ``1/Ω``, at which the leading term of ``F₁`` is accurate to four digits at ``γ = 0.1``."""
 SMALL = 1e-6
-"""Distance in damping from ``γ*`` at which the letters of section 5 are tried."""
+"""Distance in damping from ``γ*`` at which the symbols of section 5 are evaluated."""
 
 
 @dataclass(frozen=True)
@@ -39,13 +39,13 @@ class Misprint:
     ----------
     place : str
     printed, right : str
-        Both forms in words or formulas.
+        Both forms, in words or formulas.
     quantity : str
-        What is evaluated, and where.
+        What is evaluated, and at which parameters or motion.
     printed_value : float or None
-        What the printed form gives; ``None`` where it is no number.
+        Value of the printed form; ``None`` if it is not a number.
     value : float
-        What holds.
+        Correct value.
     """
 
     place: str
@@ -57,7 +57,7 @@ class Misprint:
 
     @property
     def difference(self) -> float | None:
-        """What holds minus what is printed."""
+        """Correct value minus printed value."""
         return None if self.printed_value is None else self.value - self.printed_value
 
 
@@ -67,9 +67,9 @@ def misprints(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None
     Parameters
     ----------
     pair : FirstPair, optional
-        The branches of the first pair of orbits; followed here by default.
+        The branches of the first pair of orbits; computed here by default.
     plane : DampingStiffnessPlane, optional
-        Likewise.
+        The plane of figure 6b; computed here by default.
 
     Returns
     -------
@@ -89,7 +89,7 @@ def misprints(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None
 
 
 def _impact_law(orbit: Orbit) -> Iterator[Misprint]:
-    """Section 2, on ``B1,d`` at ``γ = 0.1``."""
+    """List the misprints of section 2, evaluated on ``B1,d`` at ``γ = 0.1``."""
     motion = orbit.trajectory(1.5)
     parameters = orbit.rotor.parameters
     impulse = float(motion.contacts.in_si(SCALES)["normal_impulse"][0][0])
@@ -112,7 +112,7 @@ def _impact_law(orbit: Orbit) -> Iterator[Misprint]:
 
 
 def _closed_forms(orbit: Orbit) -> Iterator[Misprint]:
-    """Section 4, on the same orbit."""
+    """List the misprints of section 4, evaluated on the same orbit."""
     parameters, period = orbit.rotor.parameters, orbit.period
     factor = (1.0 + parameters.d) * complex(1.0, parameters.mu)
     yield Misprint(
@@ -136,7 +136,7 @@ def _closed_forms(orbit: Orbit) -> Iterator[Misprint]:
 
 
 def _second_form(orbit: Orbit) -> Iterator[Misprint]:
-    """The second form of (4.6), and what the text draws from it."""
+    """List the misprints of the second form of (4.6), and of the conclusions of the text from it."""
     parameters = orbit.rotor.parameters
     yield Misprint(
         "(4.6), second form",
@@ -169,7 +169,7 @@ def _second_form(orbit: Orbit) -> Iterator[Misprint]:
 
 
 def printed_matrix(parameters: Parameters, period: float) -> np.ndarray:
-    """``(e^{−AT} − 1)⁻¹`` as printed after (4.1), shape (2, 2), with the scalar ``e^{ΛT}`` for its ``e^{AT}``."""
+    """Return ``(e^{−AT} − 1)⁻¹`` as printed after (4.1), shape (2, 2), with scalar ``e^{ΛT}`` for its ``e^{AT}``."""
     upper, lower = _exponents(parameters)
     corner = 1.0 - parameters.omega**2 - 1j * parameters.gamma
     v_upper, v_lower = -upper / corner, -lower / corner
@@ -184,9 +184,9 @@ def printed_matrix(parameters: Parameters, period: float) -> np.ndarray:
 
 
 def _printed_tail(parameters: Parameters, period: float) -> tuple[float, float]:
-    """``F₁ − 1`` by (4.7) and the distance of the bounds (4.8) from 1, as printed, both times ``e^{γT/2}``.
+    """Return ``F₁ − 1`` by (4.7) and the distance of the bounds (4.8) from 1, as printed, both times ``e^{γT/2}``.
 
-    But for the ``T`` that ``s₄`` has too many, which would make its phase grow with ``T²``.
+    The extra factor ``T`` of the printed ``s₄``, with which its phase would grow with ``T²``, is left out.
     """
     leading, size = 0.0, 0.0
     s1 = math.sqrt(4.0 * parameters.omega**2 - parameters.gamma**2)
@@ -199,7 +199,7 @@ def _printed_tail(parameters: Parameters, period: float) -> tuple[float, float]:
 
 
 def _letters(parameters: Parameters, period: float, sign: int) -> tuple[float, float, float, float]:
-    """``s₂``, ``s₃``, ``s₄`` and ``ζ`` below (4.6), as printed."""
+    """Return ``s₂``, ``s₃``, ``s₄`` and ``ζ`` as printed below (4.6)."""
     gamma, omega, mu = parameters.gamma, parameters.omega, parameters.mu
     s1 = math.sqrt(4.0 * omega**2 - gamma**2)
     s2, s3 = 2.0 + sign * s1 + gamma * mu, math.sqrt((1.0 + mu**2) * (1.0 + omega**2 + sign * s1))
@@ -208,7 +208,7 @@ def _letters(parameters: Parameters, period: float, sign: int) -> tuple[float, f
 
 
 def printed_second_form(parameters: Parameters, period: float) -> float:
-    """The second form of (4.6) as printed."""
+    """Return the second form of (4.6) as printed."""
     gamma, omega = parameters.gamma, parameters.omega
     s1 = math.sqrt(4.0 * omega**2 - gamma**2)
     half = math.exp(gamma * period / 2.0)
@@ -221,7 +221,7 @@ def printed_second_form(parameters: Parameters, period: float) -> float:
 
 
 def _exponents(parameters: Parameters) -> tuple[complex, complex]:
-    """``λ±`` of (3.5)."""
+    """Return ``λ±`` of (3.5)."""
     root = math.sqrt(4.0 * parameters.omega**2 - parameters.gamma**2)
     return complex(-parameters.gamma, -2.0 + root) / 2.0, complex(-parameters.gamma, -2.0 - root) / 2.0
 
@@ -247,7 +247,7 @@ def _propositions() -> Iterator[Misprint]:
 
 def _stability(branches: FirstPair) -> Iterator[Misprint]:
     doubling = branches.special("period-doubling", "d")
-    # The multiplier that leaves the unit circle; on it a torus would be born from a pair of complex ones.
+    # The multiplier that leaves the unit circle; a torus would be born from a complex pair.
     critical = max(doubling.orbit.multipliers.values, key=abs)
     yield Misprint(
         "section 4a",
@@ -260,7 +260,7 @@ def _stability(branches: FirstPair) -> Iterator[Misprint]:
 
 
 def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
-    """Section 5, at the birth of ``B1,b``."""
+    """List the misprints of section 5, evaluated at the birth of ``B1,b``."""
     hopf = branches.hopf
     cycle = max(hopf.cycles, key=lambda entry: entry.period)
     rotor = Jeffcott(machine_at(hopf.gamma))
@@ -304,7 +304,7 @@ def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
 
 
 def _letters_of_section_5(branches: FirstPair) -> Iterator[Misprint]:
-    """Letters of section 5 that stand for others, on the small ``B1,b``."""
+    """List the symbols of section 5 that are printed in place of others, evaluated on the small ``B1,b``."""
     hopf = branches.hopf
     cycle = max(hopf.cycles, key=lambda entry: entry.period)
     system = ContactSystem.of_rotor(machine_at(hopf.gamma))
@@ -333,7 +333,7 @@ def _letters_of_section_5(branches: FirstPair) -> Iterator[Misprint]:
 
 
 def _direction_of_kick(branches: FirstPair, period: float) -> float:
-    """Angle between the normal at the boundary equilibrium and the kick of a small orbit, friction's turn taken off."""
+    """Return the angle from the normal at the boundary equilibrium to the kick of a small orbit, without friction."""
     rotor = Jeffcott(machine_at(branches.hopf.gamma + 1e-7))
     orbits = find_orbits(rotor)
     small = min(orbits, key=lambda orbit: abs(orbit.period - period) + abs(orbit.radial_speed))

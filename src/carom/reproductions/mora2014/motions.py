@@ -1,4 +1,4 @@
-"""Figure 2: a levitating, a nearly grazing and a hardly bouncing rotor in both frames."""
+"""Figure 2: levitation, an orbit near grazing, and an orbit with small bounces, in both frames."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class ShownMotion(Result):
     panel : {"a", "b", "c"}
     gamma : float
     words : str
-        What it is.
+        Description of the motion.
     rotor : Jeffcott
     orbit : Orbit or None
         ``None`` for contact-free levitation, which is a point of the co-rotating frame.
@@ -48,7 +48,7 @@ class ShownMotion(Result):
 
 
 def shown_motions() -> tuple[ShownMotion, ...]:
-    """Levitation at ``γ = 0.3``, ``B1,d`` near grazing at 0.065 and ``B1,a`` near its birth at 0.1.
+    """Compute levitation at ``γ = 0.3``, ``B1,d`` near grazing at 0.065 and ``B1,a`` near its birth at 0.1.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def shown_motions() -> tuple[ShownMotion, ...]:
 
 
 def _highest(orbit: Orbit) -> float:
-    """Largest local maximum of the radius between the impacts, on a grid; the impact itself where there is none."""
+    """Return the largest local maximum of the radius between the impacts, on a grid; 1 if there is none."""
     radius = np.abs(orbit.path(np.linspace(0.0, orbit.period, 2001)[:-1]))
     tops = (radius[1:-1] > radius[:-2]) & (radius[1:-1] > radius[2:])
     return float(radius[1:-1][tops].max(initial=0.0)) or 1.0

@@ -35,7 +35,7 @@ class PeriodFunction(Result):
     gamma : float
     periods, values : ndarray, shape (n,)
     roots : ndarray
-        All of them, also beyond the periods drawn.
+        All roots, also beyond the periods drawn.
     """
 
     gamma: float
@@ -54,7 +54,7 @@ class PeriodPair(Result):
         ``n``.
     gammas, periods : ndarray, shape (m,)
     longer : ndarray of bool, shape (m,)
-        Which are ``T_{0,n,b}``; the others are ``T_{0,n,a}``.
+        Which periods are ``T_{0,n,b}``; the others are ``T_{0,n,a}``.
     fold : tuple of float
         ``γ_{F,n}`` and the period there.
     """
@@ -74,7 +74,7 @@ class Birth(Result):
     ----------
     gamma : float
     side : {"below", "at", "above"}
-        Of ``γ*``.
+        Side of ``γ*``.
     rotor : Jeffcott
     orbits : tuple of Orbit
         ``B1,a`` and ``B1,b``; none at ``γ*``, where they are a point.
@@ -87,7 +87,7 @@ class Birth(Result):
 
 
 def period_functions(dampings: tuple[float, ...] = (0.1, 0.05)) -> tuple[PeriodFunction, ...]:
-    """``F₁`` at the dampings of figure 3a."""
+    """Compute ``F₁`` at the dampings of figure 3a."""
     periods = np.linspace(0.02, LONGEST, 1500)
     found = []
     for gamma in dampings:
@@ -102,7 +102,7 @@ def period_pairs() -> tuple[PeriodPair, ...]:
     Returns
     -------
     tuple of PeriodPair
-        In growing order of their periods.
+        In ascending order of their periods.
     """
     base = Numbers.of(machine_at(DAMPINGS[0]))
 
@@ -133,12 +133,12 @@ def period_pairs() -> tuple[PeriodPair, ...]:
 
 
 def birth() -> tuple[Birth, ...]:
-    """Both small orbits and the equilibrium below, at and above the non-smooth Hopf point.
+    """Compute both small orbits and the equilibrium below, at and above the non-smooth Hopf point.
 
     Returns
     -------
     tuple of Birth
-        In growing order of the damping.
+        In ascending order of the damping.
     """
     at = hopf_side(machine_at(0.1)).gamma
     stages = []

@@ -28,9 +28,9 @@ class Picture(Result):
         Letters of its panels.
     caption : str
     result : object
-        What is drawn.
+        The result drawn.
     draw : callable
-        Gives the figure.
+        Returns the figure.
     """
 
     name: str
@@ -110,7 +110,7 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
 
 
 def _drawn(name: Literal["figure_2", "figure_3", "figure_4", "figure_5", "figure_6"], *results: object) -> Figure:
-    # Loading what draws takes longer than computing.
+    # Importing the drawing modules takes longer than computing.
     from carom.reproductions.mora2014 import drawing
 
     draw: Callable[..., Figure] = getattr(drawing, name)

@@ -25,7 +25,7 @@ REGIONS = (
     ("R4", (0.0765, 0.7), "B1,d has lost its stability in a period doubling"),
     ("R4", (0.04, 0.72), "B1,d has grazed and is virtual"),
 )
-"""Name in the source paper, a place inside, and what our refinement adds."""
+"""Name in the source paper, a point inside, and what our refinement adds."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +37,11 @@ class NamedRegion:
     source : str
         ``"R1"`` to ``"R4"``.
     part : str
-        ``"R1.1"`` and so on, in which the motions are the same; the name alone of a region that is not divided.
+        ``"R1.1"`` and so on, with the same motions throughout; for an undivided region its name in the source paper.
     point : tuple of float
-        A place inside, damping and stiffness.
+        Damping and stiffness of a point inside.
     motions : Motions
-        Counted there.
+        Motions counted at this point.
     words : str
     """
 
@@ -60,8 +60,8 @@ class DampingStiffnessPlane(Result):
     ----------
     plane : Plane
     curves : tuple of Curve
-        Fold of the first pair, boundary equilibrium with its part that is a non-smooth Hopf bifurcation, grazing and period
-        doubling of ``B1,d``, and the fold of the rubs.
+        Fold of the first pair, boundary equilibrium with its part that is a non-smooth Hopf bifurcation, grazing and
+        period doubling of ``B1,d``, and the fold of the rubs.
     regions : tuple of NamedRegion
     """
 
@@ -76,21 +76,21 @@ class DampingStiffnessPlane(Result):
         return tuple(part for part in first if all(part in parts for parts in others))
 
     def curve(self, kind: str) -> Curve:
-        """The curve of a kind."""
+        """Return the curve of a kind."""
         return next(curve for curve in self.curves if curve.kind == kind)
 
     def meeting(self, first: str, second: str) -> Codimension2Point:
-        """Where two curves meet."""
+        """Return the point at which two curves meet."""
         return next(point for point in self.curve(first).codimension2 if point.kind == f"{first} + {second}")
 
 
 def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
-    """Curves of fold, boundary equilibrium and non-smooth Hopf bifurcation, grazing and period doubling.
+    """Compute the curves of fold, boundary equilibrium and non-smooth Hopf bifurcation, grazing and period doubling.
 
     Parameters
     ----------
     pair : FirstPair, optional
-        The branches on which they start; followed here by default.
+        The branches on which the curves start; computed here by default.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
 
 
 def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPlane:
-    """Draw up figure 6b with the four curves, the fold of the rubs, and the motions in each region.
+    """Compute figure 6b: the four curves, the fold of the rubs, and the motions in each region.
 
     Parameters
     ----------
@@ -128,6 +128,9 @@ def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPl
 
 
 def rub_fold_damping(omega: float = 0.76) -> float:
-    """``γ = ρ√(1 + μ²) − μ(1 − ω²)``, at which the stable and the saddle rub meet (see :mod:`carom.closed_forms.equilibria`)."""
+    """Return ``γ = ρ√(1 + μ²) − μ(1 − ω²)``, at which the stable and the saddle rub meet.
+
+    See :mod:`carom.closed_forms.equilibria`.
+    """
     at = machine_at(0.1, omega)
     return float(at.rho * (1.0 + at.mu**2) ** 0.5 - at.mu * (1.0 - at.omega**2))

@@ -1,4 +1,4 @@
-"""Every number that the source paper prints, beside ours."""
+"""Every number that the source paper prints, compared with ours."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class PrintedNumber:
         Where it is printed.
     quantity : str
     kind : {"computed", "counted", "given"}
-        Given numbers are inputs: parameters of the machine and those a figure is drawn for.
+        Given numbers are inputs: parameters of the machine, and those for which a figure is drawn.
     printed : str
-        With the digits printed.
+        The number with the digits printed.
     unit : str
         Empty for dimensionless numbers.
     value : float
@@ -68,9 +68,9 @@ def numbers(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None =
     Parameters
     ----------
     pair : FirstPair, optional
-        The branches of the first pair of orbits; followed here by default.
+        The branches of the first pair of orbits; computed here by default.
     plane : DampingStiffnessPlane, optional
-        Likewise.
+        The plane of figure 6b; computed here by default.
 
     Returns
     -------
@@ -220,7 +220,7 @@ _GIVEN_DAMPINGS = (
 
 
 def _given() -> Iterator[PrintedNumber]:
-    """Numbers that are used as they are."""
+    """Numbers that are used as given."""
     for name, symbol, printed, unit in _GIVEN_SI:
         yield PrintedNumber("section 2", symbol, "given", printed, unit, GIVEN[name])
     for place, printed in _GIVEN_DAMPINGS:

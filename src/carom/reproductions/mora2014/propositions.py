@@ -1,6 +1,6 @@
-"""Propositions 4.1 to 4.3 of the source paper as computations, each with what holds of its claim for a machine.
+"""Propositions 4.1 to 4.3 of the source paper as computations, each tested on a machine.
 
-They are about single-impact orbits along the damping ``γ``, with ``γ* = √(ρ² − (1 − ω²)²)`` where the contact-free
+They concern single-impact orbits along the damping ``γ``, with ``γ* = √(ρ² − (1 − ω²)²)`` where the contact-free
 equilibrium meets the wall and ``N`` pairs of periods.
 """
 
@@ -30,10 +30,11 @@ class FixedPoints:
     total : int
         Fixed points, virtual ones included: ``4N`` unless two radial speeds have coalesced (the text says ``2N``).
     outward : int
-        Those with a positive radial speed: ``2N`` where the contact-free equilibrium is virtual, for then the two
-        speeds of a period have opposite signs.
+        Those with a positive radial speed: ``2N`` if the contact-free equilibrium is virtual, because the two speeds of
+        a period then have opposite signs.
     admissible : int
-        Those that are motions of the machine.  The text takes all outward ones for admissible; some leave the wall.
+        Those that are motions of the machine.  The text takes all outward ones as admissible, but some pass beyond the
+        wall.
     levitates : bool
         Whether the contact-free equilibrium is admissible.
     """
@@ -46,7 +47,7 @@ class FixedPoints:
 
     @property
     def words(self) -> str:
-        """What holds, in a sentence."""
+        """The result, in a sentence."""
         return (
             f"{self.pairs} pair{'s' * (self.pairs != 1)} of periods give {self.total} fixed points, of which "
             f"{self.outward} meet the wall from inside and {self.admissible} stay inside it between impacts"
@@ -70,7 +71,7 @@ class SimultaneousFolds:
 
     @property
     def distance(self) -> float:
-        """How far apart they are in ``γ``: rounding, as ``F₁`` does not depend on the radial speed."""
+        """Their distance in ``γ``: only rounding errors, as ``F₁`` does not depend on the radial speed."""
         return abs(self.lower.value - self.upper.value)
 
 
@@ -91,7 +92,7 @@ class HopfSide:
 
     @property
     def subcritical(self) -> bool:
-        """Whether there are cycles and all live where the rotor levitates, as the text has it."""
+        """Whether there are cycles and all exist where the rotor levitates, as the text states."""
         return bool(self.cycles) and all(cycle.criticality == "subcritical" for cycle in self.cycles)
 
 
@@ -110,7 +111,7 @@ def fixed_points(parameters: Parameters) -> FixedPoints:
 
 
 def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFolds:
-    """Find where the orbits of a pair vanish as the damping grows.
+    """Find the dampings at which the orbits of a pair vanish as the damping grows.
 
     Parameters
     ----------
@@ -121,7 +122,7 @@ def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFol
     Raises
     ------
     InputError
-        No such pair at this damping.
+        There is no such pair at this damping.
     CaromError
         The pair does not end in two folds.
     """

@@ -27,7 +27,7 @@ __all__ = ["Periods", "Reproduction", "reproduce"]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Periods(Result):
-    """What figure 3 shows.
+    """The data of figure 3.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Periods(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Reproduction(Result):
-    """The source paper, computed.
+    """All results of the source paper, computed.
 
     Attributes
     ----------
@@ -73,12 +73,12 @@ class Reproduction(Result):
 
 
 def reproduce(progress: Callable[[float, str], None] | None = None) -> Reproduction:
-    """Compute all that the source paper's figures show and all numbers it prints.
+    """Compute the data of all figures of the source paper and all numbers that it prints.
 
     Parameters
     ----------
     progress : callable, optional
-        Called with the share done, 0 to 1, and what is done next.
+        Called with the share done, 0 to 1, and a description of the next step.
 
     Returns
     -------

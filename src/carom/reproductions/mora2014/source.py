@@ -1,4 +1,4 @@
-"""The machine of the source paper: what section 2 gives, and what its figures vary."""
+"""The machine of the source paper: the data of section 2, and the parameters that its figures vary."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ SCALES = Scales(mass=GIVEN["mass"], clearance=GIVEN["clearance"], speed=GIVEN["s
 
 
 def machine_at(gamma: float, omega: float = 0.76) -> Parameters:
-    """Parameters of the figures: ``ω = 0.76`` as rounded there, all others as given, and the scales of the machine.
+    """Return the parameters of the figures, all others as given; the default ``ω = 0.76`` is rounded as in the paper.
 
     Parameters
     ----------

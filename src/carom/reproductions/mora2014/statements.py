@@ -1,4 +1,4 @@
-"""The propositions and general statements of the source paper, each with what holds of it for the machine."""
+"""The propositions and general statements of the source paper, each tested on its machine."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from carom.reproductions.mora2014.source import machine_at
 __all__ = ["Claim", "claims"]
 
 SAME_FOLD = 1e-9
-"""Distance in damping below which two folds are simultaneous; rounding leaves about 1e-13."""
+"""Distance in damping below which two folds count as simultaneous; rounding errors are about 1e-13."""
 WEAKEST = 0.005
-"""Smallest damping at which the longer pairs are looked at: there are 30 of them."""
+"""Smallest damping at which the longer pairs are examined; there are 30 of them at this damping."""
 DAMPINGS = 24
-"""Dampings, in equal ratios, from there to the fold at which the last longer pair vanishes."""
+"""Number of dampings, in geometric progression, from there to the fold at which the last longer pair vanishes."""
 PLACES = 2000
-"""On each orbit between its impacts."""
+"""Number of points examined on each orbit between its impacts."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Claim:
     statement : str
     holds : bool
     found : str
-        What was computed, in words.
+        The result computed, in words.
     """
 
     place: str
@@ -51,9 +51,9 @@ def claims(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None = 
     Parameters
     ----------
     pair : FirstPair, optional
-        The branches of the first pair of orbits; followed here by default.
+        The branches of the first pair of orbits; computed here by default.
     plane : DampingStiffnessPlane, optional
-        Likewise.
+        The plane of figure 6b; computed here by default.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def _propositions(branches: FirstPair) -> tuple[Claim, ...]:
 
 
 def _longer_pairs() -> Claim:
-    """Look at the pairs n > 1 along the damping, up to the fold of the last of them."""
+    """Examine the pairs n > 1 along the damping, up to the fold of the last of them."""
     last = WEAKEST
     while _longer(beyond := last * (1.0 + SAME_FOLD)):
         last = simultaneous_folds(machine_at(beyond), pair=2).lower.value
@@ -118,13 +118,13 @@ def _longer_pairs() -> Claim:
 
 
 def _longer(gamma: float) -> list[Orbit]:
-    """Orbits of the pairs n > 1."""
+    """Return the orbits of the pairs n > 1."""
     found = find_orbits(Jeffcott(machine_at(gamma)))
     return [orbit for orbit in found if not orbit.name.startswith("B1,")]
 
 
 def _beyond_wall(orbit: Orbit) -> float:
-    """How far an orbit passes the wall between its impacts; at least, as places in between are not looked at."""
+    """Return a lower bound of how far an orbit passes beyond the wall, examined at ``PLACES`` points."""
     return float(np.abs(orbit.path(np.linspace(0.0, orbit.period, PLACES)[1:-1])).max()) - 1.0
 
 

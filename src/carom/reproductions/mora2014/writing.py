@@ -1,4 +1,4 @@
-"""Figures, ``paper.json`` and ``table.md`` to a directory, all at once or not at all."""
+"""Write the figures, ``paper.json`` and ``table.md`` to a directory, all of them or none."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ __all__ = ["write_paper"]
 def write_paper(
     found: Reproduction, directory: str, progress: Callable[[float, str], None] | None = None
 ) -> list[Path]:
-    """Draw and write everything.
+    """Draw the figures, and write them with the numbers.
 
     Parameters
     ----------
     found : Reproduction
     directory : str
-        Made if it is not there; files of the same name are replaced.
+        Target directory, created if it does not exist; files of the same name are replaced.
     progress : callable, optional
-        Called with the share done, 0 to 1, and what is done next.
+        Called with the share done, 0 to 1, and a description of the next step.
 
     Returns
     -------

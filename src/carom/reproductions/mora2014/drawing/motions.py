@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["figure_2"]
 
 SHOWN_PERIODS = 3
-"""Periods of the radius that are drawn."""
+"""Number of periods for which the radius is drawn."""
 
 
 @styled
@@ -69,7 +69,7 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
 
 
 def _levitation(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion) -> None:
-    """A point of the co-rotating frame, a circle of the fixed one."""
+    """Draw levitation: a point in the co-rotating frame, a circle in the fixed one."""
     look = LOOKS["contact-free"]
     place = motion.rotor.equilibrium
     times = np.linspace(0.0, motion.span, 400)
@@ -97,7 +97,7 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
         inner.set_title(inner.get_title().removeprefix("enlarged "), fontsize=7, pad=2)
         _loop(inner, orbit, once)
         point(inner, orbit.rotor.equilibrium, "contact-free", label="")
-    # A second turn of an orbit that hardly leaves the wall would only fill the gaps of its dashes.
+    # A second turn of an orbit that stays near the wall would only fill the gaps between its dashes.
     count = max(1, round(motion.span / orbit.period / (1 if inner is None else 2)))
     times, line = orbit_path(orbit, count)
     line = line * np.exp(1j * times)

@@ -1,4 +1,4 @@
-"""What the panels share: their letters, the lines of their legend, names on branches, lines at special dampings."""
+"""Parts that the panels share: letters, legend entries, and names on branches."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ INK = "#1a1a1a"
 
 
 def letter(axes: Axes, panel: str, words: str = "") -> None:
-    """Head a panel with its letter in bold and some words."""
+    """Give a panel a heading: its letter in bold and some words."""
     axes.set_title(rf"$\mathbf{{({panel})}}$" + (f"  {words}" if words else ""), loc="left")
 
 
 def branch_key(looks: Iterable[str], points: Iterable[str] = ()) -> list[Line2D]:
-    """Entries of a legend for orbits of these looks and special points of these kinds."""
+    """Return legend entries for orbits of these looks and special points of these kinds."""
     words = {"stable": "stable orbit", "unstable": "unstable orbit", "virtual": "virtual orbit"}
     lines = [
         Line2D([], [], color=LOOKS[look].colour, ls=LOOKS[look].line, lw=LOOKS[look].width, label=words[look])
@@ -33,5 +33,5 @@ def branch_key(looks: Iterable[str], points: Iterable[str] = ()) -> list[Line2D]
 
 
 def name_branch(axes: Axes, name: str, x: float, y: float) -> None:
-    """Write an orbit's name at a place beside its branch."""
+    """Write the name of an orbit at a point beside its branch."""
     axes.annotate(orbit_symbol(name), (x, y), ha="center", va="center", color=INK, gid="name")

@@ -78,7 +78,7 @@ def _condition(axes: Axes, functions: tuple[PeriodFunction, ...]) -> None:
 def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
     for pair in pairs:
         for longer, line in ((True, "-"), (False, "--")):
-            # Both halves reach to the fold.
+            # Both halves extend to the fold.
             shown = np.where((pair.longer == longer) | (pair.periods == pair.fold[1]), pair.periods, np.nan)
             axes.plot(pair.gammas, shown, line, color=INK, lw=0.9)
         mark_point(axes, "fold", *pair.fold)
@@ -97,7 +97,7 @@ def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
 
 
 def _birth(axes: Axes, stage: Birth) -> None:
-    """Radius over angle near the equilibrium, with the smaller orbit enlarged on the free side of the wall."""
+    """Draw radius over angle near the equilibrium, with the smaller orbit enlarged on the free side of the wall."""
     axes.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
     place = stage.rotor.equilibrium
     look = LOOKS["contact-free"]
@@ -148,7 +148,7 @@ def _loop(axes: Axes, orbit: Orbit, place: complex) -> None:
 
 
 def _polar(orbit: Orbit, place: complex) -> tuple[np.ndarray, np.ndarray]:
-    """Angle from that of a place, and radius, once round the orbit."""
+    """Return angle, relative to that of a place, and radius over one period of the orbit."""
     line = orbit.path(np.linspace(0.0, orbit.period, 400, endpoint=False))
     line = np.append(line, line[0])
     return np.angle(line / place), np.abs(line)

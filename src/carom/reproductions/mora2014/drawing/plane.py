@@ -24,7 +24,7 @@ __all__ = ["figure_6"]
 MARKED = ("fold", "period-doubling", "grazing", "non-smooth-hopf")
 
 ASIDE = {"R1.2": (0.13, 0.885), "R4.2": (0.135, 0.692)}
-"""Where the names of regions stand that are too narrow for them."""
+"""Positions of the names of regions that are too narrow for them."""
 
 
 @styled
@@ -54,7 +54,7 @@ def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
 
 
 def _region_words(plane: DampingStiffnessPlane) -> list[str]:
-    """The motions of each region; what all have is said once."""
+    """Describe the motions of each region; the motions that all regions have are named once."""
     common = plane.everywhere
     words = [
         f"{region.part}: {', '.join(part for part in region.motions.parts if part not in common)}"
@@ -114,7 +114,7 @@ def _plane(axes: Axes, plane: DampingStiffnessPlane) -> None:
 
 
 def _boundary(axes: Axes, curve: Curve, plane: DampingStiffnessPlane) -> None:
-    """Broad where it is a non-smooth Hopf bifurcation: up to its meeting with the fold."""
+    """Draw it broad where it is a non-smooth Hopf bifurcation: up to its meeting with the fold."""
     end = plane.meeting("fold", "boundary-equilibrium").value
     look = CURVES["boundary-equilibrium"]
     x, y = curve.points.T

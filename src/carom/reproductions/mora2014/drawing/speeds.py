@@ -158,7 +158,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
 
 
 def _mark_extrema(axes: Axes, branch: OrbitBranch, lines: tuple[ExtremumLine, ...]) -> None:
-    """Mark each special point where the extremum it is about lies; folds and period doublings on all lines."""
+    """Mark each special point on the extremum that it concerns; folds and period doublings on all lines."""
     for point in branch.special:
         if point.kind in ("non-smooth-hopf", "grazing"):
             mark_point(axes, point.kind, point.value, 1.0)
@@ -172,13 +172,13 @@ def _mark_extrema(axes: Axes, branch: OrbitBranch, lines: tuple[ExtremumLine, ..
 
 
 def _shared(lines: tuple[ExtremumLine, ...], line: ExtremumLine, place: float, height: float) -> bool:
-    """Whether another line of the same stretch ends at the same point: two extrema meet there."""
+    """Whether another line of the same segment ends at the same point, so that two extrema meet there."""
     others = (other for other in lines if other is not line and other.places[0] == line.places[0])
     return any(abs(float(np.interp(place, other.places, other.radii)) - height) < 1e-12 for other in others)
 
 
 def _levitation(axes: Axes, radii: RadiusDiagram) -> None:
-    """The contact-free equilibrium, faint where it is virtual."""
+    """Draw the contact-free equilibrium, faint where it is virtual."""
     colour = LOOKS["contact-free"].colour
     for allowed, alpha in ((radii.levitation <= 1.0, 1.0), (radii.levitation >= 1.0, 0.35)):
         axes.plot(radii.gammas, np.where(allowed, radii.levitation, np.nan), color=colour, lw=1.1, alpha=alpha)
