@@ -154,7 +154,7 @@ def test_lost_scheduler_is_one_line_and_what_was_finished_is_kept(tmp_path, capf
             if tally.done == 3:
                 own.close()
 
-        with pytest.raises(CaromError, match=r"lost the scheduler .* what was finished is kept") as caught:
+        with pytest.raises(CaromError, match=r"lost the scheduler .* finished chunks are kept") as caught:
             run_sweep(plan, tmp_path / "s.zarr", scheduler=str(own.file), progress=end)
     finally:
         own.close()

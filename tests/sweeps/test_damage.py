@@ -119,7 +119,7 @@ METADATA = ["zarr.json", "value/zarr.json", "status/zarr.json", "gamma/zarr.json
 def test_damaged_metadata_are_one_line(store, name, kind):
     damage(store / name, random.Random(1), kind)
     for use in (run, open_sweep):
-        with pytest.raises(InputError, match="is damaged or missing, without which") as caught:
+        with pytest.raises(InputError, match="is damaged or missing, and its numbers cannot") as caught:
             use(store)
         assert f"its file {name}" in str(caught.value)
 
