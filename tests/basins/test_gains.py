@@ -127,8 +127,8 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
         ({"names": ("gamma", "gamma")}, "two different"),
         ({"names": ("gama", "omega")}, "gamma"),
         ({"shape": (1, 4)}, "at least 2"),
-        ({"ranges": ((2.0, 1.0), None)}, "growing"),
-        ({"ranges": ((1.0, math.inf), None)}, "growing"),
+        ({"ranges": ((2.0, 1.0), None)}, "ascending order"),
+        ({"ranges": ((1.0, math.inf), None)}, "ascending order"),
         ({"ranges": (None, (-1.0, 10.0))}, "damping"),
     ],
 )
