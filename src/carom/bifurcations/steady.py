@@ -145,11 +145,12 @@ def _rolling_keeps_contact(numbers: Numbers) -> bool:
 def happens_to_rubs(numbers: Numbers) -> bool:
     """Whether the rubs that meet at a fold are pressed on the wall.
 
-    The condition is ``N = ρ cos x + 1 − ω² > 0``, with ``cos x = −μ/√(1 + μ²)`` at the fold where
-    ``γ + μ(1 − ω²) > 0``.
+    The condition is ``N = ρ cos x + 1 − ω² > 0``, with ``cos x = ∓μ/√(1 + μ²)`` at the fold where ``γ + μ(1 − ω²)`` is
+    ``±ρ√(1 + μ²)``.
     """
-    cosine = -numbers.mu / np.hypot(1.0, numbers.mu)
-    return bool(numbers.rho * cosine + 1.0 - numbers.omega**2 > 0.0)
+    stiffness = 1.0 - numbers.omega**2
+    cosine = -np.copysign(numbers.mu, numbers.gamma + numbers.mu * stiffness) / np.hypot(1.0, numbers.mu)
+    return bool(numbers.rho * cosine + stiffness > 0.0)
 
 
 def equilibrium_branches(
