@@ -76,12 +76,13 @@ def _advised(study: Study, advice: Advice, *, first: bool) -> str:
     if math.isinf(advice.change):
         own = "this machine has none"
     if advice.alone:
-        start = "The least change found that leaves only levitation is" if first else "The other gain would do it with"
+        start = "The least change found that leaves only levitation is"
         own += f", {number(100.0 * advice.margin, 2)} % beyond the end of the range"
     else:
         share = f"brings back {number(100.0 * WANTED, 3)} %"
         start = f"No value searched leaves only levitation; the least change found that {share} is"
-        start = start if first else "The other gain would do it with"
+    if not first:
+        start = "Alternatively it takes"
     return f"{start} {what} ({own}). {_capital(check_words(study, advice))}."
 
 
