@@ -30,11 +30,14 @@ class System(Result):
         Coordinates at the contact-free equilibrium.
     shapes : ndarray of complex, shape (n, N)
         Coordinates per amplitude.
+    inverse : ndarray of complex, shape (N, 2n), optional
+        Amplitudes per coordinate, then per rate of a coordinate; computed from ``shapes`` by default.
     """
 
     arrays: np.record
     rest: np.ndarray
     shapes: np.ndarray
+    inverse: np.ndarray | None = None
 
     @cached_property
     def table(self) -> np.record:
@@ -52,13 +55,13 @@ class System(Result):
         return np.diag(self.exponents) + np.diag(self.arrays.driven[1:].astype(complex), -1)
 
     @cached_property
-    def _readings(self) -> np.ndarray:
-        """Coordinates, then their rates, per amplitude, shape (2n, N)."""
-        return np.concatenate([self.shapes, self.shapes @ self.generator])
+    def rates(self) -> np.ndarray:
+        """Rates of the coordinates per amplitude, shape (n, N)."""
+        return self.shapes @ self.generator
 
     @cached_property
-    def _amplitudes_per_reading(self) -> np.ndarray:
-        return np.linalg.inv(self._readings)
+    def _inverse(self) -> np.ndarray:
+        return np.linalg.inv(np.concatenate([self.shapes, self.rates])) if self.inverse is None else self.inverse
 
     def amplitudes(self, position: complex | np.ndarray, velocity: complex | np.ndarray) -> np.ndarray:
         """Mode amplitudes of a state.
@@ -78,17 +81,18 @@ class System(Result):
         self, position_change: complex | np.ndarray, velocity_change: complex | np.ndarray
     ) -> np.ndarray:
         """Change of the mode amplitudes, shape (N,), that corresponds to a change of state of any size."""
-        readings = np.append(position_change, velocity_change)
+        change = np.array([position_change, velocity_change]).ravel()
         # Not a matrix product: the threads of the linear algebra library cost far more than these few numbers.
-        changes: np.ndarray = np.einsum("nk,k->n", self._amplitudes_per_reading, readings)
+        changes: np.ndarray = np.einsum("nk,k->n", self._inverse, change)
         return changes
 
     def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Position and velocity for mode amplitudes of shape (..., N), each of shape (..., n); (...) if ``n = 1``."""
-        count = len(self.rest)
-        readings = np.einsum("...k,nk->...n", amplitudes, self._readings)
-        position, velocity = readings[..., :count] + self.rest, readings[..., count:]
-        return (position, velocity) if count > 1 else (position[..., 0], velocity[..., 0])
+        if len(self.rest) == 1:
+            position = np.einsum("...k,k->...", amplitudes, self.shapes[0]) + self.rest[0]
+            return position, np.einsum("...k,k->...", amplitudes, self.rates[0])
+        position = np.einsum("...k,nk->...n", amplitudes, self.shapes) + self.rest
+        return position, np.einsum("...k,nk->...n", amplitudes, self.rates)
 
     def at_plane(self, amplitudes: np.ndarray, plane: int) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of a contact plane and its rate for mode amplitudes of shape (..., N), each of shape (...)."""
@@ -146,4 +150,4 @@ def second_order_system(
         restitution=np.array([restitution]),
         drive=np.array([drive]),
     )
-    return System(arrays, offsets, rows)
+    return System(arrays, offsets, rows, np.array([[-exponents[1], 1.0], [1.0, 0.0]], np.complex128))
