@@ -74,3 +74,10 @@ def test_the_map_of_modules_is_that_of_the_layers():
     ]
     listed = re.findall(r"^\| `(\w+)` \|", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
     assert [*listed, "__main__"] == layers[::-1]
+
+
+def test_tests_that_mutants_are_tried_with_exist():
+    program = (ROOT / "tools" / "mutants").read_text(encoding="utf-8")
+    named = set(re.findall(r'"((?:\w+/)*test_\w+\.py)"', program))
+    assert len(named) > 8
+    assert [name for name in sorted(named) if not (ROOT / "tests" / name).exists()] == []
