@@ -72,9 +72,7 @@ class Basin(Result):
     @cached_property
     def parameters(self) -> Parameters:
         """Parameters of the machine."""
-        numbers = json.loads(self.dataset.attrs["parameters"])
-        scales = json.loads(self.dataset.attrs["scales"])
-        return Parameters(**numbers, scales=Scales(**scales) if scales else None)
+        return Parameters.from_attributes(self.dataset.attrs)
 
     @cached_property
     def rotor(self) -> Jeffcott:

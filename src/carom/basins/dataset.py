@@ -45,7 +45,6 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
 
 def provenance(rotor: Jeffcott, plan: Plan) -> dict[str, str]:
     """Attributes that are needed to repeat the computation."""
-    scales = rotor.scales
     how: dict[str, object] = (
         {"cells": plan.shape} if isinstance(plan, Grid) else {"starts": plan.count, "seed": plan.seed}
     )
@@ -53,10 +52,7 @@ def provenance(rotor: Jeffcott, plan: Plan) -> dict[str, str]:
         "Conventions": "CF-1.11",
         "title": "Where disturbances of a rotor inside its touchdown bearing end",
         "source": f"carom {version('carom')}, numba {version('numba')}, numpy {version('numpy')}",
-        "parameters": json.dumps(rotor.parameters.as_dict()),
-        "scales": json.dumps(
-            {name: getattr(scales, name) for name in ("mass", "clearance", "speed")} if scales else None
-        ),
+        **rotor.parameters.attributes(),
         "disturbances": json.dumps({"model": plan.model.describe(), **how}),
     }
 

@@ -22,7 +22,7 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS, settle
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
-from carom.parameters import Parameters, Scales
+from carom.parameters import Parameters
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -65,8 +65,7 @@ class GainMap(Result):
     @cached_property
     def parameters(self) -> Parameters:
         """Parameters of the present machine."""
-        numbers, scales = (json.loads(self.dataset.attrs[name]) for name in ("parameters", "scales"))
-        return Parameters(**numbers, scales=Scales(**scales) if scales else None)
+        return Parameters.from_attributes(self.dataset.attrs)
 
     @cached_property
     def plan(self) -> Plan:

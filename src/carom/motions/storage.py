@@ -15,7 +15,7 @@ from carom.motions.contacts import phase_flags
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Outcome, Phase
-from carom.parameters import Parameters, Scales
+from carom.parameters import Parameters
 
 if TYPE_CHECKING:
     import xarray
@@ -92,8 +92,7 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     dataset = netcdf.load(path, SEGMENTS)
     attributes = dataset.attrs
     try:
-        scales = json.loads(attributes["scales"])
-        parameters = Parameters(**json.loads(attributes["parameters"]), scales=Scales(**scales) if scales else None)
+        parameters = Parameters.from_attributes(attributes)
         start, final = (_state(json.loads(attributes[name])) for name in ("start", "final"))
         outcome = Outcome[attributes["outcome"]]
     except (KeyError, TypeError, ValueError) as problem:
@@ -113,17 +112,13 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
 
 
 def _provenance(motion: Trajectory) -> dict[str, Any]:
-    scales = motion.rotor.scales
     return {
         "Conventions": "CF-1.11",
         "title": "Motion of a rotor inside its touchdown bearing",
         "source": f"carom {version('carom')}",
         "outcome": motion.outcome.name,
         "comment": motion.outcome.meaning,
-        "parameters": json.dumps(motion.rotor.parameters.as_dict()),
-        "scales": json.dumps(
-            {name: getattr(scales, name) for name in ("mass", "clearance", "speed")} if scales else None
-        ),
+        **motion.rotor.parameters.attributes(),
     }
 
 

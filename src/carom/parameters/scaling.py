@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -174,6 +175,25 @@ class Parameters:
     def as_dict(self) -> dict[str, float]:
         """Return the seven numbers by name, without the scales."""
         return {name: getattr(self, name) for name in DIMENSIONLESS_FIELDS}
+
+    def attributes(self) -> dict[str, str]:
+        """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""
+        scales = dataclasses.asdict(self.scales) if self.scales else None
+        return {"parameters": json.dumps(self.as_dict()), "scales": json.dumps(scales)}
+
+    @classmethod
+    def from_attributes(cls, attributes: Mapping[str, str]) -> Parameters:
+        """Read the attributes of a dataset that :meth:`attributes` has given.
+
+        Raises
+        ------
+        InputError
+            A value is not allowed.
+        KeyError, TypeError, ValueError
+            An attribute is missing, or is not such text.
+        """
+        numbers, scales = (json.loads(attributes[name]) for name in ("parameters", "scales"))
+        return cls(**numbers, scales=Scales(**scales) if scales else None)
 
 
 def _number(fields: Mapping[str, Field], name: str, given: object) -> float:
