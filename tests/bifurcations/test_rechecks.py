@@ -181,7 +181,7 @@ def vanishes(kind: str, parameters: Parameters, point) -> bool:
     if kind == "speed-fold":
         return abs(abs(lever) * point.radial_speed + lever.real / abs(lever)) < 1e-7
     # A search may find no orbit here: where two meet, rounding decides whether there are any.
-    orbit = orbit_of(Numbers.of(parameters), "B1", point.period, point.radial_speed)
+    orbit = orbit_of(Numbers.of(parameters), 1, point.period, point.radial_speed)
     values = np.linalg.eigvals(section_jacobian(rotor.system, orbit.section, point.period))
     if kind == "period-doubling":
         return float(np.abs(values + 1.0).min()) < 1e-4

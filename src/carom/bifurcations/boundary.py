@@ -31,6 +31,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carom.models import Jeffcott, Subject, model_of
+from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
@@ -49,8 +50,8 @@ class SmallOrbit(Result):
 
     Attributes
     ----------
-    name : str
-        ``"B1,a"`` and so on; see :class:`~carom.orbits.single_impact.Orbit`.
+    name : OrbitName
+        ``"B1,a"`` and so on.
     period : float
         In ``1/Ω``; it stays finite as the orbit shrinks.
     speed_rate : float
@@ -63,7 +64,7 @@ class SmallOrbit(Result):
     stable : bool
     """
 
-    name: str
+    name: OrbitName
     period: float
     speed_rate: float
     levitating_side: bool

@@ -14,12 +14,14 @@ from carom.bifurcations.conditions import (
     conditions_at,
     is_admissible,
     jacobian_at,
-    letter,
     margins_of,
+    name_of,
     orbit_of,
     profile_at,
 )
+from carom.bifurcations.naming import meeting_at
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
+from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
 from carom.results import Result
@@ -56,8 +58,8 @@ class Bifurcation(Result):
     parameter : str
     value : float
         Value of the parameter, in SI units if it is a physical one.
-    name : str
-        Name of the orbit.
+    name : OrbitName
+        Name of the orbit; where two meet, of the one with the longer period or the higher speed.
     numbers : Numbers
         Parameters there.
     period, radial_speed : float
@@ -70,7 +72,7 @@ class Bifurcation(Result):
     kind: str
     parameter: str
     value: float
-    name: str
+    name: OrbitName
     numbers: Numbers
     period: float
     radial_speed: float
@@ -80,7 +82,7 @@ class Bifurcation(Result):
     @cached_property
     def orbit(self) -> Orbit:
         """The orbit there."""
-        return orbit_of(self.numbers, self.name.partition(",")[0], self.period, self.radial_speed)
+        return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -91,8 +93,8 @@ class OrbitBranch(Result):
     ----------
     axis : Axis
         The parameter.
-    pair : str
-        ``"B1"`` for the first pair of periods.
+    pair : int
+        Number of the pair of periods, from 1.
     numbers : tuple of Numbers
         Parameters at the points of the branch; with negative ``mu`` if the orbits slip backward.
     values, period, radial_speed : ndarray, shape (m,)
@@ -114,7 +116,7 @@ class OrbitBranch(Result):
     )
 
     axis: Axis
-    pair: str
+    pair: int
     numbers: tuple[Numbers, ...]
     values: np.ndarray
     period: np.ndarray
@@ -136,9 +138,9 @@ class OrbitBranch(Result):
         return tuple(orbit_of(numbers, self.pair, period, speed) for numbers, period, speed in self._each)
 
     @cached_property
-    def names(self) -> tuple[str, ...]:
+    def names(self) -> tuple[OrbitName, ...]:
         """Names of the orbits; they change at folds."""
-        return tuple(f"{self.pair},{letter(conditions_at(*point))}" for point in self._each)
+        return tuple(name_of(numbers, self.pair, period, speed) for numbers, period, speed in self._each)
 
     @cached_property
     def admissible(self) -> np.ndarray:
@@ -196,7 +198,7 @@ def continue_orbit(
     present = within(along.get(base), interval)
     if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
         raise InputError(parameter, interval, f"an interval that holds the orbit's own value {present:.6g}")
-    pair = orbit.name.partition(",")[0]
+    pair = orbit.name.pair
 
     def numbers_at(p: float) -> Numbers:
         # Backward slip with friction μ obeys the equations of forward slip with −μ.
@@ -235,7 +237,7 @@ def continue_orbit(
     )
 
 
-def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: str) -> Bifurcation | None:
+def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: int) -> Bifurcation | None:
     """Special point of the continuation as a bifurcation of orbits; ``None`` if it is none.
 
     Branch points of the continuation are not bifurcations of orbits, nor are two real multipliers with the product one
@@ -251,9 +253,7 @@ def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: st
         return None
     if kind == "fold" and abs(conditions.speed_fold) < abs(conditions.period_fold):
         kind = "speed-fold"
-    # Where two orbits meet, the point is named after the one with the longer period or the higher speed.
-    meet = {"fold": {"period_fold": 1.0}, "speed-fold": {"speed_fold": 1.0}}.get(kind, {})
-    name = f"{pair},{letter(conditions._replace(**meet))}"
+    name = meeting_at(kind, name_of(numbers, pair, *at[1:]))[-1]
     return Bifurcation(kind, parameter, point.parameter, name, *at, _bounds_admissible(kind, *at), point.place)
 
 

@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Callable
 from functools import lru_cache
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from carom.bifurcations.axes import Numbers
 from carom.core import planar
 from carom.models import Jeffcott
 from carom.orbits.maps import Section
+from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit, orbit_at
 from carom.orbits.stability import multipliers
 
@@ -26,8 +27,8 @@ __all__ = [
     "grazing_equations",
     "is_admissible",
     "jacobian_at",
-    "letter",
     "margins_of",
+    "name_of",
     "orbit_of",
     "pressed_on",
     "profile_at",
@@ -134,21 +135,21 @@ def corrected(numbers: Numbers, period: float, speed: float) -> tuple[float, flo
     return period, speed
 
 
-def letter(conditions: OrbitConditions) -> str:
-    """Letter of the orbit's name, which tells the period of its pair and the radial speed at that period."""
-    return "abcd"[(conditions.period_fold > 0.0) + 2 * (conditions.speed_fold > 0.0)]
+def name_of(numbers: Numbers, pair: int, period: float, speed: float) -> OrbitName:
+    """Name of an orbit whose pair is known; it has backward slip if ``mu`` is negative."""
+    conditions = conditions_at(numbers, period, speed)
+    return OrbitName(pair, conditions.period_fold > 0.0, conditions.speed_fold > 0.0, -1 if numbers.mu < 0.0 else 1)
 
 
-def orbit_of(numbers: Numbers, pair: str, period: float, speed: float) -> Orbit:
+def orbit_of(numbers: Numbers, pair: int, period: float, speed: float) -> Orbit:
     """Orbit with certified admissibility and its multipliers; it has backward slip if ``mu`` is negative."""
-    slip: Literal[1, -1] = -1 if numbers.mu < 0.0 else 1
     conditions = conditions_at(numbers, period, speed)
     stiffness = complex(numbers.omega**2 - 1.0, numbers.gamma)
     angle = numbers.phi - cmath.phase(stiffness) - cmath.phase(1.0 + conditions.lever * speed)
     section = Section(math.remainder(angle, math.tau), speed, -conditions.turn.imag * speed)
-    name, nontrivial = f"{pair},{letter(conditions)}", multipliers(jacobian_at(numbers, period, speed))
+    name, nontrivial = name_of(numbers, pair, period, speed), multipliers(jacobian_at(numbers, period, speed))
     rotor = Jeffcott(numbers._replace(mu=abs(numbers.mu)).parameters)
-    return orbit_at(rotor, name, period, section, nontrivial, slip)
+    return orbit_at(rotor, name, period, section, nontrivial)
 
 
 def pressed_on(numbers: Numbers, period: float, speed: float) -> float:

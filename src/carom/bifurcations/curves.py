@@ -11,11 +11,12 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import TESTS, conditions_at, grazing_equations, profile_at
-from carom.bifurcations.naming import listed, orbits_on_curve
+from carom.bifurcations.naming import orbits_on_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.steady import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.models import Subject, model_of
+from carom.orbits.names import OrbitName, combined
 from carom.outcome import InputError
 from carom.results import Result
 
@@ -70,7 +71,7 @@ class Curve(Result):
         ``ṙ`` of the orbit; ``nan`` for equilibria.
     admissible : ndarray of bool, shape (m,)
         Where it is a bifurcation of motions of the machine.
-    orbits : tuple of str
+    orbits : tuple of OrbitName
         Names of the orbits that bifurcate, where these are motions of the machine; for a fold the orbits that meet.
         Empty for equilibria and rolling.
     codimension2 : tuple of Codimension2Point
@@ -87,7 +88,7 @@ class Curve(Result):
     periods: np.ndarray
     radial_speeds: np.ndarray
     admissible: np.ndarray
-    orbits: tuple[str, ...]
+    orbits: tuple[OrbitName, ...]
     codimension2: tuple[Codimension2Point, ...]
     stops: tuple[str, str]
 
@@ -99,7 +100,7 @@ class Curve(Result):
     @property
     def subject(self) -> str:
         """The motion that bifurcates: ``"B1,c/d"``, ``"levitation"``, ``"rub"`` or ``"rolling"``."""
-        return listed(self.orbits) if self.orbits else _SUBJECTS.get(self.kind, "")
+        return combined(self.orbits) if self.orbits else _SUBJECTS.get(self.kind, "")
 
 
 @dataclass(frozen=True)

@@ -145,7 +145,7 @@ def find_bifurcations(
     for done, value in enumerate(np.linspace(*interval, SAMPLES).tolist()):
         here = vary(parameters, parameter, value)
         for orbit in _orbits(here):
-            wanted = virtual or orbit.admissible or orbit.name.startswith("B1,")
+            wanted = virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
                 branches.append(continue_orbit(orbit, parameter, interval))
         for motion in rubbing_orbits(here) if lasting else ():

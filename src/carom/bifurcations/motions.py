@@ -8,11 +8,11 @@ import numpy as np
 
 from carom.bifurcations.conditions import is_admissible, jacobian_at
 from carom.bifurcations.diagrams import LONGEST_PERIOD
-from carom.bifurcations.naming import listed
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
 from carom.closed_forms.whirl import rolling, rub_limit
 from carom.models import Jeffcott
+from carom.orbits.names import OrbitName, combined, in_order
 from carom.parameters import Parameters
 
 __all__ = ["Motions", "forward_orbits", "motions_at"]
@@ -32,7 +32,7 @@ class Motions:
         Whether a stable synchronous rub (forward whirl) is admissible.
     rolling : bool
         Whether a rotor that rolls on the bearing in backward whirl keeps rolling (:mod:`carom.closed_forms.whirl`).
-    stable_names, unstable_names : tuple of str
+    stable_names, unstable_names : tuple of OrbitName
         Names of the orbits.
     """
 
@@ -41,8 +41,8 @@ class Motions:
     stable_orbits: int
     rub: bool
     rolling: bool
-    stable_names: tuple[str, ...] = field(default=(), compare=False)
-    unstable_names: tuple[str, ...] = field(default=(), compare=False)
+    stable_names: tuple[OrbitName, ...] = field(default=(), compare=False)
+    unstable_names: tuple[OrbitName, ...] = field(default=(), compare=False)
 
     @property
     def source_region(self) -> str:
@@ -62,7 +62,7 @@ class Motions:
     def parts(self) -> tuple[str, ...]:
         """The motions in words, one entry for each kind."""
         orbits = [
-            f"{listed(names)} {words}"
+            f"{combined(names)} {words}"
             for names, words in ((self.stable_names, "stable"), (self.unstable_names, "unstable"))
             if names
         ]
@@ -94,8 +94,8 @@ def motions_at(parameters: Parameters) -> Motions:
         stable_orbits=sum(radius < 1.0 for radius in radii),
         rub=bool(0.0 < parameters.gamma < rub_limit(rotor)) and parameters.d < 1.0,
         rolling=rolling(rotor).holds,
-        stable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius < 1.0)),
-        unstable_names=tuple(sorted(name for (name, *_), radius in zip(orbits, radii, strict=True) if radius >= 1.0)),
+        stable_names=in_order(orbit.name for orbit, radius in zip(orbits, radii, strict=True) if radius < 1.0),
+        unstable_names=in_order(orbit.name for orbit, radius in zip(orbits, radii, strict=True) if radius >= 1.0),
     )
 
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from carom.bifurcations.axes import Numbers
-from carom.bifurcations.conditions import conditions_at, letter
+from carom.bifurcations.conditions import name_of
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
+from carom.orbits.names import OrbitName, in_order
 
-__all__ = ["listed", "orbits_on_curve"]
+__all__ = ["meeting_at", "orbits_on_curve"]
 
 BELOW = 1e-4
 """Relative distance from a period within which a root counts as that period."""
@@ -19,17 +21,17 @@ PLACES = 5
 """Points of a curve at which the number of the pair is determined: it increases where a shorter pair appears."""
 
 
-def listed(names: tuple[str, ...]) -> str:
-    """List of names with the letters of each pair combined, such as ``B1,a/b/c, B2,d``."""
-    pairs: dict[str, list[str]] = {}
-    for name in names:
-        pair, letter = name.split(",")
-        pairs.setdefault(pair, []).append(letter)
-    return ", ".join(f"{pair},{'/'.join(letters)}" for pair, letters in pairs.items())
+def meeting_at(kind: str, name: OrbitName) -> tuple[OrbitName, ...]:
+    """Orbits that meet at a special point of an orbit: two at a fold, the longer or faster one last; else itself."""
+    if kind == "fold":
+        return replace(name, longer=False), replace(name, longer=True)
+    if kind == "speed-fold":
+        return replace(name, faster=False), replace(name, faster=True)
+    return (name,)
 
 
-def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -> tuple[str, ...]:
-    """Names of the orbits that bifurcate on a curve, in alphabetical order.
+def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -> tuple[OrbitName, ...]:
+    """Names of the orbits that bifurcate on a curve, each once, in order.
 
     Parameters
     ----------
@@ -40,16 +42,11 @@ def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -
     """
     last = max(len(points) - 1, 1)
     pairs = [_pair(*points[i]) for i in np.linspace(0, len(points) - 1, PLACES).round().astype(int)]
-    names = set()
-    for i, point in enumerate(points):
-        conditions = conditions_at(*point)
-        letters = letter(conditions)
-        if kind == "fold":
-            letters = "ab" if conditions.speed_fold < 0.0 else "cd"
-        elif kind == "speed-fold":
-            letters = "ac" if conditions.period_fold < 0.0 else "bd"
-        names |= {f"B{pairs[round(i / last * (PLACES - 1))]},{each}" for each in letters}
-    return tuple(sorted(names))
+    names: set[OrbitName] = set()
+    for i, (numbers, period, speed) in enumerate(points):
+        pair = pairs[round(i / last * (PLACES - 1))]
+        names.update(meeting_at(kind, name_of(numbers, pair, period, speed)))
+    return in_order(names)
 
 
 def _pair(numbers: Numbers, period: float, speed: float) -> int:

@@ -14,12 +14,12 @@ from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
 from carom.bifurcations.diagrams import Diagram, find_bifurcations
 from carom.bifurcations.motions import Motions, motions_at
-from carom.bifurcations.naming import listed
 from carom.bifurcations.onsets import ONSETS, continue_onset
 from carom.bifurcations.passing import Cause, passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.survey import Survey
 from carom.models import Subject, model_of
+from carom.orbits.names import combined
 from carom.outcome import CaromError
 from carom.parameters import Parameters
 from carom.results import Result
@@ -77,7 +77,7 @@ class RegionMap(Result):
 
     def orbits_of(self, kind: str) -> str:
         """Orbits that the curves of a kind belong to, such as ``"B1,b/d, B2,b"``; empty for equilibria."""
-        return listed(tuple(sorted({name for curve in self.curves if curve.kind == kind for name in curve.orbits})))
+        return combined({name for curve in self.curves if curve.kind == kind for name in curve.orbits})
 
     @property
     def present_region(self) -> int | None:

@@ -8,7 +8,8 @@ from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.orbits.single_impact import radial_speeds
+from carom.orbits.names import OrbitName
+from carom.orbits.single_impact import orbits_of_roots
 from carom.parameters import Parameters
 
 __all__ = ["Solution", "orbit_solutions"]
@@ -19,15 +20,14 @@ class Solution(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        Name of the orbit.
+    name : OrbitName
     numbers : Numbers
         Parameters; with negative ``mu`` for backward slip.
     period, radial_speed : float
         In ``1/Ω`` and ``c_r Ω``.
     """
 
-    name: str
+    name: OrbitName
     numbers: Numbers
     period: float
     radial_speed: float
@@ -58,12 +58,7 @@ def orbit_solutions(
     if backward:
         numbers = numbers._replace(mu=-numbers.mu)
     roots = PeriodCondition(rotor.system, -1 if backward else 1).roots(longest_period)
-    found = []
-    for place, period in enumerate(roots.periods.tolist(), start=int(roots.starts_below)):
-        pair, longer = divmod(place, 2)
-        speeds = radial_speeds(rotor, conditions_at(numbers, period, 0.0).lever)
-        for high, speed in enumerate(speeds):
-            if speed > 0.0:
-                name = f"{'R' if backward else 'B'}{pair + 1},{'abcd'[longer + 2 * high]}"
-                found.append(Solution(name, numbers, period, speed))
-    return found
+    periods: list[float] = roots.periods.tolist()
+    levers = [conditions_at(numbers, period, 0.0).lever for period in periods]
+    orbits = orbits_of_roots(rotor, roots, levers, -1 if backward else 1)
+    return [Solution(name, numbers, periods[root], speed) for name, root, speed in orbits if speed > 0.0]

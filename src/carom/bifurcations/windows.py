@@ -212,7 +212,7 @@ def _partners(left: list[_Member], right: list[_Member]) -> dict[int, int]:
                 partner = places[nearest]
                 if (
                     _same(float(others[nearest, 0]), float(others[nearest, 1]), *guess)
-                    and solution.name[-1] == right[partner].solution.name[-1]
+                    and solution.name.letter == right[partner].solution.name.letter
                     and partner not in found.values()
                 ):
                     found[place] = partner
@@ -281,7 +281,7 @@ def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[flo
             for numbers, period, speed in passed
         ):
             continue
-        orbit = orbit_of(solution.numbers, solution.name.partition(",")[0], solution.period, solution.radial_speed)
+        orbit = orbit_of(solution.numbers, solution.name.pair, solution.period, solution.radial_speed)
         try:
             branch = continue_orbit(orbit, parameter, interval)
         except CaromError:

@@ -2,6 +2,7 @@
 
 ==================  =======================================================
 ``single_impact``   all orbits with one impact a period
+``names``           names of these orbits
 ``maps``            impact map and stroboscopic map, with their derivatives
 ``stability``       multipliers of an orbit
 ==================  =======================================================

@@ -18,6 +18,7 @@ from carom.models import Jeffcott, Subject, System, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.maps import Section, section_jacobian
+from carom.orbits.names import OrbitName, Slip
 from carom.orbits.stability import Multipliers, multipliers
 from carom.outcome import InputError, Outcome
 from carom.results import Result, in_a_line
@@ -28,9 +29,9 @@ __all__ = [
     "find_orbits",
     "longest_within_reach",
     "orbit_at",
+    "orbits_of_roots",
     "orbits_within_reach",
     "period_condition",
-    "radial_speeds",
     "slip_stays_forward",
 ]
 
@@ -47,7 +48,7 @@ class Orbit(Result):
     Attributes
     ----------
     rotor : Jeffcott
-    name : str
+    name : OrbitName
         ``"B1,d"``: pair 1 of the periods; ``a`` and ``c`` have the shorter period of the pair, ``b`` and ``d`` the
         longer; ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with backward
         slip begin with ``R``.
@@ -55,8 +56,6 @@ class Orbit(Result):
         In ``1/Ω``.
     section : Section
         State just before the impact.
-    slip : {1, -1}
-        Direction of the slip in the impact: forward or backward.
     multipliers : Multipliers
         The three non-trivial Floquet multipliers.
     reason : str
@@ -76,12 +75,16 @@ class Orbit(Result):
     )
 
     rotor: Jeffcott
-    name: str
+    name: OrbitName
     period: float
     section: Section
-    slip: int
     multipliers: Multipliers
     reason: str
+
+    @property
+    def slip(self) -> Slip:
+        """Direction of the slip in the impact: 1 forward, −1 backward."""
+        return self.name.slip
 
     @property
     def impacts(self) -> int:
@@ -300,27 +303,33 @@ def slip_stays_forward(rotor: Jeffcott) -> bool:
     return bool((gone - 0.5 * (parameters.rho + parameters.omega**2) * times**2).max() > 1.0)
 
 
-def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, slip: int) -> list[Orbit]:
+def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, slip: Slip) -> list[Orbit]:
     """Orbits at all roots, in the order of their pairs and letters."""
     slipping = _slipping(rotor.system, slip)
     levers = condition.factor * condition.a12(roots.periods)
     turns = condition.factor * condition.a22(roots.periods)
-    # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
-    places = np.arange(len(levers)) + int(roots.starts_below)
     orbits = []
-    for place, period, lever, turn in zip(places, roots.periods, levers, turns, strict=True):
-        pair, longer = divmod(int(place), 2)
-        for high, speed in enumerate(radial_speeds(rotor, complex(lever))):
-            position = rotor.equilibrium / (1.0 + complex(lever) * speed)
-            section = Section(cmath.phase(position), speed, -float(turn.imag) * speed)
-            jacobian = _jacobian(rotor, slipping, section, float(period), slip)
-            letter = "abcd"[longer + 2 * high]
-            name = f"{'B' if slip > 0 else 'R'}{pair + 1},{letter}"
-            orbits.append((pair, letter, orbit_at(rotor, name, float(period), section, multipliers(jacobian), slip)))
-    return [orbit for *_, orbit in sorted(orbits, key=lambda entry: entry[:2])]
+    for name, root, speed in orbits_of_roots(rotor, roots, levers.tolist(), slip):
+        period = float(roots.periods[root])
+        position = rotor.equilibrium / (1.0 + complex(levers[root]) * speed)
+        section = Section(cmath.phase(position), speed, -float(turns[root].imag) * speed)
+        jacobian = _jacobian(rotor, slipping, section, period, slip)
+        orbits.append(orbit_at(rotor, name, period, section, multipliers(jacobian)))
+    return sorted(orbits, key=lambda orbit: orbit.name.place)
 
 
-def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float, slip: int) -> np.ndarray:
+def orbits_of_roots(
+    rotor: Jeffcott, roots: PeriodRoots, levers: Sequence[complex], slip: Slip = 1
+) -> Iterator[tuple[OrbitName, int, float]]:
+    """Name, index of the root and radial speed of each orbit; ``levers`` are the values of ``q a₁₂`` at the roots."""
+    for root, lever in enumerate(levers):
+        # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
+        pair, longer = divmod(root + int(roots.starts_below), 2)
+        for faster, speed in enumerate(_radial_speeds(rotor, lever)):
+            yield OrbitName(pair + 1, bool(longer), bool(faster), slip), root, speed
+
+
+def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float, slip: Slip) -> np.ndarray:
     """Derivative of the impact map; for an orbit that has shrunk to the equilibrium on the wall, its limit."""
     if section.radial_speed != 0.0:
         return section_jacobian(slipping, section, period)
@@ -331,39 +340,36 @@ def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float
     return limit
 
 
-def orbit_at(
-    rotor: Jeffcott, name: str, period: float, section: Section, nontrivial: Multipliers, slip: int = 1
-) -> Orbit:
+def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, nontrivial: Multipliers) -> Orbit:
     """Orbit of known state and period, with its admissibility checked.
 
     Parameters
     ----------
     rotor : Jeffcott
-    name : str
+    name : OrbitName
+        With the direction of the slip in the impact.
     period : float
         In ``1/Ω``.
     section : Section
         State just before the impact, to which the flight returns after the period.
     nontrivial : Multipliers
-    slip : {1, -1}
-        Direction of the slip in the impact: forward or backward.
 
     Returns
     -------
     Orbit
     """
-    orbit = Orbit(rotor, name, period, section, slip, nontrivial, "")
+    orbit = Orbit(rotor, name, period, section, nontrivial, "")
     return replace(orbit, reason=_why_virtual(orbit))
 
 
-def _slipping(system: System, slip: int) -> System:
+def _slipping(system: System, slip: Slip) -> System:
     """Copy of a system in which the slip always has the given direction, as is assumed for an orbit."""
     arrays = system.arrays.copy()
     arrays.drive[:] = slip * np.inf
     return replace(system, arrays=arrays)
 
 
-def radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
+def _radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
     """Both solutions of ``|1 + q a₁₂ ṙ|² = |U*|²``, the lower first; empty if they are not real or ``U* = 0``.
 
     ``lever`` is ``q a₁₂``.

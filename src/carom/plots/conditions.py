@@ -11,6 +11,7 @@ from matplotlib.ticker import NullLocator
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import ArrayLike
 
+from carom.orbits.names import combined
 from carom.plots.placement import spread
 from carom.plots.plane import Floats, key, legend_below, one_axes
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
@@ -174,6 +175,4 @@ def _belongs(orbit: Orbit, root: float) -> bool:
 
 def _name(found: list[Orbit]) -> str:
     """Return one name for both orbits of a root, ``B1,a/c``."""
-    stem, comma, _ = found[0].name.rpartition(",")
-    letters = "/".join(sorted(orbit.name.rpartition(",")[2] for orbit in found))
-    return orbit_symbol(f"{stem}{comma}{letters}")
+    return orbit_symbol(combined(orbit.name for orbit in found))

@@ -166,7 +166,7 @@ def _stable_orbit(study: Study, orbit: Orbit) -> str:
 
 def names_of(orbits: list[Orbit]) -> str:
     """List the names of orbits, at most ``MOST_NAMES`` of them."""
-    names = [orbit.name for orbit in orbits]
+    names: list[str] = [orbit.name for orbit in orbits]
     few = MOST_NAMES - 1
     return listed(names if len(names) <= MOST_NAMES else [*names[:few], f"{len(names) - few} more"])
 

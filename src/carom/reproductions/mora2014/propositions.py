@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from carom.bifurcations import Bifurcation, continue_orbit
 from carom.closed_forms.local import ContactSystem, LocalCycle, non_smooth_hopf
 from carom.models import Jeffcott
+from carom.orbits.names import combined
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
@@ -127,18 +128,17 @@ def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFol
         The pair does not end in two folds.
     """
     orbits = find_orbits(Jeffcott(parameters))
-    names = [orbit.name for orbit in orbits]
-    if not {f"B{pair},b", f"B{pair},d"} <= set(names):
-        raise InputError(
-            "pair", pair, f"a pair with orbits at gamma = {parameters.gamma:g}: {', '.join(names) or 'none'}"
-        )
+    longer = [orbit for orbit in orbits if orbit.slip > 0 and orbit.name.pair == pair and orbit.name.longer]
+    if len(longer) != 2:
+        names = combined(orbit.name for orbit in orbits)
+        raise InputError("pair", pair, f"a pair with orbits at gamma = {parameters.gamma:g}: {names or 'none'}")
     interval = (parameters.gamma, 2.0 * parameters.gamma + 10.0)
     folds = []
-    for letter in "bd":
-        branch = continue_orbit(orbits[f"B{pair},{letter}"], "gamma", interval)
+    for orbit in longer:
+        branch = continue_orbit(orbit, "gamma", interval)
         found = [point for point in branch.special if point.kind == "fold"]
         if not found:
-            raise CaromError(f"B{pair},{letter} meets no other orbit up to gamma = {interval[1]:g}")
+            raise CaromError(f"{orbit.name} meets no other orbit up to gamma = {interval[1]:g}")
         folds.append(found[0])
     return SimultaneousFolds(pair, *folds)
 

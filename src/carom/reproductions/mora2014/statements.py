@@ -120,7 +120,7 @@ def _longer_pairs() -> Claim:
 def _longer(gamma: float) -> list[Orbit]:
     """Return the orbits of the pairs n > 1."""
     found = find_orbits(Jeffcott(machine_at(gamma)))
-    return [orbit for orbit in found if not orbit.name.startswith("B1,")]
+    return [orbit for orbit in found if orbit.name.pair > 1]
 
 
 def _beyond_wall(orbit: Orbit) -> float:

@@ -1,0 +1,67 @@
+"""Names of orbits with one impact a period."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+__all__ = ["OrbitName", "Slip", "combined", "in_order"]
+
+Slip = Literal[1, -1]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OrbitName(str):
+    """Name of a single-impact orbit, such as ``"B1,d"``: a text that also carries what it says.
+
+    Parameters
+    ----------
+    pair : int
+        Number of the pair of periods, from 1.
+    longer : bool
+        Whether the period is the longer one of the pair.
+    faster : bool
+        Whether the radial speed is the higher one of the two at this period.
+    slip : {1, -1}
+        Direction of the slip in the impact: forward (``B``) or backward (``R``).
+    """
+
+    pair: int
+    longer: bool
+    faster: bool
+    slip: Slip = 1
+
+    def __new__(cls, pair: int, longer: bool, faster: bool, slip: Slip = 1) -> OrbitName:
+        """Make the text from the parts."""
+        return super().__new__(cls, f"{'B' if slip > 0 else 'R'}{pair},{_letter(longer, faster)}")
+
+    def __getnewargs__(self) -> tuple[int, bool, bool, Slip]:  # type: ignore[override]  # for copies and pickles
+        return self.pair, self.longer, self.faster, self.slip
+
+    @property
+    def letter(self) -> str:
+        """``a`` and ``c`` have the shorter period, ``b`` and ``d`` the longer; ``a`` and ``b`` the lower speed."""
+        return _letter(self.longer, self.faster)
+
+    @property
+    def place(self) -> tuple[int, int, str]:
+        """Place in a list: forward slip first, then by the number of the pair and the letter."""
+        return -self.slip, self.pair, self.letter
+
+
+def in_order(names: Iterable[OrbitName]) -> tuple[OrbitName, ...]:
+    """Names in the order of lists."""
+    return tuple(sorted(names, key=lambda name: name.place))
+
+
+def combined(names: Iterable[OrbitName]) -> str:
+    """Names as one text with the letters of each pair combined, such as ``B1,a/b/c, B2,d``."""
+    pairs: dict[tuple[int, int], list[OrbitName]] = {}
+    for name in in_order(names):
+        pairs.setdefault((name.slip, name.pair), []).append(name)
+    return ", ".join("/".join([first, *(name.letter for name in others)]) for first, *others in pairs.values())
+
+
+def _letter(longer: bool, faster: bool) -> str:
+    return "abcd"[longer + 2 * faster]
