@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
+import carom
 from carom.attractors import find_attractors, following
-from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
+from carom.disturbances import Starts
 from carom.models import Jeffcott
+from carom.motions import ensembles, trajectories
+from carom.motions.ensembles import Endings
 from carom.motions.starts import State, kick
 from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
@@ -131,6 +134,20 @@ def test_two_impacts_a_period_beyond_the_period_doubling():
 
 
 @pytest.mark.jit_only
+@pytest.mark.parametrize("gamma", [0.05, 0.1, 0.15])
+def test_every_start_ends_as_it_does_alone(gamma):
+    found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=24, seed=3)
+
+    for ending in found.endings:
+        alone = simulate(found.rotor, ending.start.state, settle=True)
+        impulses = alone.contacts.normal_impulse
+        assert (ending.outcome, ending.impacts) == (alone.outcome, len(impulses))
+        # Together they are proven to levitate at the end of a block of flight, which lasts at most 3/Omega.
+        assert ending.time <= alone.time + 3.001
+        assert ending.hardest_impulse == pytest.approx(impulses.max(initial=0.0), rel=1e-9)
+
+
+@pytest.mark.jit_only
 def test_counts_and_shares_add_up(found):
     disturbances = [ending for ending in found.endings if ending.start.disturbance]
 
@@ -194,7 +211,8 @@ def test_given_starts_replace_the_sample():
 
 
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
-    monkeypatch.setattr(following, "longest_time", lambda rotor: 5.0)
+    for module in (ensembles, trajectories):
+        monkeypatch.setattr(module, "longest_time", lambda rotor: 5.0)
     found = find_attractors(Jeffcott(SOURCE), [kick(0.001), kick(0.3), kick(0.4)], known=False)
     last = found.members[-1]
 
@@ -243,35 +261,32 @@ DIES = Survival(100, 20_000, 100, 2000.0, (1600.0, 2500.0))
 
 
 class Fake:
-    """Stands in for a motion that stays irregular for so many impacts."""
+    """Stands in for an ensemble in which each motion stays irregular for so many impacts."""
 
     def __init__(self, lives):
-        self.left = dict(enumerate(lives))
-        self.followed = dict.fromkeys(self.left, 0)
+        self.left, self.followed = np.array(lives), np.zeros(len(lives), int)
 
-    def __call__(self, rotor, state, until, *, settle, patience):
-        place = int(state.position.real)
-        irregular = self.followed[place] + patience < self.left[place]
-        impacts = patience if irregular else self.left[place] - self.followed[place]
-        self.followed[place] += impacts
-        log = type("Log", (), {"normal_impulse": np.ones(impacts)})
-        fields = {"outcome": Outcome.BOUNCING, "multiplicity": 0 if irregular else 1, "final": state, "time": impacts}
-        return type("Motion", (), {**fields, "contacts": log})
+    def __call__(self, rotor, positions, velocities, *, patience, which=None, threads=None, progress=None):
+        places = positions.real.astype(int)
+        impacts = np.minimum(patience, self.left[places] - self.followed[places])
+        self.followed[places] += impacts
+        multiplicities = np.where(self.followed[places] < self.left[places], 0, 1)
+        outcomes = np.full(len(places), Outcome.BOUNCING, np.int8)
+        return Endings(outcomes, impacts.astype(float), impacts, multiplicities, positions, velocities)
 
 
 def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
-    fake = Fake(lives)
-    monkeypatch.setattr(following, "simulate", fake)
-    monkeypatch.setattr(following, "longest_time", lambda rotor: 2e5)
-    monkeypatch.setattr(following, "measure_survival", lambda *states, impacts: survival)
-    starts = [Start("start", State(complex(place)), "") for place in range(len(lives))]
-    names = {0: "irregular", 1: "periodic"}
-    progress = []
-    endings = following.endings_of(None, starts, patience, lambda motion: names[motion.multiplicity], progress.append)
+    fake, progress = Fake(lives), []
+    monkeypatch.setattr(carom.disturbances.following, "settle", fake)
+    monkeypatch.setattr(carom.attractors.survival, "settle", fake)
+    monkeypatch.setattr(carom.attractors.survival, "measure_survival", lambda *states, impacts, threads: survival)
+    starts = Starts.of(np.arange(len(lives), dtype=complex), 0j, True)
+    ends, lasted, found = following.follow_in_stages(None, starts, patience, None, progress.append)
     assert progress == sorted(progress)
-    assert [ending.irregular for ending in endings] == [ending.attractor == "irregular" for ending in endings]
-    assert [ending.survival is survival for ending in endings] == [life > min(1000, patience) for life in lives]
-    return [ending.attractor for ending in endings], [ending.impacts for ending in endings]
+    assert lasted.tolist() == [life > min(1000, patience) for life in lives]
+    assert found is (survival if lasted.any() else None)
+    np.testing.assert_array_equal(ends.times, ends.impacts)
+    return ["periodic" if count else "irregular" for count in ends.multiplicities], ends.impacts.tolist()
 
 
 FOREVER = 10**9

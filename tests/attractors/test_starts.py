@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from carom.attractors import DisturbanceSet, disturbances, known_starts
+from carom.attractors import DisturbanceSet, known_starts
+from carom.attractors.starts import disturbances_of
 from carom.closed_forms.whirl import runaway_speed
 from carom.models import Jeffcott
 from carom.orbits.single_impact import find_orbits
@@ -11,6 +12,11 @@ from carom.outcome import InputError
 from carom.parameters import Parameters, Scales
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+
+def disturbances(rotor, *chosen, **named):
+    single, _ = disturbances_of(rotor, DisturbanceSet(*chosen, **named))
+    return single
 
 
 def states(starts):
@@ -68,11 +74,12 @@ def test_rotor_that_cannot_levitate_is_not_kicked_out_of_levitation():
 
 def test_set_is_the_sample_and_says_what_it_holds():
     rotor, chosen = Jeffcott(SOURCE), DisturbanceSet(50, seed=3, fastest=1.5)
-    positions, velocities = chosen.states(rotor)
+    starts = chosen.starts(rotor)
 
     assert [(s.state.position, s.state.velocity) for s in disturbances(rotor, 50, 3, 1.5)] == [
-        *zip(positions.tolist(), velocities.tolist(), strict=True)
+        *zip(starts.positions.tolist(), starts.velocities.tolist(), strict=True)
     ]
+    assert starts.exists.all()
     assert chosen.words(rotor) == (
         "50 disturbances (seed 3): 24 velocity kicks of the levitating rotor, 0.01 c_r Omega to 1.5 c_r Omega, and 26 starts "
         "spread over the clearance at up to 1.5 c_r Omega"

@@ -9,8 +9,8 @@ import pytest
 from machines import PAPER
 
 import carom
+from carom.attractors.naming import _alike
 from carom.basins import Basin, map_basins
-from carom.basins.motions import _alike
 from carom.disturbances import (
     AnyState,
     BaseShock,

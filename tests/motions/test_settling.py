@@ -10,7 +10,7 @@ from machines import PAPER
 from sliding_motions import ahead_of, assert_slides_to_the_rub
 
 import carom
-from carom.basins.motions import name_motions
+from carom.attractors.naming import name_motions
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.fate import absorbed
@@ -102,7 +102,7 @@ def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch)
     assert (proven.times[rolls] < followed.times[rolls]).all()
     others = ~(rubs | rolls)
     np.testing.assert_array_equal(proven.times[others], followed.times[others])
-    names = [name_motions(rotor, endings.outcomes, endings) for endings in (proven, followed)]
+    names = [name_motions(rotor, endings) for endings in (proven, followed)]
     np.testing.assert_array_equal(names[0][0], names[1][0])
     assert names[0][1] == names[1][1]
     assert "synchronous rub" in names[0][1]
@@ -114,7 +114,7 @@ def test_the_proof_changes_when_motions_end_and_nothing_else(rotor, monkeypatch)
 def test_a_slide_that_runs_round_is_still_told_from_the_rub(rotor):
     endings = settle(rotor, *sliding(rub_neighbourhood(rotor), 0.9, seed=6))
     endings.velocities[0] = 0.9j * endings.positions[0]
-    named, names = name_motions(rotor, endings.outcomes, endings)
+    named, names = name_motions(rotor, endings)
     assert [names[index] for index in named[:3]] == ["drifting rub", "synchronous rub", "synchronous rub"]
 
 

@@ -35,7 +35,7 @@ def ranges_of(parameters, gain):
 
 
 def ends_of(rotor, count, seed):
-    return settle(rotor, *DisturbanceSet(count, seed).states(rotor))
+    return settle(rotor, *DisturbanceSet(count, seed).starts(rotor)[:2])
 
 
 def known_motions(rotor):

@@ -2,16 +2,18 @@
 
 ``starts``      the standard set of disturbances, and starts next to every motion known in closed form
 ``cycles``      the cycle that a settled motion repeats, and the comparison of cycles
-``following``   each start followed until it settles
+``following``   starts followed until they settle
 ``survival``    :class:`Survival`: how long irregular motion lasts
+``naming``      names of the motions on which starts end
 ``groups``      :class:`Attractor`: motions that have settled to the same cycle
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
 """
 
 from carom.attractors.following import Ending
-from carom.attractors.groups import Attractor, motion_name
+from carom.attractors.groups import Attractor
+from carom.attractors.naming import motion_name
 from carom.attractors.search import AttractorSet, find_attractors
-from carom.attractors.starts import DisturbanceSet, Start, disturbances, known_starts
+from carom.attractors.starts import DisturbanceSet, Start, known_starts
 from carom.attractors.survival import Survival, document_of, follow_out
 
 __all__ = [
@@ -21,7 +23,6 @@ __all__ = [
     "Ending",
     "Start",
     "Survival",
-    "disturbances",
     "document_of",
     "find_attractors",
     "follow_out",

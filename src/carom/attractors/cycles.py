@@ -139,10 +139,12 @@ def orbit_of(cycle: Cycle, orbits: Sequence[Orbit]) -> Orbit | None:
     return None
 
 
-def _last_stretch(motion: Trajectory, cycle: Cycle) -> float:
-    """Start time of the last period, or of the last turns of the shaft; the end itself if the rotor is at rest."""
-    span = 0.0 if cycle.synchronous else cycle.period or 2.0 * math.pi * TURNS
-    return max(0.0, motion.time - span)
+def _last_times(motion: Trajectory, cycle: Cycle) -> np.ndarray:
+    """Times over the last period, or over the last turns of the shaft; the end alone if the rotor is at rest."""
+    if cycle.synchronous:
+        return np.array([motion.time])
+    span = cycle.period or 2.0 * math.pi * TURNS
+    return np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
 
 
 def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:
@@ -158,7 +160,7 @@ def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:
     impulse = float(last.max()) if len(last) and not touching else 0.0
     if (motion.segment_phases == Phase.FLIGHT).all():
         return impulse, 0.0
-    normal, _ = motion.forces(np.linspace(_last_stretch(motion, cycle), motion.time, SAMPLES))
+    normal, _ = motion.forces(_last_times(motion, cycle))
     return impulse, float(normal.max())
 
 
@@ -167,7 +169,7 @@ def whirl_of(motion: Trajectory, cycle: Cycle) -> Whirl:
 
     The areal velocity is ``Im(Z̄Ż)/2 = (|U|² + Im(ŪU̇))/2``.
     """
-    position, velocity = motion.at(np.linspace(_last_stretch(motion, cycle), motion.time, SAMPLES))
+    position, velocity = motion.at(_last_times(motion, cycle))
     swept = float((np.abs(position) ** 2 + (position.conj() * velocity).imag).mean())
     if abs(swept) < SAME:
         return "none"

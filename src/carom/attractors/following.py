@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from carom.attractors.starts import Start
-from carom.attractors.survival import HALF_LIVES, Survival, measure_survival
+from carom.attractors.survival import Survival, follow_further, follow_out, still_irregular
+from carom.disturbances import Starts
+from carom.disturbances.following import follow
 from carom.models import Jeffcott
-from carom.motions.settling import longest_time
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.ensembles import Endings
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 
-__all__ = ["Ending", "endings_of"]
+__all__ = ["Ending", "follow_in_stages"]
 
 FIRST_PATIENCE = 1000
 """Impacts for which a motion is followed at first."""
+
 AFFORDABLE = 2_000_000
-"""Largest cost of following all irregular motions for one half-life, in impacts: half a second."""
+"""Largest cost of following all irregular motions for one half-life, in impacts.
+
+Less than for basins: single motions are simulated once more where their impulses are asked for.
+"""
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,7 @@ class Ending:
 
     Attributes
     ----------
+    rotor : Jeffcott
     start : Start
     attractor : str
         Name of the :class:`Attractor`.
@@ -38,31 +44,33 @@ class Ending:
         Time at which the outcome was known, in ``1/Ω``.
     impacts : int
         Impacts until then.
-    hardest_impulse : float
-        Largest normal impulse until then, in ``m c_r Ω``.
     irregular : bool
         Whether it still bounces irregularly.
     survival : Survival or None
         How long irregular bouncing lasts, if the motion is irregular or was so after 1000 impacts; otherwise ``None``.
     """
 
+    rotor: Jeffcott
     start: Start
     attractor: str
     outcome: Outcome
     time: float
     impacts: int
-    hardest_impulse: float
     irregular: bool = False
     survival: Survival | None = None
 
+    @cached_property
+    def hardest_impulse(self) -> float:
+        """Largest normal impulse until then, in ``m c_r Ω``; the motion is simulated again to find it."""
+        if not self.impacts:
+            return 0.0
+        motion = simulate(self.rotor, self.start.state, self.time)
+        return float(motion.contacts.normal_impulse.max(initial=0.0))
 
-def endings_of(
-    rotor: Jeffcott,
-    starts: Sequence[Start],
-    patience: int,
-    name_of: Callable[[Trajectory], str],
-    progress: Callable[[float], None],
-) -> list[Ending]:
+
+def follow_in_stages(
+    rotor: Jeffcott, starts: Starts, patience: int, threads: int | None, progress: Callable[[float], None]
+) -> tuple[Endings, np.ndarray, Survival | None]:
     """Follow all starts: first each for a short time, then longer those that are still irregular.
 
     The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they
@@ -71,102 +79,33 @@ def endings_of(
     Parameters
     ----------
     rotor : Jeffcott
-    starts : sequence of Start
+    starts : Starts
+        One-dimensional.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
-    name_of : callable
-        Called once with each motion that has settled, or been given up; returns the name of the attractor.
+    threads : int or None
+        By default the number of available cores; the result does not depend on it.
     progress : callable
         Called with the fraction done, 0 to 1.
 
     Returns
     -------
-    list of Ending
-        In the order of the starts.
+    endings : Endings
+    lasted : ndarray of bool
+        Which motions were irregular after 1000 impacts.
+    survival : Survival or None
+        How long irregular motion lasts; ``None`` if no motion was irregular after 1000 impacts.
     """
-    looks = _Stages(rotor, starts, name_of)
-    irregular = []
-    for place in range(len(starts)):
-        irregular += [place] if looks.look(place, min(FIRST_PATIENCE, patience)) else []
-        progress(0.9 * (place + 1) / len(starts))
-    seen, met = FIRST_PATIENCE, looks.states_of(irregular)
-    while irregular and seen < patience:
+    seen = min(FIRST_PATIENCE, patience)
+    first = follow(rotor, starts, patience=seen, threads=threads, progress=lambda share: progress(0.8 * share))
+    endings, lasted = first, still_irregular(first)
+    irregular = lasted
+    while irregular.any() and seen < patience:
         span = min(seen, patience - seen)
-        irregular = [place for place in irregular if looks.look(place, span)]
+        endings = follow_further(rotor, endings, irregular, patience=span, threads=threads)
+        irregular = still_irregular(endings)
         seen += span
-        progress(0.9 + 0.05 * min(seen / patience, 1.0))
-    if met:
-        survival = _survival(rotor, looks.states_of(irregular) or met, patience)
-        if irregular and survival.half_life is not None:
-            irregular = looks.follow_out(irregular, survival.half_life)
-        looks.note(irregular, survival)
+        progress(0.8 + 0.1 * min(seen / patience, 1.0))
+    endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads, were=first, affordable=AFFORDABLE)
     progress(1.0)
-    return [ending for ending in looks.endings if ending]
-
-
-def _survival(rotor: Jeffcott, states: Sequence[State], patience: int) -> Survival:
-    positions = np.array([state.position for state in states])
-    velocities = np.array([state.velocity for state in states])
-    return measure_survival(rotor, positions, velocities, impacts=patience)
-
-
-class _Stages:
-    """Motions of all starts, followed in stages; each stage continues the one before."""
-
-    def __init__(self, rotor: Jeffcott, starts: Sequence[Start], name_of: Callable[[Trajectory], str]) -> None:
-        self.rotor, self.name_of, self.starts = rotor, name_of, starts
-        self.states = [start.state for start in starts]
-        self.endings: list[Ending | None] = [None] * len(starts)
-        self.was_irregular = [False] * len(starts)
-        self.last: dict[Outcome, Trajectory] = {}
-        self.limit = longest_time(rotor)
-
-    def look(self, place: int, impacts: int) -> bool:
-        """Follow a motion for a number of further impacts; return whether it is still irregular."""
-        motion = simulate(self.rotor, self.states[place], self.limit, settle=True, patience=impacts)
-        irregular = motion.outcome in (Outcome.BOUNCING, Outcome.MIXED) and motion.multiplicity == 0
-        self.states[place] = motion.final
-        self.was_irregular[place] |= irregular
-        impulses = motion.contacts.normal_impulse
-        hardest = float(impulses.max()) if len(impulses) else 0.0
-        name = "" if irregular else self.name_of(motion)
-        ending = Ending(self.starts[place], name, motion.outcome, motion.time, len(impulses), hardest)
-        before = self.endings[place]
-        self.endings[place] = _joined(before, ending) if before else ending
-        if irregular:
-            self.last[motion.outcome] = motion
-        return irregular
-
-    def states_of(self, places: Sequence[int]) -> list[State]:
-        """States that these motions have reached."""
-        return [self.states[place] for place in places]
-
-    def follow_out(self, irregular: list[int], half_life: float) -> list[int]:
-        """Follow transient irregular motions until they leave, if affordable; return those that have not left."""
-        span = max(FIRST_PATIENCE, int(half_life))
-        for _ in range(HALF_LIVES):
-            if not irregular or len(irregular) * span > AFFORDABLE:
-                break
-            irregular = [place for place in irregular if self.look(place, span)]
-        return irregular
-
-    def note(self, irregular: Sequence[int], survival: Survival) -> None:
-        """Attach the survival to every motion that was ever irregular; name the motions that still are."""
-        for place, ending in enumerate(self.endings):
-            if ending and self.was_irregular[place]:
-                self.endings[place] = dataclasses.replace(ending, survival=survival)
-        for place in irregular:
-            ending = self.endings[place]
-            if ending:
-                name = self.name_of(self.last[ending.outcome])
-                self.endings[place] = dataclasses.replace(ending, attractor=name, irregular=True)
-
-
-def _joined(before: Ending, after: Ending) -> Ending:
-    """Combine two consecutive stages of one motion."""
-    return dataclasses.replace(
-        after,
-        time=before.time + after.time,
-        impacts=before.impacts + after.impacts,
-        hardest_impulse=max(before.hardest_impulse, after.hardest_impulse),
-    )
+    return endings, lasted, survival

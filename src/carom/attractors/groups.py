@@ -1,22 +1,21 @@
-"""Attractors: groups of motions that have settled to the same cycle, with a name."""
+"""Attractors: groups of motions that have settled to the same cycle."""
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, orbit_of, same_cycle, whirl_of
-from carom.attractors.following import Ending
+from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, whirl_of
+from carom.attractors.following import FIRST_PATIENCE, Ending
+from carom.attractors.naming import REPEATING
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory
-from carom.orbits.single_impact import Orbit
+from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import Outcome
 from carom.results import Result
 
-__all__ = ["Attractor", "Groups", "motion_name"]
+__all__ = ["Attractor", "attractor_of"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,85 +85,63 @@ class Attractor(Result):
         return self.settled and self.outcome is not Outcome.LEVITATED
 
 
-class Groups:
-    """Groups of motions that have settled to the same cycle, by name, in the order in which they were found."""
+def attractor_of(name: str, endings: Sequence[Ending], state: State) -> Attractor:
+    """Describe the motion on which starts end.
 
-    def __init__(self, orbits: Sequence[Orbit]) -> None:
-        self.orbits = orbits
-        self.names: dict[str, tuple[Cycle, Attractor]] = {}
+    One motion is simulated once more: from a state on it, or from a start if it was given up.
 
-    def name_of(self, motion: Trajectory) -> str:
-        """Name of the group of a motion; a new group is created if the motion fits none."""
-        cycle = cycle_of(motion)
-        for name, (known, _) in self.names.items():
-            if same_cycle(known, cycle):
-                return name
-        name = self._new_name(cycle)
-        impulse, force = forces_on(motion, cycle)
-        found = Attractor(
-            name=name,
-            words=_words(cycle, name),
-            outcome=cycle.outcome,
-            multiplicity=cycle.multiplicity,
-            period=cycle.period,
-            whirl=whirl_of(motion, cycle),
-            count=0,
-            share=0.0,
-            known=0,
-            representative=Start("start", motion.start, "a start within the clearance"),
-            state=motion.final,
-            largest_impulse=impulse,
-            largest_force=force,
-        )
-        self.names[name] = cycle, found
-        return name
+    Parameters
+    ----------
+    name : str
+    endings : sequence of Ending
+        Those that end on it and, for the shares, all others.
+    state : State
+        State that the first start that ends on it has reached.
+    """
+    here = [ending for ending in endings if ending.attractor == name]
+    first = here[0]
+    motion = _representative(first, state)
+    cycle = cycle_of(motion)
+    if first.irregular or not first.outcome.settled:
+        cycle = Cycle(first.outcome, False, None, cycle.positions[:0], cycle.velocities[:0])
+    impulse, force = forces_on(motion, cycle)
+    hit = [ending.start for ending in here if ending.start.disturbance]
+    total = sum(ending.start.disturbance for ending in endings)
+    survival = first.survival if first.irregular else None
+    words = _words(cycle, name)
+    return Attractor(
+        name=name,
+        words=f"{words} {_sentence(survival.words)}" if survival else words,
+        outcome=first.outcome,
+        multiplicity=cycle.multiplicity,
+        period=cycle.period,
+        whirl=whirl_of(motion, cycle),
+        count=len(hit),
+        share=len(hit) / total if total else 0.0,
+        known=len(here) - len(hit),
+        representative=min(hit, key=lambda start: (start.kind != "kick", start.speed), default=first.start),
+        state=motion.final,
+        largest_impulse=impulse,
+        largest_force=force,
+        survival=survival,
+    )
 
-    def _new_name(self, cycle: Cycle) -> str:
-        orbit = orbit_of(cycle, self.orbits)
-        name = orbit.name if orbit else _name(cycle)
-        alike = sum(known.split(" (")[0] == name for known in self.names)
-        return f"{name} ({alike + 1})" if alike else name
 
-    def attractor(self, name: str, endings: Sequence[Ending]) -> Attractor:
-        """Return the attractor of a group, with the starts that end on it counted."""
-        _, member = self.names[name]
-        group = [ending for ending in endings if ending.attractor == name]
-        here = [ending.start for ending in group]
-        hit = [start for start in here if start.disturbance]
-        total = sum(ending.start.disturbance for ending in endings)
-        survival = next((ending.survival for ending in group if ending.irregular), None)
-        gentlest = min(hit, key=lambda start: (start.kind != "kick", start.speed), default=None)
-        return dataclasses.replace(
-            member,
-            words=f"{member.words} {_sentence(survival.words)}" if survival else member.words,
-            survival=survival,
-            count=len(hit),
-            share=len(hit) / total if total else 0.0,
-            known=len(here) - len(hit),
-            representative=gentlest or next(iter(here), member.representative),
-        )
+def _representative(ending: Ending, state: State) -> Trajectory:
+    """A motion on an attractor, or the one that was given up, for its first 1000 impacts if it does not repeat."""
+    if ending.outcome is Outcome.LEVITATED:
+        state = State(ending.rotor.equilibrium)
+    elif not ending.outcome.settled:
+        state = ending.start.state
+    return simulate(ending.rotor, state, settle=True, patience=FIRST_PATIENCE)
 
 
 def _sentence(words: str) -> str:
     return f"{words[0].upper()}{words[1:]}."
 
 
-def motion_name(outcome: Outcome, multiplicity: int) -> str:
-    """Name of a settled motion that is not a known orbit: ``"2-impact bouncing"``, ``"rolling"`` and so on."""
-    if outcome in _REPEATING:
-        noun = _REPEATING[outcome]
-        return f"{multiplicity}-impact {noun}" if multiplicity else f"irregular {noun}"
-    return _NAMES.get(outcome, f"unresolved: {outcome.label}")
-
-
-def _name(cycle: Cycle) -> str:
-    if cycle.outcome is Outcome.FORWARD_RUB and not cycle.synchronous:
-        return "drifting rub"
-    return motion_name(cycle.outcome, cycle.multiplicity)
-
-
 def _words(cycle: Cycle, name: str) -> str:
-    if cycle.outcome in _REPEATING:
+    if cycle.outcome in REPEATING:
         doing = "bounces" if cycle.outcome is Outcome.BOUNCING else "alternates between bounces and lasting contact"
         if not cycle.multiplicity:
             return f"The rotor {doing} irregularly: it did not repeat itself as far as it was followed."
@@ -174,12 +151,3 @@ def _words(cycle: Cycle, name: str) -> str:
         how = "in step with the shaft" if cycle.synchronous else "out of step with the shaft"
         return f"The rotor rubs along the touchdown bearing {how}."
     return cycle.outcome.meaning
-
-
-_REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
-_NAMES = {
-    Outcome.LEVITATED: "levitation",
-    Outcome.FORWARD_RUB: "synchronous rub",
-    Outcome.BACKWARD_WHIRL: "backward whirl",
-    Outcome.ROLLING: "rolling",
-}

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from carom.attractors.following import Ending, endings_of
-from carom.attractors.groups import Attractor, Groups
-from carom.attractors.starts import DISTURBANCES, DisturbanceSet, Start, disturbances, known_starts
-from carom.attractors.survival import Survival
-from carom.disturbances import FASTEST
+import numpy as np
+
+from carom.attractors.following import Ending, follow_in_stages
+from carom.attractors.groups import Attractor, attractor_of
+from carom.attractors.naming import name_motions
+from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
+from carom.attractors.survival import Survival, still_irregular
+from carom.disturbances import FASTEST, Disturbance, Plan, Sample, Starts
 from carom.models import Jeffcott, Subject, model_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
@@ -31,7 +34,7 @@ class AttractorSet(Result):
         Sorted by the number of disturbances, the largest first; motions given up come last.
     endings : tuple of Ending
         Every start, the disturbances first.
-    sample : DisturbanceSet or None
+    sample : DisturbanceSet, Grid, Sample or None
         The disturbances; ``None`` if they were given one by one.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
@@ -40,7 +43,7 @@ class AttractorSet(Result):
     rotor: Jeffcott
     members: tuple[Attractor, ...]
     endings: tuple[Ending, ...]
-    sample: DisturbanceSet | None
+    sample: DisturbanceSet | Plan | None
     patience: int
 
     def rows(self) -> list[tuple[str, str]]:
@@ -104,15 +107,16 @@ class AttractorSet(Result):
     @property
     def fastest(self) -> float:
         """Largest speed of the disturbances (of kicks: size), in ``c_r Ω``."""
-        return (
-            self.sample.fastest if self.sample else max((entry.start.speed for entry in self.disturbances), default=0.0)
-        )
+        if isinstance(self.sample, DisturbanceSet):
+            return self.sample.fastest
+        return max((entry.start.speed for entry in self.disturbances), default=0.0)
 
     def words(self, speed: Callable[[float], str] | None = None) -> str:
         """Say which disturbances were tried; ``speed`` writes one given in ``c_r Ω``."""
-        if self.sample is None:
-            return f"{len(self.disturbances)} given disturbances"
-        return self.sample.words(self.rotor, speed)
+        if isinstance(self.sample, DisturbanceSet):
+            return self.sample.words(self.rotor, speed)
+        kind = f" of the kind {self.sample.model.kind}" if self.sample else ""
+        return f"{len(self.disturbances)} given disturbances{kind}"
 
     @property
     def argument(self) -> str:
@@ -126,13 +130,14 @@ class AttractorSet(Result):
 
 def find_attractors(
     machine: Subject,
-    starts: Sequence[State | Kick] | None = None,
+    disturbances: Plan | Disturbance | Sequence[State | Kick] | None = None,
     *,
     seed: int = 0,
     count: int = DISTURBANCES,
     fastest: float = FASTEST,
     known: bool = True,
     patience: int = PATIENCE,
+    threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> AttractorSet:
     """Follow disturbances, and starts next to every known motion, to the attractors on which they settle.
@@ -143,16 +148,20 @@ def find_attractors(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-    starts : sequence of State or Kick, optional
-        Disturbances to follow instead of the seeded sample.
+    disturbances : Grid, Sample, Disturbance or sequence of State or Kick, optional
+        Disturbances to follow instead of the standard set (:class:`~carom.attractors.DisturbanceSet`): a plan, a model
+        of :mod:`carom.disturbances`, of which a sample is drawn, or single starts.  Those that are not possible are
+        left out.
     seed, count, fastest : int, int, float
-        Seed, size and largest speed of the standard set; see :class:`~carom.attractors.DisturbanceSet`.
+        Seed and size of the standard set or of the sample; largest speed of the standard set.
     known : bool
         Whether to add starts next to the motions known in closed form; see :func:`~carom.attractors.known_starts`.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.  How long it lasts is then measured
         (:class:`~carom.attractors.Survival`).  If it is transient, motions are followed beyond the patience until they
         settle, unless that would take too long.
+    threads : int, optional
+        By default the number of available cores; the result does not depend on it.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -164,28 +173,41 @@ def find_attractors(
     Raises
     ------
     InputError
-        A start lies outside the wall, or there is nothing to follow.
+        A start lies outside the wall, none of the disturbances is possible, or there is nothing to follow.
     """
-    rotor = model_of(machine)
-    chosen = DisturbanceSet(count, seed, fastest) if starts is None else None
-    if starts is None:
-        sample = disturbances(rotor, count, seed, fastest)
+    rotor, tell = model_of(machine), progress or (lambda share: None)
+    given: DisturbanceSet | Plan | Sequence[State | Kick]
+    if disturbances is None:
+        given = DisturbanceSet(count, seed, fastest)
     else:
-        sample = tuple(_given(rotor, start) for start in starts)
+        given = Sample(disturbances, count, seed) if isinstance(disturbances, Disturbance) else disturbances
+    tried, starts = disturbances_of(rotor, given)
     orbits = tuple(orbits_within_reach(rotor))
-    sample += known_starts(rotor, orbits) if known else ()
-    if not sample:
+    nearby = known_starts(rotor, orbits) if known else ()
+    if nearby:
+        tried += nearby
+        starts = Starts.joined([starts, starts_at([start.state for start in nearby])])
+    if not tried:
         raise InputError("count", count, "at least one start to follow")
-    groups = Groups(orbits)
-    found = endings_of(rotor, sample, patience, groups.name_of, progress or (lambda share: None))
-    endings = tuple(sorted(found, key=lambda ending: not ending.start.disturbance))
-    members = tuple(groups.attractor(name, endings) for name in groups.names)
+    ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, lambda share: tell(0.9 * share))
+    index, names = name_motions(rotor, ends, orbits)
+    endings = tuple(
+        Ending(rotor, start, names[name], Outcome(code), time, impacts, irregular, survival if long else None)
+        for start, name, code, time, impacts, irregular, long in zip(
+            tried,
+            index.tolist(),
+            ends.outcomes.tolist(),
+            ends.times.tolist(),
+            ends.impacts.tolist(),
+            still_irregular(ends).tolist(),
+            lasted.tolist(),
+            strict=True,
+        )
+    )
+    members = []
+    for name, place in sorted(zip(*np.unique(index, return_index=True), strict=True), key=lambda found: found[1]):
+        state = State(complex(ends.positions[place]), complex(ends.velocities[place]))
+        members.append(attractor_of(names[name], endings, state))
     ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
-    return AttractorSet(rotor, tuple(ordered), endings, chosen, patience)
-
-
-def _given(rotor: Jeffcott, start: State | Kick) -> Start:
-    if isinstance(start, Kick):
-        state = start.state(rotor)
-        return Start("kick", state, f"a kick of {abs(state.velocity):.3g} c_r Omega")
-    return Start("start", start, "a given start")
+    tell(1.0)
+    return AttractorSet(rotor, tuple(ordered), endings, None if isinstance(given, Sequence) else given, patience)

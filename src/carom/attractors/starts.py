@@ -12,13 +12,14 @@ import numpy as np
 
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import runaway_speed
-from carom.disturbances import FASTEST
+from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
+from carom.disturbances.following import require_start
 from carom.models import Jeffcott
-from carom.motions.starts import State
+from carom.motions.starts import Kick, State
 from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
 
-__all__ = ["DISTURBANCES", "DisturbanceSet", "Kind", "Start", "disturbances", "known_starts"]
+__all__ = ["DISTURBANCES", "DisturbanceSet", "Kind", "Start", "disturbances_of", "known_starts", "starts_at"]
 
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]
 
@@ -41,16 +42,16 @@ class Start:
     Attributes
     ----------
     kind : {"kick", "start", "orbit", "rub", "whirl"}
-        A velocity kick out of contact-free levitation; a start anywhere within the clearance; a start next to an orbit
+        A velocity kick out of contact-free levitation; the start after any other disturbance; a start next to an orbit
         or a synchronous rub that is known in closed form; a start in backward whirl along the wall.
     state : State
     words : str
-        Description of the start.
+        Description of a start next to a known motion.
     """
 
     kind: Kind
     state: State
-    words: str
+    words: str = ""
 
     @property
     def disturbance(self) -> bool:
@@ -99,18 +100,17 @@ class DisturbanceSet:
         """Number of kicks in the set; they come first."""
         return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if abs(rotor.equilibrium) < 1.0 else 0
 
-    def states(self, rotor: Jeffcott) -> tuple[np.ndarray, np.ndarray]:
-        """Return positions and velocities in the co-rotating frame, complex arrays of shape (count,)."""
+    def starts(self, rotor: Jeffcott) -> Starts:
+        """Starts, arrays of shape (count,); kicks come first, by increasing size."""
         random, kicks = np.random.default_rng(self.seed), self.kicks(rotor)
         sizes = np.geomspace(min(SLOWEST, self.fastest), self.fastest, kicks // DIRECTIONS)
         angles = 2.0 * math.pi * (np.arange(DIRECTIONS) + random.random((len(sizes), 1))) / DIRECTIONS
-        blows = [cmath.rect(size, angle) for size, row in zip(sizes, angles, strict=True) for angle in row]
-        radii = np.sqrt(random.random((self.count - kicks, 2)))
-        points = radii * np.exp(2j * math.pi * random.random(radii.shape))
-        return (
-            np.concatenate([np.full(kicks, rotor.equilibrium), points[:, 0]]),
-            np.concatenate([np.array(blows, complex), self.fastest * points[:, 1]]),
-        )
+        anywhere = AnyState(self.fastest)
+        (radii, speeds), (places, directions) = (random.random((self.count - kicks, 2)).T for _ in range(2))
+        shares = radii, places, speeds, directions
+        values = (coordinate.at(share) for coordinate, share in zip(anywhere.coordinates, shares, strict=True))
+        kicked = VelocityKick(self.fastest).starts(rotor, sizes[:, None], angles)
+        return Starts.joined([kicked, anywhere.starts(rotor, *values)])
 
     def words(self, rotor: Jeffcott, speed: Callable[[float], str] | None = None) -> str:
         """Describe the disturbances for a given rotor.
@@ -148,28 +148,36 @@ def _speed_of(rotor: Jeffcott) -> Callable[[float], str]:
     return write
 
 
-def disturbances(
-    rotor: Jeffcott, count: int = DISTURBANCES, seed: int = 0, fastest: float = FASTEST
-) -> tuple[Start, ...]:
-    """The disturbances of a :class:`DisturbanceSet` as single starts.
+def starts_at(states: Sequence[State]) -> Starts:
+    """States as arrays of starts."""
+    positions, velocities = ([getattr(state, name) for state in states] for name in ("position", "velocity"))
+    return Starts.of(np.array(positions, complex), np.array(velocities, complex), True)
 
-    Parameters
-    ----------
-    rotor : Jeffcott
-    count, seed, fastest : int, int, float
-        See :class:`DisturbanceSet`.
 
-    Returns
-    -------
-    tuple of Start
-        The same for the same arguments; kicks first, by increasing size.
+def disturbances_of(
+    rotor: Jeffcott, tried: DisturbanceSet | Plan | Sequence[State | Kick]
+) -> tuple[list[Start], Starts]:
+    """Those of the disturbances that are possible, as single starts and as arrays.
+
+    Raises
+    ------
+    InputError
+        None of the disturbances of a plan is possible.
     """
-    chosen = DisturbanceSet(count, seed, fastest)
-    kicks, starts = chosen.kicks(rotor), []
-    for place, (position, velocity) in enumerate(zip(*(part.tolist() for part in chosen.states(rotor)), strict=True)):
-        words = f"a kick of {abs(velocity):.3g} c_r Omega" if place < kicks else "a start within the clearance"
-        starts.append(Start("kick" if place < kicks else "start", State(position, velocity), words))
-    return tuple(starts)
+    if isinstance(tried, Sequence):
+        states = [start.state(rotor) if isinstance(start, Kick) else start for start in tried]
+        whole = starts_at(states)
+        kicked = np.array([isinstance(start, Kick) for start in tried], bool)
+    elif isinstance(tried, DisturbanceSet):
+        whole = tried.starts(rotor)
+        kicked = np.arange(tried.count) < tried.kicks(rotor)
+    else:
+        every = tried.starts(rotor)
+        require_start(rotor, every)
+        whole = every.some(every.exists)
+        kicked = np.full(whole.exists.shape, isinstance(tried.model, VelocityKick | KickPlane))
+    states_of = zip(kicked.tolist(), whole.positions.tolist(), whole.velocities.tolist(), strict=True)
+    return [Start("kick" if one else "start", State(place, speed)) for one, place, speed in states_of], whole
 
 
 def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 
-__all__ = ["Survival", "document_of", "follow_out", "measure_survival", "still_irregular"]
+__all__ = ["Survival", "document_of", "follow_further", "follow_out", "measure_survival", "still_irregular"]
 
 MOTIONS = 200
 """Number of irregular motions that are followed."""
@@ -28,7 +28,7 @@ SEED = 0
 HALF_LIVES = 40
 """Number of half-lives for which transient motions are followed: one in 10¹² lasts longer."""
 AFFORDABLE = 20_000_000
-"""Largest cost of following all irregular motions for one half-life, in impacts: seconds."""
+"""Largest cost of following all irregular motions of a basin for one half-life, in impacts: seconds."""
 
 
 @dataclass(frozen=True)
@@ -163,8 +163,23 @@ def measure_survival(
     return Survival.of(looks[1], LOOK * (len(looks) - 1), sum(left[1:]), sum(looks[1:]), sum(left[1:]))
 
 
+def follow_further(rotor: Jeffcott, endings: Endings, chosen: np.ndarray, **limits: Any) -> Endings:
+    """Follow chosen motions of an ensemble, bool of its shape, from where they are; times and impacts are added up."""
+    further = settle(rotor, endings.positions[chosen], endings.velocities[chosen], **limits)
+    whole = {name: values.copy() for name, values in vars(endings).items()}
+    for name, values in vars(further).items():
+        whole[name][chosen] = values + (whole[name][chosen] if name in ("times", "impacts") else 0)
+    return Endings(**whole)
+
+
 def follow_out(
-    rotor: Jeffcott, endings: Endings, *, impacts: int, threads: int | None = None
+    rotor: Jeffcott,
+    endings: Endings,
+    *,
+    impacts: int,
+    threads: int | None = None,
+    were: Endings | None = None,
+    affordable: int = AFFORDABLE,
 ) -> tuple[Endings, Survival | None]:
     """Follow irregular motions of an ensemble until they settle, if they do.
 
@@ -176,6 +191,10 @@ def follow_out(
         Number of impacts for which irregular motions are followed to measure how long they last.
     threads : int, optional
         By default the number of available cores; the result does not depend on it.
+    were : Endings, optional
+        The same motions at an earlier time, from which the survival is measured if none is irregular any more.
+    affordable : int
+        Largest cost of following all irregular motions for one half-life, in impacts.
 
     Returns
     -------
@@ -184,25 +203,20 @@ def follow_out(
     Survival or None
         ``None`` if none of the motions is irregular.
     """
-    irregular = np.flatnonzero(still_irregular(endings))
-    if not len(irregular):
+    irregular = still_irregular(endings)
+    met, at = (irregular, endings) if irregular.any() or were is None else (still_irregular(were), were)
+    if not met.any():
         return endings, None
-    positions, velocities = endings.positions.ravel(), endings.velocities.ravel()
-    survival = measure_survival(rotor, positions[irregular], velocities[irregular], impacts=impacts, threads=threads)
+    survival = measure_survival(rotor, at.positions[met], at.velocities[met], impacts=impacts, threads=threads)
     if survival.half_life is None:
         return endings, survival
-    whole = {name: values.ravel().copy() for name, values in vars(endings).items()}
     span = max(LOOK, int(survival.half_life))
     for _ in range(HALF_LIVES):
-        if not len(irregular) or len(irregular) * span > AFFORDABLE:
+        if not irregular.any() or np.count_nonzero(irregular) * span > affordable:
             break
-        there = whole["positions"][irregular], whole["velocities"][irregular]
-        further = settle(rotor, *there, patience=span, threads=threads)
-        for name, values in vars(further).items():
-            whole[name][irregular] = values + (whole[name][irregular] if name in ("times", "impacts") else 0)
-        irregular = irregular[still_irregular(further)]
-    shape = endings.outcomes.shape
-    return replace(endings, **{name: values.reshape(shape) for name, values in whole.items()}), survival
+        endings = follow_further(rotor, endings, irregular, patience=span, threads=threads)
+        irregular = still_irregular(endings)
+    return endings, survival
 
 
 def document_of(survival: Survival | None) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 ======================  ==================================================================================
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
 ``dataset``             endings as a dataset with coordinates, units and provenance
-``motions``             names of the motions that starts end on
 ``shares``              shares with their confidence intervals
 ``kicks``               disturbances that provably never reach the wall
 ``losses``              the smallest kicks, shocks, steps and releases that are lost

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from carom.attractors import document_of, follow_out
-from carom.basins.dataset import NO_START, dataset_of, plan_of, provenance
-from carom.basins.motions import name_motions
+from carom.attractors.naming import name_motions
+from carom.basins.dataset import dataset_of, plan_of, provenance
 from carom.basins.shares import Share
-from carom.disturbances import Coordinate, Plan, Sample, Starts
+from carom.disturbances import Coordinate, Plan, Sample
+from carom.disturbances.following import NO_START, follow, require_start
 from carom.models import Jeffcott, Subject, model_of
-from carom.motions.ensembles import MOST_EVENTS, Endings, settle
+from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-__all__ = ["Basin", "follow", "map_basins"]
+__all__ = ["Basin", "map_basins"]
 
 CRITERIA = (
     "levitated: the moduli of the modes leave no later flight room to reach the wall (proof). "
@@ -236,6 +237,7 @@ def map_basins(
     rotor = model_of(machine)
     starts = disturbances.starts(rotor)
     until = longest_time(rotor) if until is None else until
+    require_start(rotor, starts)
     endings = follow(
         rotor,
         starts,
@@ -246,36 +248,11 @@ def map_basins(
         progress=progress,
     )
     endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads)
-    outcomes = np.where(starts.undecided, Outcome.GRAZING, endings.outcomes)
-    outcomes = np.where(starts.exists, outcomes, NO_START).astype(np.int8)
-    motions, names = name_motions(rotor, outcomes, endings)
+    motions, names = name_motions(rotor, endings)
     attributes = {
         **(source or {}),
         **provenance(rotor, disturbances),
         "irregular": json.dumps(document_of(survival) if survival else None),
         "criteria": CRITERIA.format(patience=patience, until=until, events=max_events),
     }
-    return Basin(dataset_of(rotor, disturbances, starts, endings, outcomes, motions, names, attributes))
-
-
-def follow(rotor: Jeffcott, starts: Starts, **limits: Any) -> Endings:
-    """Follow all starts; those that do not exist or are undecided are not followed, and their entries are zero.
-
-    Raises
-    ------
-    InputError
-        None of the starts exists.
-    """
-    if not starts.exists.any():
-        raise InputError(
-            "disturbance",
-            f"|U*| = {abs(rotor.equilibrium):.6g}",
-            "one that is possible: out of levitation inside the wall (|U*| < 1), or a start inside the wall",
-        )
-    chosen = starts.exists & ~starts.undecided
-    found = settle(rotor, starts.positions[chosen], starts.velocities[chosen], **limits)
-    whole = {}
-    for name, values in vars(found).items():
-        whole[name] = np.zeros(chosen.shape, values.dtype)
-        whole[name][chosen] = values
-    return Endings(**whole)
+    return Basin(dataset_of(rotor, disturbances, starts, endings, motions, names, attributes))

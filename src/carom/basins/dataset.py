@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.disturbances import MODELS, Grid, Plan, Sample, Starts, StateSlice
+from carom.disturbances.following import NO_START
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings
 from carom.outcome import InputError, Outcome
@@ -17,10 +18,7 @@ from carom.outcome import InputError, Outcome
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["NO_START", "dataset_of", "plan_of", "provenance"]
-
-NO_START = -1
-"""Flag of a grid point without a start: it lies outside the wall, or the rotor could not levitate before."""
+__all__ = ["dataset_of", "plan_of", "provenance"]
 
 
 def plan_of(document: Mapping[str, Any]) -> Plan:
@@ -62,7 +60,6 @@ def dataset_of(
     plan: Plan,
     starts: Starts,
     endings: Endings,
-    outcomes: np.ndarray,
     motions: np.ndarray,
     names: tuple[str, ...],
     attributes: Mapping[str, str],
@@ -82,7 +79,7 @@ def dataset_of(
     length, speed = {"units": "c_r"}, {"units": "c_r Omega"}
     variables = {
         "outcome": (
-            outcomes,
+            endings.outcomes,
             {
                 "long_name": "where the motion ends",
                 "flag_values": np.array(codes, np.int8),
@@ -101,7 +98,7 @@ def dataset_of(
         "time": (np.where(starts.exists, endings.times, np.nan), time),
         "impacts": (endings.impacts, {"units": "1", "long_name": "impacts until then"}),
         "touched": (
-            _touched(starts, endings, outcomes).astype(np.int8),
+            _touched(starts, endings).astype(np.int8),
             {"units": "1", "long_name": "1 where the rotor met the wall, else 0"},
         ),
         "multiplicity": (
@@ -120,9 +117,9 @@ def dataset_of(
     )
 
 
-def _touched(starts: Starts, endings: Endings, outcomes: np.ndarray) -> np.ndarray:
+def _touched(starts: Starts, endings: Endings) -> np.ndarray:
     """Motions in which the rotor met the wall; one that settles there without an impact slides or rolls."""
-    stays = outcomes > Outcome.LEVITATED
+    stays = endings.outcomes > Outcome.LEVITATED
     touched: np.ndarray = starts.exists & (starts.touched | (endings.impacts > 0) | stays)
     return touched
 

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.basins.dataset import NO_START, plan_of, provenance
+from carom.basins.dataset import plan_of, provenance
 from carom.basins.entropy import entropies
 from carom.basins.integrity_measures import safe_size
 from carom.basins.kicks import smallest_lost
 from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
+from carom.disturbances.following import NO_START
 from carom.models import Jeffcott, Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS, settle
 from carom.motions.settling import PATIENCE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -102,6 +103,15 @@ class Starts(NamedTuple):
         """Broadcast the arrays to one shape; none of the starts is undecided."""
         places, speeds, there = np.broadcast_arrays(np.asarray(positions, complex), velocities, exists)
         return cls(places, speeds.astype(complex), there, np.zeros(places.shape, bool), np.abs(places) >= 1.0 - ON_WALL)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Starts]) -> Starts:
+        """All starts of several sets, one-dimensional."""
+        return cls(*(np.concatenate([values.ravel() for values in alike]) for alike in zip(*parts, strict=True)))
+
+    def some(self, chosen: np.ndarray) -> Starts:
+        """Some of the starts, one-dimensional: those where ``chosen`` is true."""
+        return Starts(*(values[chosen] for values in self))
 
 
 def inside(positions: np.ndarray, velocities: np.ndarray) -> Starts:

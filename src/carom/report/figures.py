@@ -144,9 +144,11 @@ def _file_name(attractor: str) -> str:
 def _history(study: Study, example: Ending) -> Figure:
     """Draw the motion until it has settled, with forces and energies; a return to levitation a little longer."""
     decay = -float(study.rotor.system.exponents.real.max())
-    tail = SHOWN_TAIL / decay if example.outcome is Outcome.LEVITATED and decay > 0 else 0.0
-    end = min(example.time + tail, LONGEST_SHOWN)
-    motion = simulate(study.rotor, example.start.state, end)
+    if example.outcome is Outcome.LEVITATED:
+        end = min(example.time + (SHOWN_TAIL / decay if decay > 0 else 0.0), LONGEST_SHOWN)
+        motion = simulate(study.rotor, example.start.state, end)
+    else:
+        motion = simulate(study.rotor, example.start.state, LONGEST_SHOWN, settle=True)
     if len(motion.contacts) or motion.lasting_contacts:
         return plots.touchdown(motion, energy_ledger(motion))
     return plots.radius(motion, _zones(study, motion.radius(motion.sample())))

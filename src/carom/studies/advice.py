@@ -11,8 +11,8 @@ import numpy as np
 from carom.attractors import DisturbanceSet
 from carom.basins import Share
 from carom.disturbances import FASTEST
+from carom.disturbances.following import follow
 from carom.models import Jeffcott
-from carom.motions.ensembles import settle
 from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
 from carom.studies.alone import LevitationAlone
@@ -154,7 +154,7 @@ def _checked(parameters: Parameters, gain: Gain, value: float, margin: float) ->
 
 def _returned(parameters: Parameters, count: int, seed: int, patience: int = PATIENCE) -> int:
     rotor = Jeffcott(parameters)
-    ends = settle(rotor, *DisturbanceSet(count, seed).states(rotor), patience=patience)
+    ends = follow(rotor, DisturbanceSet(count, seed).starts(rotor), patience=patience)
     return int(np.count_nonzero(ends.recovered))
 
 

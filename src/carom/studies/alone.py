@@ -203,7 +203,7 @@ _ORDER: tuple[Kind, ...] = ("levitation", "whirl", "other")
 
 def _starts(rotor: Jeffcott, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the starts on the wall at the largest speed, followed by the seeded sample, fastest first."""
-    places, speeds = DisturbanceSet(count, SEED).states(rotor)
+    places, speeds, *_ = DisturbanceSet(count, SEED).starts(rotor)
     order = np.argsort(-np.abs(speeds), kind="stable")
     wall = np.exp(2j * math.pi * np.arange(RIM_PLACES) / RIM_PLACES)
     turns = np.exp(2j * math.pi * np.arange(RIM_DIRECTIONS) / RIM_DIRECTIONS)

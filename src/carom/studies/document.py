@@ -296,7 +296,7 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
     scales = parameters.scales
     touched, smallest = touching(found), found.smallest_unrecovered_kick
     document = {
-        "seed": found.sample.seed if found.sample else None,
+        "seed": getattr(found.sample, "seed", None),
         "fastest": found.fastest,
         "patience": found.patience,
         "words": found.words(),

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.attractors import DisturbanceSet
-from carom.basins.motions import name_motions
+from carom.attractors.naming import name_motions
 from carom.basins.shares import CONFIDENCE, Share
+from carom.disturbances.following import follow
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
@@ -68,7 +69,7 @@ class DampingCheck:
 
 def try_disturbances(rotor: Jeffcott, sample: DisturbanceSet, threads: int | None = None) -> DampingCheck:
     """Follow all disturbances of a sample, and count those that do not come back."""
-    endings = settle(rotor, *sample.states(rotor), threads=threads)
+    endings = follow(rotor, sample.starts(rotor), threads=threads)
     return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
 
 
@@ -101,7 +102,7 @@ class Loss(Result):
     @property
     def motion(self) -> str:
         """Name of the motion in which the first start ended."""
-        _, names = name_motions(self.rotor, self.endings.outcomes[:1], _some(self.endings, slice(1)))
+        _, names = name_motions(self.rotor, _some(self.endings, slice(1)))
         return names[0]
 
     def __len__(self) -> int:
@@ -153,11 +154,11 @@ class Losses:
         """Follow a new sample; return the lost starts as soon as there are any, otherwise the check."""
         sample = DisturbanceSet(count, self._new_seed(), self.sample.fastest)
         rotor = self._rotor(gamma)
-        positions, velocities = sample.states(rotor)
+        starts = sample.starts(rotor)
         kicked = np.arange(count) < sample.kicks(rotor)
         order = self.random.permutation(count)
         for portion in (order[:FIRST_LOOK], order[FIRST_LOOK:]):
-            found = self._lost(rotor, kicked[portion], positions[portion], velocities[portion])
+            found = self._lost(rotor, kicked[portion], starts.positions[portion], starts.velocities[portion])
             if found is not None:
                 return found
         return DampingCheck(gamma, 0, sample)

@@ -1,4 +1,4 @@
-"""Names of the motions that starts end on: those of :mod:`carom.attractors`."""
+"""Names of the motions that starts end on."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from carom.attractors.groups import Groups
+from carom.attractors.cycles import Cycle, cycle_of, orbit_of, same_cycle
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings
@@ -15,22 +15,33 @@ from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
 
-__all__ = ["name_motions"]
+__all__ = ["REPEATING", "motion_name", "name_motions"]
 
 ALIKE = 4
 """Decimals to which the speeds at an impact must agree for motions to count as one kind."""
 LOOKED_AT = 400
 """Most kinds of periodic bouncing that are compared; further ones are named by their number of impacts alone."""
 AT_REST = 1e-6
-_PLAIN = {
+REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
+_NAMES = {
     Outcome.LEVITATED: "levitation",
+    Outcome.FORWARD_RUB: "synchronous rub",
     Outcome.BACKWARD_WHIRL: "backward whirl",
     Outcome.ROLLING: "rolling",
 }
-_NOUNS = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
 
 
-def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tuple[np.ndarray, tuple[str, ...]]:
+def motion_name(outcome: Outcome, multiplicity: int) -> str:
+    """Name of a motion that is not a known orbit: ``"2-impact bouncing"``, ``"rolling"`` and so on."""
+    if outcome in REPEATING:
+        noun = REPEATING[outcome]
+        return f"{multiplicity}-impact {noun}" if multiplicity else f"irregular {noun}"
+    return _NAMES.get(outcome, f"unresolved: {outcome.label}")
+
+
+def name_motions(
+    rotor: Jeffcott, endings: Endings, orbits: Sequence[Orbit] | None = None
+) -> tuple[np.ndarray, tuple[str, ...]]:
     """Name the motion each start ends on.
 
     The names of levitation and of motions in lasting contact follow from the outcome.  For periodic bouncing, one
@@ -40,9 +51,10 @@ def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tup
     Parameters
     ----------
     rotor : Jeffcott
-    outcomes : ndarray of int8
-        Negative where there is no start.
     endings : Endings
+        Outcomes are negative where there is no start.
+    orbits : sequence of Orbit, optional
+        The orbits known in closed form; by default they are searched for where they are needed.
 
     Returns
     -------
@@ -51,6 +63,7 @@ def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tup
     names : tuple of str
         The names, in the order of their outcome.
     """
+    outcomes = endings.outcomes
     named = np.full(outcomes.shape, -1, np.int16)
     names: list[str] = []
 
@@ -64,17 +77,17 @@ def name_motions(rotor: Jeffcott, outcomes: np.ndarray, endings: Endings) -> tup
     for code in np.unique(outcomes[outcomes >= 0]):
         outcome = Outcome(code)
         chosen = outcomes == code
-        if outcome in _NOUNS:
-            note(chosen & (endings.multiplicities == 0), f"irregular {_NOUNS[outcome]}")
+        if outcome in REPEATING:
+            chosen &= endings.multiplicities == 0
         elif outcome is Outcome.FORWARD_RUB:
             synchronous = _goes_over_to_rub(rotor, endings)
-            note(chosen & synchronous, "synchronous rub")
             note(chosen & ~synchronous, "drifting rub")
-        else:
-            note(chosen, _PLAIN.get(outcome, f"unresolved: {outcome.label}"))
-    periodic = np.isin(outcomes, list(_NOUNS)) & (endings.multiplicities > 0)
-    for chosen, name in _periodic(rotor, outcomes, endings, np.flatnonzero(periodic)):
-        note(chosen, name)
+            chosen &= synchronous
+        note(chosen, motion_name(outcome, 0))
+    periodic = np.isin(outcomes, list(REPEATING)) & (endings.multiplicities > 0)
+    if periodic.any():
+        for chosen, name in _periodic(rotor, endings, np.flatnonzero(periodic), orbits or _orbits(rotor)):
+            note(chosen, name)
     return named, tuple(names)
 
 
@@ -89,28 +102,39 @@ def _goes_over_to_rub(rotor: Jeffcott, endings: Endings) -> np.ndarray:
 
 
 def _periodic(
-    rotor: Jeffcott, outcomes: np.ndarray, endings: Endings, places: np.ndarray
+    rotor: Jeffcott, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
 ) -> list[tuple[np.ndarray, str]]:
     """Kinds of periodic bouncing: the starts that belong to each, and its name."""
-    if not len(places):
-        return []
     positions, velocities = endings.positions.ravel()[places], endings.velocities.ravel()[places]
-    codes, counts = outcomes.ravel()[places], endings.multiplicities.ravel()[places]
+    codes, counts = endings.outcomes.ravel()[places], endings.multiplicities.ravel()[places]
     radial = positions.real * velocities.real + positions.imag * velocities.imag
     along = positions.real * velocities.imag - positions.imag * velocities.real
     first, kinds = _alike(codes, counts, radial.round(ALIKE), along.round(ALIKE))
-    groups = Groups(_orbits(rotor))
+    known: dict[str, Cycle] = {}
     found = []
     for kind, place in enumerate(first):
-        chosen = np.zeros(outcomes.size, bool)
+        chosen = np.zeros(endings.outcomes.size, bool)
         chosen[places[kinds == kind]] = True
         if kind < LOOKED_AT:
             state = State(complex(positions[place]), complex(velocities[place]))
-            name = groups.name_of(simulate(rotor, state, settle=True))
+            name = _cycle_name(cycle_of(simulate(rotor, state, settle=True)), known, orbits)
         else:
-            name = f"{counts[place]}-impact {_NOUNS[Outcome(codes[place])]}"
-        found.append((chosen.reshape(outcomes.shape), name))
+            name = motion_name(Outcome(codes[place]), counts[place])
+        found.append((chosen.reshape(endings.outcomes.shape), name))
     return found
+
+
+def _cycle_name(cycle: Cycle, known: dict[str, Cycle], orbits: Sequence[Orbit]) -> str:
+    """Name of a cycle; if it is none of those known, it is added to them with a new name."""
+    for name, other in known.items():
+        if same_cycle(other, cycle):
+            return name
+    orbit = orbit_of(cycle, orbits)
+    name = orbit.name if orbit else motion_name(cycle.outcome, cycle.multiplicity)
+    alike = sum(other.split(" (")[0] == name for other in known)
+    name = f"{name} ({alike + 1})" if alike else name
+    known[name] = cycle
+    return name
 
 
 def _alike(*features: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
