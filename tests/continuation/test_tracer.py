@@ -38,6 +38,28 @@ def test_circle_is_a_closed_loop_with_two_folds():
     assert np.abs(branch.unknowns[:, 0] ** 2 + branch.parameters**2 - 1.0).max() < 1e-11
 
 
+def test_an_exact_jacobian_saves_the_differences_and_places_folds_exactly():
+    calls = []
+
+    def counted(u, p):
+        calls.append(p)
+        return cubic(u, p)
+
+    def exact(u, p):
+        return np.array([[3.0 * u[0] ** 2 - 1.0, 1.0]])
+
+    counts, folds = [], []
+    for jacobian in (None, exact):
+        calls.clear()
+        scales = np.array([2.0, 3.0])
+        branch = continue_branch(counted, np.array([-1.3]), 0.9, (-2.0, 3.0), jacobian=jacobian, scales=scales)
+        counts.append(len(calls))
+        folds.append(sorted(point.unknowns[0] for point in branch.of_kind("fold")))
+    assert counts[1] < 0.5 * counts[0]
+    assert np.abs(np.abs(folds[1]) - 3.0**-0.5).max() < 1e-14
+    assert np.abs(np.abs(folds[0]) - 3.0**-0.5).max() > 1e-13
+
+
 @pytest.mark.parametrize("start", [(0.0, 1.0), (0.0, -1.0), (0.6, 0.8), (1e-9, 1.0)])
 def test_circle_from_any_start(start):
     branch = continue_branch(circle, np.array([start[0]]), start[1], (-2.0, 2.0))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Parameters, Scales, unknown_name
@@ -60,7 +60,7 @@ class Axis:
     get : callable
         Returns its value, in SI units if it is physical.
     set : callable
-        Returns numbers with another value of it; numbers that depend on it change too.
+        Returns numbers with another value of it; numbers that depend on it change too.  It is an analytic function.
     """
 
     name: str
@@ -134,8 +134,9 @@ def _with_clearance(numbers: Numbers, clearance: float) -> Numbers:
     return numbers._replace(rho=numbers.rho * ratio, radius_ratio=numbers.radius_ratio * ratio, clearance=clearance)
 
 
-def _root(value: float) -> float:
-    return math.sqrt(value) if value >= 0.0 else math.nan
+def _root(value: complex) -> Any:
+    """Square root, ``nan`` for negative numbers; complex ones have a tiny imaginary part, for derivatives."""
+    return value**0.5 if value.real >= 0.0 else math.nan
 
 
 def _plain(name: str, field: str) -> Axis:

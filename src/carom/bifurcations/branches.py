@@ -19,6 +19,7 @@ from carom.bifurcations.conditions import (
     orbit_of,
     profile_at,
 )
+from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.naming import meeting_at
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
 from carom.orbits.names import OrbitName
@@ -210,6 +211,9 @@ def continue_orbit(
             return np.full(2, np.nan)
         return np.array(conditions_at(numbers_at(p), float(u[0]), float(u[1]))[:2])
 
+    def jacobian(u: np.ndarray, p: float) -> np.ndarray:
+        return orbit_jacobian(numbers_at, (p,), *u.tolist())
+
     def watch(kind: str) -> Watch:
         test = TESTS[kind]
         return Watch(kind, lambda u, p: test(numbers_at(p), float(u[0]), float(u[1])))
@@ -220,6 +224,7 @@ def continue_orbit(
         np.array([orbit.period, orbit.radial_speed]),
         present,
         interval,
+        jacobian=jacobian,
         watches=[watch(kind) for kind in WATCHED],
         steps=steps or STEPS,
         scales=np.array([1.0, 1.0, size]),

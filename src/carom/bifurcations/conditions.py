@@ -181,7 +181,8 @@ def rolling_limit(numbers: Numbers) -> float:
     See :mod:`carom.closed_forms.whirl`.
     """
     speed, mu = numbers.radius_ratio, numbers.mu
-    needed = abs(numbers.gamma) * speed + numbers.rho * math.hypot(1.0, mu)
+    size = numbers.gamma if numbers.gamma.real >= 0.0 else -numbers.gamma
+    needed = size * speed + numbers.rho * (1.0 + mu**2) ** 0.5
     return mu * (speed**2 - numbers.omega**2) - needed
 
 

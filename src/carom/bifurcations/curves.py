@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import TESTS, conditions_at, grazing_equations, profile_at
+from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.steady import happens_to_rubs
@@ -153,7 +154,7 @@ def continue_curve(
     The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
     orbit (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the
     radius is largest as a further unknown, and the equations ``Re(Ū U̇) = 0`` and ``|U| = 1``, which stay regular on its
-    virtual side.
+    virtual side.  All derivatives are exact (:mod:`carom.bifurcations.derivatives`).
 
     Parameters
     ----------
@@ -192,8 +193,11 @@ def continue_curve(
     if kind == "grazing":
         guess.append(profile_at(base, *guess).top)
 
+    def numbers_at(x: float, y: float) -> Numbers:
+        return second.set(first.set(base, x), y)
+
     def numbers(u: np.ndarray, p: float) -> Numbers:
-        return second.set(first.set(base, float(u[-1])), p)
+        return numbers_at(float(u[-1]), p)
 
     def watch(name: str) -> Watch:
         test = TESTS[name]
@@ -202,12 +206,14 @@ def continue_curve(
     edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
     bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), ends_branch=True)] if definition.unknowns else []
     sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
-    equations, scales = _equations(kind, numbers), np.array([*np.ones(definition.unknowns), *sizes])
+    equations, jacobian = _equations(kind, numbers), _jacobian(kind, numbers_at)
+    scales = np.array([*np.ones(definition.unknowns), *sizes])
     branch = continue_branch(
         equations,
         np.array([*guess, start[0]]),
         float(start[1]),
         plane.second_range,
+        jacobian=jacobian,
         watches=[edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=scales,
@@ -215,7 +221,9 @@ def continue_curve(
         folds="turning point",
     )
     shown = np.array([*np.full(definition.unknowns, np.inf), *plane.widths])
-    rows = refined_points(equations, branch, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS)
+    rows = refined_points(
+        equations, branch, jacobian=jacobian, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS
+    )
     return _curve(kind, plane, branch, rows, numbers)
 
 
@@ -243,6 +251,20 @@ def _equations(kind: str, numbers: Callable[[np.ndarray, float], Numbers]) -> Ca
         return np.array([*conditions_at(*at)[:2], test(*at)])
 
     return {0: equilibrium, 2: orbit, 3: grazing}[KINDS[kind].unknowns]
+
+
+def _jacobian(kind: str, numbers_at: Callable[..., Numbers]) -> Callable[[np.ndarray, float], np.ndarray]:
+    """Exact derivatives of the equations of a curve."""
+    test = TESTS[kind]
+
+    def equilibrium(u: np.ndarray, p: float) -> np.ndarray:
+        return analytic_rates(lambda *place: (test(numbers_at(*place), 1.0, 0.0),), float(u[0]), p)
+
+    def orbit(u: np.ndarray, p: float) -> np.ndarray:
+        period, speed, *time, x = u.tolist()
+        return orbit_jacobian(numbers_at, (x, p), period, speed, () if time else (kind,), *time)
+
+    return orbit if KINDS[kind].unknowns else equilibrium
 
 
 def _curve(

@@ -36,7 +36,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
     """Follow the onset of lasting contact, or of permanent contact, in the plane of two parameters.
 
     The equations cease to hold on the curve itself.  So an auxiliary curve next to it is followed, on which the motion
-    lands with a small normal force.  From each of its points the end of the motions is searched along one parameter, as
+    lands with a small normal force; derivatives are central differences of simulations.  From each of its points the end of the motions is searched along one parameter, as
     on a branch.
 
     Parameters

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.bifurcations.curves import Codimension2Point
+from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.passing import Cause
 from carom.bifurcations.planes import Plane
 from carom.parameters import Parameters
@@ -20,8 +19,6 @@ TURNS = {"resonance-1:1": 1.0, "resonance-1:2": -1.0}
 ASIDE = 1e-5
 """Distance of the pair's sum from ±2 at the start of the curve; on some curves it never exceeds 1e-4."""
 ARRIVED, ITERATIONS = 1e-10, 20
-DIFFERENCE = 6e-6
-"""Step of central differences: the cube root of the rounding error."""
 
 
 def beside_resonance(
@@ -30,7 +27,7 @@ def beside_resonance(
     """A point of the Neimark–Sacker curve next to the resonance where it begins.
 
     For the pair of multipliers ``e^{±iα}`` the sum ``2 cos α`` is prescribed; place, period and radial speed are the
-    unknowns.
+    unknowns, found by Newton's method.
 
     Returns
     -------
@@ -39,38 +36,26 @@ def beside_resonance(
     """
     base = Numbers.of(parameters)
     first, second = plane.axes(parameters)
-    sizes = np.array([*plane.widths, point.period, max(abs(point.radial_speed), 0.1)])
     wanted = TURNS[point.kind] * (2.0 - ASIDE)
 
-    def residual(scaled: np.ndarray) -> np.ndarray:
-        x, y, period, speed = (scaled * sizes).tolist()
-        if not period > 0.0:
-            return np.full(4, np.nan)
-        at = conditions_at(second.set(first.set(base, x), y), period, speed)
-        return np.array([at.closing, at.balance, at.neimark_sacker, at.pair_sum - wanted])
+    def numbers_at(x: float, y: float) -> Numbers:
+        return second.set(first.set(base, x), y)
 
-    start = np.array([*point.value, point.period, point.radial_speed]) / sizes
-    found = _newton(residual, start)
-    if found is None:
-        return None
-    x, y, period, speed = (found * sizes).tolist()
-    lows, highs = np.transpose([plane.first_range, plane.second_range])
-    inside = ((lows <= (x, y)) & ((x, y) <= highs)).all()
-    return ((x, y), Cause("neimark-sacker", period, speed)) if inside else None
-
-
-def _newton(residual: Callable[[np.ndarray], np.ndarray], guess: np.ndarray) -> np.ndarray | None:
-    """Root of a function by Newton's method with central differences; ``None`` if it does not converge."""
-    shifts = DIFFERENCE * np.eye(len(guess))
+    period, speed, place = point.period, point.radial_speed, point.value
     for _ in range(ITERATIONS):
-        value = residual(guess)
-        if not np.isfinite(value).all():
+        if not (period > 0.0 and np.isfinite(place).all()):
             return None
+        at = conditions_at(numbers_at(*place), period, speed)
+        value = [at.closing, at.balance, at.neimark_sacker, at.pair_sum - wanted]
         if np.abs(value).max() < ARRIVED:
-            return guess
-        slopes = [(residual(guess + shift) - residual(guess - shift)) / (2.0 * DIFFERENCE) for shift in shifts]
+            lows, highs = np.transpose([plane.first_range, plane.second_range])
+            inside = ((lows <= place) & (place <= highs)).all()
+            return (place, Cause("neimark-sacker", period, speed)) if inside else None
+        slopes = orbit_jacobian(numbers_at, place, period, speed, ("neimark-sacker", "pair-sum"))
         try:
-            guess = guess - np.linalg.solve(np.transpose(slopes), value)
+            change = np.linalg.solve(slopes, value)
         except np.linalg.LinAlgError:
             return None
+        period, speed, x, y = np.subtract([period, speed, *place], change).tolist()
+        place = x, y
     return None

@@ -28,7 +28,6 @@ from carom.bifurcations.lift_offs import LONGEST, LiftOff, Whirl, known, lift_of
 from carom.continuation import Steps, Watch, continue_branch
 from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
-from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
@@ -89,9 +88,11 @@ class RubbingOrbit(Result):
 
     def trajectory(self, periods: float = 1.0) -> Trajectory:
         """Follow the motion from a lift-off."""
-        return simulate(
-            Jeffcott(self.parameters), _start(self.parameters, self.whirl, self.angle), periods * self.period
-        )
+        rotor = Jeffcott(self.parameters)
+        start = lift_off_state(rotor, self.whirl, self.angle)
+        if start is None:
+            raise CaromError(f"the rotor does not lift off at an angle of {self.angle:g} rad from the unbalance")
+        return simulate(rotor, start, periods * self.period)
 
 
 @dataclass(frozen=True)
@@ -186,6 +187,8 @@ def rubbing_orbits(
 
 def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float, float]) -> RubbingBranch:
     """Continue a periodic motion with lasting contact along a parameter, up to the onset of lasting contact.
+
+    The map of lift-offs is simulated, and its derivatives are central differences.
 
     Parameters
     ----------
@@ -318,13 +321,6 @@ def _brackets(shift: Callable[[float], float], angles: list[float]) -> list[tupl
                     note(inner, at_inner, middle, value)
                     inner, at_inner = middle, value
     return brackets
-
-
-def _start(parameters: Parameters, whirl: Whirl, angle: float) -> State:
-    start = lift_off_state(Jeffcott(parameters), whirl, angle)
-    if start is None:
-        raise CaromError(f"the rotor does not lift off at an angle of {angle:g} rad from the unbalance")
-    return start
 
 
 def _orbit(parameters: Parameters, whirl: Whirl, angle: float, longest: float) -> RubbingOrbit | None:

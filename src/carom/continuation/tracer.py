@@ -2,7 +2,7 @@
 
 The branch is a curve in ``x = (u, p)``.  A step predicts along the tangent and corrects by Newton's method in the
 hyperplane normal to it [1]_; the tangent comes from the bordered Jacobian, so folds in ``p`` are ordinary points.
-The zeros of functions that are watched along the branch are located by bracketing in arclength.
+The Jacobian is the caller's, or central differences where there is none.  The zeros of functions that are watched along the branch are located by bracketing in arclength.
 
 References
 ----------
@@ -24,7 +24,7 @@ from carom.outcome import CaromError, InputError
 
 __all__ = ["continue_branch", "refined_points"]
 
-Residual = Callable[[np.ndarray, float], np.ndarray]
+Function = Callable[[np.ndarray, float], np.ndarray]
 
 DIFFERENCE = 6e-6
 """Step of central differences in scaled unknowns: the cube root of the rounding error."""
@@ -40,11 +40,12 @@ HALVINGS = 6
 
 
 def continue_branch(
-    residual: Residual,
+    residual: Function,
     unknowns: np.ndarray,
     parameter: float,
     interval: tuple[float, float],
     *,
+    jacobian: Function | None = None,
     watches: Sequence[Watch] = (),
     steps: Steps | None = None,
     scales: np.ndarray | None = None,
@@ -61,6 +62,9 @@ def continue_branch(
         A solution or a point near one: it is corrected first, at fixed parameter where that is possible.
     interval : tuple of float
         Range of the parameter.  From a start on its edge the branch is followed inward only.
+    jacobian : callable, optional
+        Exact derivatives of ``F`` by ``u`` and ``p``, shape (n, n + 1); ``nan`` where ``F`` is not defined.  By default
+        central differences are taken.
     watches : sequence of Watch
         Functions whose zeros are located.
     steps : Steps, optional
@@ -84,7 +88,7 @@ def continue_branch(
         raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
     start = np.append(np.asarray(unknowns, float), parameter)
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
-    tracer = _Tracer(residual, sizes, interval, watches, steps or Steps(), folds)
+    tracer = _Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds)
     first, tangent = tracer.begin(start / sizes)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
@@ -94,9 +98,10 @@ def continue_branch(
 
 
 def refined_points(
-    residual: Residual,
+    residual: Function,
     branch: Branch,
     *,
+    jacobian: Function | None = None,
     scales: np.ndarray,
     widths: np.ndarray,
     bend: float,
@@ -107,7 +112,7 @@ def refined_points(
     Parameters
     ----------
     residual : callable
-        As for :func:`continue_branch`.
+        As for :func:`continue_branch`, and ``jacobian`` too.
     branch : Branch
     scales : ndarray, shape (n + 1,)
         Typical sizes of the unknowns and the parameter.
@@ -121,7 +126,7 @@ def refined_points(
     ndarray, shape (m, n + 1)
         Unknowns and parameter, in the order of the branch.
     """
-    tracer = _Tracer(residual, scales, (-np.inf, np.inf), (), steps or Steps(), "")
+    tracer = _Tracer(residual, jacobian, scales, (-np.inf, np.inf), (), steps or Steps(), "")
     places = np.concatenate([np.arange(len(branch.parameters)), [point.place for point in branch.special]])
     own = np.column_stack([branch.unknowns, branch.parameters])
     special = np.array([[*point.unknowns, point.parameter] for point in branch.special]).reshape(-1, own.shape[1])
@@ -130,9 +135,7 @@ def refined_points(
     def between(first: np.ndarray, last: np.ndarray, halvings: int) -> list[np.ndarray]:
         chord, middle = last - first, 0.5 * (first + last)
         length = float(np.linalg.norm(chord))
-        if halvings == 0:
-            return []
-        found = tracer.correct(middle, chord / length, tracer.jacobian(middle))
+        found = tracer.correct(middle, chord / length, tracer.jacobian(middle)) if halvings else None
         if found is None or np.linalg.norm(found - middle) > 0.5 * length:
             return []
         if np.linalg.norm((found - middle) * scales / widths) <= bend:
@@ -171,19 +174,26 @@ class _Stand:
 class _Tracer:
     """Steps along a branch in scaled unknowns ``x``."""
 
-    residual: Residual
+    residual: Function
+    slopes: Function | None
     scales: np.ndarray
     interval: tuple[float, float]
     watches: Sequence[Watch]
     steps: Steps
     folds: str
 
-    def value(self, x: np.ndarray) -> np.ndarray:
+    def plain(self, x: np.ndarray) -> tuple[np.ndarray, float]:
+        """Unknowns and parameter without scaling."""
         y = x * self.scales
-        return np.asarray(self.residual(y[:-1], float(y[-1])), float)
+        return y[:-1], float(y[-1])
+
+    def value(self, x: np.ndarray) -> np.ndarray:
+        return np.asarray(self.residual(*self.plain(x)), float)
 
     def jacobian(self, x: np.ndarray) -> np.ndarray:
-        """Central differences, shape (n, n + 1)."""
+        """Derivatives in scaled unknowns, shape (n, n + 1)."""
+        if self.slopes is not None:
+            return np.asarray(self.slopes(*self.plain(x)), float) * self.scales
         changes = DIFFERENCE * np.eye(len(x))
         return np.array([self.value(x + change) - self.value(x - change) for change in changes]).T / (2.0 * DIFFERENCE)
 
@@ -196,15 +206,11 @@ class _Tracer:
             # At a fold the parameter cannot be held fixed.
             for normal in (level, np.linalg.svd(jacobian)[2][-1]):
                 first = self.correct(guess, normal, jacobian)
-                if first is not None and self._inside(first):
+                if first is not None and self._margin(self.plain(first)[1]) >= -1e-9:
                     tangent = np.linalg.svd(self.jacobian(first))[2][-1]
                     return first, tangent if tangent[-1] >= 0.0 else -tangent
-        y = guess * self.scales
-        raise CaromError(f"no solution near the start {y[:-1]} at parameter {y[-1]:g}; give a closer one")
-
-    def _inside(self, x: np.ndarray) -> bool:
-        slack = 1e-9 * (self.interval[1] - self.interval[0])
-        return bool(self.interval[0] - slack <= x[-1] * self.scales[-1] <= self.interval[1] + slack)
+        u, p = self.plain(guess)
+        raise CaromError(f"no solution near the start {u} at parameter {p:g}; give a closer one")
 
     def correct(self, guess: np.ndarray, normal: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
         """Point of the branch in the hyperplane through ``guess``; ``None`` if the iteration does not converge.
@@ -286,18 +292,17 @@ class _Tracer:
 
     def _watched(self, stand: _Stand) -> np.ndarray:
         """Values of the relative distance to the limit, of the watches, and of the fold and branch-point functions."""
-        y = stand.x * self.scales
-        u, p = y[:-1], float(y[-1])
+        u, p = self.plain(stand.x)
         watches = [watch.function(u, p) for watch in self.watches]
         return np.array([self._margin(p), *watches, stand.tangent[-1], self._crossing(stand)])
 
     def _watched_value(self, which: int, x: np.ndarray, here: _Stand) -> float:
         """One of the values of :meth:`_watched`, at a point on the step from ``here``."""
-        y = x * self.scales
+        u, p = self.plain(x)
         if which == 0:
-            return self._margin(float(y[-1]))
+            return self._margin(p)
         if which <= len(self.watches):
-            return self.watches[which - 1].function(y[:-1], float(y[-1]))
+            return self.watches[which - 1].function(u, p)
         jacobian = self.jacobian(x)
         tangent = self._tangent(jacobian, here.tangent)
         stand = _Stand(x, jacobian, here.tangent if tangent is None else tangent)
@@ -363,9 +368,8 @@ class _Tracer:
             return None
         step, back = there.x - here.x, path.points[0] - here.x
         share = float(back @ step / (step @ step))
-        return (
-            share if 0.0 < share <= 1.0 and np.linalg.norm(back - share * step) < 0.1 * np.linalg.norm(step) else None
-        )
+        near = np.linalg.norm(back - share * step) < 0.1 * np.linalg.norm(step)
+        return share if near and 0.0 < share <= 1.0 else None
 
     def joined(self, behind: _Path, ahead: _Path) -> Branch:
         """Both directions as one branch."""
@@ -374,13 +378,13 @@ class _Tracer:
             if stop == "parameter limit":
                 points[end, -1] = min(self.interval, key=lambda limit: abs(limit - points[end, -1]))
         shift = len(behind.points) - 1
-        special = [(kind, x * self.scales, shift - place) for kind, x, place in behind.special]
-        special += [(kind, x * self.scales, shift + place) for kind, x, place in ahead.special]
+        special = [(kind, x, shift - place) for kind, x, place in behind.special]
+        special += [(kind, x, shift + place) for kind, x, place in ahead.special]
         return Branch(
             unknowns=points[:, :-1],
             parameters=points[:, -1],
             special=tuple(
-                SpecialPoint(kind, x[:-1], float(x[-1]), place)
+                SpecialPoint(kind, *self.plain(x), place)
                 for kind, x, place in sorted(special, key=lambda item: item[2])
             ),
             stops=(behind.stop, ahead.stop),

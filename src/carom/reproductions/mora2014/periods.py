@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.bifurcations import Numbers
 from carom.bifurcations.conditions import conditions_at
+from carom.bifurcations.derivatives import orbit_jacobian
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps, continue_branch
 from carom.models import Jeffcott
@@ -111,6 +112,9 @@ def period_pairs() -> tuple[PeriodPair, ...]:
             return np.array([np.nan])
         return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
 
+    def jacobian(u: np.ndarray, gamma: float) -> np.ndarray:
+        return orbit_jacobian(lambda x: base._replace(gamma=x), (gamma,), float(u[0]), 0.0)[:1, [0, 2]]
+
     roots = PeriodCondition(Jeffcott(machine_at(DAMPINGS[0])).system).roots(LONGEST).periods
     pairs = []
     for pair, start in enumerate(roots[::2].tolist(), start=1):
@@ -119,6 +123,7 @@ def period_pairs() -> tuple[PeriodPair, ...]:
             np.array([start]),
             DAMPINGS[0],
             DAMPINGS,
+            jacobian=jacobian,
             steps=Steps(0.005, largest=0.04),
             scales=np.array([1, 0.1]),
         )

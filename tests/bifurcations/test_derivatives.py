@@ -1,0 +1,192 @@
+"""Exact derivatives against differences in 60 digits, and against differences of the equations that are followed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from compilation import sized
+from flint import acb, acb_mat, arb, arb_mat, ctx
+from machines import PAPER, random_parameters
+
+from carom import find_orbits
+from carom.bifurcations import Numbers, branches, continue_orbit, curves
+from carom.bifurcations.conditions import conditions_at
+from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
+from carom.continuation import continue_branch
+from carom.models import Jeffcott
+from carom.parameters import Scales
+
+ctx.prec = 192
+TESTS = ("fold", "speed-fold", "slip-stop", "contact-onset", "period-doubling", "neimark-sacker", "pair-sum")
+
+
+def reference(values: list[arb]) -> list[arb]:
+    """Equations, test functions and the radius at a time, by matrix exponentials in high precision."""
+    gamma, omega, rho, _, mu, d, radius_ratio, period, speed, time = values
+    i, one = acb(0, 1), acb_mat(2, 2, [1, 0, 0, 1])
+    matrix = acb_mat(2, 2, [0, 1, 1 - omega**2 - i * gamma, -gamma - 2 * i])
+    flight = (matrix * period).exp()
+    back = flight * (one - flight).inv()
+    q = (1 + d) * acb(1, mu)
+    lever, turn = q * back[0, 1], q * back[1, 1]
+    rate = (matrix * back * (one + back))[1, 1]
+    approach = acb(1, -turn.imag)
+    force = -matrix[1, 0] * lever + matrix[1, 1] * approach
+    leaving = speed * (approach - q)
+    # The change of the next section with each coordinate of this one, at the time of the next impact.
+    arrivals = flight * acb_mat(2, 3, [i, 0, 0, i * leaving, 1 - q, i])
+    rows = [[], [], []]
+    for k in range(3):
+        late = -arrivals[0, k].real
+        turned = (arrivals[0, k] + approach * late).imag
+        # In the frame that turned with the impact.
+        change = arrivals[1, k] + force * late - i * turned * speed * approach
+        for row, entry in zip(rows, (turned, change.real, change.imag), strict=True):
+            row.append(entry)
+    section = arb_mat(rows)
+    trace, square = section.trace(), (section * section).trace()
+    minors, determinant = (trace**2 - square) / 2, section.det()
+    rest = 1 + lever * speed
+    course = (matrix * time).exp() * acb_mat(2, 1, [1 - rest, leaving])
+    position, velocity = course[0, 0] + rest, course[1, 0]
+    return [
+        1 + turn.real,
+        abs(rest) ** 2 - rho**2 / abs(matrix[1, 0]) ** 2,
+        (q * rate).real,
+        lever.real + abs(lever) ** 2 * speed,
+        radius_ratio + 1 - (turn.imag + mu * (1 + d)) * speed,
+        (-matrix[1, 0] * lever * speed + matrix[1, 1] * leaving).real + abs(leaving) ** 2,
+        1 + trace + minors + determinant,
+        determinant**2 - determinant * trace + minors - 1,
+        trace - determinant,
+        (position.conjugate() * velocity).real,
+        abs(position) ** 2 - 1,
+    ]
+
+
+def derivatives(numbers: Numbers, period: float, speed: float, time: float) -> np.ndarray:
+    """All exact derivatives of one orbit, by the seven numbers, period, radial speed and time."""
+    at, columns = OrbitValues(numbers, period, speed), []
+    for unit in np.eye(10).tolist():
+        change = OrbitChange(at, Direction(*unit[:9]))
+        course = change.course(at.flight_of(time), unit[9])
+        columns.append([*change.equations(), *map(change.test, TESTS), *course])
+    return np.array(columns).T
+
+
+def assert_exact(numbers: Numbers, period: float, speed: float, tolerance: float) -> None:
+    """Compare all derivatives with differences in 60 digits; the tolerance is relative to the largest in each row."""
+    point = [*numbers[:7], period, speed, 0.4 * period]
+    step, columns = arb("1e-20"), []
+    for k in range(10):
+        ends = [[arb(x) + side * step * (place == k) for place, x in enumerate(point)] for side in (1, -1)]
+        columns.append([float((p - q) / (2 * step)) for p, q in zip(*map(reference, ends), strict=True)])
+    expected = np.array(columns).T
+    found = derivatives(numbers, period, speed, 0.4 * period)
+    errors = np.abs(found - expected).max(axis=1) / np.abs(expected).max(axis=1)
+    assert errors.max() < tolerance
+
+
+CRITICAL = 2.0 * PAPER.omega
+CASES = {
+    "paper": (PAPER, 2.8635671446, 0.7332305341),
+    "fold": (PAPER.replace(gamma=0.1780277257), 1.6408219835, 0.6),
+    "critical": (PAPER.replace(gamma=CRITICAL), 1.9, 0.3),
+    "almost critical, below": (PAPER.replace(gamma=CRITICAL * (1.0 - 1e-13)), 1.9, 0.3),
+    "almost critical, above": (PAPER.replace(gamma=CRITICAL * (1.0 + 1e-7)), 1.9, 0.3),
+    "end of the series, above": (PAPER.replace(gamma=2.0 * math.hypot(PAPER.omega, 0.5)), 2.0000001, 0.3),
+    "end of the series, below": (PAPER.replace(gamma=0.0, omega=0.5), 1.9999999, 0.3),
+    "overdamped": (PAPER.replace(gamma=6.0), 4.0, 0.2),
+    "no rebound": (PAPER.replace(d=0.0), 1.3, 0.4),
+    "elastic": (PAPER.replace(d=1.0), 0.9, 0.5),
+    "smooth": (PAPER.replace(mu=0.0), 2.2, 0.8),
+    "no damping": (PAPER.replace(gamma=0.0), 2.2, 0.8),
+    "growing": (PAPER.replace(gamma=-0.3), 2.2, 0.8),
+    "shrunk to a point": (PAPER, 0.7611785497, 0.0),
+    "long": (PAPER, 60.0, 0.8),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_derivatives_near_degenerate_limits(name):
+    parameters, period, speed = CASES[name]
+    # Errors are those of rounding; they grow with the period through the phase of the free motion.
+    assert_exact(Numbers.of(parameters), period, speed, 2e-13 * max(1.0, period))
+
+
+def test_derivatives_with_backward_slip():
+    assert_exact(Numbers.of(PAPER)._replace(mu=-0.4), 2.1, 0.6, 1e-12)
+
+
+def test_derivatives_of_random_machines():
+    random = np.random.default_rng(5)
+    for _ in range(sized(4, 4, 100)):
+        numbers = Numbers.of(random_parameters(random))
+        # The strongest damping here makes e^{-λT} as large as 1e10, whose digits cancel in the return to the start.
+        assert_exact(numbers, float(random.uniform(0.3, 4.0)), float(random.uniform(0.01, 2.0)), 1e-9)
+
+
+def test_the_reference_has_the_functions_of_the_package():
+    at = conditions_at(Numbers.of(PAPER), 2.3, 0.7)
+    found = [float(value) for value in reference([arb(x) for x in (*Numbers.of(PAPER)[:7], 2.3, 0.7, 1.0)])]
+    expected = [at.closing, at.balance, at.period_fold, at.speed_fold, at.slip_stop]
+    assert found[:5] == pytest.approx(expected, rel=1e-13)
+    assert found[6:9] == pytest.approx([at.period_doubling, at.neimark_sacker, at.pair_sum], rel=1e-12)
+
+
+def test_long_flights_of_overdamped_rotors_do_not_overflow():
+    numbers = Numbers.of(PAPER.replace(gamma=30.0))
+    at = OrbitValues(numbers, 100.0, 0.3)
+    assert all(np.isfinite(OrbitChange(at, Direction(gamma=1.0)).equations()))
+
+
+def followed(monkeypatch, module, follow) -> tuple:
+    """The equations, their Jacobian and the branch of a continuation."""
+    caught = []
+
+    def catch(residual, *args, jacobian, **kwargs):
+        branch = continue_branch(residual, *args, jacobian=jacobian, **kwargs)
+        caught.append((residual, jacobian, branch))
+        return branch
+
+    monkeypatch.setattr(module, "continue_branch", catch)
+    follow()
+    monkeypatch.undo()
+    return caught[0]
+
+
+def assert_consistent(residual, jacobian, branch) -> None:
+    """Compare the Jacobian with differences of the fourth order at a few points of the branch."""
+    for i in np.linspace(1, len(branch) - 2, 4).astype(int):
+        x = np.append(branch.unknowns[i], branch.parameters[i])
+        columns = []
+        sizes = np.where(x == 0.0, 1.0, np.abs(x))
+        for k, size in enumerate(sizes):
+            h = 1e-3 * size * np.eye(len(x))[k]
+            near, far = (residual(*split(x + s * h)) - residual(*split(x - s * h)) for s in (1.0, 2.0))
+            columns.append((8.0 * near - far) / (12e-3 * size))
+        differences, exact = np.array(columns).T, jacobian(*split(x))
+        # Differences of the fourth order with relative steps of 1e-3.
+        assert np.abs((exact - differences) * sizes).max() < 1e-7 * max(1.0, np.abs(exact * sizes).max())
+
+
+def split(x: np.ndarray) -> tuple[np.ndarray, float]:
+    return x[:-1], float(x[-1])
+
+
+SCALED = PAPER.replace(scales=Scales(50.0, 0.7e-3, 184.2))
+
+
+@pytest.mark.parametrize(
+    "name", ["gamma", "omega", "rho", "mu", "d", "speed", "mass", "clearance", "damping", "stiffness"]
+)
+def test_branches_along_any_parameter(monkeypatch, name):
+    orbit = find_orbits(Jeffcott(SCALED))["B1,d"]
+    value = curves.Plane("phi", name, (0.0, 1.0), (0.0, 1e9)).place_of(SCALED)[1]
+
+    def follow():
+        continue_orbit(orbit, name, (0.98 * value, 1.02 * value))
+
+    assert_consistent(*followed(monkeypatch, branches, follow))
