@@ -44,6 +44,8 @@ class Ending:
         Time at which the outcome was known, in ``1/Ω``.
     impacts : int
         Impacts until then.
+    touched : bool
+        Whether the rotor met the wall, even if only during a shock or because it started there.
     irregular : bool
         Whether it still bounces irregularly.
     survival : Survival or None
@@ -56,6 +58,7 @@ class Ending:
     outcome: Outcome
     time: float
     impacts: int
+    touched: bool
     irregular: bool = False
     survival: Survival | None = None
 

@@ -191,18 +191,21 @@ def find_attractors(
         raise InputError("count", count, "at least one start to follow")
     ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, lambda share: tell(0.9 * share))
     index, names = name_motions(rotor, ends, orbits)
+    touched = starts.touched | (ends.impacts > 0) | (ends.outcomes > Outcome.LEVITATED)
+    irregular = still_irregular(ends)
     endings = tuple(
-        Ending(rotor, start, names[name], Outcome(code), time, impacts, irregular, survival if long else None)
-        for start, name, code, time, impacts, irregular, long in zip(
-            tried,
-            index.tolist(),
-            ends.outcomes.tolist(),
-            ends.times.tolist(),
-            ends.impacts.tolist(),
-            still_irregular(ends).tolist(),
-            lasted.tolist(),
-            strict=True,
+        Ending(
+            rotor,
+            start,
+            names[index[place]],
+            Outcome(int(ends.outcomes[place])),
+            time=float(ends.times[place]),
+            impacts=int(ends.impacts[place]),
+            touched=bool(touched[place]),
+            irregular=bool(irregular[place]),
+            survival=survival if lasted[place] else None,
         )
+        for place, start in enumerate(tried)
     )
     members = []
     for name, place in sorted(zip(*np.unique(index, return_index=True), strict=True), key=lambda found: found[1]):

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.disturbances import MODELS, Grid, Plan, Sample, Starts, StateSlice
+from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.following import NO_START
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings
-from carom.outcome import InputError, Outcome
+from carom.outcome import Outcome
 
 if TYPE_CHECKING:
     import xarray
@@ -27,15 +27,9 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
     Raises
     ------
     InputError
-        A kind of disturbance that does not exist.
+        A kind of disturbance that is not known.
     """
-    numbers = dict(document["model"])
-    kind = numbers.pop("kind")
-    if kind not in MODELS:
-        raise InputError("disturbance", kind, f"one of: {', '.join(MODELS)}")
-    if kind == StateSlice.kind:
-        numbers["velocity"] = complex(*numbers["velocity"])
-    model = MODELS[kind](**numbers)
+    model = Disturbance.of(document["model"])
     if "cells" in document:
         return Grid(model, tuple(document["cells"]))
     return Sample(model, document["starts"], document["seed"])
@@ -131,12 +125,9 @@ def _axes(rotor: Jeffcott, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]
     axes: dict[str, Any] = {}
     for coordinate, values in zip(coordinates, plan.values(), strict=True):
         along = (coordinate.name,) if grid else ("start",)
-        unit = _UNITS[coordinate.scale]
+        unit, si = coordinate.units
         axes[coordinate.name] = (along, values, {"units": unit, "long_name": coordinate.words})
         if rotor.scales and coordinate.scale:
-            notes = {"units": coordinate.unit, "long_name": coordinate.words}
+            notes = {"units": si, "long_name": coordinate.words}
             axes[f"{coordinate.name}_si"] = (along, values * coordinate.si(rotor.scales), notes)
     return axes, tuple(coordinate.name for coordinate in coordinates) if grid else ("start",)
-
-
-_UNITS = {"": "rad", "velocity": "c_r Omega", "length": "c_r", "acceleration": "c_r Omega^2", "time": "1/Omega"}

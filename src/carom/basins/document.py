@@ -87,13 +87,11 @@ def basin_document(
     return document
 
 
-_SIZES = {"kick": "kick", "shock": "shock", "step": "step", "release": "release_speed"}
-
-
 def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, Any]:
     """Entries of the smallest loss of a kind; all ``None`` if it was not searched."""
     found = smallest if smallest is not None and smallest.kind == kind else None
-    name = f"smallest_unrecovered_{_SIZES[kind]}"
+    size = "release_speed" if kind == "release" else kind
+    name = f"smallest_unrecovered_{size}"
     bracket = [found.all_back, found.size] if found else None
     document: dict[str, Any] = {
         name: found.size if found else None,

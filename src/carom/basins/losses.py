@@ -52,10 +52,11 @@ class SmallestLoss:
 
     Attributes
     ----------
-    kind : {"kick", "shock", "step", "release"}
+    kind : str
+        ``"kick"``, ``"shock"``, ``"step"`` of the unbalance, ``"release"``, or that of another model.
     size : float or None
         Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
-        eccentricity in ``c_r``, or speed along the wall in ``c_r Ω`` (fixed frame).  ``None`` where none was found.
+        eccentricity in ``c_r``, speed along the wall in ``c_r Ω`` (fixed frame), or first coordinate of another model.  ``None`` where none was found.
     angle : float or None
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
         eccentricity after the step to the one before it, relative to the one after; for a release the place on the
@@ -117,8 +118,14 @@ class _Family:
 
 
 def has_sizes(model: Disturbance) -> bool:
-    """Whether :func:`smallest_loss` can search a model: kicks, shocks, steps and releases have a size."""
-    return isinstance(model, VelocityKick | KickPlane | BaseShock | UnbalanceStep | ContactRelease)
+    """Whether :func:`smallest_loss` can search a model: by size and direction, or a kick plane or a release."""
+    return type(model) in (KickPlane, ContactRelease) or _by_size(model)
+
+
+def _by_size(model: Disturbance) -> bool:
+    """Whether the coordinates are a size from 0 and a direction over a full turn."""
+    axes = model.coordinates
+    return len(axes) == 2 and axes[0].low == 0.0 and axes[1].periodic
 
 
 def smallest_loss(
@@ -142,7 +149,8 @@ def smallest_loss(
     ----------
     machine : Machine, Case, Parameters or model
     model : Disturbance
-        A kick, a shock, a step of the unbalance or a release from contact, up to its own largest size (for a step the
+        A kick, a shock, a step of the unbalance, a release from contact, or another model whose coordinates are a size
+        from 0 and a direction over a full turn, up to its own largest size (for a step the
         largest change to the eccentricity of the machine; for a release whirl forward and backward from rest up to
         2 ``c_r Ω``).
     directions, sizes : int
@@ -222,13 +230,9 @@ def smallest_unrecovered_kick(
 
 def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
     """Family of starts through which a disturbance is searched."""
-    if isinstance(model, VelocityKick | KickPlane):
-        kick = VelocityKick(model.fastest)
-        return _Family("kick", kick.fastest, harmless_kick(rotor), lambda *at: kick.starts(rotor, *at))
-    if isinstance(model, BaseShock):
-        shock = model
-        return _Family("shock", shock.peak, harmless_shock(rotor, shock.duration), lambda *at: shock.starts(rotor, *at))
-    if isinstance(model, UnbalanceStep):
+    if type(model) is KickPlane:
+        model = VelocityKick(model.fastest)
+    if type(model) is UnbalanceStep:
         step, now = model, rotor.parameters.rho
 
         def changed(sizes: np.ndarray, angles: np.ndarray) -> Starts:
@@ -236,7 +240,7 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             return step.starts(rotor, np.hypot(x, y), np.arctan2(y, x))
 
         return _Family("step", step.largest + now, harmless_step(rotor), changed)
-    if isinstance(model, ContactRelease):
+    if type(model) is ContactRelease:
 
         def released(sizes: np.ndarray, places: np.ndarray) -> Starts:
             cosine, sine = np.cos(places), np.sin(places)
@@ -247,7 +251,14 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             return Starts.of(positions, velocities, True)
 
         return _Family("release", FASTEST, 0.0, released, turns=2)
-    raise InputError("disturbance", model.kind, "one with a size: a kick, a shock, a step of the unbalance, a release")
+    if not _by_size(model):
+        raise InputError("disturbance", model.kind, "one with a size from 0 and a direction, or a release from contact")
+    harmless = 0.0  # nothing is proven of a subclass, which may start anywhere
+    if type(model) is VelocityKick:
+        harmless = harmless_kick(rotor)
+    elif type(model) is BaseShock:
+        harmless = harmless_shock(rotor, model.duration)
+    return _Family(model.kind, model.coordinates[0].high, harmless, lambda *at: model.starts(rotor, *at))
 
 
 def _all_round(family: _Family, directions: int) -> np.ndarray:
@@ -347,8 +358,8 @@ class _Search:
 
 def size_coordinate(model: Disturbance) -> Coordinate:
     """Coordinate with the description and unit of the size of a disturbance."""
-    if isinstance(model, UnbalanceStep):
-        return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length", "m")
-    if isinstance(model, ContactRelease):
-        return Coordinate("release_speed", "speed along the wall", 0.0, math.inf, "velocity", "m/s")
+    if type(model) is UnbalanceStep:
+        return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length")
+    if type(model) is ContactRelease:
+        return Coordinate("release_speed", "speed along the wall", 0.0, math.inf, "velocity")
     return model.coordinates[0]

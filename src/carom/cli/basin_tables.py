@@ -229,7 +229,7 @@ def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: i
     own = f"{value:.{digits}g} {_UNITS[coordinate.scale]}"
     if scales is None:
         return own
-    factor, unit = _SHOWN[coordinate.unit]
+    factor, unit = _SHOWN[coordinate.units[1]]
     return f"{value * coordinate.si(scales) * factor:.{digits}g} {unit} ({own})"
 
 

@@ -15,6 +15,8 @@ co-rotating frame, from which the motion is free.
 :class:`AnyState`        any position and any velocity
 =======================  =====================================================================================
 
+A subclass of :class:`Disturbance` is a model too, wherever one can be given.
+
 Models and plans load the kernels only when a shock is followed, so that sweeps are planned without them.
 Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  The constructors ``in_si`` take SI numbers and the
 scales of a machine.
@@ -22,8 +24,7 @@ scales of a machine.
 
 from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick, outward_from
 from carom.disturbances.coordinates import Coordinate, Starts
-from carom.disturbances.kinds import MODELS
-from carom.disturbances.model import FASTEST, Disturbance
+from carom.disturbances.model import FASTEST, MODELS, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample, kick_grid
 from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
 

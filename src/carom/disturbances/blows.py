@@ -130,7 +130,7 @@ class BaseShock(Disturbance):
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Peak acceleration and direction."""
-        peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration", "m/s^2")
+        peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration")
         return peak, angle_coordinate("direction", "direction of the shock")
 
     @property

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.parameters import Scales
+from carom.outcome import InputError
+from carom.parameters import UNITS, Scales
 
 __all__ = ["Coordinate", "Starts", "angle_coordinate", "complex_of", "inside", "length_coordinate", "speed_coordinate"]
 
@@ -29,8 +30,6 @@ class Coordinate:
         Dimensionless, or rad.
     scale : str
         Property of :class:`~carom.parameters.Scales` that converts it to SI; empty for angles.
-    unit : str
-        SI unit.
     over_disc : bool
         Whether it is a radius whose weight is uniform over the area of a disc, not over the radius.
     periodic : bool
@@ -42,9 +41,17 @@ class Coordinate:
     low: float
     high: float
     scale: str = ""
-    unit: str = "rad"
     over_disc: bool = False
     periodic: bool = False
+
+    def __post_init__(self) -> None:
+        if self.scale and self.scale not in UNITS:
+            raise InputError("scale", self.scale, f"one of: {', '.join(UNITS)}; empty for an angle")
+
+    @property
+    def units(self) -> tuple[str, str]:
+        """Unit of the equations and SI unit."""
+        return UNITS[self.scale] if self.scale else ("rad", "rad")
 
     def at(self, shares: np.ndarray) -> np.ndarray:
         """Values below which these shares, 0 to 1, of the weight lie."""
@@ -70,12 +77,12 @@ def angle_coordinate(name: str, words: str) -> Coordinate:
 
 def speed_coordinate(name: str, words: str, low: float, high: float, over_disc: bool = False) -> Coordinate:
     """A speed."""
-    return Coordinate(name, words, low, high, "velocity", "m/s", over_disc)
+    return Coordinate(name, words, low, high, "velocity", over_disc)
 
 
 def length_coordinate(name: str, words: str, low: float, high: float, over_disc: bool = False) -> Coordinate:
     """A length."""
-    return Coordinate(name, words, low, high, "length", "m", over_disc)
+    return Coordinate(name, words, low, high, "length", over_disc)
 
 
 class Starts(NamedTuple):

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts
-from carom.outcome import InputError
+from carom.outcome import InputError, shown
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
     from carom.models import Jeffcott
 
-__all__ = ["FASTEST", "Disturbance"]
+__all__ = ["FASTEST", "MODELS", "Disturbance"]
 
 FASTEST = 2.0
 """Default largest speed in ``c_r Ω``: twice that of a whirl that fills the clearance."""
@@ -24,17 +25,38 @@ _SIZES = ("fastest", "peak", "duration", "largest")
 
 @dataclass(frozen=True)
 class Disturbance:
-    """Base class of disturbances; see :mod:`carom.disturbances` for the models."""
+    """Base class of disturbances; see :mod:`carom.disturbances` for the models.
+
+    A subclass of your own is a frozen dataclass with :attr:`coordinates` and :meth:`starts`.  It can be used wherever a
+    model of carom can; results that were saved with it are read where its module has been imported.
+
+    Attributes
+    ----------
+    kind : str
+        Its name in files and results; by default that of the class in lower case.
+    measured_in : dict of str to str
+        Property of :class:`~carom.parameters.Scales` that is the unit of each field with a unit, so that a disturbance
+        keeps its size in SI units where a sweep or a gain map changes the scales.
+    """
 
     kind: ClassVar[str] = ""
     measured_in: ClassVar[dict[str, str]] = {}
 
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        if "kind" not in cls.__dict__:
+            cls.kind = cls.__name__.lower()
+        known = MODELS.get(cls.kind, cls)
+        if known.__qualname__ != cls.__qualname__:
+            raise InputError("kind", cls.kind, f"another name: {known.__qualname__} has this one")
+        MODELS[cls.kind] = cls
+
     def __post_init__(self) -> None:
         for name, scale in self.measured_in.items():
             value = getattr(self, name)
-            if not (np.isfinite(value) and abs(value) > 0.0):
-                raise InputError(name, value, f"a finite number other than 0, in the unit of {scale} of the equations")
-            if name in _SIZES and value < 0.0:
+            if not np.isfinite(value):
+                raise InputError(name, value, f"a finite number, in the unit of {scale} of the equations")
+            if name in _SIZES and value <= 0.0:
                 raise InputError(name, value, "a size, above 0")
 
     @property
@@ -64,5 +86,51 @@ class Disturbance:
         return dataclasses.replace(self, **changes)
 
     def describe(self) -> dict[str, object]:
-        """Kind and numbers of the disturbance."""
-        return {"kind": self.kind, **dataclasses.asdict(self)}
+        """Kind and numbers of the disturbance, as plain data for JSON.
+
+        Raises
+        ------
+        InputError
+            A field of an own subclass that is no number, text, or tuple of these.
+        """
+        numbers = {one.name: _plain(one.name, getattr(self, one.name)) for one in dataclasses.fields(self)}
+        return {"kind": self.kind, **numbers}
+
+    @staticmethod
+    def of(description: Mapping[str, Any]) -> Disturbance:
+        """Disturbance from its description.
+
+        Raises
+        ------
+        InputError
+            A kind of disturbance that is not known.
+        """
+        kind = description["kind"]
+        if kind not in MODELS:
+            known = f"one of: {', '.join(MODELS)}; one of your own must be imported before its results are read"
+            raise InputError("disturbance", kind, known)
+        model = MODELS[kind]
+        return model(**{one.name: _whole(one, description[one.name]) for one in dataclasses.fields(model)})
+
+
+MODELS: dict[str, type[Disturbance]] = {}
+"""Models of disturbances by the names used in files and on the command line."""
+
+
+def _plain(name: str, value: object) -> object:
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, tuple):
+        return [_plain(name, part) for part in value]
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    raise InputError(name, shown(value), "a number, a text, or a tuple of these, so that results can say what was done")
+
+
+def _whole(field: dataclasses.Field[Any], value: Any) -> Any:
+    """Value of a field from plain data, in which complex numbers and tuples are lists."""
+    if field.type in (complex, "complex"):
+        return complex(*value)
+    return tuple(value) if isinstance(value, list) else value

@@ -115,10 +115,6 @@ class StateSlice(Disturbance):
     kind: ClassVar[str] = "slice"
     measured_in: ClassVar[dict[str, str]] = {"velocity": "velocity"}
 
-    def __post_init__(self) -> None:
-        if not cmath.isfinite(self.velocity):
-            raise InputError("velocity", self.velocity, "finite numbers")
-
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Both components of the position."""
@@ -129,10 +125,6 @@ class StateSlice(Disturbance):
         x, y = np.broadcast_arrays(*values)
         positions = complex_of(x, y)
         return inside(positions, np.full(positions.shape, self.velocity))
-
-    def describe(self) -> dict[str, object]:
-        """Kind and numbers of the disturbance."""
-        return {"kind": self.kind, "velocity": [self.velocity.real, self.velocity.imag]}
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.models import Jeffcott
 from carom.outcome import Phase
+from carom.parameters import UNITS
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ class Table(Result):
         si = self.in_si(scales) if scales else {}
         columns = {}
         for name, (scale, unit, words) in self.columns.items():
-            own_unit = _DIMENSIONLESS_UNITS[scale] if scale else unit
+            own_unit = UNITS[scale][0] if scale else unit
             values, unit = si.get(name, (getattr(self, name), own_unit))
             columns[name] = (self.dimension, values, {"units": unit, "long_name": words})
         return xarray.Dataset(columns)
@@ -255,18 +256,6 @@ def phase_flags(phases: Iterable[Phase]) -> dict[str, Any]:
         "flag_values": np.array(kinds, np.int8),
         "flag_meanings": " ".join(phase.label.replace("-", "_") for phase in kinds),
     }
-
-
-_DIMENSIONLESS_UNITS = {
-    "time": "1/Omega",
-    "length": "c_r",
-    "velocity": "c_r Omega",
-    "speed": "Omega",
-    "force": "m c_r Omega^2",
-    "impulse": "m c_r Omega",
-    "energy": "m c_r^2 Omega^2",
-    "power": "m c_r^2 Omega^3",
-}
 
 
 def polar(position: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@
 ``quantities``            text with units -> float in SI units
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           TOML file -> raw tables
-``scaling``               :class:`Scales`, :class:`Parameters`
+``scaling``               :class:`Scales` and their units, :class:`Parameters`
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
@@ -16,13 +16,14 @@ from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSIC
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load
 from carom.parameters.quantities import read_quantity
-from carom.parameters.scaling import Parameters, Scales
+from carom.parameters.scaling import UNITS, Parameters, Scales
 from carom.parameters.sizes import Size, read_size
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",
     "MACHINE_FIELDS",
     "PHYSICAL_PARTNER",
+    "UNITS",
     "Case",
     "Field",
     "Machine",

@@ -13,7 +13,23 @@ from carom.outcome import InputError, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, unknown_name
 from carom.parameters.quantities import read_quantity
 
-__all__ = ["Parameters", "Scales"]
+__all__ = ["UNITS", "Parameters", "Scales"]
+
+UNITS = {
+    "mass": ("m", "kg"),
+    "length": ("c_r", "m"),
+    "time": ("1/Omega", "s"),
+    "speed": ("Omega", "rad/s"),
+    "velocity": ("c_r Omega", "m/s"),
+    "acceleration": ("c_r Omega^2", "m/s^2"),
+    "force": ("m c_r Omega^2", "N"),
+    "impulse": ("m c_r Omega", "N s"),
+    "energy": ("m c_r^2 Omega^2", "J"),
+    "power": ("m c_r^2 Omega^3", "W"),
+    "damping": ("m Omega", "N s/m"),
+    "stiffness": ("m Omega^2", "N/m"),
+}
+"""Units of each property of :class:`Scales`: that of the equations, and the SI unit."""
 
 # Smallest |omega² - 1 + i gamma|, by which the unbalance is divided to get the contact-free equilibrium: below it
 # the equilibrium lies so far out that rounding leaves no digits for positions inside the clearance.

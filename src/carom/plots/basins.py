@@ -69,10 +69,10 @@ class _Shown:
 
 @styled
 def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None = None) -> Figure:
-    """Draw where disturbances end, as a picture that depends on their kind.
+    """Draw where disturbances end, as a picture that depends on their coordinates.
 
-    Kicks and shocks by size and direction: a polar picture, and beside it the shares at each size.  Kicks by components
-    and slices of states: a plane.  Releases from the wall: a ring.  Samples: a bar for each motion with its confidence
+    By size and direction: a polar picture, and beside it the shares at each size.  By two other coordinates, such as the
+    components of a kick: a plane.  Releases from the wall: a ring.  Samples: a bar for each motion with its confidence
     interval.
 
     Parameters
@@ -91,13 +91,14 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
     kind, grid = basin.plan.model.kind, basin.dataset["outcome"].dims != ("start",)
     if not grid:
         return _bars(basin, motions, title)
-    if kind in ("kick", "shock", "unbalance"):
-        return _polar(basin, motions, smallest, title)
     if kind == "release":
         return _ring(basin, motions, title)
-    if kind in ("kick-plane", "slice"):
-        return _plane(basin, motions, smallest, title)
-    raise InputError("basin", f"a grid of {kind}", "kicks, shocks, unbalance steps, releases, a slice, or a sample")
+    if len(basin.coordinates) != 2:
+        raise InputError("basin", f"a grid of {kind}", "a grid over two coordinates, of releases, or a sample")
+    size, direction = basin.coordinates
+    if size.low == 0.0 and direction.periodic:
+        return _polar(basin, motions, smallest, title)
+    return _plane(basin, motions, smallest, title)
 
 
 def _shown(basin: Basin) -> list[_Shown]:
@@ -282,12 +283,13 @@ def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
         handles = [Line2D([], [], ls="none", marker="p", ms=5, mfc="white", mec="#1a1a1a", label="levitation")]
     else:
         factor, label = _axis(x, basin.scales)
-        _, label_across = _axis(y, basin.scales)
-        _paint(axes, factor * x.edges(cells[0]), factor * y.edges(cells[1]), dataset["motion"].values, motions)
+        across, label_across = _axis(y, basin.scales)
+        _paint(axes, factor * x.edges(cells[0]), across * y.edges(cells[1]), dataset["motion"].values, motions)
         axes.set_xlabel(label)
         axes.set_ylabel(label_across)
-        axes.set_aspect("equal")
-        axes.plot([0.0], [0.0], "+", ms=6.0, mew=0.7, color="white")
+        if kind == "kick-plane":
+            axes.set_aspect("equal")
+            axes.plot([0.0], [0.0], "+", ms=6.0, mew=0.7, color="white")
         if smallest is not None and smallest.size is not None:
             turned = smallest.size * np.exp(1j * (smallest.angle or 0.0)) * np.conj(_outward(basin))
             axes.plot([factor * turned.real], [factor * turned.imag], ls="none", gid="smallest", **_LOST)
@@ -361,8 +363,9 @@ def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
             "length": r"$c_\mathrm{r}$",
             "acceleration": r"$c_\mathrm{r}\Omega^2$",
         }
-        return 1.0, f"{coordinate.words} ({unit.get(coordinate.scale, 'rad')})"
-    more, unit_shown = _BRIGHT[coordinate.unit]
+        return 1.0, f"{coordinate.words} ({unit.get(coordinate.scale, coordinate.units[0])})"
+    si = coordinate.units[1]
+    more, unit_shown = _BRIGHT.get(si, (1.0, si))
     return coordinate.si(scales) * more, f"{coordinate.words} ({unit_shown})"
 
 

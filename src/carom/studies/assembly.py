@@ -10,6 +10,7 @@ from typing import Any
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
+from carom.disturbances import Disturbance, Plan
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
@@ -53,7 +54,7 @@ class Study(Result):
     safe_damping : SafeDamping
         The damping above which all disturbances came back, found by simulation at other dampings too.
     fresh : DampingCheck or None
-        If all disturbances of ``attractors`` came back: how many of a larger sample do, at the machine's own damping.
+        If all disturbances of the standard set came back: how many of a larger sample do, at the machine's own damping.
     """
 
     case: Case
@@ -133,12 +134,17 @@ class Study(Result):
         return study_document(self)
 
 
-def study(machine: Subject, *, progress: Progress | None = None) -> Study:
+def study(
+    machine: Subject, disturbances: Plan | Disturbance | None = None, *, progress: Progress | None = None
+) -> Study:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
+    disturbances : Grid, Sample or Disturbance, optional
+        The disturbances followed at the machine's own damping and stiffness instead of the standard set, as in
+        :func:`~carom.attractors.find_attractors`.  At other values the standard kinds are tried.
     progress : callable, optional
         Called with the share done (0 to 1) and a description of the next step.
 
@@ -165,14 +171,18 @@ def study(machine: Subject, *, progress: Progress | None = None) -> Study:
     rotor = Jeffcott(parameters)
     orbits = orbits_within_reach(rotor)
     tell(0.15, "disturbances")
-    found = find_attractors(rotor, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
+    found = find_attractors(rotor, disturbances, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
     ranges = _ranges(parameters, lambda share: tell(0.3 + 0.15 * share, "thresholds of damping and stiffness"))
     tell(0.45, "disturbances where levitation is alone")
     looked_at = [levitation_alone(parameters, gain, ranges) for gain in _gains(parameters)]
     alone = tuple(entry for entry in looked_at if entry is not None)
     tell(0.53, "loss of levitation")
     boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
-    fresh = try_disturbances(rotor, DisturbanceSet(FRESH, seed=1)) if found.recovered == 1.0 else None
+    fresh = (
+        try_disturbances(rotor, DisturbanceSet(FRESH, seed=1))
+        if found.recovered == 1.0 and disturbances is None
+        else None
+    )
     safe = least_safe_damping(
         parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
     )

@@ -63,11 +63,7 @@ def ending_phrase(attractor: str) -> str:
 
 def touching(found: AttractorSet) -> tuple[Ending, ...]:
     """Return the disturbances in which the rotor touched the wall."""
-    return tuple(
-        ending
-        for ending in found.disturbances
-        if ending.impacts > 0 or (ending.outcome.settled and ending.outcome is not Outcome.LEVITATED)
-    )
+    return tuple(ending for ending in found.disturbances if ending.touched)
 
 
 def hardest_impulse(found: AttractorSet) -> float:
@@ -76,7 +72,7 @@ def hardest_impulse(found: AttractorSet) -> float:
 
 
 def kick_sizes(found: AttractorSet) -> tuple[KickSize, ...]:
-    """Return the kicks out of levitation grouped by size, smallest first."""
+    """Return the kicks out of levitation grouped by size, smallest first; none if a size has one direction only."""
     kicks = sorted((ending for ending in found.endings if ending.start.kind == "kick"), key=lambda e: e.start.speed)
     sizes: list[list[Ending]] = []
     for ending in kicks:
@@ -84,7 +80,7 @@ def kick_sizes(found: AttractorSet) -> tuple[KickSize, ...]:
         if not sizes or not math.isclose(ending.start.speed, sizes[-1][0].start.speed, rel_tol=1e-9):
             sizes.append([])
         sizes[-1].append(ending)
-    return tuple(_size(alike) for alike in sizes)
+    return tuple(_size(alike) for alike in sizes) if all(len(alike) > 1 for alike in sizes) else ()
 
 
 def largest_all_back(found: AttractorSet) -> float | None:

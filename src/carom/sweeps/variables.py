@@ -8,18 +8,12 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from carom.parameters import UNITS
+
 __all__ = ["STATUS", "Dimension", "Status", "Variable", "flag_attributes", "with_si"]
 
 Kind = Literal["number", "count", "flag"]
 _DTYPES: dict[Kind, str] = {"number": "<f8", "count": "<i8", "flag": "|i1"}
-_SI_UNITS = {"length": "m", "velocity": "m/s", "force": "N", "impulse": "N s", "damping": "N s/m"}
-_OWN_UNITS = {
-    "length": "c_r",
-    "velocity": "c_r Omega",
-    "force": "m c_r Omega^2",
-    "impulse": "m c_r Omega",
-    "damping": "m Omega",
-}
 
 
 class Status:
@@ -133,7 +127,8 @@ def with_si(variables: Sequence[Variable], has_scales: bool) -> tuple[Variable, 
             found.append(variable)
             continue
         name, words, scale = variable.name, variable.words, variable.scale
-        found.append(Variable(name, words, unit=_OWN_UNITS[scale], scale=scale))
+        own, si = UNITS[scale]
+        found.append(Variable(name, words, unit=own, scale=scale))
         if has_scales:
-            found.append(Variable(f"{name}_si", words, unit=_SI_UNITS[scale]))
+            found.append(Variable(f"{name}_si", words, unit=si))
     return tuple(found)
