@@ -2,9 +2,10 @@
 
 import pytest
 
-from carom.attractors import find_attractors
+from carom.attractors import MotionName, find_attractors
 from carom.models import Jeffcott
 from carom.motions.trajectories import simulate
+from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.studies.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, shown_example, touching
@@ -22,11 +23,11 @@ def found():
 @pytest.mark.parametrize(
     ("attractor", "phrase"),
     [
-        ("B1,d", "bouncing on B1,d"),
-        ("irregular bouncing", "in irregular bouncing"),
-        ("levitation", "in contact-free levitation"),
-        ("rolling", "in rolling backward whirl"),
-        ("unresolved: time-reached", "unresolved: time-reached"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "bouncing on B1,d"),
+        (MotionName(Outcome.BOUNCING), "in irregular bouncing"),
+        (MotionName(Outcome.LEVITATED), "in contact-free levitation"),
+        (MotionName(Outcome.ROLLING), "in rolling backward whirl"),
+        (MotionName(Outcome.TIME_REACHED), "unresolved: time-reached"),
     ],
 )
 def test_endings_follow_a_verb(attractor, phrase):
@@ -72,12 +73,12 @@ def test_example_has_contact_where_there_is_one_with_contact(found):
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("levitation", "contact-free levitation"),
-        ("B1,d", "bouncing on B1,d"),
-        ("R12,a", "bouncing on R12,a"),
-        ("rolling", "rolling backward whirl"),
-        ("2-impact bouncing", "2-impact bouncing"),
-        ("unresolved: grazing", "unresolved: grazing"),
+        (MotionName(Outcome.LEVITATED), "contact-free levitation"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "bouncing on B1,d"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(12, False, False, -1)), "bouncing on R12,a"),
+        (MotionName(Outcome.ROLLING), "rolling backward whirl"),
+        (MotionName(Outcome.BOUNCING, 2), "2-impact bouncing"),
+        (MotionName(Outcome.GRAZING), "unresolved: grazing"),
     ],
 )
 def test_words(name, words):

@@ -7,7 +7,9 @@ from types import SimpleNamespace
 import pytest
 
 import carom
+from carom.attractors import MotionName
 from carom.closed_forms.whirl import rolling
+from carom.outcome import Outcome
 from carom.studies import Wording
 from carom.studies.endings import KickSize
 from carom.studies.findings import _backward_whirl, _smallest_kick
@@ -75,7 +77,7 @@ def test_a_wall_of_steel_would_not_bear_it():
 def test_smallest_kick_is_a_bracket(lost, words):
     study = SimpleNamespace(wording=Wording(None))
     sizes = tuple(
-        KickSize(speed, 12, 12 - count, {"rolling": count} if count else {})
+        KickSize(speed, 12, 12 - count, {MotionName(Outcome.ROLLING): count} if count else {})
         for speed, count in zip((0.1, 0.2, 0.4), lost, strict=True)
     )
     text = _smallest_kick(study, sizes)

@@ -4,14 +4,15 @@
 ``cycles``      the cycle that a settled motion repeats, and the comparison of cycles
 ``following``   starts followed until they settle
 ``survival``    :class:`Survival`: how long irregular motion lasts
-``naming``      names of the motions on which starts end
+``names``       :class:`MotionName`: what a motion is called
+``naming``      the motions on which starts end, by name
 ``groups``      :class:`Attractor`: motions that have settled to the same cycle
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
 """
 
 from carom.attractors.following import Ending
 from carom.attractors.groups import Attractor
-from carom.attractors.naming import motion_name
+from carom.attractors.names import MotionName
 from carom.attractors.search import AttractorSet, find_attractors
 from carom.attractors.starts import DisturbanceSet, Start, known_starts
 from carom.attractors.survival import Survival, document_of, follow_out
@@ -21,11 +22,11 @@ __all__ = [
     "AttractorSet",
     "DisturbanceSet",
     "Ending",
+    "MotionName",
     "Start",
     "Survival",
     "document_of",
     "find_attractors",
     "follow_out",
     "known_starts",
-    "motion_name",
 ]

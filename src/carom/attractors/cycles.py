@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.closed_forms.whirl import rolling
 from carom.motions.settling import closed_orbit
-from carom.motions.trajectories import Trajectory
+from carom.motions.trajectories import REPEATING, Trajectory
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Outcome, Phase
 from carom.results import Result
@@ -70,7 +70,7 @@ def cycle_of(motion: Trajectory) -> Cycle:
     none = np.empty(0, complex)
     if outcome is Outcome.ROLLING:
         return Cycle(outcome, False, rolling(motion.rotor).period, none, none)
-    if outcome not in (Outcome.BOUNCING, Outcome.MIXED):
+    if outcome not in REPEATING:
         resting = outcome is Outcome.LEVITATED or (outcome is Outcome.FORWARD_RUB and abs(motion.final.velocity) < SAME)
         whirling = outcome is Outcome.BACKWARD_WHIRL or (outcome is Outcome.FORWARD_RUB and not resting)
         return Cycle(outcome, resting, _turn_time(motion) if whirling else None, none, none)

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival, follow_further, follow_out, still_irregular
 from carom.disturbances import Starts
@@ -37,7 +38,7 @@ class Ending:
     ----------
     rotor : Jeffcott
     start : Start
-    attractor : str
+    attractor : MotionName
         Name of the :class:`Attractor`.
     outcome : Outcome
     time : float
@@ -54,7 +55,7 @@ class Ending:
 
     rotor: Jeffcott
     start: Start
-    attractor: str
+    attractor: MotionName
     outcome: Outcome
     time: float
     impacts: int

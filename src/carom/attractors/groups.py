@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, whirl_of
 from carom.attractors.following import FIRST_PATIENCE, Ending
-from carom.attractors.naming import REPEATING
+from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
+from carom.motions.trajectories import REPEATING, Trajectory, simulate
 from carom.outcome import Outcome
 from carom.results import Result
 
@@ -24,7 +24,7 @@ class Attractor(Result):
 
     Attributes
     ----------
-    name : str
+    name : MotionName
         ``"levitation"``, ``"B1,d"``, ``"2-impact bouncing"``, ``"irregular bouncing"``, ``"synchronous rub"``,
         ``"rolling"``, ``"unresolved: time-reached"`` and so on.
     words : str
@@ -54,7 +54,7 @@ class Attractor(Result):
         How long it lasts, if it is irregular bouncing.
     """
 
-    name: str
+    name: MotionName
     words: str
     outcome: Outcome
     multiplicity: int
@@ -85,14 +85,14 @@ class Attractor(Result):
         return self.settled and self.outcome is not Outcome.LEVITATED
 
 
-def attractor_of(name: str, endings: Sequence[Ending], state: State) -> Attractor:
+def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> Attractor:
     """Describe the motion on which starts end.
 
     One motion is simulated once more: from a state on it, or from a start if it was given up.
 
     Parameters
     ----------
-    name : str
+    name : MotionName
     endings : sequence of Ending
         Those that end on it and, for the shares, all others.
     state : State
@@ -140,7 +140,7 @@ def _sentence(words: str) -> str:
     return f"{words[0].upper()}{words[1:]}."
 
 
-def _words(cycle: Cycle, name: str) -> str:
+def _words(cycle: Cycle, name: MotionName) -> str:
     if cycle.outcome in REPEATING:
         doing = "bounces" if cycle.outcome is Outcome.BOUNCING else "alternates between bounces and lasting contact"
         if not cycle.multiplicity:

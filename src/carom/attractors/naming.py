@@ -1,47 +1,34 @@
-"""Names of the motions that starts end on."""
+"""The motions on which starts end, by name."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from carom.attractors.cycles import Cycle, cycle_of, orbit_of, same_cycle
+from carom.attractors.names import MotionName
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings
 from carom.motions.starts import State
-from carom.motions.trajectories import simulate
+from carom.motions.trajectories import REPEATING, simulate
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
 
-__all__ = ["REPEATING", "motion_name", "name_motions"]
+__all__ = ["name_motions"]
 
 ALIKE = 4
 """Decimals to which the speeds at an impact must agree for motions to count as one kind."""
 LOOKED_AT = 400
 """Most kinds of periodic bouncing that are compared; further ones are named by their number of impacts alone."""
 AT_REST = 1e-6
-REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
-_NAMES = {
-    Outcome.LEVITATED: "levitation",
-    Outcome.FORWARD_RUB: "synchronous rub",
-    Outcome.BACKWARD_WHIRL: "backward whirl",
-    Outcome.ROLLING: "rolling",
-}
-
-
-def motion_name(outcome: Outcome, multiplicity: int) -> str:
-    """Name of a motion that is not a known orbit: ``"2-impact bouncing"``, ``"rolling"`` and so on."""
-    if outcome in REPEATING:
-        noun = REPEATING[outcome]
-        return f"{multiplicity}-impact {noun}" if multiplicity else f"irregular {noun}"
-    return _NAMES.get(outcome, f"unresolved: {outcome.label}")
 
 
 def name_motions(
     rotor: Jeffcott, endings: Endings, orbits: Sequence[Orbit] | None = None
-) -> tuple[np.ndarray, tuple[str, ...]]:
+) -> tuple[np.ndarray, tuple[MotionName, ...]]:
     """Name the motion each start ends on.
 
     The names of levitation and of motions in lasting contact follow from the outcome.  For periodic bouncing, one
@@ -60,14 +47,14 @@ def name_motions(
     -------
     indices : ndarray of int16
         Index of the name of each; −1 where there is no start.
-    names : tuple of str
+    names : tuple of MotionName
         The names, in the order of their outcome.
     """
     outcomes = endings.outcomes
     named = np.full(outcomes.shape, -1, np.int16)
-    names: list[str] = []
+    names: list[MotionName] = []
 
-    def note(chosen: np.ndarray, name: str) -> None:
+    def note(chosen: np.ndarray, name: MotionName) -> None:
         if not chosen.any():
             return
         if name not in names:
@@ -75,16 +62,16 @@ def name_motions(
         named[chosen] = names.index(name)
 
     for code in np.unique(outcomes[outcomes >= 0]):
-        outcome = Outcome(code)
+        name = MotionName(Outcome(code))
         chosen = outcomes == code
-        if outcome in REPEATING:
+        if name.irregular:
             chosen &= endings.multiplicities == 0
-        elif outcome is Outcome.FORWARD_RUB:
+        elif name.outcome is Outcome.FORWARD_RUB:
             synchronous = _goes_over_to_rub(rotor, endings)
-            note(chosen & ~synchronous, "drifting rub")
+            note(chosen & ~synchronous, replace(name, drifting=True))
             chosen &= synchronous
-        note(chosen, motion_name(outcome, 0))
-    periodic = np.isin(outcomes, list(REPEATING)) & (endings.multiplicities > 0)
+        note(chosen, name)
+    periodic = np.isin(outcomes, REPEATING) & (endings.multiplicities > 0)
     if periodic.any():
         for chosen, name in _periodic(rotor, endings, np.flatnonzero(periodic), orbits or _orbits(rotor)):
             note(chosen, name)
@@ -103,14 +90,14 @@ def _goes_over_to_rub(rotor: Jeffcott, endings: Endings) -> np.ndarray:
 
 def _periodic(
     rotor: Jeffcott, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
-) -> list[tuple[np.ndarray, str]]:
+) -> list[tuple[np.ndarray, MotionName]]:
     """Kinds of periodic bouncing: the starts that belong to each, and its name."""
     positions, velocities = endings.positions.ravel()[places], endings.velocities.ravel()[places]
     codes, counts = endings.outcomes.ravel()[places], endings.multiplicities.ravel()[places]
     radial = positions.real * velocities.real + positions.imag * velocities.imag
     along = positions.real * velocities.imag - positions.imag * velocities.real
     first, kinds = _alike(codes, counts, radial.round(ALIKE), along.round(ALIKE))
-    known: dict[str, Cycle] = {}
+    known: dict[MotionName, Cycle] = {}
     found = []
     for kind, place in enumerate(first):
         chosen = np.zeros(endings.outcomes.size, bool)
@@ -119,20 +106,21 @@ def _periodic(
             state = State(complex(positions[place]), complex(velocities[place]))
             name = _cycle_name(cycle_of(simulate(rotor, state, settle=True)), known, orbits)
         else:
-            name = motion_name(Outcome(codes[place]), counts[place])
+            name = MotionName(Outcome(codes[place]), int(counts[place]))
         found.append((chosen.reshape(endings.outcomes.shape), name))
     return found
 
 
-def _cycle_name(cycle: Cycle, known: dict[str, Cycle], orbits: Sequence[Orbit]) -> str:
+def _cycle_name(cycle: Cycle, known: dict[MotionName, Cycle], orbits: Sequence[Orbit]) -> MotionName:
     """Name of a cycle; if it is none of those known, it is added to them with a new name."""
     for name, other in known.items():
         if same_cycle(other, cycle):
             return name
     orbit = orbit_of(cycle, orbits)
-    name = orbit.name if orbit else motion_name(cycle.outcome, cycle.multiplicity)
-    alike = sum(other.split(" (")[0] == name for other in known)
-    name = f"{name} ({alike + 1})" if alike else name
+    drifting = cycle.outcome is Outcome.FORWARD_RUB and not cycle.synchronous
+    name = MotionName(cycle.outcome, cycle.multiplicity, drifting, orbit.name if orbit else None)
+    alike = sum(replace(other, number=1) == name for other in known)
+    name = replace(name, number=alike + 1)
     known[name] = cycle
     return name
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
+from carom.motions.trajectories import REPEATING
 from carom.outcome import Outcome
 
 __all__ = ["Survival", "document_of", "follow_further", "follow_out", "measure_survival", "still_irregular"]
@@ -114,7 +115,7 @@ def _rounded(number: float) -> str:
 
 def still_irregular(endings: Endings) -> np.ndarray:
     """Which motions still bounce and have not become periodic."""
-    bouncing: np.ndarray = np.isin(endings.outcomes, (Outcome.BOUNCING, Outcome.MIXED))
+    bouncing: np.ndarray = np.isin(endings.outcomes, REPEATING)
     return bouncing & (endings.multiplicities == 0)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.attractors import document_of, follow_out
+from carom.attractors import MotionName, document_of, follow_out
 from carom.attractors.naming import name_motions
 from carom.basins.dataset import dataset_of, plan_of, provenance
 from carom.basins.shares import Share
@@ -52,7 +52,7 @@ class Basin(Result):
     ----------
     dataset : xarray.Dataset
         Dimensions are the coordinates of a grid, or ``start``.  Variables: ``outcome``
-        (:class:`~carom.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the name of the motion),
+        (:class:`~carom.outcome.Outcome`, −1 where there is no start), ``motion`` (index of the motion in its attribute ``motions``),
         ``time`` until the outcome was known, ``impacts`` until then, ``touched`` (whether the rotor met the wall, even
         if only during a shock or because it started there), ``multiplicity`` (impacts per period), and the starts
         ``start_x``, ``start_y``, ``start_vx``, ``start_vy`` in the co-rotating frame.  Lengths in ``c_r``, times in
@@ -141,17 +141,17 @@ class Basin(Result):
         """Number of starts that were given up."""
         return int((self.exists & ~self.resolved).sum())
 
-    @property
-    def motions(self) -> tuple[str, ...]:
+    @cached_property
+    def motions(self) -> tuple[MotionName, ...]:
         """Names of the motions, in the order of their index."""
-        return tuple(json.loads(self.dataset["motion"].attrs["names"]))
+        return tuple(map(MotionName.of, json.loads(self.dataset["motion"].attrs["motions"])))
 
     @property
-    def fractions(self) -> dict[str, float]:
+    def fractions(self) -> dict[MotionName, float]:
         """Share of the starts that end on each motion, the largest first; unresolved ones last."""
         index = self.dataset["motion"].values
         shares = {name: float((index == place).sum()) / self.starts for place, name in enumerate(self.motions)}
-        order = sorted(shares, key=lambda name: (name.startswith("unresolved"), -shares[name]))
+        order = sorted(shares, key=lambda name: (not name.outcome.settled, -shares[name]))
         return {name: shares[name] for name in order}
 
     @property

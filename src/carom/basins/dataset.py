@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.attractors import MotionName
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.following import NO_START
 from carom.models import Jeffcott
@@ -55,7 +57,7 @@ def dataset_of(
     starts: Starts,
     endings: Endings,
     motions: np.ndarray,
-    names: tuple[str, ...],
+    names: tuple[MotionName, ...],
     attributes: Mapping[str, str],
 ) -> xarray.Dataset:
     """Endings as variables over the coordinates of their disturbances, each with unit and description."""
@@ -86,7 +88,7 @@ def dataset_of(
                 "long_name": "motion on which it ends",
                 "flag_values": np.arange(len(names), dtype=np.int16),
                 "flag_meanings": " ".join(name.replace(" ", "_") for name in names),
-                "names": json.dumps(names),
+                "motions": json.dumps([asdict(name) for name in names]),
             },
         ),
         "time": (np.where(starts.exists, endings.times, np.nan), time),

@@ -10,7 +10,7 @@ import numpy as np
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.bifurcations.axes import vary
 from carom.models import Jeffcott
-from carom.motions.trajectories import simulate
+from carom.motions.trajectories import REPEATING, simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.results import Result
@@ -22,7 +22,6 @@ VALUES = 31
 SHOWN_IMPACTS = 60
 LONGEST = 400.0
 TRANSIENT = "irregular transient"
-BOUNCES = (Outcome.BOUNCING, Outcome.MIXED)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -61,6 +60,11 @@ class AttractorSample(Result):
     known: int
     radial_speeds: np.ndarray
     survival: Survival | None = None
+
+    @property
+    def irregular(self) -> bool:
+        """Whether it is irregular bouncing, with or without rub."""
+        return self.survival is not None
 
     @property
     def transient(self) -> bool:
@@ -142,7 +146,7 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
 
 def _impacts(rotor: Jeffcott, attractor: Attractor) -> np.ndarray:
     """Radial speeds of the impacts on an attractor; for a periodic one those of one period."""
-    if attractor.outcome not in BOUNCES:
+    if attractor.outcome not in REPEATING:
         return np.empty(0)
     log = simulate(rotor, attractor.state, LONGEST, max_events=50 * SHOWN_IMPACTS).contacts
     speeds = log.radial_speed[:SHOWN_IMPACTS]

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     import xarray
 
 __all__ = [
+    "REPEATING",
     "EventLog",
     "Trajectory",
     "follow",
@@ -34,6 +35,7 @@ __all__ = [
 ]
 
 REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
+"""Outcomes of motions that keep hitting the wall: periodic, or irregular."""
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""
 

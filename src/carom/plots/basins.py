@@ -22,6 +22,7 @@ from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, st
 from carom.plots.words import number, orbit_symbol
 
 if TYPE_CHECKING:
+    from carom.attractors import MotionName
     from carom.basins import Basin, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
@@ -103,25 +104,22 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
 
 def _shown(basin: Basin) -> list[_Shown]:
     """Return the looks of the motions, sorted by outcome; those of one outcome differ in paleness."""
-    index, outcomes, shares = basin.dataset["motion"].values, basin.outcomes, basin.fractions
-    found = []
-    for place, name in enumerate(basin.motions):
-        outcome = Outcome(int(outcomes[index == place].flat[0]))
-        found.append((place, name, outcome, shares[name]))
+    shares = basin.fractions
     shown: list[_Shown] = []
-    for place, name, outcome, share in sorted(found, key=lambda entry: (entry[2], -entry[3])):
-        look = OUTCOMES["irregular" if name.startswith("irregular") else outcome.label]
+    for place, name in sorted(enumerate(basin.motions), key=lambda entry: (entry[1].outcome, -shares[entry[1]])):
+        look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
         alike = sum(entry.look is look for entry in shown)
         colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
-        shown.append(_Shown(place, look, colour, _words(look, name), share))
+        shown.append(_Shown(place, look, colour, _words(look, name), shares[name]))
     return shown
 
 
-def _words(look: Look, name: str) -> str:
-    if name in ("levitation", "rolling", "backward whirl") or name.startswith(("unresolved", "irregular bouncing")):
-        return look.words if name != "irregular bouncing with rub" else f"{look.words}, with rub"
-    symbol = orbit_symbol(name) if name[0] == "B" and name[1:2].isdigit() else name
-    return f"{look.words}: {symbol}"
+def _words(look: Look, name: MotionName) -> str:
+    if name.irregular:
+        return f"{look.words}, with rub" if name.outcome is Outcome.MIXED else look.words
+    if name.multiplicity or name.outcome is Outcome.FORWARD_RUB:
+        return f"{look.words}: {orbit_symbol(name) if name.orbit else name}"
+    return look.words
 
 
 def _paler(colour: str, white: float) -> str:

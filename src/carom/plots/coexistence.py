@@ -160,8 +160,7 @@ def _joined(intervals: list[Interval]) -> list[Interval]:
 
 
 def _row_of_sample(sample: AttractorSample) -> str:
-    irregular = sample.name.startswith("irregular")
-    return "irregular bouncing" if irregular else _OF_OUTCOME[sample.outcome]
+    return "irregular bouncing" if sample.irregular else _OF_OUTCOME[sample.outcome]
 
 
 def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:

@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.attractors import DisturbanceSet, motion_name
+from carom.attractors import DisturbanceSet, MotionName
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
@@ -52,15 +52,14 @@ class Met:
 
     Attributes
     ----------
-    motion : str
-        Its name, as in :class:`~carom.attractors.Attractor`.
+    motion : MotionName
     value : float
         Value of the gain.
     position, velocity : complex
         A start from which the motion is reached, co-rotating frame.
     """
 
-    motion: str
+    motion: MotionName
     value: float
     position: complex
     velocity: complex
@@ -147,7 +146,7 @@ class _Trial:
     parameters: Parameters
     gain: Gain
     count: int
-    met: dict[tuple[str, float], Met] = field(default_factory=dict)
+    met: dict[tuple[MotionName, float], Met] = field(default_factory=dict)
     clear: list[float] = field(default_factory=list)
     last: dict[Kind, list[tuple[complex, complex]]] = field(default_factory=dict)
     seen: dict[float, Met] = field(default_factory=dict)
@@ -176,7 +175,7 @@ class _Trial:
         for kind, chosen in lost_to.items():
             lost = np.flatnonzero(chosen)
             if len(lost):
-                name = motion_name(Outcome(int(ends.outcomes[lost[0]])), int(ends.multiplicities[lost[0]]))
+                name = MotionName(Outcome(ends.outcomes[lost[0]]), int(ends.multiplicities[lost[0]]))
                 start = complex(positions[lost[0]]), complex(velocities[lost[0]])
                 self.seen[value] = Met(name, value, *start)
                 self._remember(kind, ends, positions, velocities, lost[:REMEMBERED])
@@ -252,10 +251,9 @@ def _parts(trial: _Trial, span: Span, marks: list[tuple[float, Kind]], wanted: t
             continue
         beyond, inside = (value, after) if next_kind in wanted else (after, value)
         seen = trial.seen.get(beyond) or trial.seen.get(inside)
-        name = seen.motion if seen else ""
         if seen:
             trial.met[seen.motion, seen.value] = seen
-        edge = Edge(inside, "simulated", certified=False, motion=name)
+        edge = Edge(inside, "simulated", certified=False, motion=seen.motion if seen else None)
         if start is None:
             start = edge
         else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from carom.attractors import Attractor, AttractorSet, Ending
+from carom.attractors import Attractor, AttractorSet, Ending, MotionName
 from carom.outcome import Outcome
 
 __all__ = [
@@ -20,9 +20,9 @@ __all__ = [
 ]
 
 _WORDS = {
-    "levitation": "contact-free levitation",
-    "rolling": "rolling backward whirl",
-    "backward whirl": "sliding backward whirl",
+    Outcome.LEVITATED: "contact-free levitation",
+    Outcome.ROLLING: "rolling backward whirl",
+    Outcome.BACKWARD_WHIRL: "sliding backward whirl",
 }
 
 
@@ -38,27 +38,25 @@ class KickSize:
         Number of directions tried.
     recovered : int
         Number of kicks that came back to levitation.
-    lost : dict of str to int
+    lost : dict of MotionName to int
         Number of the other kicks by the attractor in which they ended.
     """
 
     speed: float
     directions: int
     recovered: int
-    lost: dict[str, int]
+    lost: dict[MotionName, int]
 
 
-def ending_words(attractor: str) -> str:
-    """Return the name of an attractor for an engineer: ``bouncing on B1,d``, ``rolling backward whirl``."""
-    if attractor[:1] in ("B", "R") and attractor[1:2].isdigit():
-        return f"bouncing on {attractor}"
-    return _WORDS.get(attractor, attractor)
+def ending_words(motion: MotionName) -> str:
+    """Return the name of a motion for an engineer: ``bouncing on B1,d``, ``rolling backward whirl``."""
+    return f"bouncing on {motion}" if motion.orbit else _WORDS.get(motion.outcome, motion)
 
 
-def ending_phrase(attractor: str) -> str:
+def ending_phrase(motion: MotionName) -> str:
     """Return the same to follow a verb: (ends) ``bouncing on B1,d``, (ends) ``in rolling backward whirl``."""
-    words = ending_words(attractor)
-    return words if words.startswith(("bouncing", "unresolved")) else f"in {words}"
+    words = ending_words(motion)
+    return words if motion.orbit or not motion.outcome.settled else f"in {words}"
 
 
 def touching(found: AttractorSet) -> tuple[Ending, ...]:
@@ -94,7 +92,7 @@ def largest_all_back(found: AttractorSet) -> float | None:
 
 
 def _size(alike: list[Ending]) -> KickSize:
-    lost: dict[str, int] = {}
+    lost: dict[MotionName, int] = {}
     for ending in alike:
         if ending.outcome is not Outcome.LEVITATED:
             lost[ending.attractor] = lost.get(ending.attractor, 0) + 1

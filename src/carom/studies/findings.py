@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from carom.attractors.names import LEVITATION
 from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.outcome import Outcome
@@ -200,7 +201,7 @@ def _smallest_kick(study: Study, sizes: tuple[KickSize, ...]) -> str:
 def _endings(study: Study) -> str:
     found = study.attractors
     counts = {member.name: member.count for member in found if member.count}
-    if list(counts) == ["levitation"]:
+    if list(counts) == [LEVITATION]:
         return f"All of them came back to contact-free levitation{_fresh_words(study)}."
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}.{_irregular(found)}"
@@ -329,7 +330,7 @@ def _limit_words(study: Study, limit: DampingLimit | None) -> str:
     say = study.wording
     if limit is None:
         return ""
-    last = _LAST.get(limit.motion, ending_words(limit.motion))
+    last = f"the {limit.motion}" if limit.motion.outcome is Outcome.FORWARD_RUB else ending_words(limit.motion)
     if limit.evidence != "simulation":
         return f"The last motion to go is {last}, at {say.gain('gamma', limit.above)}."
     factor = say.scales.damping if say.scales else 1.0
@@ -351,8 +352,6 @@ def _faster_words(study: Study) -> str:
         f"{'was' if faster.lost <= 1 else 'were'} lost at {say.gain('gamma', faster.gamma)}."
     )
 
-
-_LAST = {"synchronous rub": "the synchronous rub"}
 
 FINDINGS = {
     "Levitation": _levitation,

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.attractors import MotionName
 from carom.bifurcations.boundary import boundary_values
 from carom.closed_forms.whirl import rolling, rub_limit
 from carom.models import Jeffcott
@@ -50,7 +51,7 @@ class Edge:
         Period of the orbit that appears, vanishes or changes there, in ``1/Ω``.
     certified : bool
         Whether the edge is exact, or confirmed by the certified orbits close by on both sides.
-    motion : str
+    motion : MotionName or None
         For the kind ``"simulated"``: the motion in which a disturbance ended beyond the edge.
     """
 
@@ -58,7 +59,7 @@ class Edge:
     kind: str = ""
     period: float | None = None
     certified: bool = True
-    motion: str = ""
+    motion: MotionName | None = None
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
 from carom.orbits.single_impact import Orbit, OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
@@ -138,7 +139,7 @@ def motion_rows(study: Study, most_virtual: int = 8) -> list[MotionRow]:
         If more orbits than this are not possible, they are left out.
     """
     rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors, most_virtual)
-    simple = {"levitation", "synchronous rub", *(orbit.name for orbit in study.orbits)}
+    simple = {LEVITATION, SYNCHRONOUS_RUB, *(orbit.name for orbit in study.orbits)}
     others = [member for member in study.attractors if member.name not in simple]
     return rows + [_seen(study.wording, member, study.attractors, study.rotor.parameters) for member in others]
 
@@ -153,7 +154,7 @@ def simple_motion_rows(
     """Return the rows of equilibria and orbits, with the number of disturbances that ended there, if simulated."""
     rows = []
     for entry in equilibria:
-        name = "levitation" if entry.kind == "contact-free" else "synchronous rub" if entry.stable else ""
+        name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB if entry.stable else ""
         rows.append(_steady(entry, say, _share(found, name), orbits.rotor.parameters))
     virtual = [orbit for orbit in orbits if not orbit.admissible]
     shown = [orbit for orbit in orbits if orbit.admissible or len(virtual) <= most_virtual]

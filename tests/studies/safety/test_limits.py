@@ -3,18 +3,24 @@
 import pytest
 from scipy.stats import binom
 
-from carom.attractors import DisturbanceSet
+from carom.attractors import DisturbanceSet, MotionName
+from carom.attractors.names import SYNCHRONOUS_RUB
 from carom.closed_forms.whirl import runaway_speed
 from carom.models import Jeffcott
+from carom.orbits.names import OrbitName
+from carom.outcome import Outcome
 from carom.parameters import Parameters, Scales
 from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.studies.safety.limits import rounded_up, share_words
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
-RUB = DampingLimit("synchronous rub", 0.3700060375, 0.3700060375, "closed form")
-ORBITS = DampingLimit("B1,d", 0.1780277257, 0.1780277258, "search")
-ROLLING = DampingLimit("rolling", 8.56, 8.57, "closed form")
+ROLLS = MotionName(Outcome.ROLLING)
+RUB = DampingLimit(SYNCHRONOUS_RUB, 0.3700060375, 0.3700060375, "closed form")
+ORBITS = DampingLimit(
+    MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), 0.1780277257, 0.1780277258, "search"
+)
+ROLLING = DampingLimit(ROLLS, 8.56, 8.57, "closed form")
 
 
 def safe(simulated, checks=(0.6, 1.0, 2.0), rolling=ROLLING, scales=SCALES):
@@ -35,13 +41,13 @@ def safe(simulated, checks=(0.6, 1.0, 2.0), rolling=ROLLING, scales=SCALES):
 
 
 def test_limit_is_the_exact_one_unless_a_disturbance_was_lost_above_it():
-    assert safe(DampingLimit("rolling", 0.36, 0.6, "simulation")).within_reach == RUB
-    assert safe(DampingLimit("rolling", 0.38, 0.6, "simulation")).within_reach.motion == "rolling"
+    assert safe(DampingLimit(ROLLS, 0.36, 0.6, "simulation")).within_reach == RUB
+    assert safe(DampingLimit(ROLLS, 0.38, 0.6, "simulation")).within_reach.motion == "rolling"
 
 
 def test_simulated_limit_has_the_digits_of_its_bracket():
-    narrow = safe(DampingLimit("rolling", 0.50113, 0.50614, "simulation"))
-    wide = safe(DampingLimit("rolling", 0.5011, 0.53141, "simulation"))
+    narrow = safe(DampingLimit(ROLLS, 0.50113, 0.50614, "simulation"))
+    wide = safe(DampingLimit(ROLLS, 0.5011, 0.53141, "simulation"))
 
     assert (narrow.within_reach.digits, wide.within_reach.digits) == (3, 2)
     assert "Above gamma = 0.507 (4670 N s/m) all fresh disturbances tried came back" in narrow.words
@@ -50,7 +56,7 @@ def test_simulated_limit_has_the_digits_of_its_bracket():
 
 
 def test_words_name_the_disturbances_their_speed_and_the_confidence():
-    words = safe(DampingLimit("synchronous rub", 0.36, 0.6, "simulation")).words
+    words = safe(DampingLimit(SYNCHRONOUS_RUB, 0.36, 0.6, "simulation")).words
 
     assert words.startswith(
         "The last motion to vanish is the synchronous rub, at gamma = 0.37001 (3408 N s/m), known by a closed form. "
@@ -64,7 +70,7 @@ def test_words_name_the_disturbances_their_speed_and_the_confidence():
 
 
 def test_irregular_bouncing_is_not_called_an_end():
-    words = safe(DampingLimit("irregular bouncing", 0.50113, 0.50614, "simulation")).words
+    words = safe(DampingLimit(MotionName(Outcome.BOUNCING), 0.50113, 0.50614, "simulation")).words
 
     assert "gamma = 0.501 (4620 N s/m) (irregular bouncing, not seen to come back in 20,000 impacts)." in words
 
@@ -78,7 +84,7 @@ def test_share_that_may_be_lost_would_seldom_show_so_few(lost, chance):
 
 
 def test_nothing_is_claimed_without_checks():
-    words = safe(DampingLimit("rolling", 2.0, float("inf"), "simulation"), checks=(), rolling=None).words
+    words = safe(DampingLimit(ROLLS, 2.0, float("inf"), "simulation"), checks=(), rolling=None).words
 
     assert words == (
         "Contact motions survive up to the highest damping looked at, gamma = 2 (18420 N s/m). "
@@ -87,7 +93,7 @@ def test_nothing_is_claimed_without_checks():
 
 
 def test_numbers_without_scales():
-    assert " N s/m" not in safe(DampingLimit("rolling", 0.501, 0.506, "simulation"), scales=None).words
+    assert " N s/m" not in safe(DampingLimit(ROLLS, 0.501, 0.506, "simulation"), scales=None).words
 
 
 @pytest.mark.parametrize(

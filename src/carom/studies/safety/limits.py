@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Literal
 
-from carom.attractors import DisturbanceSet
+from carom.attractors import DisturbanceSet, MotionName
 from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.whirl import Runaway
 from carom.models import Jeffcott
 from carom.motions.settling import PATIENCE
+from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.results import Result
 from carom.studies.safety.losses import DampingCheck
@@ -30,8 +31,7 @@ class DampingLimit:
 
     Attributes
     ----------
-    motion : str
-        ``"synchronous rub"``, ``"rolling"``, or the name of an orbit or attractor.
+    motion : MotionName
     gamma : float
         The largest damping at which the motion was found or is known to exist; for simulation, the largest damping at
         which a disturbance was lost.
@@ -42,7 +42,7 @@ class DampingLimit:
         A closed form; a search over dampings with a complete list of motions at each; simulated disturbances.
     """
 
-    motion: str
+    motion: MotionName
     gamma: float
     above: float
     evidence: Evidence
@@ -57,7 +57,7 @@ class DampingLimit:
     @property
     def settles(self) -> bool:
         """Whether the motion has settled; it is not known whether irregular bouncing ever ends."""
-        return not self.motion.startswith(("irregular", "unresolved"))
+        return self.motion.outcome.settled and not self.motion.irregular
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -166,7 +166,7 @@ class SafeDamping(Result):
     def _rolling(self) -> str:
         if not self.rolling:
             return "Rolling in backward whirl cannot sustain itself at any damping."
-        reached = self.simulated is not None and self.simulated.motion == "rolling"
+        reached = self.simulated is not None and self.simulated.motion.outcome is Outcome.ROLLING
         return (
             f"Rolling in backward whirl sustains itself up to {self._damping(self.rolling.gamma)}: once there, the rotor "
             f"stays. At the limit above, contact surely leads there from backward speeds along the wall over "
@@ -187,13 +187,13 @@ class SafeDamping(Result):
         return f"{speed:.3g} c_r Omega" + (f" ({speed * scales.velocity:.3g} m/s)" if scales else "")
 
 
-def _with_article(motion: str) -> str:
-    return f"the {motion}" if motion == "synchronous rub" else motion
+def _with_article(motion: MotionName) -> str:
+    return f"the {motion}" if motion.outcome is Outcome.FORWARD_RUB else motion
 
 
-def unsettled_words(motion: str) -> str:
+def unsettled_words(motion: MotionName) -> str:
     """Say why a disturbance that has not settled counts as lost."""
-    if motion.startswith("unresolved"):
+    if not motion.outcome.settled:
         return f"{motion}, not seen to come back"
     return f"{motion}, not seen to come back in {PATIENCE:,} impacts"
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.attractors import DisturbanceSet
+from carom.attractors import DisturbanceSet, MotionName
 from carom.attractors.naming import name_motions
 from carom.basins.shares import CONFIDENCE, Share
 from carom.disturbances.following import follow
@@ -100,7 +100,7 @@ class Loss(Result):
         return self.rotor.parameters.gamma
 
     @property
-    def motion(self) -> str:
+    def motion(self) -> MotionName:
         """Name of the motion in which the first start ended."""
         _, names = name_motions(self.rotor, _some(self.endings, slice(1)))
         return names[0]

@@ -7,10 +7,12 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from carom.attractors import DisturbanceSet
+from carom.attractors import DisturbanceSet, MotionName
+from carom.attractors.names import SYNCHRONOUS_RUB
 from carom.closed_forms.whirl import Rolling, rolling, rub_limit, runaway_speed
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott, Subject, model_of
+from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
@@ -102,7 +104,7 @@ def least_safe_damping(
     grid = np.geomspace(highest, lowest, GRID)
     rotor = Jeffcott(parameters)
     end = rub_limit(rotor)
-    rub = DampingLimit("synchronous rub", end, end, "closed form") if end > 0.0 and parameters.d < 1.0 else None
+    rub = DampingLimit(SYNCHRONOUS_RUB, end, end, "closed form") if end > 0.0 and parameters.d < 1.0 else None
     orbits = _end_of_orbits(parameters, grid)
     tell(0.2)
     sample = DisturbanceSet(count, seed, fastest)
@@ -131,16 +133,15 @@ def least_safe_damping(
 def _rolling_limit(roll: Rolling) -> DampingLimit | None:
     if roll.least_force <= 0.0 or roll.largest_damping <= 0.0:
         return None
-    return DampingLimit("rolling", roll.largest_damping, roll.damping_bound, "closed form")
+    return DampingLimit(MotionName(Outcome.ROLLING), roll.largest_damping, roll.damping_bound, "closed form")
 
 
 def _end_of_orbits(parameters: Parameters, grid: np.ndarray) -> DampingLimit | None:
     """Search the grid downward for the first damping with an admissible single-impact orbit, and bisect above it."""
-    clear, found, name = math.inf, 0.0, ""
+    clear = math.inf
     for gamma in grid.tolist():
-        name = _orbit_at(parameters, gamma)
+        found, name = gamma, _orbit_at(parameters, gamma)
         if name:
-            found = gamma
             break
         clear = gamma
     else:
@@ -154,13 +155,13 @@ def _end_of_orbits(parameters: Parameters, grid: np.ndarray) -> DampingLimit | N
             found, name = middle, again
         else:
             clear = middle
-    return DampingLimit(name, found, clear, "search")
+    return DampingLimit(MotionName(Outcome.BOUNCING, 1, orbit=name), found, clear, "search")
 
 
-def _orbit_at(parameters: Parameters, gamma: float) -> str:
-    """Return the name of an admissible single-impact orbit, a stable one if possible; empty if there is none."""
+def _orbit_at(parameters: Parameters, gamma: float) -> OrbitName | None:
+    """Return the name of an admissible single-impact orbit, a stable one if possible."""
     real = [orbit for orbit in orbits_within_reach(Jeffcott(parameters.replace(gamma=gamma))) if orbit.admissible]
-    return min(real, key=lambda orbit: not orbit.stable).name if real else ""
+    return min(real, key=lambda orbit: not orbit.stable).name if real else None
 
 
 class _Search:

@@ -1,0 +1,80 @@
+"""Names of the motions on which starts end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from carom.orbits.names import OrbitName
+from carom.outcome import Outcome
+
+__all__ = ["LEVITATION", "SYNCHRONOUS_RUB", "MotionName"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotionName(str):
+    """Name of a motion, such as ``"levitation"`` or ``"2-impact bouncing"``: a text that also carries what it says.
+
+    Parameters
+    ----------
+    outcome : Outcome
+    multiplicity : int
+        Impacts per period of bouncing; 0 if it is irregular, and for all other motions.
+    drifting : bool
+        Whether a forward rub moves along the wall in the co-rotating frame; otherwise it is synchronous.
+    orbit : OrbitName or None
+        The single-impact orbit that it is.
+    number : int
+        Number among the motions with the same name otherwise, from 1.
+    """
+
+    outcome: Outcome
+    multiplicity: int = 0
+    drifting: bool = False
+    orbit: OrbitName | None = None
+    number: int = 1
+
+    def __new__(
+        cls,
+        outcome: Outcome,
+        multiplicity: int = 0,
+        drifting: bool = False,
+        orbit: OrbitName | None = None,
+        number: int = 1,
+    ) -> MotionName:
+        """Make the text from the parts."""
+        text: str = _NAMES.get(outcome, f"unresolved: {outcome.label}")
+        if orbit is not None:
+            text = orbit
+        elif outcome in _REPEATING:
+            text = f"{f'{multiplicity}-impact' if multiplicity else 'irregular'} {_REPEATING[outcome]}"
+        elif outcome is Outcome.FORWARD_RUB and drifting:
+            text = "drifting rub"
+        return super().__new__(cls, f"{text} ({number})" if number > 1 else text)
+
+    def __getnewargs__(self) -> tuple[Any, ...]:  # for copies and pickles
+        return self.outcome, self.multiplicity, self.drifting, self.orbit, self.number
+
+    @classmethod
+    def of(cls, parts: Mapping[str, Any]) -> MotionName:
+        """Name from its parts as plain data, from :func:`dataclasses.asdict` or JSON."""
+        orbit = OrbitName(**parts["orbit"]) if parts["orbit"] else None
+        return cls(**{**parts, "outcome": Outcome(parts["outcome"]), "orbit": orbit})
+
+    @property
+    def irregular(self) -> bool:
+        """Whether it is bouncing, with or without rub, that did not repeat itself as far as it was followed."""
+        return self.outcome in _REPEATING and not self.multiplicity
+
+
+_REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
+_NAMES = {
+    Outcome.LEVITATED: "levitation",
+    Outcome.FORWARD_RUB: "synchronous rub",
+    Outcome.BACKWARD_WHIRL: "backward whirl",
+    Outcome.ROLLING: "rolling",
+}
+
+LEVITATION = MotionName(Outcome.LEVITATED)
+SYNCHRONOUS_RUB = MotionName(Outcome.FORWARD_RUB)
