@@ -166,7 +166,7 @@ def test_onsets_are_among_the_points_of_a_diagram(chatter):
     for kind in ("contact-onset", "permanent-contact"):
         points = [point for point in found.points if point.kind == kind]
         assert min(abs(point.value - expected[kind]) for point in points) < 1e-9
-        assert all(point.branch.startswith("rubbing") for point in points)
+        assert all(point.motion == "rubbing" for point in points)
 
 
 def test_lift_offs_leave_the_wall():

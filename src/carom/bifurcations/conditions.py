@@ -19,6 +19,7 @@ from carom.orbits.single_impact import Orbit, orbit_at
 from carom.orbits.stability import multipliers
 
 __all__ = [
+    "RESONANCES",
     "TESTS",
     "OrbitConditions",
     "RadialProfile",
@@ -186,6 +187,8 @@ def rolling_limit(numbers: Numbers) -> float:
     return mu * (speed**2 - numbers.omega**2) - needed
 
 
+RESONANCES = {"resonance-1:1": "1:1", "resonance-1:2": "1:2", "resonance-1:3": "1:3", "resonance-1:4": "1:4"}
+"""Kinds of resonances of a pair of multipliers with modulus one, and their ratios."""
 TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "fold": lambda n, period, speed: conditions_at(n, period, speed).period_fold,
     "speed-fold": lambda n, period, speed: conditions_at(n, period, speed).speed_fold,

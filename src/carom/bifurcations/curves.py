@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from carom.bifurcations.axes import Numbers
-from carom.bifurcations.conditions import TESTS, conditions_at, grazing_equations, profile_at
+from carom.bifurcations.conditions import RESONANCES, TESTS, conditions_at, grazing_equations, profile_at
 from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
 from carom.bifurcations.planes import Plane
@@ -39,9 +39,9 @@ class Codimension2Point:
 
     Attributes
     ----------
-    kind : str
-        For example ``"fold + boundary-equilibrium"``; ``"resonance-1:3"`` where a multiplier on a Neimark–Sacker curve is a
-        third root of one, and so on; two multipliers are 1 at ``"resonance-1:1"``, −1 at ``"resonance-1:2"``.
+    kinds : tuple of str
+        For example ``("fold", "boundary-equilibrium")``; ``("resonance-1:3",)`` where a multiplier on a Neimark–Sacker
+        curve is a third root of one, and so on; two multipliers are 1 at ``"resonance-1:1"``, −1 at ``"resonance-1:2"``.
     value : tuple of float
         Its place in the plane.
     period, radial_speed : float
@@ -50,11 +50,21 @@ class Codimension2Point:
         Whether it happens to a motion of the machine, or to one that just stops being one.
     """
 
-    kind: str
+    kinds: tuple[str, ...]
     value: tuple[float, float]
     period: float
     radial_speed: float
     admissible: bool
+
+    @property
+    def kind(self) -> str:
+        """Its kinds as one text, such as ``"fold + boundary-equilibrium"``."""
+        return " + ".join(self.kinds)
+
+    @property
+    def resonance(self) -> str:
+        """Ratio of a resonance, such as ``"1:3"``; otherwise empty."""
+        return RESONANCES.get(self.kinds[0], "")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -296,7 +306,7 @@ def _curve(
         orbits=orbits_on_curve(kind, named) if of_orbits else (),
         codimension2=tuple(
             Codimension2Point(
-                point.kind if point.kind.startswith("resonance") else f"{kind} + {point.kind}",
+                (point.kind,) if point.kind in RESONANCES else (kind, point.kind),
                 (float(point.unknowns[-1]), point.parameter),
                 *(_orbit(kind, point.unknowns) if of_orbits else (np.nan, np.nan)),
                 happens(point.unknowns, point.parameter, 1e-6),

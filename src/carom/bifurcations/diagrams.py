@@ -204,9 +204,8 @@ def _orbit_points(branches: list[OrbitBranch]) -> list[SpecialValue]:
 
 
 def _special_value(point: Bifurcation) -> SpecialValue:
-    return SpecialValue(
-        point.kind, point.name, point.parameter, point.value, point.period, point.radial_speed, point.admissible
-    )
+    at = point.parameter, point.value, point.period, point.radial_speed
+    return SpecialValue(point.kind, "orbit", point.name, *at, point.admissible)
 
 
 def _rubs_alike(motion: RubbingOrbit, value: float, branch: RubbingBranch) -> bool:
@@ -229,7 +228,9 @@ def _rubs_alike(motion: RubbingOrbit, value: float, branch: RubbingBranch) -> bo
 
 def _rubbing_points(branches: list[RubbingBranch]) -> list[SpecialValue]:
     return [
-        SpecialValue(point.kind, f"rubbing {number}", branch.axis.name, point.value, point.period, None, True)
+        SpecialValue(
+            point.kind, "rubbing", f"rubbing {number}", branch.axis.name, point.value, point.period, None, True
+        )
         for number, branch in enumerate(branches, start=1)
         for point in branch.special
     ]

@@ -105,7 +105,7 @@ class RegionMap(Result):
             for i, other in enumerate(found):
                 if self._same(point, other):
                     found[i] = replace(
-                        other, kind=_joined(other, point), admissible=other.admissible or point.admissible
+                        other, kinds=_joined(other, point), admissible=other.admissible or point.admissible
                     )
                     break
             else:
@@ -117,22 +117,21 @@ class RegionMap(Result):
 
         A resonance is never merged with a point of other kinds: it may lie next to a point where two folds meet.
         """
-        alike = sorted(_parts(point)) == sorted(_parts(other))
-        if not alike and ("resonance" in point.kind or "resonance" in other.kind):
+        alike = set(_parts(point)) == set(_parts(other))
+        if not alike and (point.resonance or other.resonance):
             return False
         near = np.abs(np.subtract(point.value, other.value) / self.plane.widths).max() < SAME_POINT
         return bool(near and (alike or abs(point.period - other.period) < SAME_PERIOD * other.period))
 
 
 def _parts(point: Codimension2Point) -> list[str]:
-    parts = point.kind.replace("non-smooth-hopf", "boundary-equilibrium").split(" + ")
-    return sorted(set(parts), key=parts.index)
+    """Kinds of a point, each once; a non-smooth Hopf bifurcation counts as a boundary equilibrium."""
+    return list(dict.fromkeys({"non-smooth-hopf": "boundary-equilibrium"}.get(kind, kind) for kind in point.kinds))
 
 
-def _joined(point: Codimension2Point, other: Codimension2Point) -> str:
-    """Kinds of both points: the kind of the first, extended by those kinds of the second that it lacks."""
-    missing = [part for part in _parts(other) if part not in _parts(point)]
-    return " + ".join([point.kind, *missing])
+def _joined(point: Codimension2Point, other: Codimension2Point) -> tuple[str, ...]:
+    """Kinds of both points: those of the first, and those of the second that it lacks."""
+    return *point.kinds, *(part for part in _parts(other) if part not in _parts(point))
 
 
 def map_regions(
@@ -215,7 +214,7 @@ def _through_diagram(
     """Add to the known curves those through the special points of a diagram; failures are appended to ``lost``."""
     name = diagram.parameter
     for point in diagram.points:
-        if point.kind not in KINDS or not (virtual or point.admissible) or point.branch.startswith("rubbing"):
+        if point.kind not in KINDS or not (virtual or point.admissible) or point.motion == "rubbing":
             continue
         at, cause = vary(base, name, point.value), Cause(point.kind, point.period, point.radial_speed)
         if not any(passes(curve, plane.place_of(at), cause) for curve in curves):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -26,6 +27,7 @@ __all__ = [
 ]
 
 SAMPLES = 201
+MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
 
 
 @dataclass(frozen=True)
@@ -37,8 +39,11 @@ class SpecialValue:
     kind : str
         Kind of a :class:`~carom.bifurcations.branches.Bifurcation`, or ``"boundary-equilibrium"``, ``"rub-fold"`` or
         ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at every angle).
+    motion : {"orbit", "contact-free", "rub", "rolling", "rubbing"}
+        Kind of the motion it belongs to: an orbit with one impact a period, a steady motion, or a periodic motion with
+        lasting contact.
     branch : str
-        Orbit or steady motion it belongs to.
+        Name of that motion.
     parameter : str
     value : float
         Value of the parameter, in SI units if it is physical.
@@ -52,6 +57,7 @@ class SpecialValue:
     """
 
     kind: str
+    motion: MotionKind
     branch: str
     parameter: str
     value: float
@@ -113,8 +119,12 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
     base = Numbers.of(parameters)
     grid = np.linspace(*interval, SAMPLES).tolist()
     points = []
-    kinds = (("boundary-equilibrium", "contact-free"), ("rub-fold", "rub"), ("rolling-limit", "rolling"))
-    for kind, branch in kinds:
+    kinds: dict[str, MotionKind] = {
+        "boundary-equilibrium": "contact-free",
+        "rub-fold": "rub",
+        "rolling-limit": "rolling",
+    }
+    for kind, motion in kinds.items():
 
         def function(value: float, kind: str = kind) -> float:
             return TESTS[kind](along.set(base, value), 1.0, 0.0)
@@ -125,7 +135,7 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
             at = along.set(base, root)
             real = {"rub-fold": happens_to_rubs, "rolling-limit": _rolling_keeps_contact}.get(kind, lambda _: True)(at)
             detail = _boundary_kind(at) if kind == "boundary-equilibrium" else ""
-            points.append(SpecialValue(kind, branch, along.name, root, None, None, real, detail))
+            points.append(SpecialValue(kind, motion, motion, along.name, root, None, None, real, detail))
     return points
 
 

@@ -45,7 +45,7 @@ def meeting_table(found: RegionMap, names: Names, named: Callable[[str], str]) -
     """Return the table of codimension-2 points."""
     table = _table("Where two happen at once, and resonances", "kinds", *names, "period (1/Ω)", "")
     for point in found.codimension2:
-        kinds = " + ".join(named(kind) for kind in point.kind.split(" + "))
+        kinds = " + ".join(named(kind) for kind in point.kinds)
         period = "" if point.period != point.period else f"{point.period:.6g}"
         table.add_row(kinds, *(f"{value:.8g}" for value in point.value), period, "" if point.admissible else "virtual")
     return table

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
-    from carom.bifurcations import AttractorSample, Diagram, OrbitBranch
+    from carom.bifurcations import AttractorSample, Diagram, OrbitBranch, SpecialValue
 
 Interval = tuple[float, float]
 
@@ -52,11 +52,9 @@ def rows_of(diagram: Diagram) -> list[str]:
     return [row for row in ROWS if exists.get(row, False) or row in present]
 
 
-def row_of_point(branch: str) -> str | None:
-    """Return the row in which a special point of a branch is marked; ``None`` if it belongs to another panel."""
-    if branch.startswith("rubbing"):
-        return "bouncing with rub"
-    return "backward whirl" if branch == "rolling" else None
+def row_of_point(point: SpecialValue) -> str | None:
+    """Return the row in which a special point is marked; ``None`` if it belongs to another panel."""
+    return {"rubbing": "bouncing with rub", "rolling": "backward whirl"}.get(point.motion)
 
 
 def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:

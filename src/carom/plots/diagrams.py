@@ -133,12 +133,12 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
     heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
     seen = set()
     for point in diagram.points:
-        row, look = row_of_point(point.branch), _look_of(point)
+        row, look = row_of_point(point), _look_of(point)
         axes, height = upper, point.radial_speed
         if row is not None:
             axes, height = below, heights.get(row)
         elif height is None:
-            axes, height = lower, _height(diagram, point.branch, point.value)
+            axes, height = lower, _height(diagram, point)
         if height is None:
             continue
         _mark(axes, look, point.value / unit, float(height), point.admissible)
@@ -245,13 +245,13 @@ def _top(branch: EquilibriumBranch) -> float:
     return 1.1 * float(heights.max()) if len(heights) else 0.0
 
 
-def _height(diagram: Diagram, branch: str, value: float) -> float:
+def _height(diagram: Diagram, point: SpecialValue) -> float:
     """Return the height of an equilibrium's special point: zero for levitation, the common force where rubs meet."""
-    if branch == "contact-free":
+    if point.motion == "contact-free":
         return 0.0
     rubs = [entry for entry in diagram.equilibria if entry.kind == "stable rub"]
     known = np.isfinite(rubs[0].normal_force)
-    nearest = int(np.argmin(np.where(known, np.abs(rubs[0].values - value), np.inf)))
+    nearest = int(np.argmin(np.where(known, np.abs(rubs[0].values - point.value), np.inf)))
     saddle = next(entry for entry in diagram.equilibria if entry.kind == "saddle rub")
     return float(np.nanmean([rubs[0].normal_force[nearest], saddle.normal_force[nearest]]))
 

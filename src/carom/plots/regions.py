@@ -100,7 +100,7 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
         entries.setdefault(words, Line2D([], [], ls="none", marker=marker, ms=size, mfc=filled, mec=edge, label=words))
 
     for point in found.codimension2:
-        resonance = point.kind.startswith("resonance")
+        resonance = point.resonance
         words = "resonance of the multipliers" if resonance else "two at once"
         mark(
             point.value,
@@ -110,10 +110,9 @@ def _mark_points(axes: Axes, found: RegionMap, units: np.ndarray) -> list[Line2D
             _BLACK if point.admissible else "none",
         )
         if resonance:
-            ratio, place = point.kind.partition("-")[2], np.array(point.value) / units
             axes.annotate(
-                ratio,
-                place,
+                resonance,
+                np.array(point.value) / units,
                 (-4.0, -4.0),
                 textcoords="offset points",
                 fontsize=6.5,

@@ -81,7 +81,7 @@ class DampingStiffnessPlane(Result):
 
     def meeting(self, first: str, second: str) -> Codimension2Point:
         """Return the point at which two curves meet."""
-        return next(point for point in self.curve(first).codimension2 if point.kind == f"{first} + {second}")
+        return next(point for point in self.curve(first).codimension2 if point.kinds == (first, second))
 
 
 def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
