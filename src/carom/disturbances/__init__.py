@@ -24,7 +24,8 @@ scales of a machine.
 
 from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick, outward_from
 from carom.disturbances.coordinates import Coordinate, Starts
-from carom.disturbances.model import FASTEST, MODELS, Disturbance
+from carom.disturbances.kinds import MODELS
+from carom.disturbances.model import FASTEST, Disturbance
 from carom.disturbances.plans import Grid, Plan, Sample, kick_grid
 from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
 

@@ -16,7 +16,7 @@ from carom.parameters import Scales
 if TYPE_CHECKING:
     from carom.models import Jeffcott
 
-__all__ = ["FASTEST", "MODELS", "Disturbance"]
+__all__ = ["FASTEST", "Disturbance"]
 
 FASTEST = 2.0
 """Default largest speed in ``c_r Ω``: twice that of a whirl that fills the clearance."""
@@ -46,10 +46,10 @@ class Disturbance:
         super().__init_subclass__(**keywords)
         if "kind" not in cls.__dict__:
             cls.kind = cls.__name__.lower()
-        known = MODELS.get(cls.kind, cls)
+        known = _KNOWN.get(cls.kind, cls)
         if known.__qualname__ != cls.__qualname__:
             raise InputError("kind", cls.kind, f"another name: {known.__qualname__} has this one")
-        MODELS[cls.kind] = cls
+        _KNOWN[cls.kind] = cls
 
     def __post_init__(self) -> None:
         for name, scale in self.measured_in.items():
@@ -106,15 +106,15 @@ class Disturbance:
             A kind of disturbance that is not known.
         """
         kind = description["kind"]
-        if kind not in MODELS:
-            known = f"one of: {', '.join(MODELS)}; one of your own must be imported before its results are read"
+        if kind not in _KNOWN:
+            known = f"one of: {', '.join(_KNOWN)}; one of your own must be imported before its results are read"
             raise InputError("disturbance", kind, known)
-        model = MODELS[kind]
+        model = _KNOWN[kind]
         return model(**{one.name: _whole(one, description[one.name]) for one in dataclasses.fields(model)})
 
 
-MODELS: dict[str, type[Disturbance]] = {}
-"""Models of disturbances by the names used in files and on the command line."""
+_KNOWN: dict[str, type[Disturbance]] = {}
+"""All models by their kind, those of carom and those that users have defined."""
 
 
 def _plain(name: str, value: object) -> object:

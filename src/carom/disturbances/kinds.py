@@ -1,0 +1,14 @@
+"""The models of carom by the names used in files and on the command line."""
+
+from __future__ import annotations
+
+from carom.disturbances.blows import BaseShock, KickPlane, VelocityKick
+from carom.disturbances.model import Disturbance
+from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
+
+__all__ = ["MODELS"]
+
+MODELS: dict[str, type[Disturbance]] = {
+    model.kind: model
+    for model in (VelocityKick, KickPlane, BaseShock, UnbalanceStep, ContactRelease, StateSlice, AnyState)
+}
