@@ -1,4 +1,4 @@
-"""Closed forms of backward whirl and of the synchronous rub, against simulated motions and against the source machine."""
+"""Closed forms of backward whirl, against simulated motions and against the source machine."""
 
 import math
 
@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.whirl import rolling, rub_limit, runaway_speed
+from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
 from carom.motions.starts import State
@@ -212,36 +212,6 @@ def test_rolling_of_the_source_machine_in_newtons():
     assert roll.largest_force * SCALES.force == pytest.approx(3.8775e6, rel=1e-4)
     assert roll.largest_damping * SCALES.damping == pytest.approx(7.881e4, rel=1e-3)
     assert runaway_speed(Jeffcott(SOURCE)).certain * SCALES.velocity == pytest.approx(0.2869, rel=1e-3)
-
-
-# ------------------------------------------------------------------------------------------------ synchronous rub
-
-
-@settings(max_examples=150, deadline=None)
-@given(
-    omega=st.floats(0.2, 1.8),
-    rho=st.floats(0.01, 2.0),
-    mu=st.floats(0.0, 0.8),
-    share=st.floats(0.001, 2.0),
-)
-def test_stable_rub_exists_exactly_below_its_limit(omega, rho, mu, share):
-    parameters = Parameters(gamma=1.0, omega=omega, rho=rho, phi=0.0, mu=mu, d=0.5, radius_ratio=10.0)
-    limit = rub_limit(Jeffcott(parameters))
-    assume(abs(share - 1.0) > 1e-6)
-    gamma = share * limit if limit > 0.0 else share
-    assume(abs(omega - 1.0) + gamma > 1e-6)
-
-    rubs = find_equilibria(Jeffcott(parameters.replace(gamma=gamma)))[1:]
-
-    assert any(rub.stable for rub in rubs) == (gamma < limit)
-    assert any(rub.status == "admissible" for rub in rubs) == (gamma < limit)
-
-
-def test_rub_limit_of_the_source_machine():
-    limit = rub_limit(Jeffcott(SOURCE))
-
-    assert limit == pytest.approx(0.3700060, abs=5e-8)
-    assert limit * SCALES.damping == pytest.approx(3408.0, abs=0.5)
 
 
 @pytest.mark.jit_only

@@ -16,7 +16,7 @@ from carom.parameters import Machine, Parameters
 from carom.studies.advice import advise
 from carom.studies.alone import levitation_alone
 from carom.studies.orbit_ranges import single_impact_ranges
-from carom.studies.ranges import contact_free_range, rub_range
+from carom.studies.ranges import steady_range
 
 README = Machine.load("examples/keogh-cole.toml").parameters
 WHIRLS = (Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
@@ -28,8 +28,8 @@ pytestmark = pytest.mark.jit_only
 
 def ranges_of(parameters, gain):
     return (
-        contact_free_range(parameters, gain),
-        rub_range(parameters, gain),
+        steady_range(parameters, "contact-free", gain),
+        steady_range(parameters, "rub", gain),
         *single_impact_ranges(parameters, gain),
     )
 

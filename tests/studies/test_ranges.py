@@ -17,10 +17,8 @@ from carom.studies.ranges import (
     MotionRange,
     Span,
     common,
-    contact_free_range,
     outside,
-    rolling_range,
-    rub_range,
+    steady_range,
 )
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -45,7 +43,7 @@ def rubs(parameters):
     return any(entry.status == "admissible" for entry in find_equilibria(Jeffcott(parameters))[1:])
 
 
-EXISTS = {"contact-free": (contact_free_range, levitates), "rub": (rub_range, rubs)}
+EXISTS = {"contact-free": levitates, "rub": rubs}
 
 
 @pytest.mark.parametrize("motion", EXISTS)
@@ -53,8 +51,8 @@ EXISTS = {"contact-free": (contact_free_range, levitates), "rub": (rub_range, ru
 @settings(max_examples=150)
 @given(parameters=planar, value=st.floats(0.02, 2.5))
 def test_range_says_where_the_motion_exists(motion, gain, parameters, value):
-    make_range, exists = EXISTS[motion]
-    found = make_range(parameters, gain)
+    exists = EXISTS[motion]
+    found = steady_range(parameters, motion, gain)
     edges = [edge.value for span in found.spans for edge in (span.low, span.high)]
     # Nearer to an edge than this the equilibria are decided by rounding.
     assume(all(abs(value - edge) > 1e-9 for edge in edges) and abs(parameters.gamma - parameters.rho) > 1e-9)
@@ -68,8 +66,8 @@ def test_range_says_where_the_motion_exists(motion, gain, parameters, value):
 @settings(max_examples=40)
 @given(parameters=planar)
 def test_every_threshold_is_found_by_bisection_too(motion, gain, parameters):
-    make_range, exists = EXISTS[motion]
-    for threshold in make_range(parameters, gain).thresholds:
+    exists = EXISTS[motion]
+    for threshold in steady_range(parameters, motion, gain).thresholds:
         value = threshold.edge.value
         low, high = 0.999 * value, 1.001 * value
         # Two thresholds closer together than the bracket cannot be told apart by it.
@@ -88,8 +86,8 @@ def test_every_threshold_is_found_by_bisection_too(motion, gain, parameters):
 
 
 def test_thresholds_of_the_source_machine():
-    (contact_free,) = contact_free_range(SOURCE, "gamma").thresholds
-    (rub,) = rub_range(SOURCE, "gamma").thresholds
+    (contact_free,) = steady_range(SOURCE, "contact-free", "gamma").thresholds
+    (rub,) = steady_range(SOURCE, "rub", "gamma").thresholds
 
     assert contact_free.edge.value == pytest.approx(0.0724686787, abs=5e-11)
     assert (contact_free.exists, contact_free.edge.kind) == ("above", "boundary-equilibrium")
@@ -102,7 +100,7 @@ def test_rub_pushes_at_its_fold_and_not_beyond_the_point_where_the_fold_meets_th
     kappa = 3 / 7 * 0.15 / math.hypot(1.0, 0.15)
     for factor, kind in ((1.1, "rub-fold"), (0.9, "boundary-equilibrium")):
         parameters = SOURCE.replace(omega=math.sqrt(1.0 - factor * kappa))
-        (threshold,) = rub_range(parameters, "gamma").thresholds
+        (threshold,) = steady_range(parameters, "rub", "gamma").thresholds
         assert threshold.edge.kind == kind
         below = parameters.replace(gamma=threshold.edge.value * (1.0 - 1e-6))
         forces = [entry.normal_force for entry in find_equilibria(Jeffcott(below))[1:] if entry.status == "admissible"]
@@ -123,7 +121,7 @@ def test_where_a_rub_exists_a_stable_one_does(parameters):
 @pytest.mark.parametrize("factor", [0.999, 1.001])
 def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
     parameters = SOURCE.replace(radius_ratio=5.0, gamma=0.3)
-    (threshold,) = rolling_range(parameters, gain).thresholds
+    (threshold,) = steady_range(parameters, "rolling", gain).thresholds
     rotor = Jeffcott(parameters.replace(**{gain: factor * threshold.edge.value}))
 
     motion = simulate(rotor, State(1.0 + 0j, -6j), 2.5)
@@ -136,15 +134,15 @@ def test_rotor_rolls_on_exactly_within_its_range(gain, factor):
 def test_rolling_is_where_a_rolling_start_settles():
     rotor = Jeffcott(SOURCE)
 
-    assert rolling_range(SOURCE, "gamma").exists_at(SOURCE.gamma)
+    assert steady_range(SOURCE, "rolling", "gamma").exists_at(SOURCE.gamma)
     assert simulate(rotor, State(1.0 + 0j, -1j * (400 / 7 + 1)), 100.0, settle=True).outcome is Outcome.ROLLING
 
 
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
 def test_without_friction_nothing_rolls_and_without_unbalance_nothing_rubs(gain):
-    assert rolling_range(SOURCE.replace(mu=0.0), gain).spans == ()
-    assert rub_range(SOURCE.replace(rho=0.0), gain).spans == ()
-    assert contact_free_range(SOURCE.replace(rho=0.0), gain).spans == (Span(Edge(0.0), Edge(math.inf)),)
+    assert steady_range(SOURCE.replace(mu=0.0), "rolling", gain).spans == ()
+    assert steady_range(SOURCE.replace(rho=0.0), "rub", gain).spans == ()
+    assert steady_range(SOURCE.replace(rho=0.0), "contact-free", gain).spans == (Span(Edge(0.0), Edge(math.inf)),)
 
 
 def spans(*ends):

@@ -4,7 +4,6 @@
 ``classification``      :func:`map_basins` and the frozen :class:`Basin`
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              shares with their confidence intervals
-``kicks``               disturbances that provably never reach the wall
 ``losses``              the smallest kicks, shocks, steps and releases that are lost
 ``integrity_measures``  the largest ball of starts that all come back
 ``entropy``             basin entropy and boundary basin entropy
@@ -19,7 +18,6 @@ from carom.basins.classification import Basin, map_basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
-from carom.basins.kicks import harmless_kick, harmless_shock, harmless_step
 from carom.basins.losses import SmallestLoss, smallest_loss, smallest_unrecovered_kick
 from carom.basins.shares import Share
 
@@ -32,9 +30,6 @@ __all__ = [
     "Share",
     "SmallestLoss",
     "basin_entropy",
-    "harmless_kick",
-    "harmless_shock",
-    "harmless_step",
     "integrity",
     "least_gain_change",
     "map_basins",

@@ -16,9 +16,9 @@ from carom.basins.classification import Basin
 from carom.basins.entropy import basin_entropy
 from carom.basins.gains import GainMap
 from carom.basins.integrity_measures import integrity
-from carom.basins.kicks import harmless_shock, harmless_step
 from carom.basins.losses import SmallestLoss, size_coordinate
 from carom.basins.shares import Share, starts_enough
+from carom.closed_forms.thresholds import harmless_shock, harmless_step
 from carom.disturbances import BaseShock, Sample, UnbalanceStep
 from carom.outcome import InputError
 

@@ -14,7 +14,7 @@ import numpy as np
 from carom.basins.dataset import plan_of, provenance
 from carom.basins.entropy import entropies
 from carom.basins.integrity_measures import safe_size
-from carom.basins.kicks import smallest_lost
+from carom.basins.losses import smallest_lost
 from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.basins.kicks import harmless_kick, harmless_shock, harmless_step, lost
+from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_step
 from carom.disturbances import (
     FASTEST,
     BaseShock,
@@ -363,3 +363,17 @@ def size_coordinate(model: Disturbance) -> Coordinate:
     if type(model) is ContactRelease:
         return Coordinate("release_speed", "speed along the wall", 0.0, math.inf, "velocity")
     return model.coordinates[0]
+
+
+def lost(outcomes: np.ndarray) -> np.ndarray:
+    """Which outcomes are not levitation; those that double precision cannot decide do not count as lost."""
+    return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
+
+
+def smallest_lost(velocities: np.ndarray, outcomes: np.ndarray) -> tuple[float, float] | None:
+    """Speed and direction of the smallest lost kick among kicks to these velocities; ``None`` if none is lost."""
+    gone = velocities[lost(outcomes)]
+    if not gone.size:
+        return None
+    smallest = gone[np.abs(gone).argmin()]
+    return float(abs(smallest)), float(np.angle(smallest))

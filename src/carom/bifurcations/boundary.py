@@ -30,18 +30,17 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
 from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit, orbits_within_reach
-from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.results import Result
 
-__all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria", "boundary_values"]
+__all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria"]
 
 SMALL_GAP = 1e-5
 """Gap at which small orbits are computed: higher-order terms are of this order, rounding errors of ``1e-16/1e-5``."""
-DEGENERATE = 1e-12
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,11 +95,11 @@ class BoundaryEquilibrium(Result):
         Whether these are all such orbits with one impact a period.
     """
 
-    gain: Literal["gamma", "omega"]
+    gain: Gain
     value: float
     parameters: Parameters
     levitates: Literal["above", "below"]
-    kind: Literal["persistence", "non-smooth fold", "degenerate"]
+    kind: BoundaryKind
     force_rate: float
     orbits: tuple[SmallOrbit, ...]
     complete: bool
@@ -131,7 +130,7 @@ _EQUILIBRIA = {
 }
 
 
-def boundary_equilibria(machine: Subject, gain: Literal["gamma", "omega"] = "gamma") -> tuple[BoundaryEquilibrium, ...]:
+def boundary_equilibria(machine: Subject, gain: Gain = "gamma") -> tuple[BoundaryEquilibrium, ...]:
     """Find where the contact-free equilibrium meets the wall along a gain, and classify what happens.
 
     ``|U*| = 1`` is ``ρ² = (1 − ω²)² + γ²``, from (3.7) of the source paper.
@@ -153,47 +152,23 @@ def boundary_equilibria(machine: Subject, gain: Literal["gamma", "omega"] = "gam
         There is no such gain.
     """
     rotor = model_of(machine)
-    places = boundary_values(rotor.parameters, gain)
-    return tuple(_classified(rotor.parameters, gain, value, side) for value, side in places)
-
-
-def boundary_values(
-    parameters: Parameters, gain: Literal["gamma", "omega"]
-) -> tuple[tuple[float, Literal["above", "below"]], ...]:
-    """Values of a gain at which the contact-free equilibrium lies on the wall, each with the side where it is inside.
-
-    ``γ = √(ρ² − (1 − ω²)²)``, and ``ω² = 1 ± √(ρ² − γ²)``.
-
-    Raises
-    ------
-    InputError
-        There is no such gain.
-    """
-    if gain == "gamma":
-        kappa = (1.0 - parameters.omega) * (1.0 + parameters.omega)
-        square = (parameters.rho - kappa) * (parameters.rho + kappa)
-        return ((math.sqrt(square), "above"),) if square > 0.0 else ()
-    if gain != "omega":
-        raise InputError("gain", gain, "one of: gamma, omega")
-    square = (parameters.rho - parameters.gamma) * (parameters.rho + parameters.gamma)
-    if square <= 0.0:
-        return ()
-    width = math.sqrt(square)
-    above = math.sqrt(1.0 + width)
-    return ((math.sqrt(1.0 - width), "below"), (above, "above")) if width < 1.0 else ((above, "above"),)
+    found = []
+    for low, high in ranges_of("contact-free", rotor.parameters, gain):
+        if low.kind:
+            found.append(_classified(rotor.parameters, gain, low.value, "above"))
+        if high.kind:
+            found.append(_classified(rotor.parameters, gain, high.value, "below"))
+    return tuple(found)
 
 
 def _classified(
-    parameters: Parameters, gain: Literal["gamma", "omega"], value: float, levitates: Literal["above", "below"]
+    parameters: Parameters, gain: Gain, value: float, levitates: Literal["above", "below"]
 ) -> BoundaryEquilibrium:
     at = parameters.replace(**{gain: value})
-    balance = (1.0 - at.omega) * (1.0 + at.omega) - at.mu * at.gamma
-    kind: Literal["persistence", "non-smooth fold", "degenerate"] = "degenerate"
-    if abs(balance) > DEGENERATE:
-        kind = "non-smooth fold" if balance > 0.0 else "persistence"
+    balance = boundary_balance(at)
     orbits, complete = _small_orbits(at)
     force_rate = at.rho * at.rho / balance if balance != 0.0 else math.inf
-    return BoundaryEquilibrium(gain, value, at, levitates, kind, force_rate, orbits, complete)
+    return BoundaryEquilibrium(gain, value, at, levitates, boundary_kind(at), force_rate, orbits, complete)
 
 
 def _small_orbits(at: Parameters) -> tuple[tuple[SmallOrbit, ...], bool]:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.bifurcations.axes import Numbers
+from carom.closed_forms.thresholds import rolling_condition, rub_fold_condition, wall_condition
 from carom.core import planar
 from carom.models import Jeffcott
 from carom.orbits.maps import Section
@@ -33,8 +34,6 @@ __all__ = [
     "orbit_of",
     "pressed_on",
     "profile_at",
-    "rolling_limit",
-    "rub_fold",
 ]
 
 
@@ -166,27 +165,6 @@ def pressed_on(numbers: Numbers, period: float, speed: float) -> float:
     return float((stiffness * conditions.lever * speed - damping * velocity).real + abs(velocity) ** 2)
 
 
-def rub_fold(numbers: Numbers) -> float:
-    """``ρ²(1 + μ²) − (γ + μ(1 − ω²))²``: zero where the two synchronous rubs meet, negative where there are none.
-
-    From ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)`` (:func:`carom.closed_forms.equilibria.find_equilibria`), whose left side is at most
-    ``ρ√(1 + μ²)``.
-    """
-    needed = numbers.gamma + numbers.mu * (1.0 - numbers.omega**2)
-    return numbers.rho**2 * (1.0 + numbers.mu**2) - needed**2
-
-
-def rolling_limit(numbers: Numbers) -> float:
-    """``μ(s² − ω²) − |γ|s − ρ√(1 + μ²)``: not negative where friction can hold rolling at every angle.
-
-    See :mod:`carom.closed_forms.whirl`.
-    """
-    speed, mu = numbers.radius_ratio, numbers.mu
-    size = numbers.gamma if numbers.gamma.real >= 0.0 else -numbers.gamma
-    needed = size * speed + numbers.rho * (1.0 + mu**2) ** 0.5
-    return mu * (speed**2 - numbers.omega**2) - needed
-
-
 RESONANCES = {"resonance-1:1": "1:1", "resonance-1:2": "1:2", "resonance-1:3": "1:3", "resonance-1:4": "1:4"}
 """Kinds of resonances of a pair of multipliers with modulus one, and their ratios."""
 TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
@@ -198,9 +176,9 @@ TESTS: dict[str, Callable[[Numbers, float, float], float]] = {
     "radius-extremum": lambda n, period, speed: profile_at(n, period, speed).flattest,
     "slip-stop": lambda n, period, speed: conditions_at(n, period, speed).slip_stop,
     "non-smooth-hopf": lambda n, period, speed: speed,
-    "boundary-equilibrium": lambda n, period, speed: n.rho**2 / ((n.omega**2 - 1.0) ** 2 + n.gamma**2) - 1.0,
-    "rub-fold": lambda n, period, speed: rub_fold(n),
-    "rolling-limit": lambda n, period, speed: rolling_limit(n),
+    "boundary-equilibrium": lambda n, period, speed: wall_condition(n),
+    "rub-fold": lambda n, period, speed: rub_fold_condition(n),
+    "rolling-limit": lambda n, period, speed: rolling_condition(n),
     "resonance-1:1": lambda n, period, speed: 2.0 - conditions_at(n, period, speed).pair_sum,
     "resonance-1:2": lambda n, period, speed: 2.0 + conditions_at(n, period, speed).pair_sum,
     "resonance-1:3": lambda n, period, speed: 1.0 + conditions_at(n, period, speed).pair_sum,

@@ -14,7 +14,7 @@ from carom.bifurcations.conditions import RESONANCES, TESTS, conditions_at, graz
 from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
 from carom.bifurcations.planes import Plane
-from carom.bifurcations.steady import happens_to_rubs
+from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.models import Subject, model_of
 from carom.orbits.names import OrbitName, combined

@@ -10,7 +10,8 @@ from carom.bifurcations.conditions import is_admissible, jacobian_at
 from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
-from carom.closed_forms.whirl import rolling, rub_limit
+from carom.closed_forms.thresholds import has_stable_rub
+from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott
 from carom.orbits.names import OrbitName, combined, in_order
 from carom.parameters import Parameters
@@ -92,7 +93,7 @@ def motions_at(parameters: Parameters) -> Motions:
         contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY),
         orbits=len(orbits),
         stable_orbits=sum(radius < 1.0 for radius in radii),
-        rub=bool(0.0 < parameters.gamma < rub_limit(rotor)) and parameters.d < 1.0,
+        rub=has_stable_rub(parameters),
         rolling=rolling(rotor).holds,
         stable_names=in_order(orbit.name for orbit, radius in zip(orbits, radii, strict=True) if radius < 1.0),
         unstable_names=in_order(orbit.name for orbit, radius in zip(orbits, radii, strict=True) if radius >= 1.0),

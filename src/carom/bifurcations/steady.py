@@ -10,6 +10,7 @@ import numpy as np
 from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.conditions import TESTS
 from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
 from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
@@ -21,7 +22,6 @@ __all__ = [
     "RollingBranch",
     "SpecialValue",
     "equilibrium_branches",
-    "happens_to_rubs",
     "rolling_branch",
     "steady_points",
 ]
@@ -133,34 +133,10 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
         for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
             root = bracketed_root(function, grid[i], grid[i + 1])
             at = along.set(base, root)
-            real = {"rub-fold": happens_to_rubs, "rolling-limit": _rolling_keeps_contact}.get(kind, lambda _: True)(at)
-            detail = _boundary_kind(at) if kind == "boundary-equilibrium" else ""
+            real = kind != "rub-fold" or happens_to_rubs(at)
+            detail = boundary_kind(at) if kind == "boundary-equilibrium" else ""
             points.append(SpecialValue(kind, motion, motion, along.name, root, None, None, real, detail))
     return points
-
-
-def _boundary_kind(numbers: Numbers) -> str:
-    """Persistence where the synchronous rub exists on the other side, ``1 − ω² < μγ``, otherwise non-smooth fold.
-
-    See :mod:`carom.bifurcations.boundary`.
-    """
-    return "persistence" if 1.0 - numbers.omega**2 < numbers.mu * numbers.gamma else "non-smooth fold"
-
-
-def _rolling_keeps_contact(numbers: Numbers) -> bool:
-    """Whether the rotor stays on the wall at every angle while it rolls: ``s² − ω² > ρ``."""
-    return numbers.radius_ratio**2 - numbers.omega**2 > numbers.rho
-
-
-def happens_to_rubs(numbers: Numbers) -> bool:
-    """Whether the rubs that meet at a fold are pressed on the wall.
-
-    The condition is ``N = ρ cos x + 1 − ω² > 0``, with ``cos x = ∓μ/√(1 + μ²)`` at the fold where ``γ + μ(1 − ω²)`` is
-    ``±ρ√(1 + μ²)``.
-    """
-    stiffness = 1.0 - numbers.omega**2
-    cosine = -np.copysign(numbers.mu, numbers.gamma + numbers.mu * stiffness) / np.hypot(1.0, numbers.mu)
-    return bool(numbers.rho * cosine + stiffness > 0.0)
 
 
 def equilibrium_branches(

@@ -122,9 +122,10 @@ class _Answer:
 
 def _follow(question: _Question, tell: Tell) -> _Answer:
     """Compute the basin, smallest loss and harmless speed of a machine, and the gain map if requested."""
-    from carom.basins import harmless_kick, smallest_loss
     from carom.basins import map_basins as classify
+    from carom.basins import smallest_loss
     from carom.basins.losses import has_sizes
+    from carom.closed_forms import harmless_kick
     from carom.models import Jeffcott
 
     rotor, plan = Jeffcott(question.case.parameters), question.plan

@@ -2,7 +2,8 @@
 
 ==================  ===================================================
 ``equilibria``      contact-free and rubbing equilibria
-``whirl``           backward whirl and the end of the rub
+``thresholds``      where motions begin and end, and disturbances that never reach the wall
+``whirl``           backward whirl: runaway and rolling
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
 ``periods``         periods of all orbits with one impact a period
 ``local``           cycles that shrink into a boundary equilibrium
@@ -13,7 +14,8 @@ from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
-from carom.closed_forms.whirl import Rolling, Runaway, rolling, rub_limit, runaway_speed
+from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_step, rub_limit
+from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 
 __all__ = [
     "ContactSystem",
@@ -27,6 +29,9 @@ __all__ = [
     "Runaway",
     "cycle_determinant",
     "find_equilibria",
+    "harmless_kick",
+    "harmless_shock",
+    "harmless_step",
     "non_smooth_hopf",
     "rolling",
     "rub_limit",

@@ -26,6 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
+from carom.closed_forms.thresholds import largest_pull
 from carom.core.fate import rub_potentials
 from carom.models import Jeffcott, Subject, model_of
 
@@ -102,7 +103,7 @@ def neighbourhood_of(rotor: Jeffcott, rub: Equilibrium) -> RubNeighbourhood | No
     gamma, mu = numbers.gamma, numbers.mu
     if gamma + 2.0 * mu <= 0.0:
         return None
-    strength = numbers.rho * math.hypot(1.0, mu)
+    strength = largest_pull(numbers)
     phase = math.remainder(rub.angle - numbers.phi + math.atan(mu), 2.0 * math.pi)
     if math.cos(phase) <= 0.0:
         return None

@@ -48,11 +48,19 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
+from carom.closed_forms.thresholds import (
+    largest_pull,
+    mean_rolling_force,
+    rolling_condition,
+    rolling_damping,
+    rolling_friction,
+    rolling_stiffness,
+    sustaining_speed,
+    whirl_damping,
+)
+from carom.models import Subject, model_of
 
-from carom.models import Jeffcott, Subject, model_of
-
-__all__ = ["Rolling", "Runaway", "rolling", "rub_limit", "runaway_speed"]
+__all__ = ["Rolling", "Runaway", "rolling", "runaway_speed"]
 
 
 @dataclass(frozen=True)
@@ -137,30 +145,16 @@ def runaway_speed(machine: Subject) -> Runaway:
     -------
     Runaway
     """
-    rotor = model_of(machine)
-    parameters = rotor.parameters
-    pull = parameters.rho * math.hypot(1.0, parameters.mu)
-    certain = max(_balance(rotor, pull), math.hypot(parameters.omega, math.sqrt(parameters.rho)))
-    return Runaway(certain, _balance(rotor, 0.0), parameters.radius_ratio)
-
-
-def _balance(rotor: Jeffcott, pull: float) -> float:
-    """Larger root of ``μ(w² − ω²) − γw − pull``."""
-    gamma, omega, mu = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.mu
-    if mu == 0.0:
-        return math.inf
-    gain = 2.0 * mu * omega * omega + 2.0 * pull
-    root = math.sqrt(gamma * gamma + 2.0 * mu * gain)
-    # The form without cancellation for either sign of the damping.
-    return (gamma + root) / (2.0 * mu) if gamma >= 0.0 else gain / (root - gamma)
+    at = model_of(machine).parameters
+    certain = max(sustaining_speed(at, largest_pull(at)), math.hypot(at.omega, math.sqrt(at.rho)))
+    return Runaway(certain, sustaining_speed(at), at.radius_ratio)
 
 
 def rolling(machine: Subject) -> Rolling:
     """Forces and limits of rolling on the bearing.
 
-    From ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)`` (see :mod:`carom.closed_forms.whirl`): the largest damping
-    ``(μ(s² − ω²) − ρ√(1 + μ²))/s``, the largest ``ω² = s² − (|γ|s + ρ√(1 + μ²))/μ``, and the least friction coefficient,
-    the root of the same condition, ``μ = (AB + ρ√(A² + B² − ρ²))/(A² − ρ²)`` with ``A = s² − ω²`` and ``B = |γ|s``.
+    From ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)`` (see :mod:`carom.closed_forms.whirl`), solved for each parameter in
+    :mod:`carom.closed_forms.thresholds`.
 
     Parameters
     ----------
@@ -170,57 +164,16 @@ def rolling(machine: Subject) -> Rolling:
     -------
     Rolling
     """
-    rotor = model_of(machine)
-    parameters = rotor.parameters
-    rho, mu, speed = parameters.rho, parameters.mu, parameters.radius_ratio
-    push = (speed - parameters.omega) * (speed + parameters.omega)
-    drag = abs(parameters.gamma) * speed
-    pull = rho * math.hypot(1.0, mu)
-    square = speed * speed - (drag + pull) / mu if mu > 0.0 else 0.0
-    needed = math.inf
-    if push > rho:
-        root = math.sqrt((push - rho) * (push + rho) + drag * drag)
-        needed = (push * drag + rho * root) / ((push - rho) * (push + rho))
+    at = model_of(machine).parameters
+    force = mean_rolling_force(at)
     return Rolling(
-        speed=speed,
-        least_force=push - rho,
-        largest_force=push + rho,
-        largest_friction=drag + rho,
-        needed_friction=needed,
-        largest_damping=(mu * push - pull) / speed,
-        damping_bound=mu * push / speed,
-        largest_stiffness=math.sqrt(max(square, 0.0)),
-        holds=push > rho and mu >= needed,
+        speed=at.radius_ratio,
+        least_force=force - at.rho,
+        largest_force=force + at.rho,
+        largest_friction=abs(at.gamma) * at.radius_ratio + at.rho,
+        needed_friction=rolling_friction(at),
+        largest_damping=rolling_damping(at),
+        damping_bound=whirl_damping(at),
+        largest_stiffness=rolling_stiffness(at),
+        holds=force > at.rho and rolling_condition(at) >= 0.0,
     )
-
-
-def rub_limit(machine: Subject) -> float:
-    """Damping up to which a stable synchronous rub exists, with the other parameters unchanged.
-
-    The normal force ``N`` of a synchronous rub (:func:`~carom.closed_forms.equilibria.find_equilibria`) solves, with ``κ = 1 − ω²``,
-
-        (1 + μ²)N² − 2(κ − μγ)N + κ² + γ² − ρ² = 0.
-
-    Of its roots the larger is stable along the wall.  It is positive inside the disc ``κ² + γ² < ρ²``, and outside it
-    where ``γ < κ/μ`` and the roots are real, ``γ + μκ ≤ ρ√(1 + μ²)``.  That line touches the circle at
-    ``κ = ρμ/√(1 + μ²)``, ``γ = ρ/√(1 + μ²)``: for larger ``κ`` the rub ends in a fold on the line, for smaller ones its
-    force vanishes on the circle, where the contact-free equilibrium reaches the wall.  Above the limit there is no
-    stable rub; for positive damping below it there always is one.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-
-    Returns
-    -------
-    float
-        ``γ``; not positive if there is no rub with positive damping.
-    """
-    rotor = model_of(machine)
-    parameters = rotor.parameters
-    rho, mu = parameters.rho, parameters.mu
-    kappa = (1.0 - parameters.omega) * (1.0 + parameters.omega)
-    slope = math.hypot(1.0, mu)
-    if kappa * slope >= rho * mu:
-        return rho * slope - mu * kappa
-    return float(np.sqrt(max(rho - kappa, 0.0) * max(rho + kappa, 0.0)))

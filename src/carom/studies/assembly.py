@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, get_args
 
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
+from carom.closed_forms.thresholds import Steady
 from carom.disturbances import Disturbance, Plan
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
@@ -19,7 +20,7 @@ from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document
 from carom.studies.orbit_ranges import single_impact_ranges
-from carom.studies.ranges import Gain, Motion, MotionRange, Threshold, contact_free_range, rolling_range, rub_range
+from carom.studies.ranges import Gain, Motion, MotionRange, Threshold, steady_range
 from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
@@ -198,7 +199,7 @@ def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[
         def tell(share: float, place: int = place) -> None:
             progress((place + share) / len(gains))
 
-        found += [contact_free_range(parameters, gain), rub_range(parameters, gain), rolling_range(parameters, gain)]
+        found += [steady_range(parameters, motion, gain) for motion in get_args(Steady)]
         found += single_impact_ranges(parameters, gain, tell)
     return tuple(found)
 

@@ -6,14 +6,11 @@ and is written as ``gamma`` or ``omega`` here; the scales convert them to N s/m 
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Literal
 
 from carom.attractors import MotionName
-from carom.bifurcations.boundary import boundary_values
-from carom.closed_forms.whirl import rolling, rub_limit
-from carom.models import Jeffcott
+from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.parameters import Parameters
 
 __all__ = [
@@ -24,15 +21,12 @@ __all__ = [
     "Span",
     "Threshold",
     "common",
-    "contact_free_range",
     "free_spans",
     "outside",
-    "rolling_range",
-    "rub_range",
+    "steady_range",
 ]
 
-Gain = Literal["gamma", "omega"]
-Motion = Literal["contact-free", "rub", "single-impact", "stable-single-impact", "rolling"]
+Motion = Steady | Literal["single-impact", "stable-single-impact"]
 
 
 @dataclass(frozen=True)
@@ -178,92 +172,10 @@ def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] 
     return common(quiet, here["contact-free"].spans)
 
 
-ZERO, INFINITE = Edge(0.0), Edge(math.inf)
+def steady_range(parameters: Parameters, motion: Steady, gain: Gain) -> MotionRange:
+    """Return where a steady motion exists (:func:`~carom.closed_forms.thresholds.ranges_of`).
 
-
-def contact_free_range(parameters: Parameters, gain: Gain) -> MotionRange:
-    """Return where the contact-free equilibrium lies inside the wall.
-
-    ``|U*| < 1`` is ``ρ² < (1 − ω²)² + γ²``, from (3.7) of the source paper; the ends of the range are
-    :func:`~carom.bifurcations.boundary.boundary_values`.
-
-    Parameters
-    ----------
-    parameters : Parameters
-    gain : {"gamma", "omega"}
-        The gain that is varied, from zero on.
-
-    Returns
-    -------
-    MotionRange
+    Where a synchronous rub exists along the damping, or along the stiffness of a damped rotor, a stable one exists.
     """
-    spans = []
-    for value, side in boundary_values(parameters, gain):
-        edge = Edge(value, "boundary-equilibrium")
-        spans.append(Span(edge, INFINITE) if side == "above" else Span(ZERO, edge))
-    return MotionRange("contact-free", gain, tuple(spans) or (Span(ZERO, INFINITE),))
-
-
-def rub_range(parameters: Parameters, gain: Gain) -> MotionRange:
-    """Return where a synchronous rub exists in which the wall pushes the rotor and does not pull it.
-
-    In the plane of ``γ`` and ``κ = 1 − ω²`` this region is a disc and an adjacent wedge, derived in
-    :func:`~carom.closed_forms.whirl.rub_limit`.  Its edges are a fold and a circle; on the circle the contact-free
-    equilibrium lies on the wall.  The rub with the larger normal force is always the stable one,
-    ``ρ(cos x − μ sin x) = (1 + μ²)N − κ + μγ > 0``.  So where a rub exists, a stable one exists.
-
-    Parameters
-    ----------
-    parameters : Parameters
-        Parameters of the rigid rotor; ``gamma >= 0`` if the stiffness is varied.
-    gain : {"gamma", "omega"}
-        The gain that is varied, from zero on.
-
-    Returns
-    -------
-    MotionRange
-    """
-    rho, mu, gamma = parameters.rho, parameters.mu, parameters.gamma
-    slope = math.hypot(1.0, mu)
-    if gain == "gamma":
-        folds = (1.0 - parameters.omega**2) * slope >= rho * mu
-        end = Edge(rub_limit(Jeffcott(parameters)), "rub-fold" if folds else "boundary-equilibrium")
-        return MotionRange("rub", gain, (Span(ZERO, end),) if end.value > 0 else ())
-    half_width = _leg(rho, gamma)
-    if half_width == 0:
-        return MotionRange("rub", gain, ())
-    if gamma * slope <= rho:
-        softest = 1.0 - (rho * slope - gamma) / mu if mu > 0 else -math.inf
-        kind = "rub-fold"
-    else:
-        softest, kind = 1.0 - half_width, "boundary-equilibrium"
-    start = Edge(math.sqrt(softest), kind) if softest > 0 else ZERO
-    end = Edge(math.sqrt(1.0 + half_width), "boundary-equilibrium")
-    return MotionRange("rub", gain, (Span(start, end),))
-
-
-def rolling_range(parameters: Parameters, gain: Gain) -> MotionRange:
-    """Return where a rotor that rolls around the bearing in backward whirl keeps rolling at every angle.
-
-    ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)``, derived in :mod:`carom.closed_forms.whirl`.
-
-    Parameters
-    ----------
-    parameters : Parameters
-        With ``gamma >= 0`` if the stiffness is varied.
-    gain : {"gamma", "omega"}
-        The gain that is varied, from zero on.
-
-    Returns
-    -------
-    MotionRange
-    """
-    roll = rolling(Jeffcott(parameters))
-    limit = roll.largest_damping if gain == "gamma" else roll.largest_stiffness
-    return MotionRange("rolling", gain, (Span(ZERO, Edge(limit, "rolling-limit")),) if limit > 0 else ())
-
-
-def _leg(hypotenuse: float, leg: float) -> float:
-    """Return the other leg of a right-angled triangle, zero if there is none."""
-    square = (hypotenuse - leg) * (hypotenuse + leg)
-    return math.sqrt(square) if square > 0 else 0.0
+    spans = tuple(Span(Edge(*low), Edge(*high)) for low, high in ranges_of(motion, parameters, gain))
+    return MotionRange(motion, gain, spans)

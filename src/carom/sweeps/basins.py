@@ -119,7 +119,7 @@ class BasinsTask:
         seed : SeedSequence
             Seed of this point.
         """
-        from carom.basins.kicks import smallest_lost
+        from carom.basins.losses import smallest_lost
         from carom.basins.shares import Share
         from carom.models import Jeffcott
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from carom.bifurcations import Codimension2Point, Curve, Motions, Plane, continue_curve, motions_at
+from carom.closed_forms.thresholds import rub_limit
 from carom.continuation import Steps
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.source import machine_at
@@ -117,7 +118,7 @@ def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPl
     -------
     DampingStiffnessPlane
     """
-    rub_fold = continue_curve("rub-fold", machine_at(rub_fold_damping()), PLANE, steps=STEPS)
+    rub_fold = continue_curve("rub-fold", machine_at(rub_limit(machine_at(0.1))), PLANE, steps=STEPS)
     regions = []
     for place, (source, point, words) in enumerate(REGIONS):
         number = sum(other[0] == source for other in REGIONS[: place + 1])
@@ -125,12 +126,3 @@ def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPl
         part = f"{source}.{number}" if divided else source
         regions.append(NamedRegion(source, part, point, motions_at(machine_at(*point)), words))
     return DampingStiffnessPlane(PLANE, (*four_curves(pair), rub_fold), tuple(regions))
-
-
-def rub_fold_damping(omega: float = 0.76) -> float:
-    """Return ``γ = ρ√(1 + μ²) − μ(1 − ω²)``, at which the stable and the saddle rub meet.
-
-    See :mod:`carom.closed_forms.equilibria`.
-    """
-    at = machine_at(0.1, omega)
-    return float(at.rho * (1.0 + at.mu**2) ** 0.5 - at.mu * (1.0 - at.omega**2))

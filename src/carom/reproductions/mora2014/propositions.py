@@ -6,11 +6,11 @@ equilibrium meets the wall and ``N`` pairs of periods.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from carom.bifurcations import Bifurcation, continue_orbit
 from carom.closed_forms.local import ContactSystem, LocalCycle, non_smooth_hopf
+from carom.closed_forms.thresholds import ranges_of
 from carom.models import Jeffcott
 from carom.orbits.names import combined
 from carom.orbits.single_impact import find_orbits
@@ -151,9 +151,9 @@ def hopf_side(parameters: Parameters) -> HopfSide:
     InputError
         The unbalance is too small: the equilibrium meets the wall at no damping.
     """
-    square = parameters.rho**2 - (1.0 - parameters.omega**2) ** 2
-    if not square > 0.0:
+    ((wall, _),) = ranges_of("contact-free", parameters, "gamma")
+    if not wall.kind:
         raise InputError("rho", parameters.rho, f"above |1 - omega^2| = {abs(1.0 - parameters.omega**2):.6g}")
-    system = ContactSystem.of_rotor(parameters.replace(gamma=math.sqrt(square)))
+    system = ContactSystem.of_rotor(parameters.replace(gamma=wall.value))
     hopf = non_smooth_hopf(system, -1j * system.equilibrium / system.stiffness)
-    return HopfSide(math.sqrt(square), hopf.cycles)
+    return HopfSide(wall.value, hopf.cycles)

@@ -9,7 +9,8 @@ import numpy as np
 
 from carom.attractors import DisturbanceSet, MotionName
 from carom.attractors.names import SYNCHRONOUS_RUB
-from carom.closed_forms.whirl import Rolling, rolling, rub_limit, runaway_speed
+from carom.closed_forms.thresholds import rub_limit
+from carom.closed_forms.whirl import Rolling, rolling, runaway_speed
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.names import OrbitName
@@ -57,7 +58,7 @@ def least_safe_damping(
 ) -> SafeDamping:
     """Find the least damping above which no disturbance of a standard set ends in a contact motion.
 
-    The synchronous rub (:func:`~carom.closed_forms.whirl.rub_limit`) and rolling
+    The synchronous rub (:func:`~carom.closed_forms.thresholds.rub_limit`) and rolling
     (:func:`~carom.closed_forms.whirl.rolling`) have closed forms.  The list of single-impact orbits is complete at each
     damping; their upper limit is found by bisection.  Other motions (orbits with several impacts, irregular bouncing,
     motions with rub), and which motions disturbances reach, are found by simulation.  From the highest damping

@@ -1,0 +1,348 @@
+"""Thresholds in closed form: against equilibria, high precision and general solvers, also in their degenerate limits."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from machines import PAPER, path, rest_position
+from scipy.integrate import solve_ivp
+
+from carom.bifurcations.axes import Numbers
+from carom.bifurcations.motions import motions_at
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.thresholds import (
+    happens_to_rubs,
+    harmless_kick,
+    harmless_shock,
+    harmless_step,
+    has_stable_rub,
+    ranges_of,
+    rolling_condition,
+    rolling_damping,
+    rolling_friction,
+    rolling_stiffness,
+    rub_fold_condition,
+    rub_limit,
+    sustaining_speed,
+    wall_condition,
+    whirl_damping,
+)
+from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.models import Jeffcott
+from carom.outcome import InputError
+from carom.parameters import Parameters, Scales
+
+MACHINE = PAPER.replace(gamma=0.15, rho=0.3)
+SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+
+degenerate = (
+    st.fixed_dictionaries(
+        {
+            "gamma": st.one_of(st.sampled_from([0.0, -1e-6]), st.floats(1e-12, 1.5), st.floats(-1.5, -1e-12)),
+            "omega": st.one_of(st.sampled_from([0.05, 1.0 - 1e-7, 1.0, 1.0 + 1e-7]), st.floats(0.05, 2.0)),
+            "rho": st.one_of(st.sampled_from([0.0, 1e-6]), st.floats(1e-3, 2.0)),
+            "phi": st.just(0.3),
+            "mu": st.one_of(st.sampled_from([0.0, 1e-6, 5.0]), st.floats(0.0, 1.0)),
+            "d": st.sampled_from([0.0, 0.9, 1.0]),
+            "radius_ratio": st.floats(0.5, 60.0),
+        }
+    )
+    .filter(lambda values: abs(values["gamma"]) + abs(values["omega"] - 1.0) > 1e-8)
+    .map(lambda values: Parameters(**values))
+)
+"""No friction, no unbalance, resonance, a restitution of one, and damping of either sign among them."""
+
+
+def clear(parameters):
+    """Whether no condition is so close to zero that rounding of the equilibria decides."""
+    kappa = 1.0 - parameters.omega**2
+    size = 1e-9 * (1.0 + abs(kappa) + abs(parameters.gamma) + parameters.rho)
+    stiffness = abs(complex(kappa, parameters.gamma))
+    conditions = (
+        parameters.rho - stiffness,
+        kappa - parameters.mu * parameters.gamma,
+        abs(parameters.gamma + parameters.mu * kappa) - parameters.rho * math.hypot(1.0, parameters.mu),
+        parameters.gamma + 2.0 * parameters.mu,
+    )
+    return stiffness > 1e-7 and min(map(abs, conditions)) > size
+
+
+# ------------------------------------------------------------------------------------------------ levitation
+
+
+@settings(max_examples=200, deadline=None)
+@given(parameters=degenerate)
+def test_levitation_is_inside_the_wall_where_its_condition_is_negative(parameters):
+    assume(clear(parameters))
+    status = find_equilibria(Jeffcott(parameters))[0].status
+
+    assert status == ("admissible" if wall_condition(parameters) < 0.0 else "virtual")
+
+
+def test_at_an_undamped_resonance_levitation_is_infinite_unless_the_rotor_is_balanced():
+    at = Numbers.of(PAPER)._replace(gamma=0.0, omega=1.0)
+
+    assert wall_condition(at) == math.inf
+    assert wall_condition(at._replace(rho=0.0)) == -1.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "gain", "expected"),
+    [
+        # The circle is touched at γ = 0, or at ω² = 1 ± ρ with one of the two beyond ω = 0.
+        ({"omega": 0.5, "rho": 0.75}, "gamma", [(0.0, math.inf)]),
+        ({"gamma": 0.5, "rho": 0.5}, "omega", [(0.0, math.inf)]),
+        ({"gamma": 0.0, "rho": 1.0}, "omega", [(math.sqrt(2.0), math.inf)]),
+        ({"gamma": 0.0, "rho": 0.0}, "omega", [(0.0, math.inf)]),
+    ],
+)
+def test_tangent_and_empty_ranges_of_levitation(changes, gain, expected):
+    found = ranges_of("contact-free", PAPER.replace(**changes), gain)
+
+    assert [(low.value, high.value) for low, high in found] == expected
+
+
+def test_unknown_gain():
+    with pytest.raises(InputError, match="gamma, omega"):
+        ranges_of("rub", PAPER, "mu")
+
+
+# ------------------------------------------------------------------------------------------------ synchronous rub
+
+
+@settings(max_examples=400, deadline=None)
+@given(parameters=degenerate)
+def test_stable_rub_exists_where_an_equilibrium_is_one(parameters):
+    assume(clear(parameters))
+    rubs = find_equilibria(Jeffcott(parameters))[1:]
+
+    assert has_stable_rub(parameters) == any(rub.stable and rub.status == "admissible" for rub in rubs)
+    assert (rub_fold_condition(parameters) > 0.0) == bool(rubs)
+
+
+@pytest.mark.parametrize("gain", ["gamma", "omega"])
+@settings(max_examples=300, deadline=None)
+@given(parameters=degenerate, value=st.floats(0.02, 2.0))
+def test_range_of_the_rub_for_either_sign_of_the_damping(gain, parameters, value):
+    assume(gain == "gamma" or abs(parameters.gamma) + abs(value - 1.0) > 1e-8)
+    here = parameters.replace(**{gain: value})
+    assume(clear(here))
+    rubs = find_equilibria(Jeffcott(here))[1:]
+    found = ranges_of("rub", parameters, gain)
+
+    assert any(low.value <= value <= high.value for low, high in found) == any(rub.normal_force > 0.0 for rub in rubs)
+
+
+@pytest.mark.parametrize("gamma", [-0.4, -0.31, -0.29, -0.05, 0.05])
+def test_motions_of_a_machine_with_negative_damping(gamma):
+    """Friction damps the rub down to γ = −2μ."""
+    machine = PAPER.replace(gamma=gamma)
+
+    assert motions_at(machine).rub == (gamma > -0.3)
+    assert motions_at(machine).rub == any(rub.stable for rub in find_equilibria(machine)[1:])
+
+
+def test_fold_in_high_precision():
+    """The largest of ``−ρ(sin x + μ cos x) − μκ`` over all angles."""
+    for mu in (0.0, 1e-9, 0.15, 4.0):
+        with mpmath.workdps(40):
+            rho, omega = mpmath.mpf(3 / 7), mpmath.mpf(0.76)
+            worst = mpmath.findroot(lambda x, mu=mu: mpmath.cos(x) - mu * mpmath.sin(x), -math.atan2(1.0, -mu))
+            expected = -rho * (mpmath.sin(worst) + mu * mpmath.cos(worst)) - mu * (1 - omega**2)
+        assert rub_limit(PAPER.replace(mu=mu)) == pytest.approx(float(expected), rel=2e-15, abs=4e-16 * (1.0 + mu))
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    omega=st.floats(0.2, 1.8),
+    rho=st.floats(0.01, 2.0),
+    mu=st.floats(0.0, 0.8),
+    share=st.floats(0.001, 2.0),
+)
+def test_stable_rub_exists_exactly_below_its_limit(omega, rho, mu, share):
+    parameters = Parameters(gamma=1.0, omega=omega, rho=rho, phi=0.0, mu=mu, d=0.5, radius_ratio=10.0)
+    limit = rub_limit(Jeffcott(parameters))
+    assume(abs(share - 1.0) > 1e-6)
+    gamma = share * limit if limit > 0.0 else share
+    assume(abs(omega - 1.0) + gamma > 1e-6)
+
+    rubs = find_equilibria(Jeffcott(parameters.replace(gamma=gamma)))[1:]
+
+    assert any(rub.stable for rub in rubs) == (gamma < limit)
+    assert any(rub.status == "admissible" for rub in rubs) == (gamma < limit)
+
+
+def test_rub_limit_of_the_source_machine():
+    limit = rub_limit(Jeffcott(PAPER))
+
+    assert limit == pytest.approx(0.3700060, abs=5e-8)
+    assert limit * SCALES.damping == pytest.approx(3408.0, abs=0.5)
+
+
+def at_fold(random, side):
+    """Random parameters on a fold of rubs, ``γ + μ(1 − ω²) = ± ρ√(1 + μ²)``; damping may be negative."""
+    rho, mu, omega = random.uniform(0.05, 0.8), random.uniform(0.02, 1.0), random.uniform(0.1, 1.6)
+    gamma = side * rho * math.hypot(1.0, mu) - mu * (1.0 - omega**2)
+    return Parameters(gamma=gamma, omega=omega, rho=rho, phi=0.3, mu=mu, d=0.9, radius_ratio=50.0)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_fold_happens_to_rubs_where_the_wall_pushes_them(side):
+    """Against the rubs just inside the fold, for both signs of the damping."""
+    random = np.random.default_rng(side + 3)
+    answers = []
+    for _ in range(200):
+        parameters = at_fold(random, side)
+        try:
+            rubs = find_equilibria(parameters.replace(gamma=parameters.gamma - side * 1e-9))[1:]
+        except InputError:  # undamped resonance
+            continue
+        forces = [rub.normal_force for rub in rubs]
+        assert len(forces) == 2
+        if min(map(abs, forces)) < 1e-3:
+            continue
+        assert forces[0] * forces[1] > 0.0
+        answers.append(happens_to_rubs(Numbers.of(parameters)))
+        assert answers[-1] == (forces[0] > 0.0), parameters
+    assert 20 < sum(answers) < len(answers)
+
+
+# ------------------------------------------------------------------------------------------------ backward whirl
+
+
+@settings(max_examples=150, deadline=None)
+@given(parameters=degenerate)
+def test_rolling_holds_where_friction_suffices_at_every_angle(parameters):
+    """Against the forces of rolling themselves, ``N = s² − ω² + ρ cos x`` and ``F = ρ sin x − γs``, at many angles."""
+    speed, angles = parameters.radius_ratio, np.linspace(0.0, 2.0 * math.pi, 20001)
+    normal = speed**2 - parameters.omega**2 + parameters.rho * np.cos(angles)
+    spare = parameters.mu * normal - np.abs(parameters.rho * np.sin(angles) - parameters.gamma * speed)
+    least = min(spare.min(), normal.min())
+    # The nearest of these angles is at most 2e-4 off, which changes a sinusoid of amplitude p by 2e-8 p.
+    missed = 1e-7 * parameters.rho * math.hypot(1.0, parameters.mu) + 1e-9
+    assume(abs(least) > missed)
+
+    assert rolling(parameters).holds == (least > 0.0)
+    if normal.min() > 0.0:
+        assert rolling_condition(parameters) == pytest.approx(spare.min(), abs=missed, rel=1e-12)
+
+
+@settings(max_examples=150, deadline=None)
+@given(parameters=degenerate)
+def test_solutions_of_rolling_are_zeros_of_its_condition(parameters):
+    at, size = Numbers.of(parameters), 1e-12 * (1.0 + parameters.mu) * (1.0 + parameters.radius_ratio) ** 2
+    damping, stiffness, friction = rolling_damping(at), rolling_stiffness(at), rolling_friction(at)
+
+    if damping > 0.0:
+        for gamma in (damping, -damping):
+            assert rolling_condition(at._replace(gamma=gamma)) == pytest.approx(0.0, abs=size)
+        assert damping <= whirl_damping(at)
+    if stiffness > 0.0:
+        assert rolling_condition(at._replace(omega=stiffness)) == pytest.approx(0.0, abs=size)
+    if friction < 1e3:
+        scale = (1.0 + friction) * (1.0 + parameters.radius_ratio) ** 2
+        assert rolling_condition(at._replace(mu=friction)) == pytest.approx(0.0, abs=1e-12 * scale)
+    assert (damping > 0.0) == bool(ranges_of("rolling", at, "gamma"))
+
+
+@pytest.mark.parametrize("gamma", [-1e3, -0.3, -1e-12, 0.0, 1e-12, 0.3, 1e3])
+@pytest.mark.parametrize("mu", [1e-12, 1e-3, 0.15, 10.0])
+@pytest.mark.parametrize("rho", [0.0, 3 / 7])
+def test_sustaining_speed_in_high_precision(gamma, mu, rho):
+    machine = PAPER.replace(gamma=gamma, mu=mu, rho=rho)
+    with mpmath.workdps(60):
+        exact = [mpmath.mpf(value) for value in (mu, gamma, 0.76, rho)]
+        pull = exact[3] * mpmath.sqrt(1 + exact[0] ** 2)
+        half = exact[1] / (2 * exact[0])
+        certain, average = (
+            half + mpmath.sqrt(half**2 + exact[2] ** 2 + push / exact[0]) for push in (pull, mpmath.mpf(0))
+        )
+
+    found = runaway_speed(machine)
+    assert found.average == sustaining_speed(machine) == pytest.approx(float(average), rel=1e-14)
+    assert found.certain == pytest.approx(max(float(certain), math.sqrt(0.76**2 + rho)), rel=1e-14)
+
+
+# ------------------------------------------------------------------------------------------------ harmless disturbances
+
+
+@pytest.mark.parametrize("omega", [1e-3, 0.76, 30.0])
+@pytest.mark.parametrize("ratio", [0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0 - 1e-14, 1.0, 1.0 + 1e-14, 1.0 + 1e-9, 3.0, 16.0])
+def test_harmless_kick_in_high_precision(omega, ratio):
+    """``γ = 2ω`` times a ratio; the largest response to a kick is that where its rate vanishes."""
+    gamma = 2.0 * omega * ratio
+    machine = Parameters(gamma=gamma, omega=omega, rho=1e-6, phi=0.0, mu=0.1, d=0.9, radius_ratio=50.0)
+    with mpmath.workdps(60):
+        half, stiff = mpmath.mpf(gamma) / 2, mpmath.mpf(omega)
+        root = mpmath.sqrt(mpmath.mpc(half**2 - stiff**2))
+        if half != stiff:
+            moment = mpmath.acosh(half / stiff) / root
+            response = mpmath.exp(-half * moment) * mpmath.sinh(root * moment) / root
+        else:
+            response = mpmath.exp(-1) / stiff
+        speed = (1 - abs(mpmath.mpf(1e-6) / mpmath.mpc(stiff**2 - 1, gamma))) / abs(response)
+    # The speed is lowered by 1e-9; next to critical damping the response is that of critical damping.
+    assert harmless_kick(machine) == pytest.approx(float(speed), rel=2e-9)
+    assert harmless_kick(machine) <= float(speed)
+
+
+@pytest.mark.parametrize("gamma", [0.0, 0.02, 0.15, 1.0, 1.6, 4.0])
+def test_harmless_kicks_move_the_rotor_at_most_to_the_wall(gamma):
+    """The largest deviation is that of the flight itself, whatever the direction; the bound is not wasteful."""
+    machine = PAPER.replace(gamma=gamma, rho=0.2)
+    rest = rest_position(machine)
+    speed = harmless_kick(Jeffcott(machine))
+    times = np.linspace(0.0, 12.0, 4001)
+    farthest = 0.0
+    for angle in np.linspace(0.0, 2.0 * math.pi, 61):
+        flown = path(machine, rest, speed * np.exp(1j * angle), times)
+        assert np.abs(flown).max() <= 1.0
+        farthest = max(farthest, float(np.abs(flown - rest).max()))
+    assert farthest == pytest.approx(1.0 - abs(rest), rel=1e-5)
+
+
+def test_critical_damping_is_the_limit_of_both_sides():
+    speeds = [
+        harmless_kick(Jeffcott(PAPER.replace(rho=0.1, gamma=2.0 * 0.76 * factor))) for factor in (1 - 1e-7, 1, 1 + 1e-7)
+    ]
+    assert speeds == pytest.approx([speeds[1]] * 3, rel=1e-6)
+
+
+@pytest.mark.parametrize("changes", [{"gamma": -0.01, "rho": 0.1}, {"gamma": 0.05}])
+def test_nothing_is_harmless_without_damped_levitation(changes):
+    assert harmless_kick(Jeffcott(PAPER.replace(**changes))) == 0.0
+
+
+@pytest.mark.parametrize("duration", [0.02, 0.7, 4.0])
+def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
+    """Followed in the fixed frame by a general solver through the pulse and after it, in many directions."""
+    peak = harmless_shock(Jeffcott(MACHINE), duration)
+    gamma, omega, rest = MACHINE.gamma, MACHINE.omega, abs(rest_position(MACHINE))
+
+    def rate(time, state):
+        push = peak * math.sin(math.pi * time / duration) if time < duration else 0.0
+        return [state[1], -push - gamma * state[1] - omega**2 * state[0]]
+
+    # The coefficients are real: the deviation stays on a line, and adds to the levitation at worst.
+    during = solve_ivp(rate, (0.0, duration), [0.0, 0.0], rtol=1e-10, atol=1e-12, max_step=duration / 50)
+    after = solve_ivp(rate, (duration, duration + 12.0), during.y[:, -1], rtol=1e-10, atol=1e-12, max_step=0.02)
+    farthest = max(np.abs(during.y[0]).max(), np.abs(after.y[0]).max())
+    assert farthest <= 1.0 - rest
+    if duration < 0.1:
+        assert farthest == pytest.approx(1.0 - rest, rel=1e-3)
+
+
+@pytest.mark.parametrize("gamma", [0.0, 0.1, 1.0, 4.0])
+def test_harmless_steps_do_not_bring_the_rotor_to_the_wall(gamma):
+    machine = PAPER.replace(gamma=gamma, rho=0.2)
+    size = harmless_step(Jeffcott(machine))
+    times = np.linspace(0.0, 15.0, 3001)
+    for angle in np.linspace(0.0, 2.0 * math.pi, 25):
+        before = rest_position(machine) * (1.0 + size / machine.rho * np.exp(1j * angle))
+        assert np.abs(path(machine, complex(before), 0j, times)).max() <= 1.0
+    assert harmless_step(Jeffcott(PAPER.replace(gamma=0.05))) == 0.0
