@@ -13,7 +13,7 @@ from carom.outcome import Outcome
 from carom.studies import Wording
 from carom.studies.endings import KickSize
 from carom.studies.findings import _backward_whirl, _smallest_kick
-from carom.studies.ranges import rolling_range
+from carom.studies.ranges import steady_range
 
 SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 SOURCE = carom.parameters.Parameters(
@@ -40,7 +40,7 @@ def test_two_limits_of_rolling_are_told_apart():
         "and slides in between)"
     ) in text
     # The smaller one is the threshold in the table.
-    (threshold,) = rolling_range(SOURCE, "gamma").thresholds
+    (threshold,) = steady_range(SOURCE, "rolling", "gamma").thresholds
     assert threshold.edge.value == roll.largest_damping
 
 
