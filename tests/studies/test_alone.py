@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from machines import random_parameters
 
-from carom.attractors import DisturbanceSet, MotionName
+from carom.attractors import DisturbanceSet
+from carom.attractors.naming import name_motions
 from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
@@ -75,7 +76,7 @@ def check_outside(parameters, found):
                 ]
                 rotor = Jeffcott(parameters.replace(**{found.gain: one.value}))
                 ends = settle(rotor, one.position, one.velocity)
-                assert MotionName(Outcome(ends.outcomes), int(ends.multiplicities)) == one.motion
+                assert name_motions(rotor, ends)[1] == (one.motion,)
             elif edge.kind:
                 rotor = Jeffcott(parameters.replace(**{found.gain: edge.value * (1 + outward * 2e-6)}))
                 gone = find_equilibria(rotor)[0].status != "admissible"

@@ -320,6 +320,7 @@ _KICK_WORDS = {
     "smallest_unrecovered_kick": "smallest kick tried that does not come back, in c_r Omega of the present machine",
     "smallest_unrecovered_kick_angle": "its direction, from the real axis of the co-rotating frame",
 }
+_UNITS = {"smallest_unrecovered_kick_angle": "rad"}
 
 
 def _dataset(axes: tuple[Axis, Axis], values: list[np.ndarray], measures: list[dict[str, Any]]) -> xarray.Dataset:
@@ -331,7 +332,7 @@ def _dataset(axes: tuple[Axis, Axis], values: list[np.ndarray], measures: list[d
         name: (
             dimensions,
             np.array([entry[name] for entry in measures], float).reshape(shape),
-            {"units": "rad" if name.endswith("angle") else "1", "long_name": words},
+            {"units": _UNITS.get(name, "1"), "long_name": words},
         )
         for name, words in (_WORDS | _KICK_WORDS).items()
         if name in measures[0]

@@ -93,8 +93,10 @@ def _numbers(found: Reproduction) -> Table:
 
 def _misprints(found: Reproduction) -> Table:
     table = _table("Misprints of the source, evaluated")
-    for heading in ("where", "printed", "right", "evaluated", "printed form", "right form"):
-        table.add_column(heading, justify="right" if heading.endswith("form") else "left")
+    for heading in ("where", "printed", "right", "evaluated"):
+        table.add_column(heading)
+    for heading in ("printed form", "right form"):
+        table.add_column(heading, justify="right")
     for row in found.misprints:
         wrong = "" if row.printed_value is None else f"{row.printed_value:.6g}"
         table.add_row(row.place, row.printed, row.right, row.quantity, wrong, f"{row.value:.6g}")

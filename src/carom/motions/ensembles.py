@@ -67,6 +67,10 @@ class Endings(Result):
             *((Outcome(int(code)).label, str(count)) for code, count in zip(codes, counts, strict=True)),
         ]
 
+    def __getitem__(self, chosen: np.ndarray | slice) -> Endings:
+        """Return some of the endings."""
+        return Endings(**{name: values[chosen] for name, values in vars(self).items()})
+
     def count(self, outcome: Outcome) -> int:
         """Return how many motions have this outcome."""
         return int(np.count_nonzero(self.outcomes == outcome))

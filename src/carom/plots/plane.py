@@ -225,8 +225,10 @@ def point(
     )
 
 
-def magnifier(axes: Axes, shown: Complex, margin: float = 0.25) -> Axes | None:
+def magnifier(axes: Axes, shown: Complex, margin: float = 0.25, words: str = "enlarged ") -> Axes | None:
     """Open an enlarged view of the square around `shown` in the free part of the clearance circle.
+
+    Its title is how many times it is enlarged, with `words` before it.
 
     Returns
     -------
@@ -245,7 +247,7 @@ def magnifier(axes: Axes, shown: Complex, margin: float = 0.25) -> Axes | None:
     look_closer(inner, middle, half)
     inner.set_xticks(())
     inner.set_yticks(())
-    inner.set_title(f"enlarged {times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
+    inner.set_title(f"{words}{times_larger(side / (2.0 * half))} times", fontsize=7, pad=2)
     # Otherwise the layout would reserve space for the enlarged piece.
     inner.set_in_layout(False)
     axes.indicate_inset_zoom(inner, edgecolor="#808080", lw=0.4, alpha=1.0)

@@ -157,7 +157,7 @@ def _reasons(data: xarray.Dataset, values: xarray.DataArray) -> dict[str, np.nda
     grounded = np.zeros(rest.shape, bool)
     if "possible" in data:  # Kicks and similar disturbances start from levitation, so none is possible without it.
         grounded = rest & (data["possible"].values == 0)
-    elif _plain_name(values) in _LEVITATING:
+    elif values.attrs.get("si_of", values.name) in _LEVITATING:
         grounded = rest & (data["levitates"].values == 0)
     return {"no-levitation": grounded, "none": rest & ~grounded, **reasons}
 
@@ -196,7 +196,7 @@ def _shades(
     ]
     if not meanings and shown.count():
         _ticks(colour_bar(figure, axes, mesh, _label(values)).ax.yaxis, values)
-    words = {"none": _NONE.get(_plain_name(values), BLANKS["none"].words)}
+    words = {"none": _NONE.get(values.attrs.get("si_of", values.name), BLANKS["none"].words)}
     handles += blank_cells(axes, edges, reasons, words)
     if handles:
         title = values.attrs["long_name"] if meanings or not shown.count() else None
@@ -267,16 +267,11 @@ def _outline(edges: tuple[Floats, Floats], cells: np.ndarray) -> Path:
     return Path.make_compound_path(*rectangles)
 
 
-def _plain_name(values: xarray.DataArray) -> str:
-    """Return the name of a variable without the suffix of its unit."""
-    return str(values.name).removesuffix("_si")
-
-
 def _label(values: xarray.DataArray) -> str:
     """Return the words and the unit of a variable."""
     words, unit = _SHARES.get(str(values.name)) or values.attrs["long_name"], values.attrs.get("units", "1")
     own = {"c_r": r"$c_\mathrm{r}$", "Omega^2": r"$\Omega^2$", "Omega": r"$\Omega$", "m": "$m$"}
     if unit == "1":
         return str(words)
-    si = values.name is not None and str(values.name).endswith("_si")
-    return f"{words} ({unit if si else ' '.join(own.get(part, part) for part in unit.split())})"
+    shown = unit if "si_of" in values.attrs else " ".join(own.get(part, part) for part in unit.split())
+    return f"{words} ({shown})"

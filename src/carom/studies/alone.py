@@ -17,6 +17,7 @@ from typing import Literal
 import numpy as np
 
 from carom.attractors import DisturbanceSet, MotionName
+from carom.attractors.naming import name_motions
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
@@ -175,7 +176,7 @@ class _Trial:
         for kind, chosen in lost_to.items():
             lost = np.flatnonzero(chosen)
             if len(lost):
-                name = MotionName(Outcome(ends.outcomes[lost[0]]), int(ends.multiplicities[lost[0]]))
+                _, (name,) = name_motions(rotor, ends[lost[:1]])
                 start = complex(positions[lost[0]]), complex(velocities[lost[0]])
                 self.seen[value] = Met(name, value, *start)
                 self._remember(kind, ends, positions, velocities, lost[:REMEMBERED])

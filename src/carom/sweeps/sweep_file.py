@@ -304,8 +304,7 @@ def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, 
 def _unknown(where: str, given: object, known: Mapping[str, Any]) -> InputError:
     if given is None:
         return InputError(where, None, f"missing; allowed: {', '.join(known)}")
-    problem = unknown_name(shown(given), given, known, where)
-    return InputError(where, shown(given), problem.allowed.replace("unknown name", "unknown"))
+    return InputError(where, shown(given), unknown_name(shown(given), given, known, where).allowed)
 
 
 def _size(

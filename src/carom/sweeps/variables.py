@@ -55,6 +55,8 @@ class Variable:
     unit : str
     scale : str
         The property of :class:`~carom.parameters.Scales` that converts it to SI units; empty for a pure number.
+    si_of : str
+        The variable that it is in SI units; empty for others.
     flags : tuple of str
         Meanings of 0, 1, 2, ...
     along : Dimension, optional
@@ -65,6 +67,7 @@ class Variable:
     kind: Kind = "number"
     unit: str = "1"
     scale: str = ""
+    si_of: str = ""
     flags: tuple[str, ...] = ()
     along: Dimension | None = None
 
@@ -91,6 +94,8 @@ class Variable:
             attributes |= flag_attributes(tuple(range(len(self.flags))), self.flags)
         else:
             attributes["units"] = self.unit
+        if self.si_of:
+            attributes["si_of"] = self.si_of
         if self.kind != "number":
             attributes["_FillValue"] = self.fill
         return attributes
@@ -130,5 +135,5 @@ def with_si(variables: Sequence[Variable], has_scales: bool) -> tuple[Variable, 
         own, si = UNITS[scale]
         found.append(Variable(name, words, unit=own, scale=scale))
         if has_scales:
-            found.append(Variable(f"{name}_si", words, unit=si))
+            found.append(Variable(f"{name}_si", words, unit=si, si_of=name))
     return tuple(found)

@@ -163,7 +163,7 @@ def _counts(branches: FirstPair) -> Iterator[PrintedNumber]:
     small = [
         orbit
         for orbit in find_orbits(Jeffcott(machine_at(branches.hopf.gamma + 1e-6)))
-        if orbit.name in ("B1,a", "B1,b")
+        if orbit.name.pair == 1 and not orbit.name.faster
     ]
     unstable = sum(orbit.admissible and not orbit.stable for orbit in small)
     yield PrintedNumber(

@@ -102,7 +102,7 @@ class Loss(Result):
     @property
     def motion(self) -> MotionName:
         """Name of the motion in which the first start ended."""
-        _, names = name_motions(self.rotor, _some(self.endings, slice(1)))
+        _, names = name_motions(self.rotor, self.endings[:1])
         return names[0]
 
     def __len__(self) -> int:
@@ -111,7 +111,7 @@ class Loss(Result):
     def __getitem__(self, chosen: np.ndarray) -> Loss:
         """Return some of the starts."""
         kicked, positions, velocities = self.kicked[chosen], self.positions[chosen], self.velocities[chosen]
-        return Loss(self.rotor, kicked, positions, velocities, _some(self.endings, chosen))
+        return Loss(self.rotor, kicked, positions, velocities, self.endings[chosen])
 
     @property
     def ways(self) -> dict[Outcome, Loss]:
@@ -127,10 +127,6 @@ class Loss(Result):
             np.concatenate([self.positions, self.endings.positions[slow]]),
             np.concatenate([self.velocities, self.endings.velocities[slow]]),
         )
-
-
-def _some(endings: Endings, chosen: np.ndarray | slice) -> Endings:
-    return Endings(**{name: values[chosen] for name, values in vars(endings).items()})
 
 
 class Losses:
@@ -222,7 +218,7 @@ class Losses:
             lost &= endings.outcomes != Outcome.FORWARD_RUB
         if not lost.any():
             return None
-        return Loss(rotor, kicked[lost], positions[lost], velocities[lost], _some(endings, lost))
+        return Loss(rotor, kicked[lost], positions[lost], velocities[lost], endings[lost])
 
 
 def _within(points: np.ndarray, radius: float) -> np.ndarray:

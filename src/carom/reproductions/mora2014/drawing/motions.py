@@ -88,13 +88,12 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     look = LOOKS[orbit_look(orbit)]
     words = f"orbit, {look.words}"
     once = orbit_path(orbit, 1)[1]
-    inner = magnifier(rotating, once)
+    inner = magnifier(rotating, once, words="")
     _loop(rotating, orbit, once, arrow=inner is None)
     virtual = abs(orbit.rotor.equilibrium) > 1.0
     words_of_rest = f"{LOOKS['contact-free'].words}, virtual" if virtual else ""
     point(rotating, orbit.rotor.equilibrium, "contact-free", hollow=virtual, label=words_of_rest)
     if inner is not None:
-        inner.set_title(inner.get_title().removeprefix("enlarged "), fontsize=7, pad=2)
         _loop(inner, orbit, once)
         point(inner, orbit.rotor.equilibrium, "contact-free", label="")
     # A second turn of an orbit that stays near the wall would only fill the gaps between its dashes.
