@@ -13,8 +13,9 @@ from carom.plots.gains import gain_map
 from carom.plots.histories import radius
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria_and_orbits
+from carom.plots.sheet import applied
 from carom.plots.spectra import multipliers, spectrum
-from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, applied
+from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
 from carom.plots.sweeps import sweep_map
 from carom.plots.touchdowns import energies, forces, regimes, touchdown
 

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import lru_cache
-from typing import cast
+from typing import Any, cast
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backend_bases import FigureCanvasBase
-from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.backend_bases import FigureCanvasBase, RendererBase
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine, PlaceHolderLayoutEngine
 from matplotlib.ticker import ScalarFormatter
+from matplotlib.transforms import Bbox
 
-__all__ = ["arrange", "without_layout", "write_plain_ticks"]
+from carom.plots.figure import POINTS, gauge
+
+__all__ = ["arrange", "write_plain_ticks"]
 
 
 def arrange(figure: Figure) -> None:
@@ -34,20 +34,12 @@ def arrange(figure: Figure) -> None:
         return
     write_plain_ticks(figure)
     engine = ConstrainedLayoutEngine()
-    canvas = figure.canvas
-    _Gauge(figure)
-    # Spines do not extend beyond their axes, and measuring them would create all ticks again.
-    spines = [spine for axes in _every_axes(figure) for spine in axes.spines.values() if spine.get_in_layout()]
-    for spine in spines:
-        spine.set_in_layout(False)
-    try:
+    with _measuring(figure), _measured_once(figure):
         engine.execute(figure)
-        if not _settled(figure):
+        if any(axes.get_aspect() != "auto" for axes in figure.axes):  # they have shrunk to keep it
             engine.execute(figure)
-    finally:
-        figure.set_canvas(canvas)
-        for spine in spines:
-            spine.set_in_layout(True)
+        for axes in figure.axes:
+            _place_children(axes)
     for axis in _every_axis(figure):  # creates the missing ticks
         axis.get_major_ticks()
         axis.get_minor_ticks()
@@ -66,41 +58,23 @@ def write_plain_ticks(figure: Figure) -> None:
             formatter.set_useMathText(False)
 
 
-@contextmanager
-def without_layout(figure: Figure) -> Iterator[None]:
-    """Let matplotlib save a figure with a fixed layout by drawing it once.
-
-    Matplotlib draws every figure with a layout engine twice, even if the engine is the placeholder that does nothing.
-    """
-    engine = figure.get_layout_engine()
-    if not isinstance(engine, PlaceHolderLayoutEngine):
-        yield
-        return
-    with mpl.rc_context({"figure.constrained_layout.use": False, "figure.autolayout": False}):
-        figure.set_layout_engine(None)
-        try:
-            yield
-        finally:
-            figure.set_layout_engine(engine)
-
-
-def _settled(figure: Figure) -> bool:
-    """Whether one layout pass was enough: no axes shrink to keep an aspect ratio, and none needs other ticks."""
-    return all(axes.get_aspect() == "auto" for axes in figure.axes) and all(
-        np.array_equal([tick.get_loc() for tick in axis.get_major_ticks()], axis.get_majorticklocs())
-        for axis in _every_axis(figure)
-    )
-
-
 def _every_axis(figure: Figure) -> Iterator[Axis]:
-    for axes in _every_axes(figure):
-        yield from (axis for axis in (axes.xaxis, axes.yaxis) if axis.get_visible())
-
-
-def _every_axes(figure: Figure) -> Iterator[Axes]:
-    """Return all axes of a figure, including secondary axes and insets."""
     for axes in figure.axes:
-        yield from _with_children(axes)
+        yield from _axis_pairs(axes)
+
+
+def _axis_pairs(axes: Axes) -> Iterator[Axis]:
+    """Return the visible axis objects of axes and of their secondary axes and insets."""
+    for member in _with_children(axes):
+        yield from (axis for axis in (member.xaxis, member.yaxis) if axis.get_visible())
+
+
+def _place_children(axes: Axes) -> None:
+    """Move secondary axes and insets to where their parents are."""
+    for child in axes.child_axes:
+        locator = cast(Any, child.get_axes_locator())
+        child.apply_aspect(locator(axes, gauge()) if locator else None)
+        _place_children(cast(Axes, child))
 
 
 def _with_children(axes: Axes) -> Iterator[Axes]:
@@ -109,14 +83,67 @@ def _with_children(axes: Axes) -> Iterator[Axes]:
         yield from _with_children(cast(Axes, child))
 
 
+@contextmanager
+def _measuring(figure: Figure) -> Iterator[None]:
+    """Give a figure a canvas for measuring, and leave the spines of its axes out."""
+    canvas, dpi = figure.canvas, figure.dpi
+    # Spines do not extend beyond their axes, and measuring them would create all ticks again.
+    spines = [
+        spine
+        for top in figure.axes
+        for axes in _with_children(top)
+        for spine in axes.spines.values()
+        if spine.get_in_layout()
+    ]
+    for spine in spines:
+        spine.set_in_layout(False)
+    _Gauge(figure)
+    figure.dpi = POINTS
+    try:
+        yield
+    finally:
+        figure.dpi = dpi
+        figure.set_canvas(canvas)
+        for spine in spines:
+            spine.set_in_layout(True)
+
+
+@contextmanager
+def _measured_once(figure: Figure) -> Iterator[None]:
+    """Measure what surrounds each axes once, although the layout engine asks for it each time it has moved them."""
+    free = [axes for axes in figure.axes if axes.get_axes_locator() is None]
+    for axes in free:
+        axes.get_tightbbox = _Surroundings(axes)  # type: ignore[method-assign]
+    try:
+        yield
+    finally:
+        for axes in free:
+            del axes.get_tightbbox  # that of the class is left
+
+
+class _Surroundings:
+    """Bounding box of axes with their labels, which are measured again only if the ticks have changed."""
+
+    def __init__(self, axes: Axes) -> None:
+        self.axes, self.measure = axes, axes.get_tightbbox
+        self.ticks: list[list[float]] = []
+        self.margins = np.zeros(4)
+
+    def __call__(self, renderer: RendererBase | None = None, **options: Any) -> Bbox | None:
+        self.axes.apply_aspect()
+        _place_children(self.axes)
+        frame = np.array(self.axes.bbox.extents)
+        ticks = [list(axis.get_majorticklocs()) for axis in _axis_pairs(self.axes)]
+        if ticks != self.ticks:
+            box = self.measure(renderer, **options)
+            if box is None:
+                return None
+            self.ticks, self.margins = ticks, np.array(box.extents) - frame
+        return Bbox.from_extents(*(frame + self.margins))
+
+
 class _Gauge(FigureCanvasBase):
-    """A canvas for measuring: a text that many figures show is measured once."""
+    """A canvas that measures without drawing."""
 
-    def get_renderer(self) -> RendererAgg:
-        return _renderer(self.figure.dpi)
-
-
-@lru_cache(4)
-def _renderer(dpi: float) -> RendererAgg:
-    """Return a cached renderer: matplotlib caches the sizes of texts by renderer."""
-    return RendererAgg(1, 1, dpi)  # type: ignore[no-untyped-call]
+    def get_renderer(self) -> RendererBase:
+        return gauge()

@@ -17,6 +17,7 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
 from carom.outcome import InputError, Outcome
+from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, clearance_circle, label_frame, point
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, styled
 from carom.plots.words import number, orbit_symbol
@@ -182,7 +183,7 @@ def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
     factor, label = _axis(size, basin.scales)
     dataset = basin.dataset
     cells = dataset["outcome"].shape
-    figure = Figure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS))
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS))
     grid = figure.add_gridspec(1, 2, width_ratios=(1.25, 1.0))
     round_, beside = figure.add_subplot(grid[0], projection="polar"), figure.add_subplot(grid[1])
     parts = -(-_CHORDS // cells[1])  # cells have straight edges: divide wide ones so that rings look round
@@ -265,7 +266,7 @@ def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
     x, y = basin.coordinates
     dataset, kind = basin.dataset, basin.plan.model.kind
     cells = dataset["outcome"].shape
-    figure = Figure(figsize=(0.62 * TWO_COLUMNS, 0.69 * TWO_COLUMNS))
+    figure = StyledFigure(figsize=(0.62 * TWO_COLUMNS, 0.69 * TWO_COLUMNS))
     axes = figure.subplots()
     handles: list[Artist] = []
     if kind == "slice":
@@ -302,7 +303,7 @@ def _outward(basin: Basin) -> complex:
 
 def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
     """Draw the places on the wall, coloured by the motion to which a release there leads."""
-    figure = Figure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
+    figure = StyledFigure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
     axes = figure.subplots()
     cells = basin.dataset["motion"].values
     parts = -(-_CHORDS // len(cells))
@@ -325,7 +326,7 @@ def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
 
 def _bars(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
     """Draw the shares of a sample with their confidence intervals."""
-    figure = Figure(figsize=(0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
+    figure = StyledFigure(figsize=(0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
     axes = figure.subplots()
     for row, entry in enumerate(reversed(motions)):
         share = basin.share_of(basin.motions[entry.index])

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
+from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
@@ -103,7 +104,7 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     """
     rows = len(rows_of(diagram))
     strip = 0.18 * rows
-    figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip), layout="constrained")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip))
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
     unit = parameter_unit(diagram.axis)
     for branch in diagram.orbits:

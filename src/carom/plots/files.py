@@ -11,8 +11,7 @@ from matplotlib.figure import Figure
 
 from carom.files import write_whole
 from carom.outcome import InputError
-from carom.plots.arrangement import without_layout
-from carom.plots.style import drawing
+from carom.plots.sheet import drawing
 
 __all__ = ["save"]
 
@@ -68,6 +67,6 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
 
 def _rendered(figure: Figure, name: str) -> bytes:
     buffer = BytesIO()
-    with drawing(), without_layout(figure):
+    with drawing():
         figure.savefig(buffer, format=name, metadata=_UNDATED[name])
     return buffer.getvalue()

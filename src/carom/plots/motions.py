@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from carom.outcome import InputError
 from carom.plots.bands import bands_on_the_circle, drawing_times, flying
+from carom.plots.figure import StyledFigure
 from carom.plots.plane import (
     Frame,
     clearance_circle,
@@ -181,9 +182,8 @@ def _levitation(axes: Axes, equilibrium: complex) -> None:
 
 def _two_frames(axes: Sequence[Axes] | None) -> tuple[Figure, tuple[Axes, Axes]]:
     if axes is None:
-        figure = Figure(figsize=(TWO_COLUMNS, 0.58 * TWO_COLUMNS))
+        figure = StyledFigure(figsize=(TWO_COLUMNS, 0.58 * TWO_COLUMNS))
         left, right = figure.subplots(1, 2)
         return figure, (left, right)
     left, right = axes
-    figure, _ = one_axes(left, (TWO_COLUMNS, TWO_COLUMNS))
-    return figure, (left, right)
+    return one_axes(left, (TWO_COLUMNS, TWO_COLUMNS))[0], (left, right)

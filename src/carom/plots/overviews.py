@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from carom.plots.closeups import Closeup, closeups
+from carom.plots.figure import StyledFigure
 from carom.plots.placement import spread_angles
 from carom.plots.plane import (
     Complex,
@@ -114,7 +115,7 @@ def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
     if axes is not None or not count:
         figure, whole = one_axes(axes, (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS))
         return figure, whole, []
-    figure = Figure(figsize=(TWO_COLUMNS, (0.58 if count == 1 else 0.66) * TWO_COLUMNS))
+    figure = StyledFigure(figsize=(TWO_COLUMNS, (0.58 if count == 1 else 0.66) * TWO_COLUMNS))
     grid = figure.add_gridspec(count, 2, width_ratios=(count, 1))
     return figure, figure.add_subplot(grid[:, 0]), [figure.add_subplot(grid[i, 1]) for i in range(count)]
 

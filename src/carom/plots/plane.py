@@ -16,6 +16,7 @@ from matplotlib.legend import Legend
 from numpy.typing import NDArray
 
 from carom.outcome import InputError
+from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, Look
 from carom.plots.words import axis_length, times_larger
 
@@ -265,7 +266,7 @@ def look_closer(axes: Axes, middle: complex, half: float) -> None:
 def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
     """Return axes of a new figure of that size [inch], or those of the user with their figure."""
     if axes is None:
-        figure = Figure(figsize=size)
+        figure = StyledFigure(figsize=size)
         return figure, figure.subplots()
     owner = axes.get_figure(root=True)
     if owner is None:

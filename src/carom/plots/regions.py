@@ -12,6 +12,7 @@ from matplotlib.patheffects import Normal, Stroke
 
 from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
+from carom.plots.figure import StyledFigure
 from carom.plots.numerals import number_regions
 from carom.plots.style import TWO_COLUMNS, styled
 from carom.plots.words import parameter_label, parameter_unit
@@ -52,7 +53,7 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
         listed.append(f"everywhere: {', '.join(found.everywhere)}")
     columns = 2 if max(map(len, listed), default=0) <= _LONGEST_HALF else 1
     rows = -(-len(listed) // columns)
-    figure = Figure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)), layout="constrained")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)))
     drawn = figure.subplots()
     units = np.array([parameter_unit(axis) for axis in axes])
     # Draw the broad line of non-smooth Hopf bifurcations below that of the boundary equilibria.

@@ -27,18 +27,16 @@ Filled markers are stable or admissible, hollow ones unstable or virtual.
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
 from types import MappingProxyType
 from typing import ParamSpec
 
-import matplotlib.style
 from matplotlib.figure import Figure
 
 from carom.plots.arrangement import arrange, write_plain_ticks
+from carom.plots.sheet import drawing
 
 __all__ = [
     "LOOKS",
@@ -49,8 +47,6 @@ __all__ = [
     "WORKS",
     "ZONE_SHADES",
     "Look",
-    "applied",
-    "drawing",
     "styled",
 ]
 
@@ -64,8 +60,6 @@ TWO_COLUMNS = 180 / 25.4
 
 ZONE_SHADES = ("#ffffff", "#faf7ef", "#f5f0e1", "#efe7d0")
 """Background of the vibration zones A, B, C, D; darker is worse."""
-
-_SHEET = "carom.plots.carom"
 
 
 @dataclass(frozen=True)
@@ -151,34 +145,6 @@ WORKS = MappingProxyType(
     }
 )
 """Looks of the entries of an energy ledger."""
-
-
-@contextmanager
-def applied() -> Iterator[None]:
-    """Apply carom's style sheet inside a ``with`` block.
-
-    The sheet starts from matplotlib's defaults, so a figure does not depend on the settings of the user.  When the
-    block ends, ``matplotlib.rcParams`` is restored.
-    """
-    with matplotlib.style.context(_SHEET, after_reset=True):
-        yield
-
-
-@contextmanager
-def drawing() -> Iterator[None]:
-    """Apply the style sheet for a drawing, with the garbage collector switched off.
-
-    A figure consists of tens of thousands of small objects that refer to each other. Collecting garbage while they are
-    created finds none, and takes a quarter of the time.
-    """
-    collecting = gc.isenabled()
-    gc.disable()
-    try:
-        with applied():
-            yield
-    finally:
-        if collecting:
-            gc.enable()
 
 
 def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:

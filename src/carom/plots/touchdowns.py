@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from carom.plots.figure import StyledFigure
 from carom.plots.histories import draw_radius
 from carom.plots.plane import Floats, key, one_axes
 from carom.plots.style import LOOKS, REGIMES, TWO_COLUMNS, WORKS, styled
@@ -44,14 +45,14 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
         From top to bottom: distance from the centre; regime and whirl direction; impulses and contact forces; energies
         and works.  180 mm wide.
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 1.16 * TWO_COLUMNS))
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 1.16 * TWO_COLUMNS))
     panels = figure.subplots(4, 1, sharex=True, height_ratios=[1.0, 0.32, 1.0, 1.0])
     draw_radius(panels[0], trajectory)
     regimes(trajectory, axes=panels[1])
     forces(trajectory, axes=panels[2])
     energies(ledger, trajectory.rotor.scales, axes=panels[3])
     for panel, letter in zip(panels, "abcd", strict=True):
-        panel.set_title(f"({letter})", loc="left")
+        panel.set_title(f"({letter})", loc="left", y=1.0)
         panel.set_xlabel("")
     panels[-1].set_xlabel(axis_time(trajectory.rotor.scales))
     if title:

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.plots.figure import StyledFigure
 from carom.plots.plane import (
     clearance_circle,
     direction_arrow,
@@ -45,7 +46,7 @@ def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
     matplotlib.figure.Figure
         A row for each motion.
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 1.02 * TWO_COLUMNS), layout="constrained")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 1.02 * TWO_COLUMNS))
     rows = figure.subplots(len(motions), 3, width_ratios=(1.0, 1.0, 1.25))
     for (fixed, rotating, radius), motion in zip(rows, motions, strict=True):
         for axes in (fixed, rotating):

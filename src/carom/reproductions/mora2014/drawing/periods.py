@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
 from carom.plots.diagrams import POINTS, mark_point, point_key
+from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol, times_larger
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, letter
@@ -43,7 +44,7 @@ def figure_3(periods: Periods, birth: float) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 0.86 * TWO_COLUMNS), layout="constrained")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.86 * TWO_COLUMNS))
     axes = figure.subplot_mosaic("aaabbb;ccddee", height_ratios=(1.25, 1.0))
     _condition(axes["a"], periods.functions)
     _zeros(axes["b"], periods.pairs, birth)

@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from carom.plots.diagrams import CURVES, branch_line, curve_line, mark_point
+from carom.plots.figure import StyledFigure
 from carom.plots.style import TWO_COLUMNS, styled
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 
@@ -40,7 +41,7 @@ def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 0.74 * TWO_COLUMNS), layout="constrained")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.74 * TWO_COLUMNS))
     grid = figure.add_gridspec(2, 2, width_ratios=(0.8, 1.0), height_ratios=(1.0, 0.17))
     left, right, below = (figure.add_subfigure(cell) for cell in (grid[0, 0], grid[0, 1], grid[1, :]))
     stability, map_axes = left.subplots(), right.subplots()

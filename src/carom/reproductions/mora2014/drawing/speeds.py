@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.plots.diagrams import branch_line, mark_point
+from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 
@@ -36,7 +37,7 @@ def figure_4(pair: FirstPair) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS), layout="constrained")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS))
     grid = figure.subplots(2, 2)
     for axes, birth, speed, at in zip(
         grid[:, 0], grid[:, 1], (_radial, _angular), (_radial_at, _angular_at), strict=True
@@ -128,7 +129,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    figure = Figure(figsize=(TWO_COLUMNS, 0.46 * TWO_COLUMNS), layout="constrained")
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.46 * TWO_COLUMNS))
     left, right = figure.subplots(1, 2)
     for axes, branch, lines in ((left, pair.slow, radii.slow), (right, pair.fast, radii.fast)):
         axes.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)

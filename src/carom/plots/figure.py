@@ -1,0 +1,128 @@
+"""A figure that carries carom's style to every file and notebook, whoever writes or shows it."""
+
+from __future__ import annotations
+
+import codecs
+from functools import cache, lru_cache
+from io import BytesIO, StringIO
+from typing import Any
+
+from matplotlib.backend_bases import RendererBase
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_mixed import MixedModeRenderer
+from matplotlib.backends.backend_svg import RendererSVG
+from matplotlib.cbook import file_requires_unicode, open_file_cm
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.mathtext import MathTextParser
+from matplotlib.textpath import TextToPath
+from matplotlib.transforms import Bbox
+
+from carom.plots.sheet import applied, drawing
+
+__all__ = ["POINTS", "StyledFigure", "gauge"]
+
+POINTS = 72.0
+"""Dots per inch of an SVG file: its unit is the point."""
+
+
+class StyledFigure(Figure):
+    """A figure that is drawn, saved and shown in carom's style, whatever the settings are at that time.
+
+    Matplotlib reads many settings only when it draws or writes: the resolution and background of files, outlines for
+    letters in SVG, the looks of ticks.  Its layout is fixed, so one drawing is enough for a file.
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, layout="constrained", **kwargs)
+        _Canvas(self)
+
+    def draw(self, renderer: RendererBase) -> None:
+        """Draw as :meth:`matplotlib.figure.Figure.draw` does, under carom's style sheet."""
+        with applied():
+            super().draw(renderer)
+
+    def get_tightbbox(self, *args: Any, **kwargs: Any) -> Bbox:
+        """Measure as :meth:`matplotlib.figure.Figure.get_tightbbox` does, under carom's style sheet."""
+        with applied():
+            return super().get_tightbbox(*args, **kwargs)
+
+    def savefig(self, fname: Any, **kwargs: Any) -> None:
+        """Save as :meth:`matplotlib.figure.Figure.savefig` does, under carom's style sheet."""
+        with drawing():
+            # With an engine, matplotlib would draw twice, even with the one that does nothing.
+            engine = self.get_layout_engine()
+            self.set_layout_engine(None)
+            try:
+                super().savefig(fname, **kwargs)
+            finally:
+                self.set_layout_engine(engine)
+
+    def _repr_png_(self) -> bytes:
+        """The picture for notebooks, at the resolution of the screen."""
+        buffer = BytesIO()
+        self.savefig(buffer, format="png", dpi="figure")
+        return buffer.getvalue()
+
+
+class _Canvas(FigureCanvasAgg):
+    """Canvas that writes SVG with texts that are measured and parsed once for all figures."""
+
+    def print_svg(
+        self, filename: Any, *, bbox_inches_restore: Any = None, metadata: dict[str, Any] | None = None, **_: Any
+    ) -> None:
+        """Write as :class:`matplotlib.backends.backend_svg.FigureCanvasSVG` does."""
+        figure, dpi = self.figure, self.figure.dpi
+        with open_file_cm(filename, "w", encoding="utf-8") as file:
+            stream = file if file_requires_unicode(file) else codecs.getwriter("utf-8")(file)
+            figure.dpi = POINTS
+            width, height = figure.get_size_inches()
+            svg = _Svg(POINTS * width, POINTS * height, stream, image_dpi=dpi, metadata=metadata)
+            renderer: Any = MixedModeRenderer(  # type: ignore[no-untyped-call]
+                figure, width, height, dpi, svg, bbox_inches_restore=bbox_inches_restore
+            )
+            figure.draw(renderer)
+            renderer.finalize()
+
+
+class _Svg(RendererSVG):
+    """Renderer of SVG that shares its outlines of letters with all others."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)  # type: ignore[no-untyped-call]
+        self._text2path = _OUTLINES
+
+
+class _Outlines(TextToPath):
+    """Sizes and outlines of texts; each size and each formula is kept."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.mathtext_parser = _Formulas("path")
+
+    def get_text_width_height_descent(self, s: str, prop: FontProperties, ismath: Any) -> tuple[float, float, float]:
+        return self._size(s, prop.copy(), ismath)
+
+    @lru_cache(8192)  # noqa: B019  (there is one object)
+    def _size(self, s: str, prop: FontProperties, ismath: Any) -> tuple[float, float, float]:
+        return super().get_text_width_height_descent(s, prop, ismath)
+
+
+class _Formulas(MathTextParser):  # type: ignore[type-arg]
+    """Parser that keeps all formulas: matplotlib's keeps fifty, and a report has more."""
+
+    def parse(self, s: str, dpi: float = POINTS, prop: FontProperties | None = None, **options: Any) -> Any:
+        return self._parsed(s, dpi, None if prop is None else prop.copy(), **options)
+
+    @lru_cache(1024)  # noqa: B019  (there is one object)
+    def _parsed(self, s: str, dpi: float, prop: FontProperties | None, **options: Any) -> Any:
+        return super().parse(s, dpi, prop, **options)
+
+
+_OUTLINES = _Outlines()
+
+
+@cache
+def gauge() -> RendererBase:
+    """A renderer for measuring, at 72 dots per inch; matplotlib keeps the sizes of texts by renderer."""
+    return _Svg(1.0, 1.0, StringIO())

@@ -1,0 +1,51 @@
+"""carom's style sheet: applied while a figure is made, drawn or written, and at no other time."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+
+import matplotlib.style
+
+__all__ = ["applied", "drawing"]
+
+_SHEET = "carom.plots.carom"
+_in_use = ContextVar("_in_use", default=False)
+
+
+@contextmanager
+def applied() -> Iterator[None]:
+    """Apply carom's style sheet inside a ``with`` block.
+
+    The sheet starts from matplotlib's defaults, so a figure does not depend on the settings of the user.  When the
+    block ends, ``matplotlib.rcParams`` is restored.  Inside such a block nothing is changed: changing all settings takes
+    milliseconds.
+    """
+    if _in_use.get():
+        yield
+        return
+    with matplotlib.style.context(_SHEET, after_reset=True):
+        before = _in_use.set(True)
+        try:
+            yield
+        finally:
+            _in_use.reset(before)
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Apply the style sheet for a drawing, with the garbage collector switched off.
+
+    A figure consists of tens of thousands of small objects that refer to each other. Collecting garbage while they are
+    created finds none, and takes a quarter of the time.
+    """
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        with applied():
+            yield
+    finally:
+        if collecting:
+            gc.enable()

@@ -1,0 +1,97 @@
+"""Figures keep carom's style when a user writes or shows them, and measure and parse no more than they need."""
+
+import io
+
+import matplotlib as mpl
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.mathtext import MathTextParser
+
+from carom import plots
+
+SETTINGS = {
+    "font.size": 23.0,
+    "mathtext.fontset": "cm",
+    "xtick.major.size": 12.0,
+    "svg.fonttype": "none",
+    "savefig.dpi": 40,
+    "savefig.facecolor": "red",
+    "savefig.bbox": "tight",
+    "figure.constrained_layout.use": True,
+    "path.simplify_threshold": 1.0,
+}
+
+
+def written(figure, name):
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format=name, metadata={"Software": None} if name == "png" else {"Date": None})
+    return buffer.getvalue()
+
+
+def shown_inline(figure):
+    """What the inline backend of notebooks sends."""
+    buffer = io.BytesIO()
+    figure.canvas.print_figure(buffer, format="png", bbox_inches="tight", dpi="figure", facecolor="white")
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize(
+    "write", [lambda figure: written(figure, "png"), lambda figure: written(figure, "svg"), shown_inline]
+)
+def test_settings_of_the_user_do_not_show_when_the_user_writes(damped, write):
+    plain = write(plots.radius(damped.orbits["B1,d"]))
+    figure = plots.radius(damped.orbits["B1,d"])
+    with mpl.rc_context(SETTINGS):
+        assert write(figure) == plain
+
+
+def test_the_user_writes_what_carom_writes(damped, tmp_path):
+    figure = plots.radius(damped.orbits["B1,d"])
+    (path,) = plots.save(figure, tmp_path / "a", ("png",))
+    assert written(figure, "png") == path.read_bytes()
+
+
+def test_wishes_of_the_user_are_kept(damped):
+    figure = plots.radius(damped.orbits["B1,d"])
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=50)
+    wide = int.from_bytes(buffer.getvalue()[16:20], "big")
+    assert wide == pytest.approx(50 * plots.TWO_COLUMNS, abs=1.0)
+
+
+def test_notebooks_show_a_figure(damped):
+    picture = plots.radius(damped.orbits["B1,d"])._repr_png_()
+    assert picture.startswith(b"\x89PNG")
+    assert int.from_bytes(picture[16:20], "big") == pytest.approx(150 * plots.TWO_COLUMNS, abs=1.0)
+
+
+def test_a_canvas_of_the_user_draws_the_same(damped):
+    def pixels():
+        canvas = FigureCanvasAgg(plots.multipliers(damped.orbits))
+        canvas.draw()
+        return bytes(canvas.buffer_rgba())
+
+    plain = pixels()
+    with mpl.rc_context(SETTINGS):
+        assert pixels() == plain
+
+
+def test_each_axes_is_measured_once(damped, monkeypatch):
+    measured, measure = [], Axes.get_tightbbox
+    monkeypatch.setattr(Axes, "get_tightbbox", lambda axes, *a, **k: (measured.append(axes), measure(axes, *a, **k))[1])
+    figure = plots.orbit(damped.orbits["B1,d"])
+    assert measured == figure.axes
+
+
+def test_each_formula_is_parsed_once(damped, monkeypatch, tmp_path):
+    parsed, parse = [], MathTextParser.parse
+
+    def counted(parser, text, dpi=72, prop=None, **options):
+        parsed.append((text, None if prop is None else hash(prop)))
+        return parse(parser, text, dpi, prop, **options)
+
+    monkeypatch.setattr(MathTextParser, "parse", counted)
+    for periods in (2, 3, 2):
+        plots.save(plots.radius(damped.orbits["B1,c"], periods=periods), tmp_path / "a", ("svg",))
+    assert len(parsed) == len(set(parsed))
