@@ -9,10 +9,10 @@ from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.outcome import Outcome
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
-from carom.studies.endings import KickSize, ending_phrase, ending_words, hardest_impulse, kick_sizes, touching
+from carom.studies.endings import KickSize, ending_phrase, hardest_impulse, kick_sizes, touching
 from carom.studies.ranges import Gain, Motion
 from carom.studies.remedies import advice_lines, alone_sentences
-from carom.studies.safety.limits import DampingLimit, rounded_up, share_words, unsettled_words
+from carom.studies.safety.limits import share_words
 from carom.studies.wording import counted, listed, no_rigid_wall, number
 
 if TYPE_CHECKING:
@@ -280,7 +280,7 @@ def _with_weight(study: Study, force: float) -> str:
 
 def _remedies(study: Study) -> str:
     lines = [" ".join(_remedies_along(study, gain)) for gain in study.gains]
-    lines[0] = f"{lines[0]} {_safe_damping(study)}"
+    lines[0] = f"{lines[0]} {study.safe_damping.words}"
     return "\n".join([*lines, *advice_lines(study)])
 
 
@@ -302,55 +302,6 @@ _POSSIBLE: dict[Motion, str] = {
     "single-impact": "orbits with one impact a period are possible",
     "stable-single-impact": "stable ones, which can hold the rotor,",
 }
-
-
-def _safe_damping(study: Study) -> str:
-    """Say what simulations at other dampings showed."""
-    say, safe = study.wording, study.safe_damping
-    limit, name, checks = safe.within_reach, say.gain_name("gamma"), safe.checks
-    if not checks:
-        return (
-            f"Some disturbances of up to {say.velocity(safe.sample.fastest)} did not come back even at the largest {name} "
-            f"tried ({say.gain('gamma', safe.highest)})."
-        )
-    ends = " to ".join(say.gain("gamma", check.gamma) for check in (checks[0], checks[-1]))
-    tried = (
-        f"None of {safe.sample.count:,} fresh disturbances (kicks of the levitating rotor and starts within the clearance, of up "
-        f"to {say.velocity(safe.sample.fastest)}) was lost at any of {len(checks)} values of {name} from {ends}: with "
-        f"{100 * CONFIDENCE:.0f} % confidence {share_words(safe.share_below)} at any of these."
-    )
-    return " ".join(part for part in (_limit_words(study, limit), tried, _faster_words(study)) if part)
-
-
-def _limit_words(study: Study, limit: DampingLimit | None) -> str:
-    """Say above which damping disturbances came back, and which motion vanished last.
-
-    Of a simulated limit only the known digits are written.
-    """
-    say = study.wording
-    if limit is None:
-        return ""
-    last = f"the {limit.motion}" if limit.motion.outcome is Outcome.FORWARD_RUB else ending_words(limit.motion)
-    if limit.evidence != "simulation":
-        return f"The last motion to go is {last}, at {say.gain('gamma', limit.above)}."
-    factor = say.scales.damping if say.scales else 1.0
-    above = rounded_up(limit.above * factor, limit.digits) / factor
-    return (
-        f"All fresh disturbances came back above {say.gain('gamma', above)}; the last that was found to be lost, at "
-        f"{say.gain('gamma', float(f'{limit.gamma * factor:.{limit.digits}g}') / factor)}, "
-        f"{f'ended {ending_phrase(limit.motion)}' if limit.settles else f'was in {unsettled_words(limit.motion)}'}."
-    )
-
-
-def _faster_words(study: Study) -> str:
-    """Say how many of the faster disturbances were lost."""
-    say, faster = study.wording, study.safe_damping.faster
-    if faster is None:
-        return ""
-    return (
-        f"Of {faster.sample.count:,} of up to {say.velocity(faster.sample.fastest)}, {faster.lost or 'none'} "
-        f"{'was' if faster.lost <= 1 else 'were'} lost at {say.gain('gamma', faster.gamma)}."
-    )
 
 
 FINDINGS = {

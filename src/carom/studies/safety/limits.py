@@ -10,14 +10,15 @@ from typing import Literal
 from carom.attractors import DisturbanceSet, MotionName
 from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.whirl import Runaway
-from carom.models import Jeffcott
 from carom.motions.settling import PATIENCE
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.results import Result
+from carom.studies.endings import ending_phrase, ending_words
 from carom.studies.safety.losses import DampingCheck
+from carom.studies.wording import Wording
 
-__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "rounded_up", "share_words", "unsettled_words", "within_reach"]
+__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "share_words", "within_reach"]
 
 MOST_CHECKS = 120
 """Largest number of fresh samples of a search; the confidence holds for all of them together."""
@@ -125,80 +126,60 @@ class SafeDamping(Result):
 
     @property
     def words(self) -> str:
-        """The results and their evidence, in words."""
-        parts = (self._reach(), self._checked(), self._faster(), self._rolling())
-        return " ".join(sentence for sentence in parts if sentence)
+        """The last motion to go, the disturbances tried above it, and the confidence."""
+        say = Wording(self.parameters.scales)
+        name, checks = say.gain_name("gamma"), self.checks
+        if not checks:
+            return (
+                f"Some disturbances of up to {say.velocity(self.sample.fastest)} did not come back even at the largest {name} "
+                f"tried ({say.gain('gamma', self.highest)})."
+            )
+        ends = " to ".join(say.gain("gamma", check.gamma) for check in (checks[0], checks[-1]))
+        tried = (
+            f"None of {self.sample.count:,} fresh disturbances (kicks of the levitating rotor and starts within the clearance, of up "
+            f"to {say.velocity(self.sample.fastest)}) was lost at any of {len(checks)} values of {name} from {ends}: with "
+            f"{100 * CONFIDENCE:.0f} % confidence {share_words(self.share_below)} at any of these."
+        )
+        return " ".join(part for part in (self._limit_words(say), tried, self._faster_words(say)) if part)
 
-    def _reach(self) -> str:
+    def _limit_words(self, say: Wording) -> str:
+        """Say above which damping disturbances came back, and which motion vanished last.
+
+        Of a simulated limit only the known digits are written.
+        """
         limit = self.within_reach
         if limit is None:
-            return "No disturbance was lost at any damping tried."
-        if limit.above > self.highest:
-            return f"Contact motions survive up to the highest damping looked at, {self._damping(self.highest)}."
+            return ""
+        last = f"the {limit.motion}" if limit.motion.outcome is Outcome.FORWARD_RUB else ending_words(limit.motion)
         if limit.evidence != "simulation":
-            known = "a closed form" if limit.evidence == "closed form" else "a search over dampings"
-            return f"The last motion to vanish is {_with_article(limit.motion)}, at {self._damping(limit.above)}, known by {known}."
+            return f"The last motion to go is {last}, at {say.gain('gamma', limit.above)}."
+        factor = say.scales.damping if say.scales else 1.0
+        above = _rounded_up(limit.above * factor, limit.digits) / factor
         return (
-            f"Above {self._damping(limit.above, limit.digits, up=True)} all fresh disturbances tried came back to "
-            f"levitation; the largest damping at which one was found to be lost is {self._damping(limit.gamma, limit.digits)} "
-            f"({'ends in ' + limit.motion if limit.settles else unsettled_words(limit.motion)})."
+            f"All fresh disturbances came back above {say.gain('gamma', above)}; the last that was found to be lost, at "
+            f"{say.gain('gamma', float(f'{limit.gamma * factor:.{limit.digits}g}') / factor)}, "
+            f"{f'ended {ending_phrase(limit.motion)}' if limit.settles else f'was in {_unsettled_words(limit.motion)}'}."
         )
 
-    def _checked(self) -> str:
-        if not self.checks:
-            return ""
-        first, last = self.checks[0].gamma, self.checks[-1].gamma
-        rotor = Jeffcott(self.parameters.replace(gamma=first))
-        return (
-            f"At each of {len(self.checks)} dampings from {self._damping(first, 4)} to {self._damping(last, 4)} none of "
-            f"{self.sample.count} fresh ones was lost: with {100 * CONFIDENCE:.0f} % confidence {share_words(self.share_below)} "
-            f"at any of these. This is evidence, not proof, and holds for these kinds: {self.sample.words(rotor)}."
-        )
-
-    def _faster(self) -> str:
-        if self.faster is None:
+    def _faster_words(self, say: Wording) -> str:
+        """Say how many of the faster disturbances were lost."""
+        faster = self.faster
+        if faster is None:
             return ""
         return (
-            f"Of {self.faster.sample.count} disturbances up to {self._speed(self.faster.sample.fastest)} "
-            f"{self.faster.lost or 'none'} {'was' if self.faster.lost in (0, 1) else 'were'} lost at {self._damping(self.faster.gamma, 4)}."
+            f"Of {faster.sample.count:,} of up to {say.velocity(faster.sample.fastest)}, {faster.lost or 'none'} "
+            f"{'was' if faster.lost <= 1 else 'were'} lost at {say.gain('gamma', faster.gamma)}."
         )
 
-    def _rolling(self) -> str:
-        if not self.rolling:
-            return "Rolling in backward whirl cannot sustain itself at any damping."
-        reached = self.simulated is not None and self.simulated.motion.outcome is Outcome.ROLLING
-        return (
-            f"Rolling in backward whirl sustains itself up to {self._damping(self.rolling.gamma)}: once there, the rotor "
-            f"stays. At the limit above, contact surely leads there from backward speeds along the wall over "
-            f"{self._speed(self.runaway.certain)}; {'some' if reached else 'none'} of the disturbances tried got there."
-        )
 
-    def _damping(self, gamma: float, digits: int = 5, *, up: bool = False) -> str:
-        scales = self.parameters.scales
-
-        def write(value: float, most: int) -> str:
-            return f"{rounded_up(value, most) if up else float(f'{value:.{most}g}'):.10g}"
-
-        text = f"gamma = {write(gamma, digits)}"
-        return f"{text} ({write(gamma * scales.damping, min(digits, 4))} N s/m)" if scales else text
-
-    def _speed(self, speed: float) -> str:
-        scales = self.parameters.scales
-        return f"{speed:.3g} c_r Omega" + (f" ({speed * scales.velocity:.3g} m/s)" if scales else "")
-
-
-def _with_article(motion: MotionName) -> str:
-    return f"the {motion}" if motion.outcome is Outcome.FORWARD_RUB else motion
-
-
-def unsettled_words(motion: MotionName) -> str:
+def _unsettled_words(motion: MotionName) -> str:
     """Say why a disturbance that has not settled counts as lost."""
     if not motion.outcome.settled:
         return f"{motion}, not seen to come back"
     return f"{motion}, not seen to come back in {PATIENCE:,} impacts"
 
 
-def rounded_up(value: float, digits: int) -> float:
+def _rounded_up(value: float, digits: int) -> float:
     """Round a positive number up to the given number of significant digits."""
     near = Decimal(f"{value:.{digits - 1}e}")
     exact = Decimal(value)
