@@ -17,16 +17,18 @@ from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.basins.shares import CONFIDENCE
 from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
+from carom.closed_forms.thresholds import Gain
+from carom.closed_forms.whirl import rolling
+from carom.models import Jeffcott
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.single_impact import Orbit, OrbitSet
 from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
-from carom.parameters.indentation import indentation_of_force, indentation_of_hit
+from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone
 from carom.studies.endings import hardest_impulse, largest_all_back, touching
-from carom.studies.loads import rolling_document, wall_document
 from carom.studies.ranges import MotionRange, Span, Threshold
 from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.studies.verdict import NOT_COVERED
@@ -59,9 +61,7 @@ def orbits_document(
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
         "equilibria": [_equilibrium(entry, parameters) for entry in equilibria],
         "orbits": [_orbit(entry, scales) for entry in orbits],
-        "complete": orbits.complete,
-        "longest_period": orbits.longest_period,
-        "argument": orbits.argument,
+        **_fields(orbits, "complete", "longest_period", "argument"),
     }
 
 
@@ -79,7 +79,7 @@ def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
         "time": trajectory.time,
         "impacts": [dict(zip(keys, map(float, impact), strict=True)) for impact in impacts],
         "contacts": [
-            {"kind": contact.kind, "phase": contact.phase.label, "start": contact.start, "end": contact.end}
+            {"kind": contact.kind, "phase": contact.phase.label, **_fields(contact, "start", "end")}
             for contact in trajectory.lasting_contacts
         ],
         "final": _state(trajectory.final),
@@ -108,11 +108,11 @@ def study_document(study: Study) -> dict[str, Any]:
         "thresholds": [_threshold(entry, say) for entry in study.thresholds],
         "ranges": [_range(entry) for entry in study.ranges],
         "boundaries": [_boundary(entry, say) for entry in study.boundaries],
-        "levitation_alone": {gain: _free(study, gain) for gain in study.gains},
+        "levitation_alone": dict.fromkeys(study.gains) | {entry.gain: _spans(entry.spans) for entry in study.alone},
         "levitation_alone_checks": [_alone(entry) for entry in study.alone],
         "advice": [_advice(entry, say) for entry in study.advice],
         "attractors": [_attractor(entry, case.parameters) for entry in study.attractors],
-        "rolling": rolling_document(study.rotor),
+        "rolling": _rolling(study.rotor),
         "disturbances": _disturbances(study.attractors, case.parameters)
         | {"fresh": _check(study.fresh) if study.fresh else None},
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
@@ -125,40 +125,41 @@ def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
     document = {
         "kind": entry.kind,
         "U": entry.position,
-        "radius": entry.radius,
-        "normal_force": entry.normal_force,
-        "status": entry.status,
-        "stable": entry.stable,
+        **_fields(entry, "radius", "normal_force", "status", "stable"),
         "eigenvalues": list(entry.eigenvalues),
     }
     if scales is not None:
         document["radius_si"] = entry.radius * scales.length
         document["normal_force_si"] = entry.normal_force * scales.force
         if entry.kind == "rub":
-            document |= wall_document(indentation_of_force(parameters, entry.normal_force))
+            document |= _wall(indentation_of_force(parameters, entry.normal_force))
     return document
 
 
 def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
     document = {
-        "name": entry.name,
-        "impacts": entry.impacts,
-        "period": entry.period,
-        "radial_speed": entry.radial_speed,
-        "angle": entry.angle,
-        "angular_speed": entry.angular_speed,
+        **_fields(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed"),
         "multipliers": list(entry.multipliers.values),
-        "stable": entry.stable,
-        "admissible": entry.admissible,
-        "reason": entry.reason,
+        **_fields(entry, "stable", "admissible", "reason"),
     }
     if scales is not None:
         impulse = (1.0 + entry.rotor.parameters.d) * entry.radial_speed
         document["period_si"] = entry.period * scales.time
         document["radial_speed_si"] = entry.radial_speed * scales.velocity
         document["normal_impulse_si"] = impulse * scales.impulse
-        document |= wall_document(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
+        document |= _wall(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
     return document
+
+
+def _fields(entry: Any, *names: str) -> dict[str, Any]:
+    return {name: getattr(entry, name) for name in names}
+
+
+def _value_in_si(say: Wording, gain: Gain, value: float) -> dict[str, Any]:
+    """Return the keys of damping or stiffness in SI units; none if the machine is not known."""
+    if say.scales is None:
+        return {}
+    return {"quantity": say.gain_name(gain), "value_si": say.gain_in_si(gain, value)}
 
 
 def _state(state: State) -> dict[str, complex]:
@@ -166,55 +167,39 @@ def _state(state: State) -> dict[str, complex]:
 
 
 def _scales(scales: Scales) -> dict[str, float]:
-    names = ("length", "time", "velocity", "acceleration", "force", "impulse", "energy", "damping", "stiffness")
-    return {name: getattr(scales, name) for name in names}
+    return _fields(
+        scales, "length", "time", "velocity", "acceleration", "force", "impulse", "energy", "damping", "stiffness"
+    )
 
 
 def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
-    document: dict[str, Any] = {
+    return {
         "motion": entry.motion,
         "kind": entry.edge.kind,
         "exists": entry.exists,
         "parameter": entry.gain,
-        "value": entry.edge.value,
-        "period": entry.edge.period,
-        "certified": entry.edge.certified,
+        **_fields(entry.edge, "value", "period", "certified"),
+        **_value_in_si(say, entry.gain, entry.edge.value),
     }
-    if say.scales is not None:
-        document["quantity"] = say.gain_name(entry.gain)
-        document["value_si"] = say.gain_in_si(entry.gain, entry.edge.value)
-    return document
 
 
 def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
-    document: dict[str, Any] = {
+    return {
         "parameter": entry.gain,
-        "value": entry.value,
-        "levitates": entry.levitates,
-        "kind": entry.kind,
+        **_fields(entry, "value", "levitates", "kind"),
         "orbits": [
-            {
-                "name": orbit.name,
-                "levitating_side": orbit.levitating_side,
-                "stable": orbit.stable,
-                "period": orbit.period,
-            }
-            for orbit in entry.orbits
-            if orbit.admissible
+            _fields(orbit, "name", "levitating_side", "stable", "period") for orbit in entry.orbits if orbit.admissible
         ],
         "complete": entry.complete,
+        **_value_in_si(say, entry.gain, entry.value),
     }
-    if say.scales is not None:
-        document["quantity"] = say.gain_name(entry.gain)
-        document["value_si"] = say.gain_in_si(entry.gain, entry.value)
-    return document
 
 
 def _range(entry: MotionRange) -> dict[str, Any]:
     return {
         "motion": entry.motion,
         "parameter": entry.gain,
-        "spans": [_span(span) for span in entry.spans],
+        "spans": _spans(entry.spans),
         "searched": _span(entry.searched) if entry.searched else None,
         "step": entry.step,
     }
@@ -224,17 +209,16 @@ def _span(span: Span) -> list[float]:
     return [span.low.value, span.high.value]
 
 
-def _free(study: Study, gain: Any) -> list[list[float]] | None:
-    found = study.alone_along(gain)
-    return None if found is None else [_span(span) for span in found.spans]
+def _spans(spans: tuple[Span, ...]) -> list[list[float]]:
+    return [_span(span) for span in spans]
 
 
 def _alone(entry: LevitationAlone) -> dict[str, Any]:
     return {
         "parameter": entry.gain,
-        "spans": [_span(span) for span in entry.spans],
+        "spans": _spans(entry.spans),
         "ends": [[span.low.motion or span.low.kind, span.high.motion or span.high.kind] for span in entry.spans],
-        "backward_whirl": [_span(span) for span in entry.whirl],
+        "backward_whirl": _spans(entry.whirl),
         "met": [
             {"motion": met.motion, "value": met.value, "start": {"U": met.position, "V": met.velocity}}
             for met in entry.met
@@ -242,28 +226,24 @@ def _alone(entry: LevitationAlone) -> dict[str, Any]:
         "values": list(entry.values),
         "disturbances": entry.disturbances,
         "on_the_wall": entry.rim,
-        "seed": entry.seed,
-        "fastest": entry.fastest,
+        **_fields(entry, "seed", "fastest"),
     }
 
 
 def _advice(entry: Advice, say: Wording) -> dict[str, Any]:
     document: dict[str, Any] = {
         "parameter": entry.gain,
-        "value": entry.value,
-        "change": entry.change,
+        **_fields(entry, "value", "change"),
         "levitation_alone": entry.alone,
         "margin": entry.margin,
         "disturbances": entry.returned.total,
         "recovered": entry.returned.count,
         "share_low": entry.returned.low,
         "share_high": entry.returned.high,
-        "seed": entry.seed,
-        "fastest": entry.fastest,
+        **_fields(entry, "seed", "fastest"),
+        **_value_in_si(say, entry.gain, entry.value),
     }
     if say.scales is not None:
-        document["quantity"] = say.gain_name(entry.gain)
-        document["value_si"] = say.gain_in_si(entry.gain, entry.value)
         document["fastest_si"] = entry.fastest * say.scales.velocity
     return document
 
@@ -273,22 +253,16 @@ def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
     document: dict[str, Any] = {
         "name": entry.name,
         "outcome": entry.outcome.label,
-        "settled": entry.settled,
-        "multiplicity": entry.multiplicity,
-        "period": entry.period,
-        "whirl": entry.whirl,
-        "count": entry.count,
-        "share": entry.share,
+        **_fields(entry, "settled", "multiplicity", "period", "whirl", "count", "share"),
         "known_starts": entry.known,
-        "largest_impulse": entry.largest_impulse,
-        "largest_force": entry.largest_force,
+        **_fields(entry, "largest_impulse", "largest_force"),
         **document_of(entry.survival),
     }
     if scales is not None:
         document["largest_impulse_si"] = entry.largest_impulse * scales.impulse
         document["largest_force_si"] = entry.largest_force * scales.force
         hit = indentation_of_hit(parameters, entry.largest_impulse / (1.0 + parameters.d))
-        document |= wall_document(max(hit, indentation_of_force(parameters, entry.largest_force)))
+        document |= _wall(max(hit, indentation_of_force(parameters, entry.largest_force)))
     return document
 
 
@@ -312,7 +286,7 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
     if scales is not None:
         document["smallest_unrecovered_kick_si"] = None if smallest is None else smallest * scales.velocity
         document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
-        document |= wall_document(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
+        document |= _wall(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
     return document
 
 
@@ -324,55 +298,50 @@ def _ending(entry: Ending) -> dict[str, Any]:
     return {
         "kind": entry.start.kind,
         "start": _state(entry.start.state),
-        "attractor": entry.attractor,
-        "time": entry.time,
-        "impacts": entry.impacts,
-        "hardest_impulse": entry.hardest_impulse,
+        **_fields(entry, "attractor", "time", "impacts", "hardest_impulse"),
     }
 
 
 def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
-    limits = {
-        "within_reach": safe.within_reach,
-        "at_all": safe.at_all,
-        "rub": safe.rub,
-        "orbits": safe.orbits,
-        "simulated": safe.simulated,
-        "rolling": safe.rolling,
-    }
-    documents = {name: _limit(limit, scales) if limit else None for name, limit in limits.items()}
-    faster = safe.faster
+    limits = _fields(safe, "within_reach", "at_all", "rub", "orbits", "simulated", "rolling")
     return {
-        **documents,
-        "lowest": safe.lowest,
-        "highest": safe.highest,
+        **{name: _limit(limit, scales) if limit else None for name, limit in limits.items()},
+        **_fields(safe, "lowest", "highest"),
         "disturbances": safe.sample.count,
         "seed": safe.sample.seed,
         "fastest": safe.sample.fastest,
         "checked": [check.gamma for check in safe.checks],
         "share_below": safe.share_below if safe.checks else None,
         "confidence": CONFIDENCE,
-        "faster": _check(faster) if faster else None,
+        "faster": _check(safe.faster) if safe.faster else None,
     }
 
 
 def _check(check: DampingCheck) -> dict[str, Any]:
-    tried = check.sample
-    return {
-        "gamma": check.gamma,
-        "fastest": tried.fastest,
-        "seed": tried.seed,
-        "count": tried.count,
-        "lost": check.lost,
-        "share_below": check.share_below,
-    }
+    sample = _fields(check.sample, "fastest", "seed", "count")
+    return {"gamma": check.gamma, **sample, **_fields(check, "lost", "share_below")}
 
 
 def _limit(limit: DampingLimit, scales: Scales | None) -> dict[str, Any]:
-    document = {"motion": limit.motion, "gamma": limit.gamma, "above": limit.above, "evidence": limit.evidence}
+    document = _fields(limit, "motion", "gamma", "above", "evidence")
     if scales is not None:
         document["gamma_si"] = limit.gamma * scales.damping
         document["above_si"] = limit.above * scales.damping
+    return document
+
+
+def _wall(indentation: float) -> dict[str, Any]:
+    """Return the least indentation of a wall of solid steel, in clearances, and whether the rigid wall is valid."""
+    return {"indentation": indentation, "rigid_wall": not gives_way(indentation)}
+
+
+def _rolling(rotor: Jeffcott) -> dict[str, Any]:
+    """Return whether rolling backward whirl sustains itself, with its speed and force."""
+    roll, scales = rolling(rotor), rotor.scales
+    document = _fields(roll, "holds", "speed", "largest_force")
+    if scales is not None:
+        document["largest_force_si"] = roll.largest_force * scales.force
+        document |= _wall(indentation_of_force(rotor.parameters, roll.largest_force))
     return document
 
 
