@@ -20,7 +20,8 @@ from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import corrected, grazing_equations, is_admissible, jacobian_at, margins_of, orbit_of
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.models import Jeffcott
-from carom.orbits.single_impact import longest_within_reach, slip_stays_forward
+from carom.orbits.admissibility import slip_stays_forward
+from carom.orbits.single_impact import longest_within_reach
 from carom.outcome import CaromError
 from carom.parameters import Parameters
 

@@ -4,23 +4,21 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar, overload
 
 import numpy as np
 
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
-from carom.core.events import INSIDE, LEAVING, first_crossing
-from carom.core.layout import rub_workspace, workspace
 from carom.core.planar import impact_jacobian
-from carom.core.rub import lift_off
-from carom.models import Jeffcott, Subject, System, model_of
+from carom.models import Jeffcott, Subject, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
-from carom.orbits.maps import Section, section_jacobian
+from carom.orbits.admissibility import departure, slip_speed, slip_stays_forward, why_virtual
+from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.stability import Multipliers, multipliers
-from carom.outcome import InputError, Outcome
+from carom.outcome import InputError
 from carom.results import Result, in_a_line
 
 __all__ = [
@@ -32,13 +30,10 @@ __all__ = [
     "orbits_of_roots",
     "orbits_within_reach",
     "period_condition",
-    "slip_stays_forward",
 ]
 
 MOST_RADIANS = 1500.0
 """Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""
-ARRIVAL_TOLERANCE = 1e-7
-"""Relative difference below which the certified first return and the period count as the same event."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -124,11 +119,7 @@ class Orbit(Result):
     @property
     def departure(self) -> State:
         """State just after the impact."""
-        before = self.section.state
-        arrays = self.rotor.system.arrays
-        grip = complex(1.0, self.slip * arrays.friction[0])
-        change = -(1.0 + arrays.restitution[0]) * grip * self.radial_speed * before.position
-        return State(before.position, before.velocity + change)
+        return departure(self.rotor.parameters, self.section, self.slip)
 
     def trajectory(self, periods: float = 1.0) -> Trajectory:
         """Follow an admissible orbit by simulation, from just after an impact."""
@@ -256,7 +247,9 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
     if not forward_only:
         backward = PeriodCondition(rotor.system, slip=-1)
         reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
-        orbits += [orbit for orbit in reversed_orbits if _slip_speed(orbit) < 0.0 < orbit.radial_speed]
+        orbits += [
+            orbit for orbit in reversed_orbits if slip_speed(rotor.parameters, orbit.section) < 0.0 < orbit.radial_speed
+        ]
     return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, forward_only)
 
 
@@ -279,42 +272,22 @@ def orbits_within_reach(machine: Subject) -> OrbitSet:
 def longest_within_reach(rotor: Jeffcott) -> float | None:
     """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
     condition = PeriodCondition(rotor.system)
-    limit = MOST_RADIANS / float(abs(condition.exponents).max())
+    limit = MOST_RADIANS / float(abs(rotor.system.exponents).max())
     return None if condition.longest_period() <= limit else limit
-
-
-def slip_stays_forward(rotor: Jeffcott) -> bool:
-    """Whether an orbit with one impact a period cannot stay inside the wall if its slip is stopped or backward.
-
-    After an impact that leaves no forward slip, the rotor moves backward along the wall at the speed ``s`` or more in
-    the fixed frame.  There stiffness and unbalance change its velocity by less than ``ρ + ω²`` per unit of time.  So
-    while it stays inside, it has moved backward after a time ``τ``, measured along the tangent at the impact, by more
-    than ``b(τ) = s(1 − e^{−γτ})/γ − (ρ + ω²)τ²/2``.  Let ``b`` reach one clearance at ``τ₁ ≤ π``.  With a period above
-    ``τ₁`` the rotor would pass through the wall.  A shorter period ends at the place of the impact rotated forward by
-    the angle ``T``, where the rotor cannot be because ``b > 0``.
-    """
-    parameters = rotor.parameters
-    if parameters.mu == 0.0:
-        return True
-    if parameters.gamma <= 0.0:
-        return False
-    times = np.linspace(0.0, np.pi, 200)
-    gone = -parameters.radius_ratio * np.expm1(-parameters.gamma * times) / parameters.gamma
-    return bool((gone - 0.5 * (parameters.rho + parameters.omega**2) * times**2).max() > 1.0)
 
 
 def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, slip: Slip) -> list[Orbit]:
     """Orbits at all roots, in the order of their pairs and letters."""
-    slipping = _slipping(rotor.system, slip)
-    levers = condition.factor * condition.a12(roots.periods)
-    turns = condition.factor * condition.a22(roots.periods)
+    parameters, periods = rotor.parameters, roots.periods.tolist()
+    gamma, omega, friction, d = parameters.gamma, parameters.omega, slip * parameters.mu, parameters.d
+    levers = (condition.factor * condition.a12(roots.periods)).tolist()
+    turns = (condition.factor * condition.a22(roots.periods)).tolist()
     orbits = []
-    for name, root, speed in orbits_of_roots(rotor, roots, levers.tolist(), slip):
-        period = float(roots.periods[root])
-        position = rotor.equilibrium / (1.0 + complex(levers[root]) * speed)
-        section = Section(cmath.phase(position), speed, -float(turns[root].imag) * speed)
-        jacobian = _jacobian(rotor, slipping, section, period, slip)
-        orbits.append(orbit_at(rotor, name, period, section, multipliers(jacobian)))
+    for name, root, speed in orbits_of_roots(rotor, roots, levers, slip):
+        position = rotor.equilibrium / (1.0 + levers[root] * speed)
+        section = Section(cmath.phase(position), speed, -turns[root].imag * speed)
+        jacobian = impact_jacobian(gamma, omega, friction, d, periods[root], speed)
+        orbits.append(orbit_at(rotor, name, periods[root], section, multipliers(jacobian)))
     return sorted(orbits, key=lambda orbit: orbit.name.place)
 
 
@@ -327,17 +300,6 @@ def orbits_of_roots(
         pair, longer = divmod(root + int(roots.starts_below), 2)
         for faster, speed in enumerate(_radial_speeds(rotor, lever)):
             yield OrbitName(pair + 1, bool(longer), bool(faster), slip), root, speed
-
-
-def _jacobian(rotor: Jeffcott, slipping: System, section: Section, period: float, slip: Slip) -> np.ndarray:
-    """Derivative of the impact map; for an orbit that has shrunk to the equilibrium on the wall, its limit."""
-    if section.radial_speed != 0.0:
-        return section_jacobian(slipping, section, period)
-    parameters = rotor.parameters
-    limit: np.ndarray = impact_jacobian(
-        parameters.gamma, parameters.omega, slip * parameters.mu, parameters.d, period, 0.0
-    )
-    return limit
 
 
 def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, nontrivial: Multipliers) -> Orbit:
@@ -358,15 +320,7 @@ def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, 
     -------
     Orbit
     """
-    orbit = Orbit(rotor, name, period, section, nontrivial, "")
-    return replace(orbit, reason=_why_virtual(orbit))
-
-
-def _slipping(system: System, slip: Slip) -> System:
-    """Copy of a system in which the slip always has the given direction, as is assumed for an orbit."""
-    arrays = system.arrays.copy()
-    arrays.drive[:] = slip * np.inf
-    return replace(system, arrays=arrays)
+    return Orbit(rotor, name, period, section, nontrivial, why_virtual(rotor, period, section, name.slip))
 
 
 def _radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
@@ -383,47 +337,3 @@ def _radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
     if larger == 0.0:
         return (0.0, 0.0)
     return tuple(sorted((float(larger / square), float(constant / larger))))
-
-
-def _slip_speed(orbit: Orbit) -> float:
-    return float(orbit.rotor.system.arrays.drive[0] + orbit.angular_speed)
-
-
-def _why_virtual(orbit: Orbit) -> str:
-    arrays = orbit.rotor.system.arrays
-    if orbit.radial_speed <= 0.0:
-        return "it would meet the wall from outside (radial speed not above 0)"
-    if arrays.friction[0] > 0.0:
-        slip = orbit.slip * _slip_speed(orbit)
-        if slip < 0.0:
-            return "its slip would run the other way, and friction with it"
-        if arrays.friction[0] * (1.0 + arrays.restitution[0]) * orbit.radial_speed >= slip:
-            return "friction would stop the slip during the impact"
-    departure = orbit.departure
-    start = orbit.rotor.system.amplitudes(departure.position, departure.velocity)
-    push = (departure.position.conjugate() * (start @ arrays.acceleration_rows[0])).real + abs(departure.velocity) ** 2
-    if arrays.restitution[0] == 0.0 and push >= 0.0:
-        return "it would stay on the wall: it does not rebound and is pressed outward"
-    code, time = _first_return(orbit.rotor, start, 1.5 * orbit.period)
-    if code == Outcome.CLEAR or abs(time - orbit.period) <= ARRIVAL_TOLERANCE * orbit.period:
-        return ""
-    if code == Outcome.GRAZING:
-        return f"it grazes the wall at t = {time:.6g} after the impact"
-    return f"it would cross the wall at t = {time:.6g}, before its period is over"
-
-
-def _first_return(rotor: Jeffcott, start: np.ndarray, horizon: float) -> tuple[int, float]:
-    """Outcome and time of the first return to the wall after an impact."""
-    arrays, work = rotor.system.arrays, workspace(len(start))
-    if arrays.restitution[0] > 0.0:
-        outcome, time = first_crossing(arrays, rotor.system.table, 0, start, horizon, LEAVING, work)
-        return outcome, time
-    # Without rebound the radial speed is zero at first: the distance from the wall grows with the square of time.
-    amplitudes = start.copy()
-    aloft, returned = lift_off(arrays, 0, amplitudes, horizon, rub_workspace(len(start)))
-    if aloft == 0.0:
-        return int(Outcome.GRAZING), 0.0
-    if returned:
-        return int(Outcome.CONTACT), aloft
-    outcome, time = first_crossing(arrays, rotor.system.table, 0, amplitudes, horizon - aloft, INSIDE, work)
-    return outcome, aloft + time

@@ -55,6 +55,5 @@ def multipliers(jacobian: np.ndarray) -> Multipliers:
     -------
     Multipliers
     """
-    values = np.linalg.eigvals(jacobian).astype(complex)
-    order = np.lexsort((-values.imag, -np.round(np.abs(values), 12)))
-    return Multipliers(values[order])
+    values = np.linalg.eigvals(jacobian).astype(complex).tolist()
+    return Multipliers(np.array(sorted(values, key=lambda value: (-round(abs(value), 12), -value.imag))))
