@@ -11,6 +11,7 @@ from machines import PAPER, exact_return, flight_matrix, random_parameters
 from scipy.linalg import expm
 
 from carom.closed_forms.periods import PeriodCondition
+from carom.core.periods import curvature_bound
 from carom.models import Jeffcott
 from carom.orbits import period_condition
 from carom.outcome import CaromError, InputError
@@ -70,7 +71,7 @@ def test_flight_response_near_its_resonances(turns, offset, mode):
     """With weak damping ``λT`` comes as near to ``2πik`` as ``γT/2``."""
     parameters = PAPER.replace(gamma=1e-3)
     condition = condition_of(parameters)
-    period = 2.0 * np.pi * turns / abs(condition.exponents[mode].imag) + offset
+    period = 2.0 * np.pi * turns / abs(condition.modes[mode, 0].imag) + offset
     back, rate = exact_return(parameters, period)
     error = abs(condition.a22(np.array([period]))[0] - back[1, 1])
     assert error <= rounding(back[1, 1], rate[1, 1], period)
@@ -134,7 +135,8 @@ def test_curvature_never_exceeds_its_bound():
         condition = condition_of(parameters)
         middles = random.uniform(0.05, min(condition.longest_period(), 60.0), 5)
         half_widths = middles * 10 ** random.uniform(-4, -0.1, 5)
-        bounds = condition.curvature_bound(middles, half_widths)
+        each = zip(middles, half_widths, strict=True)
+        bounds = [curvature_bound(condition.modes, condition.factor, middle, half) for middle, half in each]
         inside = np.abs(middles + half_widths * np.linspace(-1, 1, 21)[:, None])
         curvatures = np.abs(exact_curvature(parameters, inside.ravel())).reshape(inside.shape)
         # The inverse of 1 − e^{AT} is as large as 1/T.

@@ -1,16 +1,14 @@
-"""Closed forms of the planar rotor against matrix exponentials with many digits, and against the general rotor."""
+"""Closed forms of the planar rotor against the general rotor and dense sampling."""
 
 from __future__ import annotations
 
-import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, exact_return, random_parameters
+from machines import PAPER, random_parameters
 
 from carom import find_orbits
-from carom.closed_forms.periods import PeriodCondition
-from carom.core.planar import orbit_conditions, planar_exponents, radial_course, radial_profile, returns
+from carom.core.planar import orbit_conditions, radial_course, radial_profile
 from carom.models import Jeffcott
 from carom.orbits.maps import section_jacobian
 
@@ -31,38 +29,6 @@ def conditions(parameters, period, speed):
         period,
         speed,
     )
-
-
-def test_returns_keep_their_digits_at_any_damping_and_period():
-    random = np.random.default_rng(5)
-    for parameters in machines(200, 4):
-        period = float(10 ** random.uniform(-6, 1.3))
-        got = returns(*planar_exponents(parameters.gamma, parameters.omega), period)
-        with mpmath.workdps(60):
-            value, rate = exact_return(parameters, period)
-            exact = [complex(value[0, 1]), complex(value[1, 1]), complex(rate[1, 1])]
-        # A change of the exponents' last digit is felt after many turns, and near a resonance of the free motion.
-        exponents = np.array(planar_exponents(parameters.gamma, parameters.omega))
-        distance = np.abs(np.expm1(exponents * period)).min() / min(1.0, period)
-        turned = 1.0 + np.abs(exponents).max() * period
-        assert np.abs(np.subtract(got, exact) / exact).max() < 5e-14 * turned / min(1.0, distance) ** 2
-
-
-def test_returns_vanish_at_periods_where_the_free_motion_has_died_out():
-    for gamma, omega in ((3.0, 0.5), (1.0, 2.0), (8.0, 4.0)):
-        for period in (300.0, 800.0, 1e5):
-            assert np.abs(returns(*planar_exponents(gamma, omega), period)).max() < 1e-8
-
-
-def test_returns_agree_with_the_general_rotor():
-    periods = np.linspace(0.05, 12.0, 40)
-    for parameters in machines(20, 6):
-        rotor = Jeffcott(parameters)
-        condition = PeriodCondition(rotor.system)
-        got = np.array([returns(*planar_exponents(parameters.gamma, parameters.omega), period) for period in periods])
-        assert got[:, 0] == pytest.approx(condition.a12(periods), rel=1e-10)
-        assert got[:, 1] == pytest.approx(condition.a22(periods), rel=1e-10, abs=1e-12)
-        assert (condition.factor * got[:, 2]).real == pytest.approx(condition.slope(periods), rel=1e-9, abs=1e-10)
 
 
 def test_orbits_fulfil_the_conditions_and_have_these_multipliers():

@@ -10,24 +10,12 @@ import cmath
 
 import numpy as np
 
-from carom.core.flow import complex_expm1, squared_modulus
+from carom.core.flow import squared_modulus
 from carom.core.layout import kernel
+from carom.core.periods import propagator, returns
 
-__all__ = ["impact_jacobian", "orbit_conditions", "planar_exponents", "radial_course", "radial_profile", "returns"]
+__all__ = ["impact_jacobian", "orbit_conditions", "planar_exponents", "radial_course", "radial_profile"]
 
-# B₂ₖ/(2k)! with the Bernoulli numbers B₂ₖ.
-_BERNOULLI = (
-    1.0 / 12.0,
-    -1.0 / 720.0,
-    1.0 / 30240.0,
-    -1.0 / 1209600.0,
-    1.0 / 47900160.0,
-    -691.0 / 1307674368000.0,
-    1.0 / 74724249600.0,
-    -3617.0 / 10670622842880000.0,
-    43867.0 / 5109094217170944000.0,
-    -174611.0 / 802857662698291200000.0,
-)
 _NEWTON_STEPS = 60
 
 
@@ -44,38 +32,6 @@ def planar_exponents(gamma, omega):
         else:
             lower = omega * omega / upper
     return lower - 1j, upper - 1j
-
-
-@kernel
-def returns(first, second, period):
-    """``a₁₂``, ``a₂₂`` and ``da₂₂/dT`` of the planar rotor with these exponents (source paper (4.1)).
-
-    With ``g(z) = 1/(e^{−z} − 1)`` they are the divided differences over ``λ`` of ``g(λT)``, ``λ g(λT)`` and
-    ``λ² g'(λT)``.  The first is a product, accurate however close the exponents are; the second is a value of ``g`` and
-    a multiple of the first; the third follows from ``g' = g(1 + g)``.  At short periods the poles of ``g`` cancel in
-    the last two, which are summed there from the Bernoulli series of ``z g(z) + 1``.
-    """
-    _, response, _ = _propagator(first, second, period)
-    if squared_modulus(first) < squared_modulus(second):
-        first, second = second, first
-    z, w = first * period, second * period
-    x, y = complex_expm1(z), complex_expm1(w)
-    a12 = response / (x * y)
-    if squared_modulus(z) > 1.0:
-        # Never from e^{−z}, which overflows at long periods.
-        g, h = -cmath.exp(z) / x, -cmath.exp(w) / y
-        a22 = g + second * a12
-        rate = (first + second) * h * (1.0 + h) + first * first * a12 * (1.0 + g + h)
-        return a12, a22, rate
-    a22, rate = complex(-0.5, 0.0), 0j
-    power, difference = w, z + w  # w^{n−1} and the divided difference of zⁿ, n = 2
-    for k in range(len(_BERNOULLI)):
-        a22 -= _BERNOULLI[k] * difference
-        rate -= _BERNOULLI[k] * (2 * k + 1) * difference / period
-        for _ in range(2):
-            power *= w
-            difference = z * difference + power
-    return a12, a22, rate
 
 
 @kernel
@@ -108,7 +64,7 @@ def orbit_conditions(gamma, omega, rho, mu, d, drive, period, speed):
         ``q a₁₂`` and ``q a₂₂``.
     """
     first, second = planar_exponents(gamma, omega)
-    a12, a22, rate = returns(first, second, period)
+    a12, a22, rate, _ = returns(first, second, period)
     q = complex(1.0 + d, (1.0 + d) * mu)
     lever, turn = q * a12, q * a22
     closing = 1.0 + turn.real
@@ -136,7 +92,7 @@ def orbit_conditions(gamma, omega, rho, mu, d, drive, period, speed):
 def impact_jacobian(gamma, omega, mu, d, period, speed):
     """Derivative of the impact map on a single-impact orbit over ``(θ, ṙ, θ̇)``, shape (3, 3)."""
     first, second = planar_exponents(gamma, omega)
-    a12, a22, _ = returns(first, second, period)
+    a12, a22, _, _ = returns(first, second, period)
     q = complex(1.0 + d, (1.0 + d) * mu)
     return _jacobian(first, second, q, q * a12, q * a22, period, speed)
 
@@ -150,7 +106,7 @@ def _jacobian(first, second, q, lever, turn, period, speed):
     """
     velocity = complex(1.0, -turn.imag)
     force = (first + second) * velocity + first * second * lever
-    growth, response, decay = _propagator(first, second, period)
+    growth, response, decay = propagator(first, second, period)
     jacobian = np.empty((3, 3))
     for column in range(3):
         position_change, velocity_change = 0j, 1j
@@ -168,16 +124,6 @@ def _jacobian(first, second, q, lever, turn, period, speed):
         jacobian[1, column] = velocity_change.real + turned * speed * velocity.imag
         jacobian[2, column] = velocity_change.imag - turned * speed
     return jacobian
-
-
-@kernel
-def _propagator(first, second, time):
-    """``e^{λ₊t}``, the divided difference of ``e^{λt}``, and ``e^{λ₋t}`` for ``λ₋, λ₊`` = ``first, second``."""
-    gap = second - first
-    growth = cmath.exp(second * time)
-    lag = complex_expm1(-gap * time)
-    response = -growth * lag / gap if gap != 0.0 else growth * time
-    return growth, response, growth * (1.0 + lag)
 
 
 @kernel
@@ -254,7 +200,7 @@ def radial_profile(gamma, omega, mu, d, period, speed):
 def _flight(gamma, omega, mu, d, period, speed):
     """Exponents, equilibrium and amplitudes (driven, driving) of the flight that follows the impact at ``U = 1``."""
     first, second = planar_exponents(gamma, omega)
-    a12, a22, _ = returns(first, second, period)
+    a12, a22, _, _ = returns(first, second, period)
     q = complex(1.0 + d, (1.0 + d) * mu)
     rest = 1.0 + q * a12 * speed
     driven = 1.0 - rest
@@ -265,7 +211,7 @@ def _flight(gamma, omega, mu, d, period, speed):
 @kernel
 def _radial(first, second, rest, driven, driving, time):
     """``Re(Ū U̇)``, its first and second derivative, and ``r² − 1`` at a time."""
-    growth, response, decay = _propagator(first, second, time)
+    growth, response, decay = propagator(first, second, time)
     change = driven * growth + driving * response
     late = driving * decay
     position = rest + change
