@@ -6,10 +6,13 @@ import dataclasses
 from collections.abc import Mapping, Sequence, Set, Sized
 from enum import Enum
 from html import escape
+from importlib import import_module
 from numbers import Complex
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
+
+from carom.outcome import InputError
 
 __all__ = ["Result", "in_a_line"]
 
@@ -23,10 +26,29 @@ DIGITS = 6
 class Result:
     """Result of a function: a frozen dataclass that is shown by its attributes, large ones by their size only.
 
-    ``shown`` names the attributes to show, which may be properties; if it is empty, all fields are shown.
+    ``shown`` names the attributes to show, which may be properties; if it is empty, all fields are shown.  ``figure``
+    names the function of :mod:`carom.plots` that draws such a result; it is empty if there is none.
     """
 
     shown: ClassVar[tuple[str, ...]] = ()
+    figure: ClassVar[str] = ""
+
+    def plot(self, *args: Any, **options: Any) -> Any:
+        """Draw this result: ``result.plot(...)`` is ``carom.plots.<figure>(result, ...)``.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        InputError
+            There is no figure of such a result.
+        """
+        if not self.figure:
+            raise InputError("plot", type(self).__name__, "a result that carom.plots has a figure of")
+        # The layers forbid imports from above, so the figure is named here as data.
+        return getattr(import_module("carom.plots"), self.figure)(self, *args, **options)
 
     def __repr__(self) -> str:
         rows = self.rows()

@@ -65,7 +65,7 @@ def test_a_figure_of_the_user_keeps_its_layout(damped, tmp_path):
 
 
 def test_legends_titles_and_labels_are_within_the_page(damped):
-    figure = plots.equilibria_and_orbits(damped.equilibria, damped.orbits, title="All motions")
+    figure = plots.equilibria_and_orbits(damped.orbits, damped.equilibria, title="All motions")
     page = figure.bbox.extents
     for box in (figure.legends[0].get_window_extent(), *(axes.get_tightbbox() for axes in figure.axes)):
         assert (box.extents[:2] >= page[:2]).all()

@@ -7,7 +7,7 @@ import pytest
 from drawn_legends import fits, legend_words
 from machines import PAPER
 
-from carom import Machine, bifurcations
+from carom import Machine, bifurcations, plots
 from carom.parameters import Scales
 from carom.plots import diagrams
 from carom.plots.style import LOOKS
@@ -15,7 +15,7 @@ from carom.plots.style import LOOKS
 
 def test_looks_change_at_the_special_points():
     found = bifurcations.find_bifurcations(PAPER, "gamma", (0.03, 0.4))
-    figure = diagrams.bifurcation_diagram(found)
+    figure = plots.bifurcation_diagram(found)
     upper, _, lower = figure.axes
     stable = [line for line in upper.lines if line.get_color() == LOOKS["stable"].colour and len(line.get_xdata()) > 2]
     ends = sorted(end for line in stable for end in (line.get_xdata()[0], line.get_xdata()[-1]))
@@ -46,7 +46,7 @@ def test_markers_of_special_points_differ():
 def test_run_up_is_drawn_over_revolutions_per_minute():
     parameters = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2)).parameters
     found = bifurcations.find_bifurcations(parameters, "speed", (100.0, 330.0))
-    figure = diagrams.bifurcation_diagram(found)
+    figure = plots.bifurcation_diagram(found)
     assert "rpm" in figure.axes[2].get_xlabel()
     assert figure.axes[0].get_xlim() == pytest.approx((100.0 * 30 / np.pi, 330.0 * 30 / np.pi))
 
@@ -58,7 +58,7 @@ SOFT = PAPER.replace(gamma=0.1, omega=0.34, rho=0.2, mu=0.2, d=0.6)
 @pytest.mark.jit_only
 def test_bars_say_what_exists_where():
     found = bifurcations.find_bifurcations(PAPER, "gamma", (0.03, 0.4), attractors=3)
-    below = diagrams.bifurcation_diagram(found).axes[2]
+    below = plots.bifurcation_diagram(found).axes[2]
     rows = {text.get_text(): height for text, height in zip(below.get_yticklabels(), below.get_yticks(), strict=True)}
     assert list(rows)[:3] == ["levitation", "forward rub", "bouncing"]
     assert "backward whirl" in rows
@@ -81,4 +81,4 @@ def test_bars_say_what_exists_where():
 @pytest.mark.parametrize("parameters", [PAPER, SOFT])
 def test_legends_fit(parameters):
     found = bifurcations.find_bifurcations(parameters, "gamma", (0.02, 0.4))
-    assert fits(diagrams.bifurcation_diagram(found))
+    assert fits(plots.bifurcation_diagram(found))

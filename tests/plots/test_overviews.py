@@ -13,7 +13,7 @@ def _texts(axes):
 
 
 def test_every_equilibrium_is_at_its_place(damped, read):
-    figure = plots.equilibria_and_orbits(damped.equilibria, damped.orbits)
+    figure = plots.equilibria_and_orbits(damped.orbits, damped.equilibria)
     whole = figure.axes[0]
     for kind in ("contact-free", "rub"):
         drawn = [complex(line.get_xdata()[0], line.get_ydata()[0]) for line in read.lines(whole, kind)]
@@ -25,7 +25,7 @@ def test_every_equilibrium_is_at_its_place(damped, read):
 
 
 def test_words(damped, read):
-    figure = plots.equilibria_and_orbits(damped.equilibria, damped.orbits, title="A machine")
+    figure = plots.equilibria_and_orbits(damped.orbits, damped.equilibria, title="A machine")
     assert figure.get_suptitle() == "A machine"
     assert set(read.legend(figure)) == {
         "clearance circle (touchdown bearing)",
@@ -39,7 +39,7 @@ def test_words(damped, read):
 
 
 def test_every_orbit_is_named_once_small_ones_in_a_panel(damped):
-    figure = plots.equilibria_and_orbits(damped.equilibria, damped.orbits)
+    figure = plots.equilibria_and_orbits(damped.orbits, damped.equilibria)
     whole, left, right = figure.axes
     assert _texts(whole) == {r"$B_{\mathrm{1,d}}$", "(b)", "(c)"}
     assert _texts(left) == {r"$B_{\mathrm{1,a}}$", r"$B_{\mathrm{1,b}}$"}
@@ -53,7 +53,7 @@ def test_every_orbit_is_named_once_small_ones_in_a_panel(damped):
 
 
 def test_virtual_orbits_are_faint(weak, read):
-    figure = plots.equilibria_and_orbits(weak.equilibria, weak.orbits)
+    figure = plots.equilibria_and_orbits(weak.orbits, weak.equilibria)
     whole = figure.axes[0]
     pale = plots.LOOKS["outside"]
     virtual = [orbit for orbit in weak.orbits if not orbit.admissible]
@@ -70,7 +70,7 @@ def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
     rotor = carom.models.Jeffcott(damped.rotor.parameters.replace(gamma=0.02))
     orbits = carom.find_orbits(rotor)
     virtual = sum(not orbit.admissible for orbit in orbits)
-    figure = plots.equilibria_and_orbits(carom.find_equilibria(rotor), orbits)
+    figure = plots.equilibria_and_orbits(orbits, carom.find_equilibria(rotor))
     whole = figure.axes[0]
     assert len(read.lines(whole, "path")) == len(orbits) - virtual
     assert sum(len(line.get_xdata()) for line in read.lines(whole, "virtual")) == virtual
@@ -78,7 +78,7 @@ def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):
 
 
 def test_without_orbits_one_panel(quiet, read):
-    figure = plots.equilibria_and_orbits(quiet.equilibria, quiet.orbits)
+    figure = plots.equilibria_and_orbits(quiet.orbits, quiet.equilibria)
     (axes,) = figure.axes
     assert len(read.lines(axes, "contact-free")) == 1
     assert len(read.lines(axes, "rub")) == 2
@@ -87,7 +87,7 @@ def test_without_orbits_one_panel(quiet, read):
 def test_own_axes_hold_everything(damped):
     figure = Figure()
     axes = figure.subplots()
-    assert plots.equilibria_and_orbits(damped.equilibria, damped.orbits, title="All", axes=axes) is figure
+    assert plots.equilibria_and_orbits(damped.orbits, damped.equilibria, title="All", axes=axes) is figure
     assert figure.axes == [axes]
     assert _texts(axes) == {rf"$B_{{\mathrm{{1,{letter}}}}}$" for letter in "abcd"}
     assert axes.get_title() == "All"
@@ -96,7 +96,7 @@ def test_own_axes_hold_everything(damped):
 @pytest.mark.parametrize("case", ["damped", "weak"])
 def test_names_do_not_overlap(case, request, read):
     motions = request.getfixturevalue(case)
-    figure = plots.equilibria_and_orbits(motions.equilibria, motions.orbits)
+    figure = plots.equilibria_and_orbits(motions.orbits, motions.equilibria)
     for axes in figure.axes:
         boxes = read.boxes(axes)
         for i, box in enumerate(boxes):

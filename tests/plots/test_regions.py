@@ -7,14 +7,14 @@ import pytest
 from drawn_legends import fits, legend_words
 from machines import PAPER
 
+from carom import plots
 from carom.bifurcations import UnexplainedChange, motions_at
 from carom.bifurcations.documents import regions_document
-from carom.plots import regions
 
 
 @pytest.fixture(scope="module")
 def figure(corner):
-    return regions.region_map(corner, corner.plane.axes(PAPER))
+    return plots.region_map(corner)
 
 
 def test_words_of_the_legend(corner, figure):
@@ -49,7 +49,7 @@ def test_figure_and_document_number_the_same_regions(corner, figure):
 def test_resonances_the_machine_and_changes_without_a_curve_are_marked(corner):
     change = UnexplainedChange((0.05, 0.5), motions_at(PAPER), motions_at(PAPER.replace(gamma=0.2)), "for this test")
     marked = type(corner)(**{**vars(corner), "unexplained": (change,)})
-    figure = regions.region_map(marked, corner.plane.axes(PAPER))
+    figure = plots.region_map(marked)
     (axes,) = figure.axes
     places = {line.get_gid(): (line.get_xdata()[0], line.get_ydata()[0]) for line in axes.lines if line.get_gid()}
     assert places[f"the machine as it is: region {corner.present_region}"] == (PAPER.gamma, PAPER.omega)

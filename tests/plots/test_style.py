@@ -15,7 +15,7 @@ def _draw_everything(damped, bouncing) -> None:
     plots.motion(bouncing, fade=True)
     plots.radius(bouncing)
     plots.multipliers(damped.orbits)
-    plots.equilibria_and_orbits(damped.equilibria, damped.orbits)
+    plots.equilibria_and_orbits(damped.orbits, damped.equilibria)
     plots.period_condition(damped.orbits, [0.5, 1.0, 2.0], [0.1, -0.1, 0.3])
 
 

@@ -60,6 +60,7 @@ class Basin(Result):
         repeat the computation: parameters, disturbance, seed, criteria, versions.
     """
 
+    figure: ClassVar[str] = "basin"
     shown: ClassVar[tuple[str, ...]] = (
         "parameters",
         "coordinates",

@@ -54,6 +54,7 @@ class GainMap(Result):
         ``smallest_unrecovered_kick_angle`` (rad, co-rotating frame), NaN where all come back.
     """
 
+    figure: ClassVar[str] = "gain_map"
     shown: ClassVar[tuple[str, ...]] = (
         "parameters",
         "axes",

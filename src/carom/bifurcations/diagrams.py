@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -62,6 +63,8 @@ class Diagram(Result):
     disturbances : DisturbanceSet or None
         Disturbances followed at each of the values of ``attractors``.
     """
+
+    figure: ClassVar[str] = "bifurcation_diagram"
 
     axis: Axis
     interval: tuple[float, float]

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.bifurcations.axes import vary
+from carom.bifurcations.axes import Axis, vary
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
@@ -37,6 +37,8 @@ class RegionMap(Result):
     Attributes
     ----------
     plane : Plane
+    axes : tuple of Axis
+        The two parameters of the plane.
     curves : tuple of Curve
     regions : tuple of Region
         Largest first.
@@ -50,6 +52,7 @@ class RegionMap(Result):
         Curves that could not be followed, each with the reason.
     """
 
+    figure: ClassVar[str] = "region_map"
     shown: ClassVar[tuple[str, ...]] = (
         "plane",
         "curves",
@@ -60,6 +63,7 @@ class RegionMap(Result):
     )
 
     plane: Plane
+    axes: tuple[Axis, Axis]
     curves: tuple[Curve, ...]
     regions: tuple[Region, ...]
     present: tuple[float, float] | None
@@ -174,7 +178,7 @@ def map_regions(
         Unknown parameters, or a range they cannot have.
     """
     parameters = model_of(machine).parameters
-    plane.axes(parameters)
+    axes = plane.axes(parameters)
     tell = progress or (lambda _: None)
     place = plane.place_of(parameters)
     inside = plane.holds(*place)
@@ -199,6 +203,7 @@ def map_regions(
         survey.seen.setdefault(present, place)
     return RegionMap(
         plane=plane,
+        axes=axes,
         curves=tuple(survey.curves),
         regions=regions_between(base, plane, [column[1:-1] for column in stands[1:-1]], survey.seen),
         present=place if inside else None,

@@ -184,16 +184,14 @@ def _print(answer: _Answer) -> None:
 
 def _write(out: str, answer: _Answer) -> None:
     """Write all files to the directory, or none."""
-    from carom.plots import basin as draw_basin
-    from carom.plots import gain_map as draw_map
     from carom.plots import save
     from carom.report.directory import filled_at_once
     from carom.studies import as_json
 
     with filled_at_once(out, "--out") as directory:
-        save(draw_basin(answer.basin, answer.smallest), directory / "figures" / "basins")
+        save(answer.basin.plot(answer.smallest), directory / "figures" / "basins")
         answer.basin.save(directory / "basins.nc")
         if answer.gains is not None:
-            save(draw_map(answer.gains, answer.change), directory / "figures" / "gain-map")
+            save(answer.gains.plot(answer.change), directory / "figures" / "gain-map")
             answer.gains.save(directory / "gains.nc")
         (directory / "basins.json").write_text(as_json(answer.document) + "\n", encoding="utf-8")

@@ -96,9 +96,7 @@ def bifurcations(
         )
     document = diagram_document(parameters, diagram)
     if directory is not None:
-        from carom.plots.diagrams import bifurcation_diagram as draw
-
-        _write(directory, f"bifurcations-{varied.name}", draw(diagram), document)
+        _write(directory, f"bifurcations-{varied.name}", diagram.plot(), document)
     if as_json:
         print_document(document)
         return
@@ -155,13 +153,11 @@ def regions(
         )
     document = regions_document(parameters, found)
     if directory is not None:
-        from carom.plots.regions import region_map as draw
-
-        _write(directory, f"regions-{axes[0].name}-{axes[1].name}", draw(found, axes), document)
+        _write(directory, f"regions-{axes[0].name}-{axes[1].name}", found.plot(), document)
     if as_json:
         print_document(document)
         return
-    _print_map(found, axes)
+    _print_map(found)
 
 
 def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
@@ -278,14 +274,14 @@ def _print_attractors(diagram: Diagram) -> None:
         screen.print(f"Irregular bouncing: {words}; at {diagram.axis.name} = {', '.join(places)}")
 
 
-def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
+def _print_map(found: RegionMap) -> None:
     from carom.cli.fitting import fitted
     from carom.cli.region_tables import curve_table, meeting_table, present_words, region_table, unexplained_table
 
     screen = console()
-    first, second = (f"{axis.field.words} {_quantity(axis)}" for axis in axes)
+    first, second = (f"{axis.field.words} {_quantity(axis)}" for axis in found.axes)
     screen.print(f"Plane of {first} and {second}")
-    names = _quantity(axes[0]), _quantity(axes[1])
+    names = _quantity(found.axes[0]), _quantity(found.axes[1])
     kinds = {curve.kind for curve in found.curves}
     screen.print(fitted(screen, curve_table(found, names, _named)) if kinds else "No bifurcation in this plane.")
     if found.codimension2:
@@ -293,7 +289,7 @@ def _print_map(found: RegionMap, axes: tuple[Axis, Axis]) -> None:
     screen.print(fitted(screen, region_table(found, names)))
     if found.everywhere:
         screen.print(f"In every region: {', '.join(found.everywhere)}")
-    screen.print(present_words(found, axes))
+    screen.print(present_words(found))
     if found.unexplained:
         screen.print(fitted(screen, unexplained_table(found, names)))
     for words in found.lost:

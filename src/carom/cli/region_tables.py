@@ -9,7 +9,7 @@ from rich import box
 from rich.table import Table
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Axis, RegionMap
+    from carom.bifurcations import RegionMap
 
 __all__ = ["curve_table", "meeting_table", "present_words", "region_table", "unexplained_table"]
 
@@ -69,13 +69,13 @@ def unexplained_table(found: RegionMap, names: Names) -> Table:
     return table
 
 
-def present_words(found: RegionMap, axes: tuple[Axis, Axis]) -> str:
+def present_words(found: RegionMap) -> str:
     """Say in one sentence in which region the machine lies."""
     words = ", ".join(part for part in found.present_motions.parts if part not in found.everywhere)
     if found.present is None:
         return f"The machine as it is lies outside this plane: {found.present_motions.words}"
     place = ", ".join(
         f"{axis.name} = {value:.6g}" + (f" {axis.field.unit}" if axis.field.unit else "")
-        for axis, value in zip(axes, found.present, strict=True)
+        for axis, value in zip(found.axes, found.present, strict=True)
     )
     return f"The machine as it is, {place}: region {found.present_region} ({words})"

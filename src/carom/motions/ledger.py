@@ -39,6 +39,8 @@ class EnergyLedger(Table):
         Work that the shaft's drive supplies through friction, in impacts and in lasting contact.
     """
 
+    figure: ClassVar[str] = "energies"
+
     times: np.ndarray
     kinetic: np.ndarray
     spring: np.ndarray

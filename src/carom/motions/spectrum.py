@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -26,6 +27,8 @@ class FullSpectrum(Result):
     resolution : float
         Smallest distance of two orders that can be distinguished, four grid steps (Hann window).
     """
+
+    figure: ClassVar[str] = "spectrum"
 
     orders: np.ndarray
     amplitudes: np.ndarray

@@ -81,6 +81,7 @@ class Trajectory(Result):
         Mode amplitudes at the end of each segment except the last.
     """
 
+    figure: ClassVar[str] = "motion"
     shown: ClassVar[tuple[str, ...]] = (
         "rotor",
         "start",

@@ -57,6 +57,7 @@ class Orbit(Result):
         Why it is not admissible; empty if it is.
     """
 
+    figure: ClassVar[str] = "orbit"
     shown: ClassVar[tuple[str, ...]] = (
         "rotor",
         "name",
@@ -158,6 +159,8 @@ class OrbitSet(Result, Sequence[Orbit]):
         Otherwise orbits with backward slip are listed too, but orbits whose impacts stop the slip are not searched.
         Only a rotor about as small as its clearance can have either.
     """
+
+    figure: ClassVar[str] = "equilibria_and_orbits"
 
     rotor: Jeffcott
     members: tuple[Orbit, ...]

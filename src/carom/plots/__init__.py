@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
+from carom.plots.diagrams import bifurcation_diagram
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
 from carom.plots.motions import motion, orbit
-from carom.plots.overviews import equilibria_and_orbits
+from carom.plots.overviews import equilibria_and_orbits, overview
+from carom.plots.regions import region_map
 from carom.plots.sheet import applied
 from carom.plots.spectra import multipliers, spectrum
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
@@ -27,6 +29,7 @@ __all__ = [
     "Look",
     "applied",
     "basin",
+    "bifurcation_diagram",
     "energies",
     "equilibria_and_orbits",
     "forces",
@@ -34,9 +37,11 @@ __all__ = [
     "motion",
     "multipliers",
     "orbit",
+    "overview",
     "period_condition",
     "radius",
     "regimes",
+    "region_map",
     "save",
     "spectrum",
     "sweep_map",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,13 +33,16 @@ from carom.plots.words import orbit_look, orbit_symbol
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium
     from carom.orbits.single_impact import Orbit, OrbitSet
+    from carom.studies import Study
 
-__all__ = ["equilibria_and_orbits"]
+__all__ = ["equilibria_and_orbits", "overview"]
 
 _ORDER = {"virtual": 0, "unstable": 1, "stable": 2}
 _STATUS = {"admissible": "admissible", "boundary": "on the wall"}
 _MOST_VIRTUAL = 8
 """Number of virtual orbits above which their paths and names are left out, since they would hide the physical ones."""
+_MOST_IN_OVERVIEW = 16
+"""Number of virtual orbits above which the figure of a study leaves them out."""
 _LABEL_RING = 1.17
 """Radius of the ring around the clearance circle on which the names sit."""
 
@@ -58,7 +61,7 @@ class _Drawn:
 
 @styled
 def equilibria_and_orbits(
-    equilibria: Sequence[Equilibrium], orbits: OrbitSet, title: str | None = None, *, axes: Axes | None = None
+    orbits: OrbitSet, equilibria: Sequence[Equilibrium] = (), title: str | None = None, *, axes: Axes | None = None
 ) -> Figure:
     """Draw all equilibria and periodic orbits of a machine in the co-rotating frame.
 
@@ -67,10 +70,10 @@ def equilibria_and_orbits(
 
     Parameters
     ----------
-    equilibria : sequence of carom.closed_forms.equilibria.Equilibrium
-        Contact-free and rub equilibria.
     orbits : carom.orbits.OrbitSet
         Periodic orbits of the rotor.
+    equilibria : sequence of carom.closed_forms.equilibria.Equilibrium, optional
+        Contact-free and rub equilibria.
     title : str, optional
         Title of the figure.
     axes : matplotlib.axes.Axes, optional
@@ -108,6 +111,26 @@ def equilibria_and_orbits(
         whole.set_title(title or "")
         legend_below(whole)
     return figure
+
+
+def overview(study: Study, title: str | None = None) -> Figure:
+    """Draw the equilibria and orbits of a study; virtual orbits are left out if there are very many.
+
+    Parameters
+    ----------
+    study : carom.studies.Study
+    title : str, optional
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As :func:`equilibria_and_orbits` draws it.
+    """
+    orbits = study.orbits
+    possible = tuple(orbit for orbit in orbits if orbit.admissible)
+    if len(orbits) - len(possible) > _MOST_IN_OVERVIEW:
+        orbits = replace(orbits, members=possible)
+    return equilibria_and_orbits(orbits, study.equilibria, title)
 
 
 def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:

@@ -18,7 +18,7 @@ from carom.plots.style import TWO_COLUMNS, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Axis, Region, RegionMap
+    from carom.bifurcations import Region, RegionMap
 
 __all__ = ["region_map"]
 
@@ -30,14 +30,12 @@ _LINE, _ROOM = 0.135, 9
 
 
 @styled
-def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
+def region_map(found: RegionMap) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
 
     Parameters
     ----------
     found : carom.bifurcations.RegionMap
-    axes : tuple of carom.bifurcations.Axis
-        The two parameters, for their names and units.
 
     Returns
     -------
@@ -55,12 +53,12 @@ def region_map(found: RegionMap, axes: tuple[Axis, Axis]) -> Figure:
     rows = -(-len(listed) // columns)
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)))
     drawn = figure.subplots()
-    units = np.array([parameter_unit(axis) for axis in axes])
+    units = np.array([parameter_unit(axis) for axis in found.axes])
     # Draw the broad line of non-smooth Hopf bifurcations below that of the boundary equilibria.
     for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
         curve_line(drawn, curve, units)
-    drawn.set_xlabel(parameter_label(axes[0]))
-    drawn.set_ylabel(parameter_label(axes[1]))
+    drawn.set_xlabel(parameter_label(found.axes[0]))
+    drawn.set_ylabel(parameter_label(found.axes[1]))
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
     lines = [*_curve_key(found), *_mark_points(drawn, found, units)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -25,8 +24,6 @@ MOST_ORBITS = 6
 """Largest number of orbits with figures of their own."""
 MOST_ENDINGS = 5
 """Largest number of disturbances shown as examples."""
-MOST_VIRTUAL = 16
-"""Number of virtual orbits above which the overview leaves them out."""
 PANELS = (
     " From top to bottom: distance from the bearing centre; kind of contact and direction of whirl; load on the bearing; "
     "energies and works."
@@ -81,16 +78,12 @@ def pictures(study: Study) -> list[Picture]:
 
 
 def _overview(study: Study) -> Picture:
-    orbits = study.orbits
-    possible = tuple(orbit for orbit in orbits if orbit.admissible)
-    if len(orbits) - len(possible) > MOST_VIRTUAL:
-        orbits = dataclasses.replace(orbits, members=possible)
     return Picture(
         "overview",
         "motions",
         "All steady motions and single-impact orbits in the frame that turns with the shaft. The circle is the wall: the "
         "rotor centre cannot leave it. A steady whirl is a point here, a bounce a loop that touches the circle.",
-        lambda: plots.equilibria_and_orbits(study.equilibria, orbits),
+        study.plot,
     )
 
 

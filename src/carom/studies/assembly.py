@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, get_args
+from typing import Any, ClassVar, get_args
 
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
@@ -57,6 +57,8 @@ class Study(Result):
     fresh : DampingCheck or None
         If all disturbances of the standard set came back: how many of a larger sample do, at the machine's own damping.
     """
+
+    figure: ClassVar[str] = "overview"
 
     case: Case
     rotor: Jeffcott

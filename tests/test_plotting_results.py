@@ -1,0 +1,76 @@
+"""Results draw themselves: each one that names a figure, as the function of carom.plots does."""
+
+import pkgutil
+from importlib import import_module
+
+import pytest
+from machines import PAPER
+from studies import study_once
+
+import carom
+from carom import plots
+from carom.basins import map_basins, map_gains
+from carom.disturbances import Grid, VelocityKick
+from carom.motions import energy_ledger
+from carom.motions.spectrum import full_spectrum
+from carom.outcome import InputError
+from carom.results import Result
+
+KICKS = Grid(VelocityKick(0.5), (4, 6))
+
+
+def motion():
+    return carom.simulate(PAPER, carom.kick(0.35, angle=0.2), until=30.0)
+
+
+EXAMPLES = {
+    "Trajectory": motion,
+    "EnergyLedger": lambda: energy_ledger(motion()),
+    "FullSpectrum": lambda: full_spectrum(motion()),
+    "Orbit": lambda: carom.find_orbits(PAPER)["B1,d"],
+    "OrbitSet": lambda: carom.find_orbits(PAPER),
+    "Basin": lambda: map_basins(PAPER, KICKS),
+    "GainMap": lambda: map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2)),
+    "Diagram": lambda: carom.find_bifurcations(PAPER, "gamma", (0.1, 0.12)),
+    "RegionMap": lambda: carom.map_regions(
+        PAPER, carom.bifurcations.Plane("gamma", "omega", (0.1, 0.12), (0.75, 0.77)), grid=2
+    ),
+    "Study": lambda: study_once(PAPER.replace(gamma=0.65, mu=0.0)),
+}
+
+
+def every_kind(kind=Result):
+    for member in kind.__subclasses__():
+        yield member
+        yield from every_kind(member)
+
+
+def drawn_kinds():
+    for module in pkgutil.walk_packages(carom.__path__, "carom."):
+        if not module.name.endswith("__main__"):
+            import_module(module.name)
+    return {kind.__name__: kind.figure for kind in every_kind() if kind.figure and kind.__module__.startswith("carom.")}
+
+
+def test_every_result_with_a_figure_has_an_example_and_a_public_function():
+    kinds = drawn_kinds()
+    assert set(kinds) == set(EXAMPLES)
+    assert set(kinds.values()) <= set(plots.__all__)
+
+
+@pytest.mark.parametrize("kind", EXAMPLES)
+def test_a_result_draws_itself_as_plots_does(kind, tmp_path):
+    result = EXAMPLES[kind]()
+    assert type(result).__name__ == kind
+    one, other = result.plot(), getattr(plots, result.figure)(result)
+    files = [plots.save(figure, tmp_path / name, ("svg",))[0] for name, figure in (("a", one), ("b", other))]
+    assert files[0].read_bytes() == files[1].read_bytes()
+
+
+def test_options_are_handed_on():
+    assert motion().plot(title="a title").get_suptitle() == "a title"
+
+
+def test_a_result_without_a_figure_says_so():
+    with pytest.raises(InputError, match=r"^plot = PeriodRoots: a result that carom\.plots has a figure of$"):
+        carom.closed_forms.periods.PeriodRoots.plot(object.__new__(carom.closed_forms.periods.PeriodRoots))
