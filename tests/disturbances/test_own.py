@@ -91,7 +91,7 @@ def test_attractors_that_own_disturbances_reach(basin):
     found = cm.find_attractors(MACHINE, PLAN, known=False)
 
     assert [ending.start.state for ending in found.endings] == states(PLAN)
-    assert [ending.outcome for ending in found.endings] == basin.outcomes[basin.exists].tolist()
+    assert [ending.attractor.outcome for ending in found.endings] == basin.outcomes[basin.exists].tolist()
     assert {member.name: member.share for member in found} == pytest.approx(basin.fractions)
     assert found.sample == PLAN
     assert "of the kind shove" in found.argument

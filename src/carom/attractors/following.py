@@ -40,15 +40,12 @@ class Ending:
     start : Start
     attractor : MotionName
         Name of the :class:`Attractor`.
-    outcome : Outcome
     time : float
         Time at which the outcome was known, in ``1/Ω``.
     impacts : int
         Impacts until then.
     touched : bool
         Whether the rotor met the wall, even if only during a shock or because it started there.
-    irregular : bool
-        Whether it still bounces irregularly.
     survival : Survival or None
         How long irregular bouncing lasts, if the motion is irregular or was so after 1000 impacts; otherwise ``None``.
     """
@@ -56,12 +53,15 @@ class Ending:
     rotor: Jeffcott
     start: Start
     attractor: MotionName
-    outcome: Outcome
     time: float
     impacts: int
     touched: bool
-    irregular: bool = False
     survival: Survival | None = None
+
+    @property
+    def recovered(self) -> bool:
+        """Whether it came back to levitation."""
+        return self.attractor.outcome is Outcome.LEVITATED
 
     @cached_property
     def hardest_impulse(self) -> float:

@@ -29,9 +29,6 @@ class Attractor(Result):
         ``"rolling"``, ``"unresolved: time-reached"`` and so on.
     words : str
         What the rotor does, in a sentence.
-    outcome : Outcome
-    multiplicity : int
-        Impacts per period; 0 without impacts or period.
     period : float or None
         In ``1/Ω``, in the co-rotating frame; ``None`` for rest in that frame and for irregular motion.
     whirl : {"forward", "backward", "none"}
@@ -56,8 +53,6 @@ class Attractor(Result):
 
     name: MotionName
     words: str
-    outcome: Outcome
-    multiplicity: int
     period: float | None
     whirl: Whirl
     count: int
@@ -72,7 +67,7 @@ class Attractor(Result):
     @property
     def settled(self) -> bool:
         """Whether motions stay on it: it is neither a motion that was given up nor a transient."""
-        return self.outcome.settled and not self.transient
+        return self.name.outcome.settled and not self.transient
 
     @property
     def transient(self) -> bool:
@@ -82,7 +77,7 @@ class Attractor(Result):
     @property
     def touches(self) -> bool:
         """Whether it keeps touching the bearing."""
-        return self.settled and self.outcome is not Outcome.LEVITATED
+        return self.settled and self.name.outcome is not Outcome.LEVITATED
 
 
 def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> Attractor:
@@ -102,18 +97,16 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
     first = here[0]
     motion = _representative(first, state)
     cycle = cycle_of(motion)
-    if first.irregular or not first.outcome.settled:
-        cycle = Cycle(first.outcome, False, None, cycle.positions[:0], cycle.velocities[:0])
+    if name.irregular or not name.outcome.settled:
+        cycle = Cycle(name.outcome, False, None, cycle.positions[:0], cycle.velocities[:0])
     impulse, force = forces_on(motion, cycle)
     hit = [ending.start for ending in here if ending.start.disturbance]
     total = sum(ending.start.disturbance for ending in endings)
-    survival = first.survival if first.irregular else None
+    survival = first.survival if name.irregular else None
     words = _words(cycle, name)
     return Attractor(
         name=name,
         words=f"{words} {_sentence(survival.words)}" if survival else words,
-        outcome=first.outcome,
-        multiplicity=cycle.multiplicity,
         period=cycle.period,
         whirl=whirl_of(motion, cycle),
         count=len(hit),
@@ -129,9 +122,9 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
 
 def _representative(ending: Ending, state: State) -> Trajectory:
     """A motion on an attractor, or the one that was given up, for its first 1000 impacts if it does not repeat."""
-    if ending.outcome is Outcome.LEVITATED:
+    if ending.recovered:
         state = State(ending.rotor.equilibrium)
-    elif not ending.outcome.settled:
+    elif not ending.attractor.outcome.settled:
         state = ending.start.state
     return simulate(ending.rotor, state, settle=True, patience=FIRST_PATIENCE)
 

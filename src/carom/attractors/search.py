@@ -11,7 +11,7 @@ from carom.attractors.following import Ending, follow_in_stages
 from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
-from carom.attractors.survival import Survival, still_irregular
+from carom.attractors.survival import Survival
 from carom.disturbances import FASTEST, Disturbance, Plan, Sample, Starts
 from carom.models import Jeffcott, Subject, model_of
 from carom.motions.settling import PATIENCE
@@ -95,13 +95,13 @@ class AttractorSet(Result):
     @property
     def recovered(self) -> float:
         """Share of the disturbances that came back to levitation."""
-        return sum(member.share for member in self.members if member.outcome is Outcome.LEVITATED)
+        return sum(member.share for member in self.members if member.name.outcome is Outcome.LEVITATED)
 
     @property
     def smallest_unrecovered_kick(self) -> float | None:
         """Smallest kick tried that did not come back to levitation, in ``c_r Ω``; ``None`` if all did."""
         kicks = [ending for ending in self.endings if ending.start.kind == "kick"]
-        speeds = [ending.start.speed for ending in kicks if ending.outcome is not Outcome.LEVITATED]
+        speeds = [ending.start.speed for ending in kicks if not ending.recovered]
         return min(speeds, default=None)
 
     @property
@@ -192,17 +192,14 @@ def find_attractors(
     ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, lambda share: tell(0.9 * share))
     index, names = name_motions(rotor, ends, orbits)
     touched = starts.touched | (ends.impacts > 0) | (ends.outcomes > Outcome.LEVITATED)
-    irregular = still_irregular(ends)
     endings = tuple(
         Ending(
             rotor,
             start,
             names[index[place]],
-            Outcome(int(ends.outcomes[place])),
             time=float(ends.times[place]),
             impacts=int(ends.impacts[place]),
             touched=bool(touched[place]),
-            irregular=bool(irregular[place]),
             survival=survival if lasted[place] else None,
         )
         for place, start in enumerate(tried)

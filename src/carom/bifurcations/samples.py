@@ -123,7 +123,7 @@ def _sample(value: float, rotor: Jeffcott, found: Attractor) -> AttractorSample:
     return AttractorSample(
         value,
         found.name,
-        found.outcome.label,
+        found.name.outcome.label,
         found.whirl,
         found.count,
         found.share,
@@ -146,8 +146,8 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
 
 def _impacts(rotor: Jeffcott, attractor: Attractor) -> np.ndarray:
     """Radial speeds of the impacts on an attractor; for a periodic one those of one period."""
-    if attractor.outcome not in REPEATING:
+    if attractor.name.outcome not in REPEATING:
         return np.empty(0)
     log = simulate(rotor, attractor.state, LONGEST, max_events=50 * SHOWN_IMPACTS).contacts
     speeds = log.radial_speed[:SHOWN_IMPACTS]
-    return speeds[-attractor.multiplicity :] if 0 < attractor.multiplicity <= len(speeds) else speeds
+    return speeds[-attractor.name.multiplicity :] if attractor.name.multiplicity <= len(speeds) else speeds

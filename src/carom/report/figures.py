@@ -13,7 +13,6 @@ from carom.attractors import Ending
 from carom.motions.ledger import energy_ledger
 from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import Orbit, OrbitSet, period_condition
-from carom.outcome import Outcome
 from carom.parameters import Zones
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
@@ -137,7 +136,7 @@ def _file_name(attractor: str) -> str:
 def _history(study: Study, example: Ending) -> Figure:
     """Draw the motion until it has settled, with forces and energies; a return to levitation a little longer."""
     decay = -float(study.rotor.system.exponents.real.max())
-    if example.outcome is Outcome.LEVITATED:
+    if example.recovered:
         end = min(example.time + (SHOWN_TAIL / decay if decay > 0 else 0.0), LONGEST_SHOWN)
         motion = simulate(study.rotor, example.start.state, end)
     else:

@@ -23,7 +23,6 @@ from carom.models import Jeffcott
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.single_impact import Orbit, OrbitSet
-from carom.outcome import Outcome
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.studies.advice import Advice
@@ -252,8 +251,10 @@ def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
     scales = parameters.scales
     document: dict[str, Any] = {
         "name": entry.name,
-        "outcome": entry.outcome.label,
-        **_fields(entry, "settled", "multiplicity", "period", "whirl", "count", "share"),
+        "outcome": entry.name.outcome.label,
+        "settled": entry.settled,
+        "multiplicity": entry.name.multiplicity,
+        **_fields(entry, "period", "whirl", "count", "share"),
         "known_starts": entry.known,
         **_fields(entry, "largest_impulse", "largest_force"),
         **document_of(entry.survival),
@@ -291,7 +292,7 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
 
 
 def _recovered(endings: tuple[Ending, ...]) -> int:
-    return sum(ending.outcome is Outcome.LEVITATED for ending in endings)
+    return sum(ending.recovered for ending in endings)
 
 
 def _ending(entry: Ending) -> dict[str, Any]:

@@ -94,7 +94,7 @@ def largest_all_back(found: AttractorSet) -> float | None:
 def _size(alike: list[Ending]) -> KickSize:
     lost: dict[MotionName, int] = {}
     for ending in alike:
-        if ending.outcome is not Outcome.LEVITATED:
+        if not ending.recovered:
             lost[ending.attractor] = lost.get(ending.attractor, 0) + 1
     return KickSize(alike[0].start.speed, len(alike), len(alike) - sum(lost.values()), lost)
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from carom.attractors.names import LEVITATION
 from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
-from carom.outcome import Outcome
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import KickSize, ending_phrase, hardest_impulse, kick_sizes, touching
 from carom.studies.ranges import Gain, Motion
@@ -206,7 +205,7 @@ def _endings(study: Study) -> str:
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}.{_irregular(found)}"
     touched = touching(found)
-    back = sum(ending.outcome is Outcome.LEVITATED for ending in touched)
+    back = sum(ending.recovered for ending in touched)
     if study.levitates and touched:
         text += f" Of the {len(touched)} that touched the wall {back or 'none'} came back to levitation."
     return text

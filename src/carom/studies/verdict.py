@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from carom.closed_forms.whirl import rolling
-from carom.outcome import Outcome
 from carom.studies.findings import FINDINGS, names_of, stable_rub
 from carom.studies.wording import listed
 
@@ -105,7 +104,7 @@ def _what_may_hold(study: Study) -> list[str]:
     if study.stable_orbits:
         holds.append(f"it can bounce for ever ({names_of(list(study.stable_orbits))})")
     tried = study.attractors.disturbances
-    lost = sum(ending.outcome is not Outcome.LEVITATED for ending in tried)
+    lost = sum(not ending.recovered for ending in tried)
     if lost:
         share = f"{lost} of {len(tried)}" if lost < len(tried) else f"any of the {lost}"
         holds.append(f"it did not come back from {share} disturbances of up to {_fastest(study)}")
