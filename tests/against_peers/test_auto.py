@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 from carom import find_orbits
-from carom.bifurcations import Plane, continue_curve, continue_orbit
+from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit
 from carom.models import Jeffcott
 
 from .auto_equations import follow, why_missing
@@ -26,8 +26,7 @@ def test_curve_is_that_of_auto(kind, tmp_path):
     assert len(followed) > 20
     assert followed[:, 0].min() < 0.66
     assert followed[:, 0].max() > 0.94
-    start = (point.period, point.radial_speed)
-    curve = continue_curve(kind, point.numbers.parameters, Plane("gamma", "omega", (0.01, 0.4), LIMITS), start)
+    curve = continue_curve(point, Plane("gamma", "omega", (0.01, 0.4), LIMITS))
     order = np.argsort(curve.points[:, 1])
     for omega, *values in followed[:: max(1, len(followed) // 12)]:
         # Ours at exactly this frequency: begin next to it and let the corrector do the rest.
@@ -36,7 +35,8 @@ def test_curve_is_that_of_auto(kind, tmp_path):
             for column in (curve.points[:, 0], curve.periods, curve.radial_speeds)
         )
         plane = Plane("gamma", "omega", (0.01, 0.4), (omega, omega + 1e-3))
-        here = continue_curve(kind, PAPER.replace(gamma=float(x), omega=omega), plane, (float(period), float(speed)))
+        at = PAPER.replace(gamma=float(x), omega=omega)
+        here = continue_curve(Bifurcation.near(kind, at, float(period), float(speed)), plane)
         nearest = int(np.argmin(np.abs(here.points[:, 1] - omega)))
         assert here.points[nearest, 0] == pytest.approx(values[-1], abs=2e-9)
         assert here.periods[nearest] == pytest.approx(values[0], abs=2e-8)

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import find_orbits
-from carom.bifurcations import KINDS, Curve, Plane, continue_curve, continue_orbit
+from carom import Machine, find_bifurcations, find_orbits
+from carom.bifurcations import KINDS, Bifurcation, Curve, Plane, continue_curve, continue_orbit
+from carom.bifurcations.passing import passes
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.outcome import InputError
+from carom.parameters import Scales
 
 PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
 
@@ -19,13 +21,11 @@ PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
 @pytest.fixture(scope="module")
 def curves() -> dict[str, Curve]:
     branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.02, 0.3))
-    found = {
-        point.kind: continue_curve(point.kind, point.numbers.parameters, PLANE, (point.period, point.radial_speed))
-        for point in branch.special
-        if point.kind in KINDS
-    }
-    found["boundary-equilibrium"] = continue_curve("boundary-equilibrium", PAPER.replace(gamma=0.0725), PLANE)
-    found["rub-fold"] = continue_curve("rub-fold", PAPER.replace(gamma=0.37), PLANE)
+    found = {point.kind: continue_curve(point, PLANE) for point in branch.special if point.kind in KINDS}
+    found["boundary-equilibrium"] = continue_curve(
+        Bifurcation.near("boundary-equilibrium", PAPER.replace(gamma=0.0725)), PLANE
+    )
+    found["rub-fold"] = continue_curve(Bifurcation.near("rub-fold", PAPER.replace(gamma=0.37)), PLANE)
     return found
 
 
@@ -92,7 +92,7 @@ def test_non_smooth_hopf_curve_turns_back_where_the_two_cycles_meet():
     """It lies on the curve of the boundary equilibrium, as far as F₁ has roots; there the short period becomes the long."""
     branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,a"], "gamma", (0.02, 0.17))
     point = next(point for point in branch.special if point.kind == "non-smooth-hopf")
-    curve = continue_curve("non-smooth-hopf", point.numbers.parameters, PLANE, (point.period, point.radial_speed))
+    curve = continue_curve(point, PLANE)
     for (x, y), period in zip(curve.points, curve.periods, strict=True):
         rotor = Jeffcott(PAPER.replace(gamma=x, omega=y))
         assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-10)
@@ -109,17 +109,51 @@ def test_every_pair_of_parameters():
     orbit = find_orbits(Jeffcott(PAPER))["B1,d"]
     branch = continue_orbit(orbit, "gamma", (0.02, 0.3))
     (fold,) = [point for point in branch.special if point.kind == "fold"]
-    at, unknowns = fold.numbers.parameters, (fold.period, fold.radial_speed)
+    at = fold.numbers.parameters
     for name, limits in (("mu", (0.0, 0.4)), ("d", (0.8, 1.0)), ("omega", (0.7, 0.85))):
-        curve = continue_curve("fold", at, Plane("gamma", name, (0.01, 0.6), limits), unknowns)
+        curve = continue_curve(fold, Plane("gamma", name, (0.01, 0.6), limits))
         x, y = curve.points[len(curve.points) // 2]
         rotor = Jeffcott(at.replace(gamma=x, **{name: y}))
         count = len(PeriodCondition(Jeffcott(rotor.parameters.replace(gamma=x - 1e-9)).system).roots().periods)
         assert (
             count - len(PeriodCondition(Jeffcott(rotor.parameters.replace(gamma=x + 1e-9)).system).roots().periods) == 2
         )
-    flat = continue_curve("fold", at, Plane("gamma", "rho", (0.01, 0.6), (0.42, 0.6)), unknowns)
+    flat = continue_curve(fold, Plane("gamma", "rho", (0.01, 0.6), (0.42, 0.6)))
     assert np.ptp(flat.points[:, 0]) < 1e-12
+
+
+def test_every_point_of_a_diagram_can_be_handed_over():
+    diagram = find_bifurcations(PAPER, "gamma", (0.02, 0.4))
+    for point in diagram.points:
+        if point.kind == "radius-extremum":
+            with pytest.raises(InputError, match="one of: fold"):
+                continue_curve(point, PLANE)
+            continue
+        curve = continue_curve(point, PLANE)
+        assert curve.kind == point.kind
+        place = np.array([point.value, PAPER.omega])
+        assert np.linalg.norm((curve.points - place) / PLANE.widths, axis=1).min() < 0.1
+        assert passes(curve, point)
+
+
+def test_ranges_with_units():
+    machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+    orbit = find_orbits(machine)["B1,d"]
+    texts = continue_orbit(orbit, "damping", ("300 N s/m", "2 kN s/m"))
+    numbers = continue_orbit(orbit, "damping", (300.0, 2000.0))
+    assert [(point.kind, point.value) for point in texts.special] == [
+        (point.kind, point.value) for point in numbers.special
+    ]
+    assert find_bifurcations(machine, "speed", ("1700 rpm", "1800 rpm")).interval[1] == pytest.approx(60.0 * np.pi)
+    (doubling,) = [point for point in texts.special if point.kind == "period-doubling"]
+    plane = Plane("damping", "stiffness", ("300 N s/m", "2 kN s/m"), ("0.9 MN/m", "1.1 MN/m"))
+    assert (plane.first_range, plane.second_range) == ((300.0, 2000.0), (0.9e6, 1.1e6))
+    assert continue_curve(doubling, plane).admissible.any()
+    for given in (("300 kg", 2000.0), ("much", 2000.0)):
+        with pytest.raises(InputError, match="damping"):
+            continue_orbit(orbit, "damping", given)
+    with pytest.raises(InputError, match="ascending order"):
+        find_bifurcations(machine, "damping", ("2 kN s/m", "300 N s/m"))
 
 
 def test_inputs_that_cannot_be_used():
@@ -128,10 +162,12 @@ def test_inputs_that_cannot_be_used():
     with pytest.raises(InputError, match="two finite values in ascending order"):
         Plane("gamma", "omega", (0.3, 0.1), (0.5, 1.0))
     with pytest.raises(InputError, match="one of: fold"):
-        continue_curve("hopf", PAPER, PLANE)
+        continue_curve(Bifurcation.near("hopf", PAPER), PLANE)
+    with pytest.raises(InputError, match="one of an orbit"):
+        _ = Bifurcation.near("rub-fold", PAPER).orbit
     with pytest.raises(InputError, match="a point of the plane"):
-        continue_curve("boundary-equilibrium", PAPER.replace(omega=0.5), PLANE)
+        continue_curve(Bifurcation.near("boundary-equilibrium", PAPER.replace(omega=0.5)), PLANE)
     with pytest.raises(InputError, match="period and radial speed"):
-        continue_curve("fold", PAPER, PLANE)
+        continue_curve(Bifurcation.near("fold", PAPER), PLANE)
     with pytest.raises(InputError, match="mass, clearance and speed"):
-        continue_curve("rub-fold", PAPER, Plane("speed", "omega", (100.0, 200.0), (0.6, 1.0)))
+        continue_curve(Bifurcation.near("rub-fold", PAPER), Plane("speed", "omega", (100.0, 200.0), (0.6, 1.0)))

@@ -11,11 +11,12 @@ from flint import acb, acb_mat, arb, arb_mat, ctx
 from machines import PAPER, random_parameters
 
 from carom import find_orbits
-from carom.bifurcations import Numbers, branches, continue_orbit, curves
+from carom.bifurcations import Bifurcation, Numbers, Plane, branches, continue_curve, continue_orbit, curves, value_of
 from carom.bifurcations.conditions import conditions_at
 from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
 from carom.continuation import continue_branch
 from carom.models import Jeffcott
+from carom.outcome import CaromError
 from carom.parameters import Scales
 
 ctx.prec = 192
@@ -164,11 +165,11 @@ def assert_consistent(residual, jacobian, branch) -> None:
         columns = []
         sizes = np.where(x == 0.0, 1.0, np.abs(x))
         for k, size in enumerate(sizes):
-            h = 1e-3 * size * np.eye(len(x))[k]
+            h = 2e-4 * size * np.eye(len(x))[k]
             near, far = (residual(*split(x + s * h)) - residual(*split(x - s * h)) for s in (1.0, 2.0))
-            columns.append((8.0 * near - far) / (12e-3 * size))
+            columns.append((8.0 * near - far) / (24e-4 * size))
         differences, exact = np.array(columns).T, jacobian(*split(x))
-        # Differences of the fourth order with relative steps of 1e-3.
+        # Differences of the fourth order with relative steps of 2e-4.
         assert np.abs((exact - differences) * sizes).max() < 1e-7 * max(1.0, np.abs(exact * sizes).max())
 
 
@@ -184,9 +185,41 @@ SCALED = PAPER.replace(scales=Scales(50.0, 0.7e-3, 184.2))
 )
 def test_branches_along_any_parameter(monkeypatch, name):
     orbit = find_orbits(Jeffcott(SCALED))["B1,d"]
-    value = curves.Plane("phi", name, (0.0, 1.0), (0.0, 1e9)).place_of(SCALED)[1]
+    value = value_of(SCALED, name)
 
     def follow():
         continue_orbit(orbit, name, (0.98 * value, 1.02 * value))
 
     assert_consistent(*followed(monkeypatch, branches, follow))
+
+
+PLANES = {
+    "gamma, omega": Plane("gamma", "omega", (0.02, 0.6), (0.6, 1.0)),
+    "speed, damping": Plane("speed", "damping", ("1400 rpm", "2200 rpm"), (100.0, 8000.0)),
+    "speed, gamma": Plane("speed", "gamma", (150.0, 230.0), (0.02, 0.6)),
+    "gamma, speed": Plane("gamma", "speed", (0.02, 0.6), (150.0, 230.0)),
+    "stiffness, eccentricity": Plane("stiffness", "eccentricity", (5e5, 2e6), ("0.1 mm", "0.6 mm")),
+}
+
+
+@pytest.mark.parametrize("plane", PLANES)
+def test_curves_in_planes_of_any_two_parameters(monkeypatch, plane):
+    """In a plane of a physical and a dimensionless parameter the second one undoes a part of what the first one moves."""
+    branch = continue_orbit(find_orbits(Jeffcott(SCALED))["B1,d"], "gamma", (0.02, 0.3))
+    orbits = {point.kind: point for point in branch.special if point.kind != "radius-extremum"}
+    steady = {"boundary-equilibrium": 0.0725, "rub-fold": 0.37, "rolling-limit": 0.1}
+    points = [Bifurcation.near(kind, SCALED.replace(gamma=gamma)) for kind, gamma in steady.items()]
+    followed_kinds = set()
+    for point in [*orbits.values(), *points]:
+        try:
+            caught = followed(monkeypatch, curves, lambda point=point: continue_curve(point, PLANES[plane]))
+        except CaromError:
+            continue
+        if len(caught[2]) > 3:
+            assert_consistent(*caught)
+            followed_kinds.add(point.kind)
+    assert followed_kinds >= {"fold", "period-doubling", "grazing", "boundary-equilibrium"} - NOT_IN.get(plane, set())
+
+
+NOT_IN = {"stiffness, eccentricity": {"fold"}}
+"""``F₁`` does not depend on the unbalance."""

@@ -9,7 +9,7 @@ import pytest
 from machines import PAPER
 
 from carom import find_equilibria, find_orbits, simulate
-from carom.bifurcations import Diagram, Numbers, Plane, SpecialValue, find_bifurcations, map_regions, vary
+from carom.bifurcations import Bifurcation, Diagram, Numbers, Plane, find_bifurcations, map_regions, vary
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.periods import PeriodCondition
@@ -45,21 +45,21 @@ def diagrams() -> dict[str, Diagram]:
     return {name: find_bifurcations(*case) for name, case in CASES.items()}
 
 
-def sides(base: Parameters, point: SpecialValue, width: float, close: float = CLOSE) -> tuple[Parameters, Parameters]:
+def sides(base: Parameters, point: Bifurcation, width: float, close: float = CLOSE) -> tuple[Parameters, Parameters]:
     low, high = (vary(base, point.parameter, point.value + side * close * width) for side in (-1.0, 1.0))
     return low, high
 
 
-def longest(point: SpecialValue) -> float:
+def longest(point: Bifurcation) -> float:
     return 1.2 * float(point.period or 1.0)
 
 
-def orbit_next_to(parameters: Parameters, point: SpecialValue) -> Orbit:
+def orbit_next_to(parameters: Parameters, point: Bifurcation) -> Orbit:
     orbits = [orbit for orbit in find_orbits(Jeffcott(parameters), longest(point)) if orbit.slip > 0]
     return min(orbits, key=lambda o: abs(o.period - point.period) + abs(o.radial_speed - point.radial_speed))
 
 
-def simulated_multipliers(parameters: Parameters, point: SpecialValue) -> np.ndarray:
+def simulated_multipliers(parameters: Parameters, point: Bifurcation) -> np.ndarray:
     """From differences of the simulated impact map, without its derivative."""
     orbit = orbit_next_to(parameters, point)
     centre = np.array([orbit.angle, orbit.radial_speed, orbit.angular_speed])
@@ -75,15 +75,15 @@ def simulated_multipliers(parameters: Parameters, point: SpecialValue) -> np.nda
     return np.linalg.eigvals(np.array(columns).T)
 
 
-def count_roots(parameters: Parameters, point: SpecialValue) -> int:
+def count_roots(parameters: Parameters, point: Bifurcation) -> int:
     return len(PeriodCondition(Jeffcott(parameters).system).roots(longest(point)).periods)
 
 
-def count_orbits(parameters: Parameters, point: SpecialValue) -> int:
+def count_orbits(parameters: Parameters, point: Bifurcation) -> int:
     return sum(orbit.slip > 0 for orbit in find_orbits(Jeffcott(parameters), longest(point)))
 
 
-def count_extrema(parameters: Parameters, point: SpecialValue) -> int:
+def count_extrema(parameters: Parameters, point: Bifurcation) -> int:
     orbit = orbit_next_to(parameters, point)
     radius = np.abs(orbit.path(np.linspace(0.0, orbit.period, 40001)[1:-1]))
     return int((np.diff(np.sign(np.diff(radius))) != 0).sum())
@@ -96,7 +96,7 @@ def rolls_on(parameters: Parameters) -> bool:
     return bool((motion.segment_phases[1:] == Phase.ROLLING).all())
 
 
-def check(base: Parameters, point: SpecialValue, width: float) -> None:
+def check(base: Parameters, point: Bifurcation, width: float) -> None:
     at, (low, high) = vary(base, point.parameter, point.value), sides(base, point, width)
     if point.kind == "fold":
         assert abs(count_roots(low, point) - count_roots(high, point)) == 2

@@ -14,13 +14,13 @@ from carom.bifurcations import (
     Plane,
     RubbingBranch,
     continue_curve,
-    continue_onset,
     continue_orbit,
     continue_rubbing,
     find_bifurcations,
     rubbing_orbits,
 )
 from carom.bifurcations.lift_offs import lift_off_state, next_lift_off
+from carom.bifurcations.rubbing import RubbingPoint
 from carom.models import Jeffcott
 from carom.outcome import InputError, Phase
 
@@ -72,7 +72,7 @@ def test_without_rebound_the_motions_with_lasting_contact_end_at_the_same_value(
 @pytest.mark.jit_only
 def test_curve_of_the_onset_without_rebound(onset):
     plane = Plane("gamma", "rho", (0.01, 0.1), (0.08, 0.12))
-    curve = continue_curve("contact-onset", onset.numbers.parameters, plane, (onset.period, onset.radial_speed))
+    curve = continue_curve(onset, plane)
     assert set(curve.stops) == {"edge of the plane"}
     for (x, y), speed in list(zip(curve.points, curve.radial_speeds, strict=True))[1:-1]:
         answers = set()
@@ -167,6 +167,11 @@ def test_onsets_are_among_the_points_of_a_diagram(chatter):
         points = [point for point in found.points if point.kind == kind]
         assert min(abs(point.value - expected[kind]) for point in points) < 1e-9
         assert all(point.motion == "rubbing" for point in points)
+        plane = Plane("gamma", "mu", (0.1, 0.3), (0.285, 0.289))
+        nearest = min(points, key=lambda point: abs(point.value - expected[point.kind]))
+        assert continue_curve(nearest, plane).kind == kind
+    with pytest.raises(InputError, match="one of: contact-onset"):
+        continue_curve(RubbingPoint("fold", chatter.special[0].numbers), plane)
 
 
 def test_lift_offs_leave_the_wall():
@@ -197,7 +202,7 @@ def test_curves_of_both_onsets(chatter, names):
     ranges = {"gamma": (0.02, 0.4), "mu": (0.25, 0.32), "d": (0.4, 0.6)}
     plane = Plane(*names, *(ranges[name] for name in names))
     for point in chatter.special:
-        curve = continue_onset(chatter, point, CHATTERING, plane)
+        curve = continue_curve(point, plane)
         assert curve.kind == point.kind
         assert set(curve.stops) == {"edge of the plane"}
         for x, y in curve.points[1 : -1 : sized(81, 81, 7)]:
@@ -216,4 +221,4 @@ def test_curves_of_both_onsets(chatter, names):
 def test_curves_need_an_onset_on_the_plane(chatter):
     point = chatter.special[0]
     with pytest.raises(InputError, match="a plane with gamma"):
-        continue_onset(chatter, point, CHATTERING, Plane("mu", "d", (0.1, 0.3), (0.4, 0.6)))
+        continue_curve(point, Plane("mu", "d", (0.1, 0.3), (0.4, 0.6)))

@@ -30,7 +30,7 @@ def torus() -> Bifurcation:
 
 @pytest.fixture(scope="module")
 def curve(torus) -> Curve:
-    return continue_curve("neimark-sacker", torus.numbers.parameters, PLANE, (torus.period, torus.radial_speed))
+    return continue_curve(torus, PLANE)
 
 
 def test_a_complex_pair_is_on_the_unit_circle(torus):
@@ -103,7 +103,7 @@ def test_curve_ends_in_a_resonance_or_at_the_edge(curve):
 @pytest.mark.parametrize(("name", "limits"), [("mu", (0.05, 0.3)), ("d", (0.85, 1.0)), ("rho", (0.1, 0.3))])
 def test_curve_in_other_parameters(torus, name, limits):
     plane = Plane("gamma", name, (0.01, 0.2), limits)
-    found = continue_curve("neimark-sacker", torus.numbers.parameters, plane, (torus.period, torus.radial_speed))
+    found = continue_curve(torus, plane)
     x, y = found.points[len(found.points) // 2]
     near = min(
         find_orbits(Jeffcott(SOFT.replace(gamma=x, **{name: y}))),

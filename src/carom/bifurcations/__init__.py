@@ -2,18 +2,19 @@
 
 from carom.bifurcations.axes import Axis, Numbers, axis, value_of, vary
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
-from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
+from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.cells import Region
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
 from carom.bifurcations.diagrams import Diagram, find_bifurcations
 from carom.bifurcations.motions import Motions, motions_at
-from carom.bifurcations.onsets import ONSETS, continue_onset
+from carom.bifurcations.onsets import ONSETS
 from carom.bifurcations.planes import Plane
+from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.regions import RegionMap, map_regions
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
-from carom.bifurcations.steady import EquilibriumBranch, RollingBranch, SpecialValue
+from carom.bifurcations.steady import EquilibriumBranch, RollingBranch
 from carom.bifurcations.windows import OrbitWindows, Window, WindowEnd, orbit_windows
 
 __all__ = [
@@ -37,14 +38,12 @@ __all__ = [
     "RollingBranch",
     "RubbingBranch",
     "RubbingOrbit",
-    "SpecialValue",
     "UnexplainedChange",
     "Window",
     "WindowEnd",
     "axis",
     "boundary_equilibria",
     "continue_curve",
-    "continue_onset",
     "continue_orbit",
     "continue_rubbing",
     "find_bifurcations",

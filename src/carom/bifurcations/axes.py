@@ -8,9 +8,21 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Parameters, Scales, unknown_name
+from carom.parameters import (
+    DIMENSIONLESS_FIELDS,
+    MACHINE_FIELDS,
+    Field,
+    Parameters,
+    Scales,
+    read_quantity,
+    unknown_name,
+)
 
-__all__ = ["Axis", "Numbers", "axis", "value_of", "vary", "within"]
+__all__ = ["Axis", "Ends", "Numbers", "axis", "interval_around", "read_interval", "value_in", "value_of", "vary"]
+
+Ends = tuple[float | str, float | str]
+"""Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
+_FIELDS = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
 
 
 class Numbers(NamedTuple):
@@ -70,7 +82,7 @@ class Axis:
     @property
     def field(self) -> Field:
         """Words, symbol, unit and range of the parameter."""
-        return {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}[self.name]
+        return _FIELDS[self.name]
 
 
 def axis(parameters: Parameters, name: str) -> Axis:
@@ -85,7 +97,7 @@ def axis(parameters: Parameters, name: str) -> Axis:
         No such name, or a physical one without scales.
     """
     if name not in _AXES:
-        raise unknown_name(name, "to vary", {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}, "the parameters")
+        raise unknown_name(name, "to vary", _FIELDS, "the parameters")
     if name in MACHINE_FIELDS and parameters.scales is None:
         raise InputError(
             name,
@@ -112,11 +124,43 @@ def value_of(parameters: Parameters, name: str) -> float:
     return axis(parameters, name).get(Numbers.of(parameters))
 
 
-def within(value: float, interval: tuple[float, float]) -> float:
-    """Move a value that lies outside an interval only by rounding to its edge; return any other unchanged."""
-    slack = 1e-12 * max(abs(interval[0]), abs(interval[1]))
-    nearest = min(max(value, interval[0]), interval[1])
-    return nearest if abs(value - nearest) <= slack else value
+def value_in(numbers: Numbers, name: str) -> float:
+    """Value of a parameter; ``nan`` for a physical one where mass, clearance or speed is not known."""
+    return _AXES[name].get(numbers)
+
+
+def read_interval(name: str, given: Ends) -> tuple[float, float]:
+    """Read a range of a parameter.
+
+    Raises
+    ------
+    InputError
+        No such parameter, a value that it cannot have, or a range that is empty.
+    """
+    if name not in _FIELDS:
+        raise unknown_name(name, "to vary", _FIELDS, "the parameters")
+    low, high = (read_quantity(_FIELDS[name], end) for end in given)
+    if not low < high:
+        raise InputError(name, f"{low:g} to {high:g}", "a range of two finite values in ascending order")
+    return low, high
+
+
+def interval_around(along: Axis, numbers: Numbers, given: Ends) -> tuple[float, tuple[float, float]]:
+    """Present value of a parameter, and a range that must hold it, by rounding at least.
+
+    Raises
+    ------
+    InputError
+        The range cannot be read or does not hold the value.
+    """
+    low, high = read_interval(along.name, given)
+    value = along.get(numbers)
+    nearest = min(max(value, low), high)
+    if not abs(value - nearest) <= 1e-12 * max(abs(low), abs(high)):
+        raise InputError(
+            along.name, f"{low:g} to {high:g}", f"an interval that holds the motion's own value {value:.6g}"
+        )
+    return nearest, (low, high)
 
 
 def _with_speed(numbers: Numbers, speed: float) -> Numbers:

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers, axis, within
+from carom.bifurcations.axes import Axis, Ends, Numbers, axis, interval_around
 from carom.bifurcations.conditions import (
     TESTS,
     conditions_at,
@@ -21,17 +21,19 @@ from carom.bifurcations.conditions import (
 )
 from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.naming import meeting_at
+from carom.bifurcations.points import Bifurcation
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit
-from carom.outcome import InputError
 from carom.results import Result
 
-__all__ = ["Bifurcation", "OrbitBranch", "continue_orbit"]
+__all__ = ["OrbitBranch", "continue_orbit"]
 
 STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
 NOTHING = 1e-8
-"""Radial speed, or fraction of the period, that counts as zero because of rounding."""
+"""Radial speed that counts as zero because of rounding."""
+EMERGING = 1e-4
+"""Time of a maximum, in periods, below which its height is only rounding: the height grows with the cube of the time."""
 SMALL = 1e-4
 """Radial speed of the orbit that represents those shrinking to a point."""
 WATCHED = (
@@ -43,47 +45,6 @@ WATCHED = (
     "slip-stop",
     "contact-onset",
 )
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Bifurcation(Result):
-    """A special point of a branch.
-
-    Attributes
-    ----------
-    kind : str
-        ``"fold"`` (two periods meet), ``"speed-fold"`` (two radial speeds of one period meet), ``"period-doubling"``,
-        ``"neimark-sacker"``, ``"grazing"``, ``"non-smooth-hopf"``, ``"slip-stop"`` (friction begins to stop the slip),
-        ``"contact-onset"`` (without rebound, ``d = 0``: the rotor begins to stay on the wall after the impact), or
-        ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
-    parameter : str
-    value : float
-        Value of the parameter, in SI units if it is a physical one.
-    name : OrbitName
-        Name of the orbit; where two meet, of the one with the longer period or the higher speed.
-    numbers : Numbers
-        Parameters there.
-    period, radial_speed : float
-    admissible : bool
-        Whether the orbits on at least one side are motions of the machine.
-    place : float
-        Position on the branch: index of the orbit before it plus the fraction of the step.
-    """
-
-    kind: str
-    parameter: str
-    value: float
-    name: OrbitName
-    numbers: Numbers
-    period: float
-    radial_speed: float
-    admissible: bool
-    place: float
-
-    @cached_property
-    def orbit(self) -> Orbit:
-        """The orbit there."""
-        return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -168,9 +129,7 @@ class OrbitBranch(Result):
         return list(zip(self.numbers, self.period.tolist(), self.radial_speed.tolist(), strict=True))
 
 
-def continue_orbit(
-    orbit: Orbit, parameter: str, interval: tuple[float, float], steps: Steps | None = None
-) -> OrbitBranch:
+def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None) -> OrbitBranch:
     """Continue an orbit along a parameter, through folds and through stretches where it is virtual.
 
     The unknowns are the period and the radial speed; the equations are ``F₁(T) = 0`` and ``|1 + q a₁₂ ṙ|² = |U*|²``
@@ -181,8 +140,8 @@ def continue_orbit(
     orbit : Orbit
     parameter : str
         Dimensionless (``"gamma"``) or physical (``"speed"``, SI units; needs scales).
-    interval : tuple of float
-        Range of the parameter; it must contain the orbit's own value.
+    interval : tuple of float or str
+        Range of the parameter; it must contain the orbit's own value.  ``("300 N s/m", "2000 N s/m")`` has units.
     steps : Steps, optional
 
     Returns
@@ -196,9 +155,7 @@ def continue_orbit(
     """
     base = Numbers.of(orbit.rotor.parameters)
     along = axis(orbit.rotor.parameters, parameter)
-    present = within(along.get(base), interval)
-    if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
-        raise InputError(parameter, interval, f"an interval that holds the orbit's own value {present:.6g}")
+    present, limits = interval_around(along, base, interval)
     pair = orbit.name.pair
 
     def numbers_at(p: float) -> Numbers:
@@ -218,12 +175,12 @@ def continue_orbit(
         test = TESTS[kind]
         return Watch(kind, lambda u, p: test(numbers_at(p), float(u[0]), float(u[1])))
 
-    size = max(abs(present), 0.1 * (interval[1] - interval[0]))
+    size = max(abs(present), 0.1 * (limits[1] - limits[0]))
     branch = continue_branch(
         residual,
         np.array([orbit.period, orbit.radial_speed]),
         present,
-        interval,
+        limits,
         jacobian=jacobian,
         watches=[watch(kind) for kind in WATCHED],
         steps=steps or STEPS,
@@ -254,12 +211,12 @@ def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: in
     kind = point.kind
     if kind == "branch point" or (kind == "neimark-sacker" and abs(conditions.pair_sum) >= 2.0):
         return None
-    if kind == "grazing" and (abs(at[2]) < NOTHING or not profile_at(*at).top > NOTHING * at[1]):
+    if kind == "grazing" and (abs(at[2]) < NOTHING or not profile_at(*at).top > EMERGING * at[1]):
         return None
     if kind == "fold" and abs(conditions.speed_fold) < abs(conditions.period_fold):
         kind = "speed-fold"
     name = meeting_at(kind, name_of(numbers, pair, *at[1:]))[-1]
-    return Bifurcation(kind, parameter, point.parameter, name, *at, _bounds_admissible(kind, *at), point.place)
+    return Bifurcation(kind, *at, name, parameter, point.parameter, _bounds_admissible(kind, *at), place=point.place)
 
 
 def _bounds_admissible(kind: str, numbers: Numbers, period: float, speed: float) -> bool:

@@ -10,8 +10,8 @@ import numpy as np
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import TESTS, conditions_at, is_admissible
 from carom.bifurcations.motions import Motions, forward_orbits, motions_at
-from carom.bifurcations.passing import Cause
 from carom.bifurcations.planes import Plane
+from carom.bifurcations.points import Bifurcation
 from carom.parameters import Parameters
 
 __all__ = ["Stand", "UnexplainedChange", "accounts_for", "causes_between", "change_between"]
@@ -85,15 +85,15 @@ def accounts_for(kinds: set[str], before: Motions, after: Motions) -> bool:
     )
 
 
-def causes_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> list[Cause]:
+def causes_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> list[Bifurcation]:
     """Bifurcations of motions of the machine in a narrow bracket, from the test functions that change sign in it."""
     sides = [Numbers.of(plane.at(parameters, *stand.place.tolist())) for stand in (low, high)]
     return [*_of_steady_motions(*sides), *_of_orbits(*sides)]
 
 
-def _of_steady_motions(low: Numbers, high: Numbers) -> list[Cause]:
+def _of_steady_motions(low: Numbers, high: Numbers) -> list[Bifurcation]:
     kinds = ("boundary-equilibrium", "rub-fold", "rolling-limit")
-    return [Cause(kind) for kind in kinds if _changes_sign(kind, low, high)]
+    return [Bifurcation(kind, low) for kind in kinds if _changes_sign(kind, low, high)]
 
 
 def _changes_sign(kind: str, low: Numbers, high: Numbers) -> bool:
@@ -104,7 +104,7 @@ def _changes_sign(kind: str, low: Numbers, high: Numbers) -> bool:
 Known = tuple[Numbers, float, float]
 
 
-def _of_orbits(low: Numbers, high: Numbers) -> list[Cause]:
+def _of_orbits(low: Numbers, high: Numbers) -> list[Bifurcation]:
     """Match the orbits of both sides: compare the test functions of each pair, and explain unmatched orbits."""
     here, there = ([orbit[1:] for orbit in forward_orbits(numbers.parameters)] for numbers in (low, high))
     causes, missing = [], []
@@ -123,7 +123,7 @@ def _apart(first: Known, second: Known) -> float:
     return abs(first[1] - second[1]) + abs(first[2] - second[2])
 
 
-def _of_one_orbit(low: Known, high: Known) -> list[Cause]:
+def _of_one_orbit(low: Known, high: Known) -> list[Bifurcation]:
     """Bifurcations of an orbit between two sides, if it is a motion of the machine on one of them."""
     if not (is_admissible(*low) or is_admissible(*high)):
         return []
@@ -134,21 +134,23 @@ def _of_one_orbit(low: Known, high: Known) -> list[Cause]:
         changes = (before >= 0.0) != (after >= 0.0)
         complex_pair = kind != "neimark-sacker" or abs(conditions_at(*low).pair_sum) < 2.0
         if changes and complex_pair:
-            causes.append(Cause(kind, low[1], low[2]))
+            causes.append(Bifurcation(kind, *low))
     return causes
 
 
-def _of_vanishing_orbits(orbits: list[Known], shrinks: bool) -> list[Cause]:
+def _of_vanishing_orbits(orbits: list[Known], shrinks: bool) -> list[Bifurcation]:
     """Bifurcations of orbits that exist on one side only: two of them meet, or one shrinks to nothing if possible."""
-    causes = []
+    causes: list[Bifurcation] = []
+    met: list[tuple[Known, Known]] = []
     for orbit in orbits:
         others = [other for other in orbits if other is not orbit]
         partner = min(others, key=lambda other: _apart(orbit, other), default=None)
         if shrinks and orbit[2] < SHRUNK:
-            causes.append(Cause("non-smooth-hopf", orbit[1], 0.0))
+            causes.append(Bifurcation("non-smooth-hopf", orbit[0], orbit[1], 0.0))
         elif partner is not None:
             kind = "speed-fold" if partner[1] == orbit[1] else "fold"
-            meeting = Cause(kind, 0.5 * (orbit[1] + partner[1]), 0.5 * (orbit[2] + partner[2]))
-            if meeting not in causes:
-                causes.append(meeting)
+            if (partner, orbit) not in met:
+                met.append((orbit, partner))
+                between = 0.5 * (orbit[1] + partner[1]), 0.5 * (orbit[2] + partner[2])
+                causes.append(Bifurcation(kind, orbit[0], *between))
     return causes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -13,18 +13,19 @@ from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import RESONANCES, TESTS, conditions_at, grazing_equations, profile_at
 from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
-from carom.bifurcations.planes import Plane
+from carom.bifurcations.onsets import ONSETS, follow_onset
+from carom.bifurcations.planes import EDGE, Plane
+from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.rubbing import RubbingPoint
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
-from carom.models import Subject, model_of
 from carom.orbits.names import OrbitName, combined
 from carom.outcome import InputError
 from carom.results import Result
 
-__all__ = ["KINDS", "Codimension2Point", "Curve", "continue_curve"]
+__all__ = ["KINDS", "Codimension2Point", "Curve", "can_be_followed", "continue_curve"]
 
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
-EDGE = "edge of the plane"
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, beyond which a curve is not followed: it grows without bound where ``a₁₂`` vanishes."""
 BEND = 5e-5
@@ -152,29 +153,26 @@ KINDS: dict[str, _Kind] = {
 _SUBJECTS = {"boundary-equilibrium": "levitation", "rub-fold": "rub", "rolling-limit": "rolling"}
 
 
-def continue_curve(
-    kind: str,
-    machine: Subject,
-    plane: Plane,
-    unknowns: Sequence[float] = (),
-    steps: Steps | None = None,
-) -> Curve:
+def can_be_followed(point: Bifurcation) -> bool:
+    """Whether :func:`continue_curve` knows equations for a bifurcation."""
+    return point.kind in ONSETS if isinstance(point, RubbingPoint) else point.kind in KINDS
+
+
+def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None) -> Curve:
     """Follow a bifurcation in the plane of two parameters.
 
     The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
     orbit (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the
     radius is largest as a further unknown, and the equations ``Re(Ū U̇) = 0`` and ``|U| = 1``, which stay regular on its
-    virtual side.  All derivatives are exact (:mod:`carom.bifurcations.derivatives`).
+    virtual side.  All derivatives are exact (:mod:`carom.bifurcations.derivatives`).  Only bouncing with rub, whose onsets
+    have no equations of their own (:mod:`carom.bifurcations.onsets`), is followed with central differences.
 
     Parameters
     ----------
-    kind : str
-        One of :data:`KINDS`.
-    machine : Machine, Case, Parameters or model
-        A machine at or near the bifurcation.
+    bifurcation : Bifurcation
+        A special point of a branch or of a diagram, or :meth:`Bifurcation.near`; its kind is one of :data:`KINDS`, or for
+        bouncing with rub ``"contact-onset"`` or ``"permanent-contact"``.
     plane : Plane
-    unknowns : sequence of float
-        Period and radial speed of the orbit; none for equilibria.
     steps : Steps, optional
 
     Returns
@@ -184,22 +182,25 @@ def continue_curve(
     Raises
     ------
     InputError
-        Unknown kind, a start outside the plane, or the wrong number of unknowns.
+        A kind that cannot be followed, a start outside the plane, or an orbit without period and radial speed.
     CaromError
         No such bifurcation near the start.
     """
-    parameters = model_of(machine).parameters
-    if kind not in KINDS:
-        raise InputError("kind", kind, f"one of: {', '.join(KINDS)}")
-    definition, base = KINDS[kind], Numbers.of(parameters)
-    if len(unknowns) != min(definition.unknowns, 2):
-        raise InputError("unknowns", unknowns, "period and radial speed of the orbit, or nothing for equilibria")
-    first, second = plane.axes(parameters)
-    start = np.array([first.get(base), second.get(base)])
+    kind, base = bifurcation.kind, bifurcation.numbers
+    first, second = plane.axes(base.parameters)
+    start = np.array(plane.place_of(base))
     lows, highs = np.transpose([plane.first_range, plane.second_range])
     if not ((lows <= start) & (start <= highs)).all():
-        raise InputError("parameters", tuple(start), "a point of the plane")
-    guess = [float(value) for value in unknowns]
+        raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
+    if isinstance(bifurcation, RubbingPoint):
+        return _onset_curve(bifurcation, plane)
+    if kind not in KINDS:
+        raise InputError("kind", kind, f"one of: {', '.join(KINDS)}")
+    definition, guess = KINDS[kind], [bifurcation.period, bifurcation.radial_speed]
+    if not definition.unknowns:
+        guess = []
+    elif not np.isfinite(guess).all():
+        raise InputError("bifurcation", f"{kind} without them", "the period and radial speed of the orbit are needed")
     if kind == "grazing":
         guess.append(profile_at(base, *guess).top)
 
@@ -235,6 +236,12 @@ def continue_curve(
         equations, branch, jacobian=jacobian, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS
     )
     return _curve(kind, plane, branch, rows, numbers)
+
+
+def _onset_curve(point: RubbingPoint, plane: Plane) -> Curve:
+    rows, stops = follow_onset(point, plane)
+    absent, admissible = np.full(len(rows), np.nan), np.ones(len(rows), bool)
+    return Curve(point.kind, plane, rows[:, :2], rows[:, 2], absent, admissible, (), (), stops)
 
 
 def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:

@@ -3,28 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 
 from carom.attractors import DisturbanceSet
-from carom.bifurcations.axes import Axis, Numbers, axis, vary
-from carom.bifurcations.branches import Bifurcation, OrbitBranch, continue_orbit
+from carom.bifurcations.axes import Axis, Ends, Numbers, axis, read_interval, vary
+from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import corrected
+from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
-    SpecialValue,
     equilibrium_branches,
     rolling_branch,
     steady_points,
 )
 from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.single_impact import Orbit, find_orbits
-from carom.outcome import InputError
 from carom.parameters import Parameters
 from carom.results import Result, in_a_line
 
@@ -56,7 +55,7 @@ class Diagram(Result):
     orbits : tuple of OrbitBranch
     rubbing : tuple of RubbingBranch
         Periodic motions with a stretch of lasting contact; empty unless asked for.
-    points : tuple of SpecialValue
+    points : tuple of Bifurcation
         In ascending order of the parameter.
     attractors : tuple of AttractorSample
         Motions to which simulated disturbances, and starts next to known motions, settled; empty unless asked for.
@@ -72,7 +71,7 @@ class Diagram(Result):
     rolling: RollingBranch
     orbits: tuple[OrbitBranch, ...]
     rubbing: tuple[RubbingBranch, ...]
-    points: tuple[SpecialValue, ...]
+    points: tuple[Bifurcation, ...]
     attractors: tuple[AttractorSample, ...] = ()
     disturbances: DisturbanceSet | None = None
 
@@ -82,7 +81,7 @@ class Diagram(Result):
         return [
             (self.parameter, f"from {low:.6g} to {high:.6g}"),
             ("orbits", in_a_line(tuple(dict.fromkeys(name for branch in self.orbits for name in branch.names)))),
-            *((f"{point.value:.6g}", f"{point.kind}, {point.branch}") for point in self.points),
+            *((f"{point.value:.6g}", f"{point.kind}, {point.name}") for point in self.points),
         ]
 
     @property
@@ -94,7 +93,7 @@ class Diagram(Result):
 def find_bifurcations(
     machine: Subject,
     parameter: str,
-    interval: tuple[float, float],
+    interval: Ends,
     *,
     virtual: bool = False,
     lasting: bool = False,
@@ -112,8 +111,8 @@ def find_bifurcations(
     machine : Machine, Case, Parameters or model
     parameter : str
         Dimensionless or physical name.
-    interval : tuple of float
-        In SI units if the parameter is physical.
+    interval : tuple of float or str
+        In SI units if the parameter is physical; text has a unit, ``("300 N s/m", "2000 N s/m")``.
     virtual : bool
         Follow all orbits, including those of higher pairs that are virtual at all of these values.
     lasting : bool
@@ -137,38 +136,37 @@ def find_bifurcations(
     """
     parameters = model_of(machine).parameters
     along = axis(parameters, parameter)
-    if not (np.isfinite(interval).all() and interval[0] < interval[1]):
-        raise InputError(
-            parameter, f"{interval[0]:g} to {interval[1]:g}", "an interval of two finite values in ascending order"
-        )
+    limits = read_interval(parameter, interval)
     tell = progress or (lambda _: None)
     followed = 1.0 if not attractors else FOLLOWING_SHARE
     branches: list[OrbitBranch] = []
     rubbing: list[RubbingBranch] = []
-    for done, value in enumerate(np.linspace(*interval, SAMPLES).tolist()):
+    for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
         here = vary(parameters, parameter, value)
         for orbit in _orbits(here):
             wanted = virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
-                branches.append(continue_orbit(orbit, parameter, interval))
+                branches.append(continue_orbit(orbit, parameter, limits))
         for motion in rubbing_orbits(here) if lasting else ():
             if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
-                rubbing.append(continue_rubbing(motion, parameter, interval))
+                rubbing.append(continue_rubbing(motion, parameter, limits))
         tell(followed * (done + 1) / SAMPLES)
     disturbances = DisturbanceSet(attractors, seed) if attractors else None
-    points = [*steady_points(parameters, along, interval), *_orbit_points(branches), *_rubbing_points(rubbing)]
+    points = [*steady_points(parameters, along, limits), *(point for branch in branches for point in branch.special)]
+    for number, each in enumerate(rubbing, start=1):
+        points += [replace(point, name=f"rubbing {number}") for point in each.special]
     return Diagram(
         axis=along,
-        interval=interval,
-        equilibria=equilibrium_branches(parameters, along, interval),
-        rolling=rolling_branch(parameters, along, interval),
+        interval=limits,
+        equilibria=equilibrium_branches(parameters, along, limits),
+        rolling=rolling_branch(parameters, along, limits),
         orbits=tuple(branches),
         rubbing=tuple(rubbing),
         points=tuple(sorted(points, key=lambda point: point.value)),
         attractors=sample_attractors(
             parameters,
             parameter,
-            interval,
+            limits,
             disturbances,
             progress=lambda share: tell(followed + (1.0 - followed) * share),
         )
@@ -202,15 +200,6 @@ def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     return False
 
 
-def _orbit_points(branches: list[OrbitBranch]) -> list[SpecialValue]:
-    return [_special_value(point) for branch in branches for point in branch.special]
-
-
-def _special_value(point: Bifurcation) -> SpecialValue:
-    at = point.parameter, point.value, point.period, point.radial_speed
-    return SpecialValue(point.kind, "orbit", point.name, *at, point.admissible)
-
-
 def _rubs_alike(motion: RubbingOrbit, value: float, branch: RubbingBranch) -> bool:
     """Whether a branch passes through a motion with lasting contact."""
     if branch.whirl != motion.whirl:
@@ -227,13 +216,3 @@ def _rubs_alike(motion: RubbingOrbit, value: float, branch: RubbingBranch) -> bo
         if abs(np.remainder(angle - motion.angle + np.pi, 2.0 * np.pi) - np.pi) < SAME_ANGLE:
             return bool(abs(period / motion.period - 1.0) < SAME_ANGLE)
     return False
-
-
-def _rubbing_points(branches: list[RubbingBranch]) -> list[SpecialValue]:
-    return [
-        SpecialValue(
-            point.kind, "rubbing", f"rubbing {number}", branch.axis.name, point.value, point.period, None, True
-        )
-        for number, branch in enumerate(branches, start=1)
-        for point in branch.special
-    ]

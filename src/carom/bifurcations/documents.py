@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from carom.attractors import DisturbanceSet, document_of
-from carom.bifurcations.axes import Axis
+from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
@@ -31,7 +31,7 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
         "points": [
             {
                 "kind": point.kind,
-                "branch": point.branch,
+                "branch": point.name,
                 "parameter": point.parameter,
                 "value": point.value,
                 "period": point.period,
@@ -108,7 +108,7 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
             for number, region in enumerate(found.regions, start=1)
         ],
         "present": {
-            "point": list(plane.place_of(parameters)),
+            "point": list(plane.place_of(Numbers.of(parameters))),
             "region": found.present_region,
             "words": found.present_motions.words,
         },

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,13 +19,31 @@ from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, Phase
 
-__all__ = ["LONGEST", "LiftOff", "Whirl", "known", "lift_off_state", "next_lift_off", "shift_of"]
+__all__ = [
+    "DIFFERENCE",
+    "LONGEST",
+    "TOLERANCE",
+    "LiftOff",
+    "Whirl",
+    "end_of_branch",
+    "end_of_motions",
+    "known",
+    "lift_off_state",
+    "next_lift_off",
+    "shift_of",
+    "slope",
+]
 
 Whirl = Literal[1, -1]
 
 LONGEST = 8.0 * math.pi
 """Longest time to the next lift-off, in ``1/Ω``: four turns of the shaft."""
 MOST_EVENTS = 4000
+TOLERANCE = 1e-9
+"""Largest angle between two lift-offs that count as the same."""
+DIFFERENCE = 1e-6
+FINEST = 1e-11
+"""Relative step of the parameter at which the search for the end of a branch stops."""
 
 
 @dataclass(frozen=True)
@@ -138,3 +157,74 @@ def known(found: LiftOff | None) -> LiftOff:
     if found is None:
         raise CaromError("a motion that was followed has no lift-off any more")
     return found
+
+
+def slope(function: Callable[[float], float], x: float) -> float:
+    """Derivative of a function of simulations, by a central difference."""
+    return (function(x + DIFFERENCE) - function(x - DIFFERENCE)) / (2.0 * DIFFERENCE)
+
+
+def end_of_motions(
+    residual: Callable[[float, float], float],
+    start: tuple[float, float],
+    lean: float,
+    step: float,
+    by_angle: float,
+    finest: float,
+) -> tuple[float, float]:
+    """Last angle and value of a parameter at which the motion exists.
+
+    The equations end there, so they have no derivative at that point.  The predictor is a straight line; the corrector
+    uses the slope of the residual at a point before the end.  The step is doubled until it fails for the first time;
+    after each failure it is halved.
+
+    Parameters
+    ----------
+    residual : callable
+        Function of angle and value; ``nan`` where there is no such motion.
+    start : tuple of float
+        Angle and value of a motion near the end.
+    lean : float
+        Change of the angle with the value.
+    step : float
+        First change of the value, towards the end.
+    by_angle : float
+        Derivative of the residual with respect to the angle.
+    finest : float
+        Step of the value at which the search stops.
+
+    Returns
+    -------
+    tuple of float
+    """
+    angle, value = start
+    passed = False
+    while abs(step) > finest:
+        trial, p = angle + lean * step, value + step
+        left = math.nan
+        for _ in range(6):
+            left = residual(trial, p)
+            if not abs(left) > TOLERANCE:
+                break
+            trial -= left / by_angle
+        if abs(left) <= TOLERANCE:
+            angle, value = trial, p
+            step *= 1.0 if passed else 2.0
+        else:
+            passed = True
+            step *= 0.5
+    return angle, value
+
+
+def end_of_branch(residual: Callable[[float, float], float], points: np.ndarray, size: float) -> tuple[float, float]:
+    """:func:`end_of_motions` from the points of a branch, shape (m, 2), the last of which is next to the end."""
+    angle, value = points[-1].tolist()
+    far = np.flatnonzero(np.abs(points[:, 1] - value) > 1e-6 * size)
+    if not len(far):
+        return angle, value
+    x, p = points[far[-1]].tolist()
+    by_angle = slope(lambda turned: residual(turned, p), x)
+    lean = (angle - x) / (value - p)
+    return end_of_motions(
+        residual, (angle, value), lean, math.copysign(1e-5 * size, value - p), by_angle, FINEST * size
+    )

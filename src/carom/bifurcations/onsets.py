@@ -8,51 +8,44 @@ from typing import Literal
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
-from carom.bifurcations.curves import EDGE, Curve
-from carom.bifurcations.lift_offs import LiftOff, next_lift_off
-from carom.bifurcations.planes import Plane
-from carom.bifurcations.rubbing import RubbingBranch, RubbingPoint, end_of_motions
+from carom.bifurcations.axes import axis
+from carom.bifurcations.lift_offs import DIFFERENCE, LiftOff, end_of_motions, next_lift_off
+from carom.bifurcations.planes import EDGE, Plane
+from carom.bifurcations.rubbing import RubbingPoint
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
-from carom.parameters import Parameters
 
-__all__ = ["ONSETS", "continue_onset"]
+__all__ = ["ONSETS", "follow_onset"]
 
 ONSETS = ("contact-onset", "permanent-contact")
 """Kinds of ends of branches with lasting contact that can be followed as curves."""
-LEVEL = 0.02
-"""Normal force at the landing, in ``m c_r Ω²``, of the motions that are followed next to the curve."""
 NEARBY = 0.05
 """Largest relative change of the period between these motions and the curve."""
 FINEST = 1e-9
 """Accuracy of the points of the curve, in sizes of the parameter."""
-DIFFERENCE = 1e-6
 STEPS = Steps(first=0.02, largest=0.1, smallest=1e-6, sharpest_turn=0.3, tolerance=1e-9, most_points=300)
 
 
-def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Parameters, plane: Plane) -> Curve:
+def follow_onset(point: RubbingPoint, plane: Plane) -> tuple[np.ndarray, tuple[str, str]]:
     """Follow the onset of lasting contact, or of permanent contact, in the plane of two parameters.
 
     The equations cease to hold on the curve itself.  So an auxiliary curve next to it is followed, on which the motion
-    lands with a small normal force; derivatives are central differences of simulations.  From each of its points the end of the motions is searched along one parameter, as
-    on a branch.
+    lands with a small normal force; derivatives are central differences of simulations.  From each of its points the end
+    of the motions is searched along one parameter, as on a branch.
 
     Parameters
     ----------
-    branch : RubbingBranch
-        Branch along one of the two parameters.
     point : RubbingPoint
-        ``"contact-onset"`` or ``"permanent-contact"`` at one of its ends.
-    parameters : Parameters
-        Parameters of the branch; the value of the parameter that varies along it does not matter.
+        ``"contact-onset"`` or ``"permanent-contact"`` at the end of a branch along one of the two parameters.
     plane : Plane
 
     Returns
     -------
-    Curve
-        Its radial speeds are ``nan``.  The stop ``"other contacts"`` means that the sequence of contacts changes there.
+    rows : ndarray, shape (m, 3)
+        Place and period along the curve.
+    stops : tuple of two str
+        Reasons for its ends; ``"other contacts"`` if the sequence of contacts changes there.
 
     Raises
     ------
@@ -61,13 +54,13 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
     CaromError
         No such motion was found next to the point.
     """
-    if point.kind not in ONSETS:
-        raise InputError("point", point.kind, f"one of: {', '.join(ONSETS)}")
-    if branch.axis.name not in (plane.first, plane.second):
-        raise InputError("plane", f"{plane.first},{plane.second}", f"a plane with {branch.axis.name}")
-    first, second = plane.axes(parameters)
-    base = Numbers.of(parameters)
-    (low, high), whirl = plane.first_range, branch.whirl
+    if point.beside is None:
+        raise InputError("kind", f"{point.kind} of {point.name or 'bouncing with rub'}", f"one of: {', '.join(ONSETS)}")
+    if point.parameter not in (plane.first, plane.second):
+        raise InputError("plane", f"{plane.first},{plane.second}", f"a plane with {point.parameter}")
+    base, whirl = point.numbers, point.whirl
+    first, second = plane.axes(base.parameters)
+    low, high = plane.first_range
 
     def lift_off(angle: float, x: float, y: float) -> LiftOff | None:
         try:
@@ -75,7 +68,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
         except InputError:
             return None
 
-    force, angle, value = _motion_beside(branch, point)
+    force, angle, value = point.beside
 
     def residual(u: np.ndarray, y: float) -> np.ndarray:
         found = lift_off(float(u[0]), float(u[1]), y)
@@ -83,7 +76,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
             return np.full(2, math.nan)
         return np.array([math.remainder(found.angle - u[0], math.tau), found.landing_force - force])
 
-    at = branch.axis.set(base, value)
+    at = axis(base.parameters, point.parameter).set(base, value)
     start = np.array([first.get(at), second.get(at)])
     widths = np.ptp([plane.first_range, plane.second_range], axis=1)
     sizes = np.maximum(np.abs(start), 0.1 * widths)
@@ -100,18 +93,7 @@ def continue_onset(branch: RubbingBranch, point: RubbingPoint, parameters: Param
     rows = _ends(beside, lift_off, plane, sizes)
     if not rows:
         raise CaromError(f"the {point.kind} leaves the plane at once")
-    points = np.array(rows)
-    return Curve(
-        kind=point.kind,
-        plane=plane,
-        points=points[:, :2],
-        periods=points[:, 2],
-        radial_speeds=np.full(len(points), math.nan),
-        admissible=np.ones(len(points), bool),
-        orbits=(),
-        codimension2=(),
-        stops=(_stop(beside, 0), _stop(beside, -1)),
-    )
+    return np.array(rows), (_stop(beside, 0), _stop(beside, -1))
 
 
 def _ends(
@@ -137,15 +119,6 @@ def _ends(
         if last is not None and plane.holds(*place):
             rows.append((*place, last.time))
     return rows
-
-
-def _motion_beside(branch: RubbingBranch, point: RubbingPoint) -> tuple[float, float, float]:
-    """Landing force, angle and value of the motion near an end of the branch where the auxiliary curve starts."""
-    forces = branch.landing_force
-    force = min(LEVEL, 0.5 * float(forces.max()))
-    above = np.flatnonzero(forces > force)
-    index = int(above[0] if point.place < 0.5 * len(branch) else above[-1])
-    return force, float(branch.angle[index]), float(branch.values[index])
 
 
 def _end(

@@ -6,17 +6,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers, axis
+from carom.bifurcations.axes import Axis, Ends, Numbers, axis, read_interval, value_in
 from carom.outcome import InputError
 from carom.parameters import Parameters
 
 __all__ = ["Plane"]
 
+EDGE = "edge of the plane"
+"""Why curves end that leave the plane."""
 ROUNDING = 1e-9
 """Tolerance for points on the edge, in widths of the plane."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Plane:
     """Two parameters and their ranges.
 
@@ -25,7 +27,7 @@ class Plane:
     first, second : str
         Names, dimensionless or physical.
     first_range, second_range : tuple of float
-        Physical ones in SI units.
+        Physical ones in SI units; they may be given as text with units, ``("300 N s/m", "2000 N s/m")``.
 
     Raises
     ------
@@ -38,24 +40,21 @@ class Plane:
     first_range: tuple[float, float]
     second_range: tuple[float, float]
 
-    def __post_init__(self) -> None:
-        if self.first == self.second:
-            raise InputError("plane", f"{self.first},{self.second}", "two different parameters")
-        for name, limits in ((self.first, self.first_range), (self.second, self.second_range)):
-            if not (np.isfinite(limits).all() and limits[0] < limits[1]):
-                raise InputError(
-                    name, f"{limits[0]:g} to {limits[1]:g}", "a range of two finite values in ascending order"
-                )
+    def __init__(self, first: str, second: str, first_range: Ends, second_range: Ends) -> None:
+        if first == second:
+            raise InputError("plane", f"{first},{second}", "two different parameters")
+        ranges = read_interval(first, first_range), read_interval(second, second_range)
+        for name, value in zip(self.__dataclass_fields__, (first, second, *ranges), strict=True):
+            object.__setattr__(self, name, value)
 
     @property
     def widths(self) -> np.ndarray:
         """Widths of both ranges, shape (2,)."""
         return np.ptp([self.first_range, self.second_range], axis=1)
 
-    def place_of(self, parameters: Parameters) -> tuple[float, float]:
+    def place_of(self, numbers: Numbers) -> tuple[float, float]:
         """Values of both parameters, whether inside the plane or outside."""
-        numbers = Numbers.of(parameters)
-        return axis(parameters, self.first).get(numbers), axis(parameters, self.second).get(numbers)
+        return value_in(numbers, self.first), value_in(numbers, self.second)
 
     def holds(self, x: float, y: float) -> bool:
         """Whether a point lies in the plane, within rounding."""

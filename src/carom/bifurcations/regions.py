@@ -8,20 +8,19 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, vary
+from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
-from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
+from carom.bifurcations.curves import Codimension2Point, Curve, can_be_followed, continue_curve
 from carom.bifurcations.diagrams import Diagram, find_bifurcations
 from carom.bifurcations.motions import Motions, motions_at
-from carom.bifurcations.onsets import ONSETS, continue_onset
-from carom.bifurcations.passing import Cause, passes, with_curve
+from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
+from carom.bifurcations.rubbing import RubbingPoint
 from carom.bifurcations.survey import Survey
 from carom.models import Subject, model_of
 from carom.orbits.names import combined
 from carom.outcome import CaromError
-from carom.parameters import Parameters
 from carom.results import Result
 
 __all__ = ["RegionMap", "map_regions"]
@@ -180,14 +179,14 @@ def map_regions(
     parameters = model_of(machine).parameters
     axes = plane.axes(parameters)
     tell = progress or (lambda _: None)
-    place = plane.place_of(parameters)
+    place = plane.place_of(Numbers.of(parameters))
     inside = plane.holds(*place)
     base = parameters if inside else plane.at(parameters, *np.mean([plane.first_range, plane.second_range], axis=1))
     curves: list[Curve] = []
     lost: list[str] = []
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
         diagram = find_bifurcations(base, name, interval, virtual=virtual, lasting=lasting)
-        curves = _through_diagram(base, plane, diagram, virtual, curves, lost)
+        curves = _through_diagram(plane, diagram, virtual, curves, lost)
         tell(share)
     survey = Survey(base, plane, curves)
     stands = []
@@ -214,25 +213,14 @@ def map_regions(
 
 
 def _through_diagram(
-    base: Parameters, plane: Plane, diagram: Diagram, virtual: bool, curves: list[Curve], lost: list[str]
+    plane: Plane, diagram: Diagram, virtual: bool, curves: list[Curve], lost: list[str]
 ) -> list[Curve]:
     """Add to the known curves those through the special points of a diagram; failures are appended to ``lost``."""
-    name = diagram.parameter
-    for point in diagram.points:
-        if point.kind not in KINDS or not (virtual or point.admissible) or point.motion == "rubbing":
-            continue
-        at, cause = vary(base, name, point.value), Cause(point.kind, point.period, point.radial_speed)
-        if not any(passes(curve, plane.place_of(at), cause) for curve in curves):
+    for point in sorted(diagram.points, key=lambda point: isinstance(point, RubbingPoint)):
+        wanted = can_be_followed(point) and (virtual or point.admissible)
+        if wanted and not any(passes(curve, point) for curve in curves):
             try:
-                curves = with_curve(curves, continue_curve(point.kind, at, plane, cause.unknowns))
+                curves = with_curve(curves, continue_curve(point, plane))
             except CaromError as problem:
-                lost.append(f"{point.kind} of {point.branch} at {name} = {point.value:.6g}: {problem}")
-    for branch in diagram.rubbing:
-        for end in branch.special:
-            at, cause = vary(base, name, end.value), Cause(end.kind, end.period)
-            if end.kind in ONSETS and not any(passes(curve, plane.place_of(at), cause) for curve in curves):
-                try:
-                    curves.append(continue_onset(branch, end, base, plane))
-                except CaromError as problem:
-                    lost.append(f"{end.kind} at {name} = {end.value:.6g}: {problem}")
+                lost.append(f"{point.kind} of {point.name} at {point.parameter} = {point.value:.6g}: {problem}")
     return curves

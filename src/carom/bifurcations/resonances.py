@@ -8,8 +8,8 @@ from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.bifurcations.curves import Codimension2Point
 from carom.bifurcations.derivatives import orbit_jacobian
-from carom.bifurcations.passing import Cause
 from carom.bifurcations.planes import Plane
+from carom.bifurcations.points import Bifurcation
 from carom.parameters import Parameters
 
 __all__ = ["TURNS", "beside_resonance"]
@@ -21,9 +21,7 @@ ASIDE = 1e-5
 ARRIVED, ITERATIONS = 1e-10, 20
 
 
-def beside_resonance(
-    parameters: Parameters, plane: Plane, point: Codimension2Point
-) -> tuple[tuple[float, float], Cause] | None:
+def beside_resonance(parameters: Parameters, plane: Plane, point: Codimension2Point) -> Bifurcation | None:
     """A point of the Neimark–Sacker curve next to the resonance where it begins.
 
     For the pair of multipliers ``e^{±iα}`` the sum ``2 cos α`` is prescribed; place, period and radial speed are the
@@ -31,8 +29,8 @@ def beside_resonance(
 
     Returns
     -------
-    tuple or None
-        Place and bifurcation; ``None`` if there is none in the plane.
+    Bifurcation or None
+        ``None`` if there is none in the plane.
     """
     base = Numbers.of(parameters)
     first, second = plane.axes(parameters)
@@ -45,12 +43,13 @@ def beside_resonance(
     for _ in range(ITERATIONS):
         if not (period > 0.0 and np.isfinite(place).all()):
             return None
-        at = conditions_at(numbers_at(*place), period, speed)
+        numbers = numbers_at(*place)
+        at = conditions_at(numbers, period, speed)
         value = [at.closing, at.balance, at.neimark_sacker, at.pair_sum - wanted]
         if np.abs(value).max() < ARRIVED:
             lows, highs = np.transpose([plane.first_range, plane.second_range])
             inside = ((lows <= place) & (place <= highs)).all()
-            return (place, Cause("neimark-sacker", period, speed)) if inside else None
+            return Bifurcation("neimark-sacker", numbers, period, speed) if inside else None
         slopes = orbit_jacobian(numbers_at, place, period, speed, ("neimark-sacker", "pair-sum"))
         try:
             change = np.linalg.solve(slopes, value)

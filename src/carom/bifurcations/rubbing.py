@@ -17,14 +17,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers, axis, within
-from carom.bifurcations.lift_offs import LONGEST, LiftOff, Whirl, known, lift_off_state, next_lift_off, shift_of
+from carom.bifurcations.axes import Axis, Ends, Numbers, axis, interval_around
+from carom.bifurcations.lift_offs import (
+    LONGEST,
+    TOLERANCE,
+    LiftOff,
+    Whirl,
+    end_of_branch,
+    known,
+    lift_off_state,
+    next_lift_off,
+    shift_of,
+    slope,
+)
+from carom.bifurcations.points import Bifurcation, MotionKind
 from carom.continuation import Steps, Watch, continue_branch
 from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
@@ -44,14 +56,13 @@ __all__ = [
 SAMPLES = 48
 HALVINGS = 10
 """Bisections between an angle that has a next lift-off and a neighbouring one that has none."""
-STEPS = Steps(first=0.01, largest=0.05, smallest=1e-7, tolerance=1e-9, most_points=400)
-DIFFERENCE = 1e-6
+STEPS = Steps(first=0.01, largest=0.05, smallest=1e-7, tolerance=TOLERANCE, most_points=400)
+LEVEL = 0.02
+"""Least normal force at the landing, in ``m c_r Ω²``, of the motion from which the curve of an onset is followed."""
 FORCE_SHARE = 0.05
 """Landing force, relative to the largest on the branch, below which its end is an onset or permanent contact."""
 SAME_PERIOD = 0.02
 """Relative change of the period beyond which the motion counts as another one."""
-FINEST = 1e-11
-"""Relative step of the parameter at which the search for the end of a branch stops."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -95,18 +106,27 @@ class RubbingOrbit(Result):
         return simulate(rotor, start, periods * self.period)
 
 
-@dataclass(frozen=True)
-class RubbingPoint:
+@dataclass(frozen=True, eq=False, repr=False)
+class RubbingPoint(Bifurcation):
     """A special point of such a branch: ``"fold"``, ``"period-doubling"``, ``"contact-onset"`` or ``"permanent-contact"``.
 
-    ``value`` is that of the parameter, ``place`` the index of the motion before it plus the fraction of the step.
+    Attributes
+    ----------
+    angle : float
+        ``x = θ − φ`` at the lift-off, rad.
+    whirl : {1, -1}
+    beside : tuple of float or None
+        For both onsets the landing force, angle and value of the parameter of a motion next to it.
     """
 
-    kind: str
-    value: float
-    angle: float
-    period: float
-    place: float
+    angle: float = math.nan
+    whirl: Whirl = 1
+    beside: tuple[float, float, float] | None = None
+
+    @property
+    def motion(self) -> MotionKind:
+        """Kind of the motion."""
+        return "rubbing"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -180,12 +200,13 @@ def rubbing_orbits(
                 angle = bracketed_root(shift, low, high, 1e-13)
             except CaromError:
                 continue
-            if abs(shift(angle)) < STEPS.tolerance:
-                found.append(_orbit(parameters, whirl, angle, longest))
-    return tuple(orbit for orbit in found if orbit is not None)
+            here = next_lift_off(rotor, whirl, angle, longest)
+            if here is not None and abs(shift_of(here, whirl, angle)) < TOLERANCE:
+                found.append(RubbingOrbit(parameters, whirl, angle, here, 1.0 + slope(shift, angle)))
+    return tuple(found)
 
 
-def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float, float]) -> RubbingBranch:
+def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: Ends) -> RubbingBranch:
     """Continue a periodic motion with lasting contact along a parameter, up to the onset of lasting contact.
 
     The map of lift-offs is simulated, and its derivatives are central differences.
@@ -195,7 +216,8 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float,
     orbit : RubbingOrbit
     parameter : str
         Dimensionless or physical name.
-    interval : tuple of float
+    interval : tuple of float or str
+        Range of the parameter; text has a unit.
 
     Returns
     -------
@@ -208,37 +230,37 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float,
     """
     along = axis(orbit.parameters, parameter)
     base = Numbers.of(orbit.parameters)
-    present = within(along.get(base), interval)
-    if not interval[0] <= present <= interval[1] or not interval[0] < interval[1]:
-        raise InputError(parameter, interval, f"an interval that holds the motion's own value {present:.6g}")
+    present, limits = interval_around(along, base, interval)
     lift_offs = _Map(along, base, orbit.whirl)
-    size = max(abs(present), 0.1 * (interval[1] - interval[0]))
+    size = max(abs(present), 0.1 * (limits[1] - limits[0]))
     branch = continue_branch(
         lambda u, p: np.array([lift_offs.shift(float(u[0]), p)]),
         np.array([orbit.angle]),
         present,
-        interval,
+        limits,
         watches=[Watch("period-doubling", lambda u, p: 1.0 + lift_offs.multiplier(float(u[0]), p))],
         steps=STEPS,
         scales=np.array([1.0, size]),
     )
     rows = list(zip(branch.unknowns[:, 0].tolist(), branch.parameters.tolist(), strict=True))
     course = [known(lift_offs.after(*row)) for row in rows]
-    special = []
-    for point in branch.special:
-        if point.kind != "branch point":
-            angle = float(point.unknowns[0])
-            period = known(lift_offs.after(angle, point.parameter)).time
-            special.append(RubbingPoint(point.kind, point.parameter, angle, period, point.place))
+    forces = np.array([entry.landing_force for entry in course])
+    special = [
+        lift_offs.point(point.kind, float(point.unknowns[0]), point.parameter, point.place)
+        for point in branch.special
+        if point.kind != "branch point"
+    ]
     stops: list[str] = list(branch.stops)
     for end in (0, -1):
         if stops[end] in ("end of domain", "step too small"):
             stops[end] = _why_it_ends(course, end)
         if stops[end] in ("contact-onset", "permanent-contact"):
             points = np.array(rows if end == -1 else rows[::-1])
-            angle, value = _towards_end(lift_offs.alike(course[end].time), points, size)
-            period = known(lift_offs.after(angle, value)).time
-            special.append(RubbingPoint(stops[end], value, angle, period, 0.0 if end == 0 else len(rows) - 1.0))
+            angle, value = end_of_branch(lift_offs.alike(course[end].time), points, size)
+            near = int(np.flatnonzero(forces > min(LEVEL, 0.5 * float(forces.max())))[end])
+            beside = float(forces[near]), *rows[near]
+            place = 0.0 if end == 0 else len(rows) - 1.0
+            special.append(replace(lift_offs.point(stops[end], angle, value, place), beside=beside))
     return RubbingBranch(
         axis=along,
         whirl=orbit.whirl,
@@ -246,7 +268,7 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: tuple[float,
         angle=branch.unknowns[:, 0],
         period=np.array([entry.time for entry in course]),
         contact_time=np.array([entry.contact_time for entry in course]),
-        landing_force=np.array([entry.landing_force for entry in course]),
+        landing_force=forces,
         multiplier=np.array([lift_offs.multiplier(*row) for row in rows]),
         impacts=np.array([entry.impacts for entry in course]),
         special=tuple(sorted(special, key=lambda point: point.place)),
@@ -276,8 +298,20 @@ class _Map:
 
     def multiplier(self, angle: float, value: float) -> float:
         """Slope of the map."""
-        ends = [self.shift(angle + side, value) for side in (DIFFERENCE, -DIFFERENCE)]
-        return 1.0 + (ends[0] - ends[1]) / (2.0 * DIFFERENCE)
+        return 1.0 + slope(lambda x: self.shift(x, value), angle)
+
+    def point(self, kind: str, angle: float, value: float, place: float) -> RubbingPoint:
+        """A special point at this angle and value."""
+        return RubbingPoint(
+            kind,
+            self.along.set(self.base, value),
+            known(self.after(angle, value)).time,
+            parameter=self.along.name,
+            value=value,
+            place=place,
+            angle=angle,
+            whirl=self.whirl,
+        )
 
     def alike(self, period: float) -> Callable[[float, float], float]:
         """The same function restricted to motions with nearly this period; ``nan`` for others."""
@@ -321,76 +355,3 @@ def _brackets(shift: Callable[[float], float], angles: list[float]) -> list[tupl
                     note(inner, at_inner, middle, value)
                     inner, at_inner = middle, value
     return brackets
-
-
-def _orbit(parameters: Parameters, whirl: Whirl, angle: float, longest: float) -> RubbingOrbit | None:
-    rotor = Jeffcott(parameters)
-    here = next_lift_off(rotor, whirl, angle, longest)
-    if here is None:
-        return None
-    ends = [shift_of(next_lift_off(rotor, whirl, angle + side, longest), whirl, angle + side) for side in (1e-6, -1e-6)]
-    return RubbingOrbit(parameters, whirl, angle, here, 1.0 + (ends[0] - ends[1]) / 2e-6)
-
-
-def end_of_motions(
-    residual: Callable[[float, float], float],
-    start: tuple[float, float],
-    lean: float,
-    step: float,
-    slope: float,
-    finest: float,
-) -> tuple[float, float]:
-    """Last angle and value of a parameter at which the motion exists.
-
-    The equations end there, so they have no derivative at that point.  The predictor is a straight line; the corrector
-    uses the slope of the residual at a point before the end.  The step is doubled until it fails for the first time;
-    after each failure it is halved.
-
-    Parameters
-    ----------
-    residual : callable
-        Function of angle and value; ``nan`` where there is no such motion.
-    start : tuple of float
-        Angle and value of a motion near the end.
-    lean : float
-        Change of the angle with the value.
-    step : float
-        First change of the value, towards the end.
-    slope : float
-        Derivative of the residual with respect to the angle.
-    finest : float
-        Step of the value at which the search stops.
-
-    Returns
-    -------
-    tuple of float
-    """
-    angle, value = start
-    passed = False
-    while abs(step) > finest:
-        trial, p = angle + lean * step, value + step
-        left = math.nan
-        for _ in range(6):
-            left = residual(trial, p)
-            if not abs(left) > STEPS.tolerance:
-                break
-            trial -= left / slope
-        if abs(left) <= STEPS.tolerance:
-            angle, value = trial, p
-            step *= 1.0 if passed else 2.0
-        else:
-            passed = True
-            step *= 0.5
-    return angle, value
-
-
-def _towards_end(residual: Callable[[float, float], float], points: np.ndarray, size: float) -> tuple[float, float]:
-    """:func:`end_of_motions` from the points of a branch, shape (m, 2), the last of which is next to the end."""
-    angle, value = points[-1].tolist()
-    far = np.flatnonzero(np.abs(points[:, 1] - value) > 1e-6 * size)
-    if not len(far):
-        return angle, value
-    x, p = points[far[-1]].tolist()
-    slope = (residual(x + 1e-5, p) - residual(x - 1e-5, p)) / 2e-5
-    lean = (angle - x) / (value - p)
-    return end_of_motions(residual, (angle, value), lean, math.copysign(1e-5 * size, value - p), slope, FINEST * size)

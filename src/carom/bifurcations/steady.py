@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.conditions import TESTS
+from carom.bifurcations.points import Bifurcation
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
@@ -20,51 +21,12 @@ from carom.results import Result
 __all__ = [
     "EquilibriumBranch",
     "RollingBranch",
-    "SpecialValue",
     "equilibrium_branches",
     "rolling_branch",
     "steady_points",
 ]
 
 SAMPLES = 201
-MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
-
-
-@dataclass(frozen=True)
-class SpecialValue:
-    """A special point of a diagram.
-
-    Attributes
-    ----------
-    kind : str
-        Kind of a :class:`~carom.bifurcations.branches.Bifurcation`, or ``"boundary-equilibrium"``, ``"rub-fold"`` or
-        ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at every angle).
-    motion : {"orbit", "contact-free", "rub", "rolling", "rubbing"}
-        Kind of the motion it belongs to: an orbit with one impact a period, a steady motion, or a periodic motion with
-        lasting contact.
-    branch : str
-        Name of that motion.
-    parameter : str
-    value : float
-        Value of the parameter, in SI units if it is physical.
-    period : float or None
-    radial_speed : float or None
-    admissible : bool
-        Whether it happens to a motion of the machine, or to one that just becomes or ceases to be one.
-    detail : str
-        For a boundary equilibrium ``"persistence"`` (levitation goes over into a rub) or ``"non-smooth fold"``
-        (levitation and an unstable rub vanish together).
-    """
-
-    kind: str
-    motion: MotionKind
-    branch: str
-    parameter: str
-    value: float
-    period: float | None
-    radial_speed: float | None
-    admissible: bool
-    detail: str = ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -114,17 +76,13 @@ def rolling_branch(parameters: Parameters, along: Axis, interval: tuple[float, f
     )
 
 
-def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> list[SpecialValue]:
+def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> list[Bifurcation]:
     """Boundary equilibria, folds of rubs and limits of rolling on an interval."""
     base = Numbers.of(parameters)
     grid = np.linspace(*interval, SAMPLES).tolist()
     points = []
-    kinds: dict[str, MotionKind] = {
-        "boundary-equilibrium": "contact-free",
-        "rub-fold": "rub",
-        "rolling-limit": "rolling",
-    }
-    for kind, motion in kinds.items():
+    kinds = (("boundary-equilibrium", "contact-free"), ("rub-fold", "rub"), ("rolling-limit", "rolling"))
+    for kind, name in kinds:
 
         def function(value: float, kind: str = kind) -> float:
             return TESTS[kind](along.set(base, value), 1.0, 0.0)
@@ -135,7 +93,7 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
             at = along.set(base, root)
             real = kind != "rub-fold" or happens_to_rubs(at)
             detail = boundary_kind(at) if kind == "boundary-equilibrium" else ""
-            points.append(SpecialValue(kind, motion, motion, along.name, root, None, None, real, detail))
+            points.append(Bifurcation(kind, at, math.nan, math.nan, name, along.name, root, real, detail))
     return points
 
 

@@ -10,8 +10,9 @@ import numpy as np
 from carom.bifurcations.changes import Stand, UnexplainedChange, accounts_for, causes_between, change_between
 from carom.bifurcations.curves import Curve, continue_curve
 from carom.bifurcations.motions import Motions, motions_at
-from carom.bifurcations.passing import Cause, Place, crossings, passes, with_curve
+from carom.bifurcations.passing import crossings, passes, with_curve
 from carom.bifurcations.planes import Plane
+from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.resonances import TURNS, beside_resonance
 from carom.outcome import CaromError
 from carom.parameters import Parameters
@@ -72,11 +73,12 @@ class Survey:
     def leave_resonances(self) -> None:
         """Follow the Neimark–Sacker curves that begin at the resonances 1:1 and 1:2 of the known curves."""
         for point in [point for curve in self.curves for point in curve.codimension2 if point.kind in TURNS]:
-            cause = Cause("neimark-sacker", point.period, point.radial_speed)
-            if point.admissible and not self._known(point.value, cause):
+            at = self.plane.at(self.parameters, *point.value)
+            torus = Bifurcation.near("neimark-sacker", at, point.period, point.radial_speed)
+            if point.admissible and not self._known(torus):
                 near = beside_resonance(self.parameters, self.plane, point)
                 if near is not None:
-                    self._follow(*near)
+                    self._follow(near)
 
     def explain(self, first: Stand, last: Stand) -> None:
         """Find the cause of every change of motions on the straight line between two points.
@@ -121,7 +123,7 @@ class Survey:
         """Find or continue the curves through a narrow bracket; record the change if they do not explain it."""
         known, reasons = set(), []
         for cause in causes_between(self.parameters, self.plane, low, high):
-            reason = "" if self._known(low.place, cause) else self._follow(low.place, cause)
+            reason = "" if self._known(cause) else self._follow(cause)
             if reason:
                 reasons.append(f"{cause.kind}: {reason}")
             else:
@@ -129,17 +131,16 @@ class Survey:
         if not accounts_for(known, low.motions, high.motions):
             self._record(low, high, "; ".join(reasons) or "no test function changes sign")
 
-    def _known(self, place: Place, cause: Cause) -> bool:
-        return any(passes(curve, place, cause) for curve in self.curves)
+    def _known(self, cause: Bifurcation) -> bool:
+        return any(passes(curve, cause) for curve in self.curves)
 
-    def _follow(self, place: Place, cause: Cause) -> str:
+    def _follow(self, cause: Bifurcation) -> str:
         """Continue a curve; return the reason if it failed, or an empty text."""
-        at = self.plane.at(self.parameters, float(place[0]), float(place[1]))
         try:
-            curve = continue_curve(cause.kind, at, self.plane, cause.unknowns)
+            curve = continue_curve(cause, self.plane)
         except CaromError as problem:
             return str(problem)
-        if not passes(curve, place, cause):
+        if not passes(curve, cause):
             return "the curve that was found passes elsewhere"
         self.curves = with_curve(self.curves, curve)
         return ""

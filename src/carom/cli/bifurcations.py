@@ -222,9 +222,9 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         table.add_row(
             _shown(diagram.axis, point.value),
             f"{_named(point.kind)} ({point.detail})" if point.detail else _named(point.kind),
-            point.branch,
-            "" if point.period is None else f"{point.period:.8g}",
-            "" if point.radial_speed is None else f"{round(point.radial_speed, 6) + 0.0:.6f}",
+            point.name,
+            "" if point.period != point.period else f"{point.period:.8g}",
+            "" if point.radial_speed != point.radial_speed else f"{round(point.radial_speed, 6) + 0.0:.6f}",
             "" if point.admissible else "virtual",
             style="" if point.admissible else "dim",
         )

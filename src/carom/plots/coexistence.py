@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
-    from carom.bifurcations import AttractorSample, Diagram, OrbitBranch, SpecialValue
+    from carom.bifurcations import AttractorSample, Bifurcation, Diagram, OrbitBranch
 
 Interval = tuple[float, float]
 
@@ -52,7 +52,7 @@ def rows_of(diagram: Diagram) -> list[str]:
     return [row for row in ROWS if exists.get(row, False) or row in present]
 
 
-def row_of_point(point: SpecialValue) -> str | None:
+def row_of_point(point: Bifurcation) -> str | None:
     """Return the row in which a special point is marked; ``None`` if it belongs to another panel."""
     return {"rubbing": "bouncing with rub", "rolling": "backward whirl"}.get(point.motion)
 
@@ -95,7 +95,7 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
 def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]]:
     """Return the ranges of the stable and of the unstable motions of each row."""
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
-    marks = [point.value for point in diagram.points if point.radial_speed is None]
+    marks = [point.value for point in diagram.points if np.isnan(point.radial_speed)]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
     found = {
         "levitation": (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),

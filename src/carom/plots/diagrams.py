@@ -19,7 +19,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Curve, Diagram, EquilibriumBranch, OrbitBranch, SpecialValue
+    from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
 
 __all__ = [
     "BOUNDARIES",
@@ -135,10 +135,8 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
     seen = set()
     for point in diagram.points:
         row, look = row_of_point(point), _look_of(point)
-        axes, height = upper, point.radial_speed
-        if row is not None:
-            axes, height = below, heights.get(row)
-        elif height is None:
+        axes, height = (upper, point.radial_speed) if row is None else (below, heights.get(row))
+        if height is not None and np.isnan(height):
             axes, height = lower, _height(diagram, point)
         if height is None:
             continue
@@ -156,7 +154,7 @@ def _attractor_speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
         axes.plot(values, sample.radial_speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
 
 
-def _look_of(point: SpecialValue) -> Look:
+def _look_of(point: Bifurcation) -> Look:
     return BOUNDARIES.get(point.detail, POINTS[point.kind])
 
 
@@ -246,7 +244,7 @@ def _top(branch: EquilibriumBranch) -> float:
     return 1.1 * float(heights.max()) if len(heights) else 0.0
 
 
-def _height(diagram: Diagram, point: SpecialValue) -> float:
+def _height(diagram: Diagram, point: Bifurcation) -> float:
     """Return the height of an equilibrium's special point: zero for levitation, the common force where rubs meet."""
     if point.motion == "contact-free":
         return 0.0

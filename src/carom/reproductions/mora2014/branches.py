@@ -51,7 +51,7 @@ class FirstPair(Result):
             point
             for branch in self.branches
             for point in branch.special
-            if (point.kind, point.name.letter) == (kind, letter)
+            if (point.kind, point.name) == (kind, f"B1,{letter}")
         ]
         return max(found, key=lambda point: point.value)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carom.bifurcations import Codimension2Point, Curve, Motions, Plane, continue_curve, motions_at
+from carom.bifurcations import Bifurcation, Codimension2Point, Curve, Motions, Plane, continue_curve, motions_at
 from carom.closed_forms.thresholds import rub_limit
 from carom.continuation import Steps
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
@@ -98,13 +98,9 @@ def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
     tuple of Curve
     """
     branches = pair or first_pair()
-    found = []
-    for kind in ("fold", "grazing", "period-doubling"):
-        point = branches.special(kind, "d")
-        start = machine_at(point.value)
-        found.append(continue_curve(kind, start, PLANE, (point.period, point.radial_speed), STEPS))
-    found.insert(1, continue_curve("boundary-equilibrium", machine_at(branches.hopf.gamma), PLANE, steps=STEPS))
-    return tuple(found)
+    fold, grazing, doubling = (branches.special(kind, "d") for kind in ("fold", "grazing", "period-doubling"))
+    boundary = Bifurcation.near("boundary-equilibrium", machine_at(branches.hopf.gamma))
+    return tuple(continue_curve(point, PLANE, STEPS) for point in (fold, boundary, grazing, doubling))
 
 
 def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPlane:
@@ -118,7 +114,7 @@ def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPl
     -------
     DampingStiffnessPlane
     """
-    rub_fold = continue_curve("rub-fold", machine_at(rub_limit(machine_at(0.1))), PLANE, steps=STEPS)
+    rub_fold = continue_curve(Bifurcation.near("rub-fold", machine_at(rub_limit(machine_at(0.1)))), PLANE, STEPS)
     regions = []
     for place, (source, point, words) in enumerate(REGIONS):
         number = sum(other[0] == source for other in REGIONS[: place + 1])

@@ -1,0 +1,104 @@
+"""Special points of branches: where a motion of the machine appears, vanishes or changes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+from carom.bifurcations.axes import Numbers
+from carom.bifurcations.conditions import orbit_of
+from carom.models import Subject, model_of
+from carom.orbits.names import OrbitName
+from carom.orbits.single_impact import Orbit
+from carom.outcome import InputError
+from carom.results import Result
+
+__all__ = ["Bifurcation", "MotionKind"]
+
+MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
+_STEADY: dict[str, MotionKind] = {
+    "boundary-equilibrium": "contact-free",
+    "rub-fold": "rub",
+    "rolling-limit": "rolling",
+}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Bifurcation(Result):
+    """A special point; :func:`~carom.continue_curve` follows most of them in the plane of two parameters.
+
+    Attributes
+    ----------
+    kind : str
+        Of orbits: ``"fold"`` (two periods meet), ``"speed-fold"`` (two radial speeds of one period meet),
+        ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"``, ``"non-smooth-hopf"``, ``"slip-stop"`` (friction
+        begins to stop the slip), ``"contact-onset"`` (lasting contact begins), or ``"radius-extremum"`` (the radius gains
+        a maximum and a minimum between impacts: no bifurcation).  Of steady motions: ``"boundary-equilibrium"``,
+        ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at every angle).  Of
+        bouncing with rub also ``"permanent-contact"`` (the rotor no longer lifts off).
+    numbers : Numbers
+        Parameters there; with negative ``mu`` if it happens to orbits with backward slip.
+    period, radial_speed : float
+        Those of the orbit, in ``1/Ω`` and ``c_r Ω``; ``nan`` for steady motions.
+    name : str
+        The motion: an :class:`~carom.orbits.names.OrbitName` (where two orbits meet, of the one with the longer period or
+        the higher speed), ``"contact-free"``, ``"rub"``, ``"rolling"``, or ``"rubbing 1"`` and so on.
+    parameter : str
+        Parameter along which it was found.
+    value : float
+        Its value, in SI units if it is physical.
+    admissible : bool
+        Whether it happens to a motion of the machine, or to one that just becomes or ceases to be one.
+    detail : str
+        For a boundary equilibrium ``"persistence"`` (levitation goes over into a rub) or ``"non-smooth fold"``
+        (levitation and an unstable rub vanish together).
+    place : float
+        Position on the branch: index of the point before it plus the fraction of the step; ``nan`` without a branch.
+    """
+
+    kind: str
+    numbers: Numbers
+    period: float = math.nan
+    radial_speed: float = math.nan
+    name: str = ""
+    parameter: str = ""
+    value: float = math.nan
+    admissible: bool = True
+    detail: str = ""
+    place: float = math.nan
+
+    @classmethod
+    def near(cls, kind: str, machine: Subject, period: float = math.nan, radial_speed: float = math.nan) -> Bifurcation:
+        """A point at or near a bifurcation, for a curve to start from.
+
+        Parameters
+        ----------
+        kind : str
+            One of :data:`~carom.bifurcations.KINDS`.
+        machine : Machine, Case, Parameters or model
+        period, radial_speed : float
+            Those of the orbit; left out for steady motions.
+        """
+        return cls(kind, Numbers.of(model_of(machine).parameters), period, radial_speed)
+
+    @property
+    def motion(self) -> MotionKind:
+        """Kind of the motion: an orbit with one impact a period, a steady motion, or bouncing with rub."""
+        return _STEADY.get(self.kind, "orbit")
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit there.
+
+        Raises
+        ------
+        InputError
+            It happens to another motion.
+        """
+        if not isinstance(self.name, OrbitName):
+            raise InputError(
+                "bifurcation", f"{self.kind} of {self.name or 'a motion without a name'}", "one of an orbit"
+            )
+        return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
