@@ -6,17 +6,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
 from carom.attractors import DisturbanceSet
 from carom.basins import Share
 from carom.disturbances import FASTEST
-from carom.disturbances.following import follow
 from carom.models import Jeffcott
-from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
 from carom.studies.alone import LevitationAlone
 from carom.studies.ranges import Gain, MotionRange, Span
+from carom.studies.safety import try_disturbances
 
 __all__ = ["WANTED", "Advice", "advise"]
 
@@ -148,14 +145,9 @@ def _values_in_calm_ranges(parameters: Parameters, found: LevitationAlone) -> It
 def _checked(parameters: Parameters, gain: Gain, value: float, margin: float) -> Advice:
     own = _own(parameters, gain)
     change = (value / own) ** _power(gain) if own > 0 else math.inf
-    returned = _returned(parameters.replace(**{gain: value}), CHECKED, SEED)
-    return Advice(gain, value, change, margin > 0.0, margin, Share.of(returned, CHECKED, drawn=True))
-
-
-def _returned(parameters: Parameters, count: int, seed: int, patience: int = PATIENCE) -> int:
-    rotor = Jeffcott(parameters)
-    ends = follow(rotor, DisturbanceSet(count, seed).starts(rotor), patience=patience)
-    return int(np.count_nonzero(ends.recovered))
+    check = try_disturbances(Jeffcott(parameters.replace(**{gain: value})), DisturbanceSet(CHECKED, SEED))
+    returned = Share.of(CHECKED - check.lost, CHECKED, drawn=True)
+    return Advice(gain, value, change, margin > 0.0, margin, returned)
 
 
 def _advise_wanted_share(parameters: Parameters, gain: Gain, searched: Span) -> Advice | None:
@@ -165,8 +157,10 @@ def _advise_wanted_share(parameters: Parameters, gain: Gain, searched: Span) -> 
     begin = min(max(own, low), high)
     values = [begin * STEP**step for step in range(-steps, steps + 1) if low <= begin * STEP**step <= high]
     for value in sorted(values, key=lambda value: abs(math.log(value / begin))):
-        there = parameters.replace(**{gain: value})
-        if abs(Jeffcott(there).equilibrium) < 1.0 and _returned(there, TRIED, 0, TRIED_PATIENCE) >= WANTED * TRIED:
+        there = Jeffcott(parameters.replace(**{gain: value}))
+        if abs(there.equilibrium) >= 1.0:
+            continue
+        if TRIED - try_disturbances(there, DisturbanceSet(TRIED), patience=TRIED_PATIENCE).lost >= WANTED * TRIED:
             if value == own:  # the machine itself reaches this share
                 return None
             advice = _checked(parameters, gain, value, 0.0)

@@ -103,7 +103,7 @@ class LevitationAlone:
     @property
     def calm(self) -> tuple[Span, ...]:
         """The parts of the spans in which every disturbance came back."""
-        return tuple(part for span in self.spans for part in outside(_inside(self.whirl, span), span))
+        return tuple(part for span in self.spans for part in outside(self.whirl, span))
 
 
 def levitation_alone(
@@ -263,7 +263,3 @@ def _parts(trial: _Trial, span: Span, marks: list[tuple[float, Kind]], wanted: t
     if start is not None:
         parts.append(Span(start, span.high))
     return parts
-
-
-def _inside(spans: tuple[Span, ...], within: Span) -> tuple[Span, ...]:
-    return tuple(span for span in spans if within.low.value <= span.low.value <= within.high.value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass
 
 from carom.attractors import Attractor, AttractorSet, Ending, MotionName
@@ -92,11 +93,8 @@ def largest_all_back(found: AttractorSet) -> float | None:
 
 
 def _size(alike: list[Ending]) -> KickSize:
-    lost: dict[MotionName, int] = {}
-    for ending in alike:
-        if not ending.recovered:
-            lost[ending.attractor] = lost.get(ending.attractor, 0) + 1
-    return KickSize(alike[0].start.speed, len(alike), len(alike) - sum(lost.values()), lost)
+    lost = Counter(ending.attractor for ending in alike if not ending.recovered)
+    return KickSize(alike[0].start.speed, len(alike), len(alike) - lost.total(), dict(lost))
 
 
 def shown_example(found: AttractorSet, attractor: Attractor) -> Ending:

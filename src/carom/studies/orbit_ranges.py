@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.bifurcations import Window, WindowEnd, orbit_windows, vary
 from carom.models import Jeffcott
-from carom.orbits.single_impact import Orbit, longest_within_reach, orbits_within_reach
+from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.studies.ranges import Edge, Gain, MotionRange, Span
 
@@ -49,15 +49,11 @@ def single_impact_ranges(
     if values is None:
         return ()
     searched, step = Span(Edge(values[0]), Edge(values[-1])), values[1] / values[0] - 1.0
-    if parameters.rho == 0.0:  # a balanced rotor has no such orbit
-        return tuple(
-            MotionRange(motion, gain, (), searched, step) for motion in ("single-impact", "stable-single-impact")
-        )
-    windows = orbit_windows(parameters, gain, values, progress)
-    spans = [
-        tuple(_span(parameters, gain, window, stable) for window in found)
-        for found, stable in ((windows.possible, False), (windows.stable, True))
-    ]
+    found: tuple[tuple[Window, ...], ...] = (), ()  # a balanced rotor has no such orbit
+    if parameters.rho > 0.0:
+        windows = orbit_windows(parameters, gain, values, progress)
+        found = windows.possible, windows.stable
+    spans = [tuple(_span(parameters, gain, window, bool(stable)) for window in found[stable]) for stable in (0, 1)]
     return (
         MotionRange("single-impact", gain, spans[0], searched, step),
         MotionRange("stable-single-impact", gain, spans[1], searched, step),
@@ -100,11 +96,10 @@ def _edge(parameters: Parameters, gain: Gain, end: WindowEnd, inward: float, sta
     if not end.kind:
         return Edge(end.value)
     there = [
-        any(_counts(orbit, stable) for orbit in orbits_within_reach(Jeffcott(vary(parameters, gain, place))))
+        any(
+            orbit.admissible and (orbit.stable or not stable)
+            for orbit in orbits_within_reach(Jeffcott(vary(parameters, gain, place)))
+        )
         for place in (end.value * (1.0 + inward * NEARBY), end.value * (1.0 - inward * NEARBY))
     ]
     return Edge(end.value, end.kind, end.period, certified=there == [True, False])
-
-
-def _counts(orbit: Orbit, stable: bool) -> bool:
-    return orbit.admissible and (orbit.stable or not stable)

@@ -28,7 +28,8 @@ def alone_sentences(study: Study, gain: Gain) -> list[str]:
     if not found.spans:
         return [f"No {name} in the range searched leaves only levitation{met}."]
     where = say.where(gain, found.spans, orbits.searched)
-    apart = ", apart from backward whirl," if _rolls(study, gain) else ""
+    rolling = study.range_of("rolling", gain)
+    apart = ", apart from backward whirl," if rolling and rolling.spans else ""
     tried = f"{found.disturbances + found.rim:,} disturbances"
     rests = f"no rub and no orbit with one impact a period exists there{met}"
     simulated = f"simulated at each of {counted(len(found.values), 'value')} of {name} there"
@@ -36,11 +37,6 @@ def alone_sentences(study: Study, gain: Gain) -> list[str]:
         f"Levitation is the only motion found{apart} {where}: {rests}.",
         f"{tried} of up to {say.velocity(found.fastest)} were {simulated}: {_came_back(study, found)}.",
     ]
-
-
-def _rolls(study: Study, gain: Gain) -> bool:
-    rolling = study.range_of("rolling", gain)
-    return rolling is not None and bool(rolling.spans)
 
 
 def _met(study: Study, found: LevitationAlone) -> str:
@@ -83,7 +79,8 @@ def _advised(study: Study, advice: Advice, *, first: bool) -> str:
         start = f"No value searched leaves only levitation; the least change found that {share} is"
     if not first:
         start = "Alternatively it takes"
-    return f"{start} {what} ({own}). {_capital(check_words(study, advice))}."
+    checked = check_words(study, advice)
+    return f"{start} {what} ({own}). {checked[0].upper()}{checked[1:]}."
 
 
 def check_words(study: Study, advice: Advice) -> str:
@@ -94,7 +91,3 @@ def check_words(study: Study, advice: Advice) -> str:
         return f"all of {sample} came back (so at least {number(100.0 * returned.low, 4)} % do, with 95 % confidence)"
     low, high = (number(100.0 * share, 4) for share in (returned.low, returned.high))
     return f"{number(returned.count, 6)} of {sample} came back ({low} to {high} % do, with 95 % confidence)"
-
-
-def _capital(text: str) -> str:
-    return text[0].upper() + text[1:]

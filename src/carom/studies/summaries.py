@@ -11,7 +11,7 @@ from carom.orbits.single_impact import Orbit, OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import ending_words, kick_sizes
-from carom.studies.ranges import Edge, Motion
+from carom.studies.ranges import Motion
 from carom.studies.remedies import check_words
 from carom.studies.wording import Wording, no_rigid_wall, number
 
@@ -235,15 +235,11 @@ def threshold_rows(study: Study) -> list[ThresholdRow]:
                 entry.exists,
                 say.gain_name(entry.gain),
                 say.gain(entry.gain, entry.edge.value) if say.scales else "",
-                f"{'γ' if entry.gain == 'gamma' else 'ω'} = {_digits(entry.edge)}",
+                f"{'γ' if entry.gain == 'gamma' else 'ω'} = {entry.edge.value:.8g}",
                 what,
             )
         )
     return rows
-
-
-def _digits(edge: Edge) -> str:
-    return f"{edge.value:.8g}"
 
 
 def range_rows(study: Study) -> list[tuple[str, ...]]:

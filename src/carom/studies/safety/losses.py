@@ -18,6 +18,7 @@ from carom.basins.shares import CONFIDENCE, Share
 from carom.disturbances.following import follow
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
+from carom.motions.settling import PATIENCE
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.results import Result
@@ -67,9 +68,11 @@ class DampingCheck:
         return -math.expm1(math.log(1.0 - CONFIDENCE) / self.sample.count)
 
 
-def try_disturbances(rotor: Jeffcott, sample: DisturbanceSet, threads: int | None = None) -> DampingCheck:
+def try_disturbances(
+    rotor: Jeffcott, sample: DisturbanceSet, threads: int | None = None, patience: int = PATIENCE
+) -> DampingCheck:
     """Follow all disturbances of a sample, and count those that do not come back."""
-    endings = follow(rotor, sample.starts(rotor), threads=threads)
+    endings = follow(rotor, sample.starts(rotor), patience=patience, threads=threads)
     return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from carom.attractors import DisturbanceSet, MotionName
 from carom.attractors.names import SYNCHRONOUS_RUB
 from carom.closed_forms.thresholds import rub_limit
-from carom.closed_forms.whirl import Rolling, rolling, runaway_speed
+from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.names import OrbitName
@@ -106,7 +106,8 @@ def least_safe_damping(
     rotor = Jeffcott(parameters)
     end = rub_limit(rotor)
     rub = DampingLimit(SYNCHRONOUS_RUB, end, end, "closed form") if end > 0.0 and parameters.d < 1.0 else None
-    orbits = _end_of_orbits(parameters, grid)
+    orbits, rolls = _end_of_orbits(parameters, grid), rolling(rotor)
+    whirl = DampingLimit(MotionName(Outcome.ROLLING), rolls.largest_damping, rolls.damping_bound, "closed form")
     tell(0.2)
     sample = DisturbanceSet(count, seed, fastest)
     losses = Losses(parameters, sample, rub.above if rub else 0.0, threads)
@@ -121,7 +122,7 @@ def least_safe_damping(
         rub,
         orbits,
         simulated,
-        _rolling_limit(rolling(rotor)),
+        whirl if whirl.gamma > 0.0 else None,
         runaway_speed(Jeffcott(parameters.replace(gamma=limit.gamma)) if limit else rotor),
         lowest,
         highest,
@@ -129,12 +130,6 @@ def least_safe_damping(
         checks,
         faster,
     )
-
-
-def _rolling_limit(roll: Rolling) -> DampingLimit | None:
-    if roll.least_force <= 0.0 or roll.largest_damping <= 0.0:
-        return None
-    return DampingLimit(MotionName(Outcome.ROLLING), roll.largest_damping, roll.damping_bound, "closed form")
 
 
 def _end_of_orbits(parameters: Parameters, grid: np.ndarray) -> DampingLimit | None:
