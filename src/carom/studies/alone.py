@@ -205,8 +205,7 @@ def _starts(rotor: Jeffcott, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the starts on the wall at the largest speed, followed by the seeded sample, fastest first."""
     places, speeds, *_ = DisturbanceSet(count, SEED).starts(rotor)
     order = np.argsort(-np.abs(speeds), kind="stable")
-    wall = np.exp(2j * math.pi * np.arange(RIM_PLACES) / RIM_PLACES)
-    turns = np.exp(2j * math.pi * np.arange(RIM_DIRECTIONS) / RIM_DIRECTIONS)
+    wall, turns = (np.exp(2j * math.pi * np.arange(number) / number) for number in (RIM_PLACES, RIM_DIRECTIONS))
     rim_places = np.repeat(wall, RIM_DIRECTIONS)
     rim_speeds = FASTEST * rim_places * np.tile(turns, RIM_PLACES)
     return np.concatenate([rim_places, places[order]]), np.concatenate([rim_speeds, speeds[order]])

@@ -177,8 +177,7 @@ def study(
     found = find_attractors(rotor, disturbances, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
     ranges = _ranges(parameters, lambda share: tell(0.3 + 0.15 * share, "thresholds of damping and stiffness"))
     tell(0.45, "disturbances where levitation is alone")
-    looked_at = [levitation_alone(parameters, gain, ranges) for gain in _gains(parameters)]
-    alone = tuple(entry for entry in looked_at if entry is not None)
+    alone = tuple(entry for gain in _gains(parameters) if (entry := levitation_alone(parameters, gain, ranges)))
     tell(0.53, "loss of levitation")
     boundaries = tuple(boundary for gain in _gains(parameters) for boundary in boundary_equilibria(rotor, gain))
     fresh = (

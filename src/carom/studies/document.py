@@ -27,7 +27,7 @@ from carom.parameters import MACHINE_FIELDS, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone
-from carom.studies.endings import hardest_impulse, largest_all_back, touching
+from carom.studies.endings import came_back, hardest_impulse, largest_all_back, touching
 from carom.studies.ranges import MotionRange, Span, Threshold
 from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.studies.verdict import NOT_COVERED
@@ -276,9 +276,9 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
         "patience": found.patience,
         "words": found.words(),
         "count": len(found.disturbances),
-        "recovered": _recovered(found.disturbances),
+        "recovered": came_back(found.disturbances),
         "touching": len(touched),
-        "touching_recovered": _recovered(touched),
+        "touching_recovered": came_back(touched),
         "smallest_unrecovered_kick": smallest,
         "smallest_unrecovered_kick_bracket": [largest_all_back(found), smallest],
         "irregular_transient": document_of(found.transient) if found.transient else None,
@@ -289,10 +289,6 @@ def _disturbances(found: AttractorSet, parameters: Parameters) -> dict[str, Any]
         document["hardest_impulse_si"] = hardest_impulse(found) * scales.impulse
         document |= _wall(indentation_of_hit(parameters, hardest_impulse(found) / (1.0 + parameters.d)))
     return document
-
-
-def _recovered(endings: tuple[Ending, ...]) -> int:
-    return sum(ending.recovered for ending in endings)
 
 
 def _ending(entry: Ending) -> dict[str, Any]:

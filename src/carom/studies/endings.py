@@ -11,6 +11,7 @@ from carom.outcome import Outcome
 
 __all__ = [
     "KickSize",
+    "came_back",
     "ending_phrase",
     "ending_words",
     "hardest_impulse",
@@ -63,6 +64,11 @@ def ending_phrase(motion: MotionName) -> str:
 def touching(found: AttractorSet) -> tuple[Ending, ...]:
     """Return the disturbances in which the rotor touched the wall."""
     return tuple(ending for ending in found.disturbances if ending.touched)
+
+
+def came_back(endings: tuple[Ending, ...]) -> int:
+    """Count the disturbances that ended in levitation."""
+    return sum(ending.recovered for ending in endings)
 
 
 def hardest_impulse(found: AttractorSet) -> float:

@@ -8,7 +8,7 @@ from carom.attractors.names import LEVITATION
 from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
-from carom.studies.endings import KickSize, ending_phrase, hardest_impulse, kick_sizes, touching
+from carom.studies.endings import KickSize, came_back, ending_phrase, hardest_impulse, kick_sizes, touching
 from carom.studies.ranges import Gain, Motion
 from carom.studies.remedies import advice_lines, alone_sentences
 from carom.studies.safety.limits import share_words
@@ -176,8 +176,9 @@ def _disturbances(study: Study) -> str:
     sizes = kick_sizes(found)
     text = f"Simulated to where they settle: {found.words(say.velocity)}. {_endings(study)}"
     text += _smallest_kick(study, sizes)
-    if hardest_impulse(found) > 0:
-        text += f" The hardest hit had a normal impulse of {say.impulse(hardest_impulse(found))}{_of_hit(study, hardest_impulse(found))}."
+    hardest = hardest_impulse(found)
+    if hardest > 0:
+        text += f" The hardest hit had a normal impulse of {say.impulse(hardest)}{_of_hit(study, hardest)}."
     return text
 
 
@@ -205,9 +206,8 @@ def _endings(study: Study) -> str:
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}.{_irregular(found)}"
     touched = touching(found)
-    back = sum(ending.recovered for ending in touched)
     if study.levitates and touched:
-        text += f" Of the {len(touched)} that touched the wall {back or 'none'} came back to levitation."
+        text += f" Of the {len(touched)} that touched the wall {came_back(touched) or 'none'} came back to levitation."
     return text
 
 

@@ -62,6 +62,7 @@ def single_impact_ranges(
 
 def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
     """Return the values to search, in geometric progression; the list of orbits is complete at each of them."""
+    limits = DIMENSIONLESS_FIELDS[gain]
     if gain == "omega":
         lowest, highest = 0.5 * parameters.omega, 2.0 * parameters.omega
     else:
@@ -69,11 +70,10 @@ def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
         highest = 8.0 * max(1.0, parameters.omega, parameters.gamma)
         while lowest < 0.1 * highest and not _can_search(parameters.replace(gamma=lowest)):
             lowest *= 2.0
-        highest = min(highest, DIMENSIONLESS_FIELDS[gain].highest)
+        highest = min(highest, limits.highest)
         # A soft rotor is so strongly overdamped there that one of its exponents decays very slowly.
         while highest > 4.0 * max(lowest, parameters.gamma) and not _can_search(parameters.replace(gamma=highest)):
             highest *= 0.5
-    limits = DIMENSIONLESS_FIELDS[gain]
     lowest, highest = max(lowest, limits.lowest), min(highest, limits.highest)
     ends = [parameters.replace(**{gain: value}) for value in (lowest, highest)]
     if lowest >= highest or not all(_can_search(end) for end in ends):

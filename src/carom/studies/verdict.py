@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from carom.closed_forms.whirl import rolling
+from carom.studies.endings import came_back
 from carom.studies.findings import FINDINGS, names_of, stable_rub
 from carom.studies.wording import listed
 
@@ -86,15 +87,11 @@ def _headline(study: Study) -> tuple[Level, str]:
             "may-not-come-back",
             f"It levitates without contact, but after a touch it may not come back: {listed(holds)}.",
         )
-    text = f"It levitates without contact and came back from every disturbance tried, of up to {_fastest(study)}."
+    fastest = study.wording.velocity(study.attractors.fastest)
+    text = f"It levitates without contact and came back from every disturbance tried, of up to {fastest}."
     if rolling(study.rotor).holds:
         text = f"{text[:-1]}; only backward whirl is known to be able to hold it."
     return "all-tried-came-back", f"{text} That is no guarantee: see what is not covered."
-
-
-def _fastest(study: Study) -> str:
-    """Return the largest speed of the disturbances tried."""
-    return study.wording.velocity(study.attractors.fastest)
 
 
 def _what_may_hold(study: Study) -> list[str]:
@@ -104,14 +101,13 @@ def _what_may_hold(study: Study) -> list[str]:
     if study.stable_orbits:
         holds.append(f"it can bounce for ever ({names_of(list(study.stable_orbits))})")
     tried = study.attractors.disturbances
-    lost = sum(not ending.recovered for ending in tried)
+    lost = len(tried) - came_back(tried)
+    upto = f"disturbances of up to {study.wording.velocity(study.attractors.fastest)}"
     if lost:
         share = f"{lost} of {len(tried)}" if lost < len(tried) else f"any of the {lost}"
-        holds.append(f"it did not come back from {share} disturbances of up to {_fastest(study)}")
+        holds.append(f"it did not come back from {share} {upto}")
     elif study.fresh is not None and study.fresh.lost:
-        holds.append(
-            f"it did not come back from {study.fresh.lost} of {study.fresh.sample.count:,} disturbances of up to {_fastest(study)}"
-        )
+        holds.append(f"it did not come back from {study.fresh.lost} of {study.fresh.sample.count:,} {upto}")
     if not study.orbits.complete and not study.stable_orbits:
         holds.append("not all of its periodic motions could be searched")
     return holds

@@ -5,8 +5,6 @@ from scipy.stats import binom
 
 from carom.attractors import DisturbanceSet, MotionName
 from carom.attractors.names import SYNCHRONOUS_RUB
-from carom.closed_forms.whirl import runaway_speed
-from carom.models import Jeffcott
 from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 from carom.parameters import Parameters, Scales
@@ -31,7 +29,6 @@ def safe(simulated, checks=(0.6, 1.0, 2.0), rolling=ROLLING, scales=SCALES):
         ORBITS,
         simulated,
         rolling,
-        runaway_speed(Jeffcott(SOURCE)),
         0.02,
         2.0,
         sample,

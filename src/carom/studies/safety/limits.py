@@ -9,7 +9,7 @@ from typing import Literal
 
 from carom.attractors import DisturbanceSet, MotionName
 from carom.basins.shares import CONFIDENCE
-from carom.closed_forms.whirl import Runaway
+from carom.closed_forms.whirl import Runaway, runaway_speed
 from carom.motions.settling import PATIENCE
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -18,7 +18,7 @@ from carom.studies.endings import ending_phrase, ending_words
 from carom.studies.safety.losses import DampingCheck
 from carom.studies.wording import Wording
 
-__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "share_words", "within_reach"]
+__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "share_words"]
 
 MOST_CHECKS = 120
 """Largest number of fresh samples of a search; the confidence holds for all of them together."""
@@ -77,8 +77,6 @@ class SafeDamping(Result):
         Any motion other than levitation in which simulated disturbances ended.
     rolling : DampingLimit or None
         Rolling in backward whirl, which only a fast start reaches.
-    runaway : Runaway
-        How fast this start must be, at the limit ``within_reach``.
     lowest, highest : float
         Range of ``gamma`` that was searched for orbits and by simulation.
     sample : DisturbanceSet
@@ -94,7 +92,6 @@ class SafeDamping(Result):
     orbits: DampingLimit | None
     simulated: DampingLimit | None
     rolling: DampingLimit | None
-    runaway: Runaway
     lowest: float
     highest: float
     sample: DisturbanceSet
@@ -107,7 +104,16 @@ class SafeDamping(Result):
 
         ``None`` if levitation is the only motion at any positive damping.
         """
-        return within_reach(self.rub, self.orbits, self.simulated)
+        known = max((limit for limit in (self.rub, self.orbits) if limit), key=lambda limit: limit.above, default=None)
+        if self.simulated and (known is None or self.simulated.gamma > known.above):
+            return self.simulated
+        return known
+
+    @property
+    def runaway(self) -> Runaway:
+        """How fast backward whirl must be to run away to rolling, at the limit ``within_reach``."""
+        limit = self.within_reach
+        return runaway_speed(self.parameters.replace(gamma=limit.gamma) if limit else self.parameters)
 
     @property
     def at_all(self) -> DampingLimit | None:
@@ -195,13 +201,3 @@ def share_words(share: float) -> str:
     one_in = 1.0 / share
     unit = 10.0 ** (math.floor(math.log10(one_in)) - 1)
     return f"fewer than 1 in {int(unit * math.floor(one_in / unit)):,} are lost"
-
-
-def within_reach(
-    rub: DampingLimit | None, orbits: DampingLimit | None, simulated: DampingLimit | None
-) -> DampingLimit | None:
-    """Return the limit for the disturbances tried: the largest known one, unless a disturbance was lost above it."""
-    known = max((limit for limit in (rub, orbits) if limit), key=lambda limit: limit.above, default=None)
-    if simulated and (known is None or simulated.gamma > known.above):
-        return simulated
-    return known

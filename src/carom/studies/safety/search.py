@@ -10,14 +10,14 @@ import numpy as np
 from carom.attractors import DisturbanceSet, MotionName
 from carom.attractors.names import SYNCHRONOUS_RUB
 from carom.closed_forms.thresholds import rub_limit
-from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.closed_forms.whirl import rolling
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-from carom.studies.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping, within_reach
+from carom.studies.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping
 from carom.studies.safety.losses import DampingCheck, Loss, Losses
 
 __all__ = ["FRESH", "least_safe_damping"]
@@ -114,7 +114,6 @@ def least_safe_damping(
     known = max((limit.above for limit in (rub, orbits) if limit), default=0.0)
     search = _Search(losses, grid, known, lambda share: tell(0.2 + 0.7 * share))
     simulated, checks = search.run()
-    limit = within_reach(rub, orbits, simulated)
     faster = losses.faster(checks[0].gamma, max(1, int(FASTER_SHARE * count)), FASTER) if checks else None
     tell(1.0)
     return SafeDamping(
@@ -123,7 +122,6 @@ def least_safe_damping(
         orbits,
         simulated,
         whirl if whirl.gamma > 0.0 else None,
-        runaway_speed(Jeffcott(parameters.replace(gamma=limit.gamma)) if limit else rotor),
         lowest,
         highest,
         sample,
