@@ -10,10 +10,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+import numpy as np
+
+from carom.disturbances import Coordinate, Disturbance, Sample, Starts, VelocityKick
 from carom.outcome import CaromWarning
 from carom.parameters import Case, Parameters, Zones
+from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
-from carom.sweeps.plan import GridAxis, SweepPlan, cut
+from carom.sweeps.plan import SweepPlan, cut
 from carom.sweeps.variables import Variable
 
 DAMPED = Parameters(gamma=0.6, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -76,6 +80,25 @@ class Deadly(Drawn):
         return super().evaluate(case, seed)
 
 
+@dataclass(frozen=True)
+class Drop(Disturbance):
+    """The rotor is let go at some distance from levitation."""
+
+    farthest: float = 0.8
+    measured_in: ClassVar[dict[str, str]] = {"farthest": "length"}
+
+    @property
+    def coordinates(self):
+        distance = Coordinate("distance", "distance from levitation", 0.0, self.farthest, "length")
+        return distance, Coordinate("direction", "direction", 0.0, 2.0 * np.pi, periodic=True)
+
+    def starts(self, rotor, *values):
+        distance, direction = values
+        positions = rotor.equilibrium + distance * np.exp(1j * direction)
+        inside = np.abs(positions) < 1.0
+        return Starts.of(np.where(inside, positions, 0.0), 0j, inside)
+
+
 def plan_of(task, count=10, chunk=2, seed=5):
     """A sweep along the damping from 0.1 to 1."""
     axes = (GridAxis("gamma", "linear", (0.1, 1.0), count),)
@@ -86,7 +109,7 @@ def plan_of(task, count=10, chunk=2, seed=5):
 def basins_plan(starts=12, chunk=2, shape=(4, 5), damping=(0.5, 0.9)):
     """Basins over damping and friction, quick ones; the last chunk of each row is half full."""
     axes = (GridAxis("gamma", "linear", damping, shape[0]), GridAxis("mu", "log", (0.05, 0.2), shape[1]))
-    task = BasinsTask(starts, "kick", (("fastest", 2.0, False),), has_scales=False)
+    task = BasinsTask(Sample(VelocityKick(2.0), starts))
     return SweepPlan(Case("paper", DAMPED, None, Zones()), axes, task, cut(shape, task, chunk), 7)
 
 

@@ -130,7 +130,7 @@ class AttractorSet(Result):
 
 def find_attractors(
     machine: Subject,
-    disturbances: Plan | Disturbance | Sequence[State | Kick] | None = None,
+    disturbances: DisturbanceSet | Plan | Disturbance | Sequence[State | Kick] | None = None,
     *,
     seed: int = 0,
     count: int = DISTURBANCES,
@@ -148,7 +148,7 @@ def find_attractors(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-    disturbances : Grid, Sample, Disturbance or sequence of State or Kick, optional
+    disturbances : DisturbanceSet, Grid, Sample, Disturbance or sequence of State or Kick, optional
         Disturbances to follow instead of the standard set (:class:`~carom.attractors.DisturbanceSet`): a plan, a model
         of :mod:`carom.disturbances`, of which a sample is drawn, or single starts.  Those that are not possible are
         left out.

@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import tee
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -18,9 +19,9 @@ from carom.basins.losses import smallest_lost
 from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
-from carom.disturbances.following import NO_START
+from carom.disturbances.following import NO_START, follow_machines
 from carom.models import Jeffcott, Subject, model_of
-from carom.motions.ensembles import MOST_EVENTS, settle
+from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
@@ -224,52 +225,34 @@ def measured(
     limits: Mapping[str, Any],
 ) -> Iterator[dict[str, Any]]:
     """Yield the measures of each node; nodes are followed in chunks of about CHUNK starts."""
-    together = max(1, CHUNK // plan.count)
-    for first in range(0, len(nodes), together):
-        chunk = [_machine(parameters, plan, axes, node) for node in nodes[first : first + together]]
-        able = [place for place, (_, starts) in enumerate(chunk) if starts is not None and starts.exists.any()]
-        outcomes: dict[int, np.ndarray] = {}
-        if able:
-            sets = [chunk[place][1] for place in able]
-            chosen = [starts.exists & ~starts.undecided for starts in sets if starts is not None]
-            picked = [
-                (starts.positions[which], starts.velocities[which], np.full(which.sum(), machine))
-                for machine, (starts, which) in enumerate(zip(sets, chosen, strict=True))
-                if starts is not None
-            ]
-            positions, velocities, machines = (np.concatenate(parts) for parts in zip(*picked, strict=True))
-            ends = settle([chunk[p][0] for p in able], positions, velocities, which=machines, **limits).outcomes
-            for machine, (place, starts, which) in enumerate(zip(able, sets, chosen, strict=True)):
-                if starts is None:
-                    continue
-                codes = np.where(starts.exists, np.int8(Outcome.GRAZING), np.int8(NO_START))
-                codes[which] = ends[machines == machine]
-                outcomes[place] = codes
-        for place, (rotor, starts) in enumerate(chunk):
-            found = outcomes.get(place)
-            yield _measures(plan, found) | _smallest(parameters, plan, rotor, starts, found)
+    there, back = tee(_machine(parameters, plan, axes, node) for node in nodes)
+    for (rotor, starts), ends in zip(there, follow_machines(back, CHUNK, **limits), strict=True):
+        measures = _measures(plan, ends.outcomes)
+        if isinstance(plan.model, VelocityKick | KickPlane):
+            measures |= _smallest(parameters, rotor, starts, ends.outcomes)
+        yield measures
 
 
 def _machine(
     parameters: Parameters, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]
-) -> tuple[Jeffcott, Starts | None]:
-    """Machine of a node and its starts; ``None`` instead of starts if it cannot levitate."""
+) -> tuple[Jeffcott, Starts]:
+    """Machine of a node and its starts; none of them exists if it cannot levitate."""
     numbers = Numbers.of(parameters)
     for varied, value in zip(axes, node, strict=True):
         numbers = varied.set(numbers, value)
     machine = numbers.parameters
     rotor = Jeffcott(machine)
     if abs(rotor.equilibrium) >= 1.0:
-        return rotor, None
+        return rotor, Starts.of(np.zeros(plan.count), 0j, False)
     return rotor, plan.rescaled(parameters.scales, machine.scales).starts(rotor)
 
 
-def _measures(plan: Plan, outcomes: np.ndarray | None) -> dict[str, Any]:
+def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
     """Measures of one machine from the outcomes of its starts."""
-    if outcomes is None:
+    exists, back = outcomes != NO_START, outcomes == Outcome.LEVITATED
+    if not exists.any():
         nothing = dict.fromkeys(_WORDS, 0.0) | {"count": 0, "total": plan.count}
         return nothing | {"basin_entropy": math.nan, "boundary_basin_entropy": math.nan}
-    exists, back = outcomes != NO_START, outcomes == Outcome.LEVITATED
     share = Share.of(int(back.sum()), int(exists.sum()), drawn=isinstance(plan, Sample))
     measures: dict[str, Any] = {
         "recovered": share.fraction,
@@ -292,16 +275,9 @@ def _measures(plan: Plan, outcomes: np.ndarray | None) -> dict[str, Any]:
     return measures
 
 
-def _smallest(
-    parameters: Parameters, plan: Plan, rotor: Jeffcott, starts: Starts | None, outcomes: np.ndarray | None
-) -> dict[str, float]:
+def _smallest(parameters: Parameters, rotor: Jeffcott, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
     """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
-    if not isinstance(plan.model, VelocityKick | KickPlane):
-        return {}
-    found = None
-    if starts is not None and outcomes is not None:
-        found = smallest_lost(starts.velocities[starts.exists], outcomes[starts.exists])
-    speed, direction = found or (math.nan, math.nan)
+    speed, direction = smallest_lost(starts, outcomes) or (math.nan, math.nan)
     if rotor.scales is not None and parameters.scales is not None:
         speed *= rotor.scales.velocity / parameters.scales.velocity
     return {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}

@@ -24,8 +24,8 @@ from carom.disturbances import (
     UnbalanceStep,
     VelocityKick,
 )
+from carom.disturbances.following import follow
 from carom.models import Jeffcott, Subject, model_of
-from carom.motions.ensembles import settle
 from carom.outcome import InputError, Outcome
 
 __all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_kick"]
@@ -347,12 +347,9 @@ class _Search:
         """Outcomes, and which starts are lost; impossible and undecided starts do not count as lost."""
         sizes, angles = np.broadcast_arrays(sizes, angles)
         starts = self.family.starts(sizes, angles)
-        chosen = starts.exists & ~starts.undecided
-        outcomes = np.full(chosen.shape, Outcome.GRAZING, np.int8)
-        if chosen.any():
-            followed = settle(self.rotor, starts.positions[chosen], starts.velocities[chosen], threads=self.threads)
-            outcomes[chosen] = followed.outcomes
-        self.tried += int(chosen.sum())
+        outcomes = follow(self.rotor, starts, threads=self.threads).outcomes
+        outcomes[~starts.exists] = Outcome.GRAZING
+        self.tried += int(np.count_nonzero(starts.exists & ~starts.undecided))
         return outcomes, lost(outcomes)
 
 
@@ -370,9 +367,9 @@ def lost(outcomes: np.ndarray) -> np.ndarray:
     return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
 
 
-def smallest_lost(velocities: np.ndarray, outcomes: np.ndarray) -> tuple[float, float] | None:
-    """Speed and direction of the smallest lost kick among kicks to these velocities; ``None`` if none is lost."""
-    gone = velocities[lost(outcomes)]
+def smallest_lost(kicks: Starts, outcomes: np.ndarray) -> tuple[float, float] | None:
+    """Speed and direction of the smallest lost one among kicks; ``None`` if none is lost."""
+    gone = kicks.velocities[kicks.exists & lost(outcomes)]
     if not gone.size:
         return None
     smallest = gone[np.abs(gone).argmin()]

@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.bifurcations.axes import vary
+from carom.disturbances import Plan
 from carom.models import Jeffcott
 from carom.motions.trajectories import REPEATING, simulate
 from carom.outcome import Outcome
@@ -81,7 +82,7 @@ def sample_attractors(
     parameters: Parameters,
     parameter: str,
     interval: tuple[float, float],
-    disturbances: DisturbanceSet,
+    disturbances: DisturbanceSet | Plan,
     *,
     values: int = VALUES,
     progress: Callable[[float], None] | None = None,
@@ -93,7 +94,7 @@ def sample_attractors(
     parameters : Parameters
     parameter : str
     interval : tuple of float
-    disturbances : DisturbanceSet
+    disturbances : DisturbanceSet, Grid or Sample
         Disturbances followed at each value.  Starts next to every known motion are followed too, but do not count for
         the shares.
     values : int
@@ -110,9 +111,7 @@ def sample_attractors(
     found: list[AttractorSample] = []
     for done, value in enumerate(np.linspace(*interval, values).tolist()):
         rotor = Jeffcott(vary(parameters, parameter, value))
-        attractors = find_attractors(
-            rotor, seed=disturbances.seed, count=disturbances.count, fastest=disturbances.fastest
-        )
+        attractors = find_attractors(rotor, disturbances)
         found += [_sample(value, rotor, each) for each in attractors if each.settled]
         found += _transient(value, attractors)
         tell((done + 1) / values)

@@ -68,7 +68,7 @@ def sweep(
         except KeyboardInterrupt:
             kept = f"{last[0].done:,} of {plan.points:,} points are stored; " if last else ""
             raise InterruptionError(f"interrupted; {kept}the same command resumes {out}") from None
-    failures = _failures(plan, tally)
+    failures = tally.failures
     if as_json:
         print_document(_document(plan, tally, failures))
     else:
@@ -97,14 +97,6 @@ def _duration(seconds: float) -> str:
     if seconds < 5400:
         return f"{seconds / 60:.0f} min"
     return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
-
-
-def _failures(plan: SweepPlan, tally: Tally) -> list[dict[str, Any]]:
-    if not tally.failed:
-        return []
-    from carom.sweeps.store import SweepStore
-
-    return SweepStore(tally.store, plan).failures()
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:

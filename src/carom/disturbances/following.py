@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
 
-__all__ = ["NO_START", "follow", "require_start"]
+__all__ = ["NO_START", "follow", "follow_machines", "require_start"]
 
 NO_START = -1
 """Outcome of a disturbance without a start: it lies outside the wall, or the rotor could not levitate before."""
@@ -48,6 +48,41 @@ def follow(
     whole["outcomes"][starts.undecided] = Outcome.GRAZING
     whole["outcomes"][~starts.exists] = NO_START
     return Endings(**whole)
+
+
+def follow_machines(machines: Iterable[tuple[Jeffcott, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
+    """Follow the disturbances of one machine after another.
+
+    Parameters
+    ----------
+    machines : iterable of (Jeffcott, Starts)
+    chunk : int
+        Approximate number of starts that are followed together and held in memory.
+    **limits
+        Of :func:`~carom.motions.ensembles.settle`.
+
+    Yields
+    ------
+    Endings
+        As of :func:`follow`, for each machine in its turn.
+    """
+    waiting: list[tuple[Jeffcott, Starts]] = []
+    for machine in machines:
+        waiting.append(machine)
+        if sum(starts.exists.size for _, starts in waiting) >= chunk:
+            yield from _together(waiting, limits)
+            waiting = []
+    if waiting:
+        yield from _together(waiting, limits)
+
+
+def _together(machines: list[tuple[Jeffcott, Starts]], limits: dict[str, Any]) -> Iterator[Endings]:
+    rotors, sets = zip(*machines, strict=True)
+    sizes = [starts.exists.size for starts in sets]
+    found = follow(rotors, Starts.joined(sets), which=np.repeat(np.arange(len(sets)), sizes), **limits)
+    for starts, end, size in zip(sets, np.cumsum(sizes), sizes, strict=True):
+        shape = starts.exists.shape
+        yield Endings(**{name: values[end - size : end].reshape(shape) for name, values in vars(found).items()})
 
 
 def require_start(rotor: Jeffcott, starts: Starts) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -75,13 +75,22 @@ class Disturbance:
         """
         raise NotImplementedError
 
-    def rescaled(self, before: Scales | None, after: Scales | None) -> Self:
-        """Return the disturbance that is the same in SI units for a machine with other scales."""
+    def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:
+        """Return the disturbance that is the same in SI units for a machine with other scales.
+
+        Parameters
+        ----------
+        before, after : Scales or None
+            Without scales nothing changes.
+        names : collection of str, optional
+            Fields that are to be the same in SI units, by default all that have a unit.
+        """
         if before is None or after is None or before == after:
             return self
         changes = {
             name: getattr(self, name) * (getattr(before, scale) / getattr(after, scale))
             for name, scale in self.measured_in.items()
+            if names is None or name in names
         }
         return dataclasses.replace(self, **changes)
 

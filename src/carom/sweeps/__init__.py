@@ -2,10 +2,11 @@
 
 ==================  =================================================================================
 ``sweep_file``      :func:`load_sweep`: TOML text to a plan
-``plan``            :class:`SweepPlan`: the grid, its chunks and its seeds
+``axes``            :class:`GridAxis`: the values of one parameter
+``plan``            :class:`SweepPlan`: the grid, its chunks and its seeds; :func:`plan_sweep` in Python
 ``variables``       what is stored for each point
 ``studies``         what a study computes at a point
-``basins``          where the disturbances of a sample end at a point
+``basins``          where disturbances end at a point
 ``chunk``           computes the arrays of a chunk from its number
 ``layout``          creates the store, without chunks
 ``store``           the Zarr store, :func:`open_sweep`
@@ -15,9 +16,20 @@
 ==================  =================================================================================
 """
 
-from carom.sweeps.plan import GridAxis, SweepPlan
+from carom.sweeps.axes import GridAxis
+from carom.sweeps.plan import SweepPlan, plan_sweep
 from carom.sweeps.running import Tally, run_sweep
 from carom.sweeps.store import open_sweep
+from carom.sweeps.studies import StudyTask
 from carom.sweeps.sweep_file import load_sweep
 
-__all__ = ["GridAxis", "SweepPlan", "Tally", "load_sweep", "open_sweep", "run_sweep"]
+__all__ = [
+    "GridAxis",
+    "StudyTask",
+    "SweepPlan",
+    "Tally",
+    "load_sweep",
+    "open_sweep",
+    "plan_sweep",
+    "run_sweep",
+]

@@ -11,7 +11,7 @@ from carom.core.target import processor
 from carom.outcome import CaromError
 from carom.results import Result
 from carom.sweeps.plan import SweepPlan
-from carom.sweeps.variables import STATUS, Status
+from carom.sweeps.variables import Status
 
 __all__ = ["Chunk", "Failure", "compute_chunk", "failed_chunk"]
 
@@ -98,12 +98,9 @@ def failed_chunk(plan: SweepPlan, number: int, error: str) -> Chunk:
 
 def _empty(plan: SweepPlan, number: int) -> dict[str, np.ndarray]:
     shape = tuple(part.stop - part.start for part in plan.region(number))
-    arrays: dict[str, np.ndarray] = {
-        variable.name: np.full(shape + variable.shape, variable.fill, variable.dtype)
-        for variable in plan.task.variables
+    return {
+        variable.name: np.full(shape + variable.shape, variable.fill, variable.dtype) for variable in plan.variables
     }
-    arrays["status"] = np.full(shape, Status.WAITING, STATUS.dtype)
-    return arrays
 
 
 def _error_line(problem: Exception) -> str:

@@ -18,10 +18,21 @@ from carom.files import sync_directory
 from carom.outcome import InputError
 from carom.sweeps.integrity import SUMS, damaged_metadata, sums
 from carom.sweeps.plan import SweepPlan
-from carom.sweeps.variables import STATUS, Status, flag_attributes
+from carom.sweeps.variables import flag_attributes
 from carom.sweeps.versions import other_version, versions
 
-__all__ = ["FAILURES", "OPTION", "PARTS", "ROOT", "attributes_of", "check_same", "create", "is_new"]
+__all__ = [
+    "FAILURES",
+    "OPTION",
+    "PARTS",
+    "ROOT",
+    "attributes_of",
+    "check_same",
+    "coordinates_of",
+    "create",
+    "description_of",
+    "is_new",
+]
 
 OPTION, ROOT = "--out", "zarr.json"
 """Name of the directory in errors, and of the file that describes what a store holds."""
@@ -115,11 +126,9 @@ def create(path: Path, plan: SweepPlan) -> None:
         shutil.rmtree(made, ignore_errors=True)
 
 
-def _lay_out(path: Path, plan: SweepPlan) -> None:
-    import zarr
-    from zarr.codecs import Crc32cCodec
-
-    attributes = {
+def description_of(plan: SweepPlan) -> dict[str, Any]:
+    """Return the attributes of the results of a plan."""
+    return {
         "Conventions": "CF-1.11",
         "title": f"Sweep of {plan.case.name}: {plan.task.kind}",
         "source": f"carom {versions()['carom']}",
@@ -130,37 +139,42 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
         "plan_digest": plan.digest,
         **plan.sources,
     }
+
+
+def coordinates_of(plan: SweepPlan) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
+    """Return the values and attributes of each axis and of each further dimension of a plan."""
+    axes = {
+        axis.name: (axis.values, {"long_name": axis.field.words, "units": axis.field.unit or "1"}) for axis in plan.axes
+    }
+    return axes | {
+        dimension.name: (
+            np.array(dimension.values, np.int8),
+            {"long_name": dimension.words, **flag_attributes(dimension.values, dimension.flags)},
+        )
+        for dimension in plan.task.dimensions
+    }
+
+
+def _lay_out(path: Path, plan: SweepPlan) -> None:
+    import zarr
+    from zarr.codecs import Crc32cCodec
+
     names = [axis.name for axis in plan.axes]
-    group = zarr.create_group(path, zarr_format=3, attributes=attributes)
-    for axis in plan.axes:
-        words = {"long_name": axis.field.words, "units": axis.field.unit or "1"}
-        _add(group, axis.name, axis.values, [axis.name], words)
-    for dimension in plan.task.dimensions:
-        words = {"long_name": dimension.words, **flag_attributes(dimension.values, dimension.flags)}
-        _add(group, dimension.name, np.array(dimension.values, np.int8), [dimension.name], words)
-    common: dict[str, Any] = {"compressors": Crc32cCodec(), "filters": None}
-    for variable in plan.task.variables:
-        along = [variable.along.name] if variable.along else []
+    group = zarr.create_group(path, zarr_format=3, attributes=description_of(plan))
+    for name, (values, words) in coordinates_of(plan).items():
+        _add(group, name, values, [name], words)
+    for variable in plan.variables:
         group.create_array(
             variable.name,
             shape=plan.shape + variable.shape,
             chunks=plan.chunk_shape + variable.shape,
             dtype=variable.dtype,
             fill_value=variable.fill,
-            dimension_names=names + along,
+            dimension_names=[*names, variable.along.name] if variable.along else names,
             attributes=variable.attributes,
-            **common,
+            compressors=Crc32cCodec(),
+            filters=None,
         )
-    group.create_array(
-        STATUS.name,
-        shape=plan.shape,
-        chunks=plan.chunk_shape,
-        dtype=STATUS.dtype,
-        fill_value=Status.WAITING,
-        dimension_names=names,
-        attributes=STATUS.attributes,
-        **common,
-    )
     with warnings.catch_warnings():
         # Zarr warns that its specification 3 does not describe consolidated metadata yet, which spare readers a search.
         warnings.simplefilter("ignore")

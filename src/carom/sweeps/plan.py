@@ -5,27 +5,31 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Field
+from carom.disturbances import Grid, Plan, Sample
+from carom.outcome import InputError, shown
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.parameters.machine import check_names
+from carom.sweeps.axes import GridAxis
+from carom.sweeps.basins import BasinsTask
+from carom.sweeps.studies import StudyTask
+from carom.sweeps.variables import STATUS
 
 if TYPE_CHECKING:
-    from carom.sweeps.variables import Dimension, Variable
+    from carom.models import Subject
+    from carom.sweeps.variables import Dimension, PointStatus, Variable
 
-__all__ = ["MOST_CHUNKS", "GridAxis", "SweepPlan", "Task", "cut"]
+__all__ = ["MOST_CHUNKS", "SweepPlan", "Task", "check_varied", "cut", "plan_sweep"]
 
 MOST_CHUNKS = 1_000_000
 """Largest number of chunks of a sweep: each chunk is several files."""
 SECONDS_A_CHUNK = 4.0
 """Estimated computing time of a chunk whose size is not given."""
-
-Spacing = Literal["linear", "log", "list"]
 
 
 class Task(Protocol):
@@ -59,43 +63,6 @@ class Task(Protocol):
 
 
 @dataclass(frozen=True)
-class GridAxis:
-    """Values of one parameter.
-
-    Attributes
-    ----------
-    name : str
-        A field of a machine, or a dimensionless parameter.
-    spacing : {"linear", "log", "list"}
-    given : tuple of float
-        First and last value, or all values of a list; in SI units or dimensionless.
-    count : int
-    """
-
-    name: str
-    spacing: Spacing
-    given: tuple[float, ...]
-    count: int
-
-    @cached_property
-    def values(self) -> np.ndarray:
-        """All values, shape (count,)."""
-        if self.spacing == "list":
-            return np.array(self.given)
-        low, high = self.given
-        return (np.linspace if self.spacing == "linear" else np.geomspace)(low, high, self.count)
-
-    @property
-    def field(self) -> Field:
-        """Words, symbol and unit of the parameter."""
-        return {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}[self.name]
-
-    def describe(self) -> dict[str, Any]:
-        """Return what identifies the axis, as plain data for JSON."""
-        return {"name": self.name, "spacing": self.spacing, "values": list(self.given), "count": self.count}
-
-
-@dataclass(frozen=True)
 class SweepPlan:
     """What a sweep does.  Its memory use does not depend on the number of points or chunks.
 
@@ -122,6 +89,11 @@ class SweepPlan:
     seed: int = 0
     fixed: Mapping[str, float] = field(default_factory=dict)
     sources: Mapping[str, str] = field(default_factory=dict, compare=False)
+
+    @property
+    def variables(self) -> tuple[Variable | PointStatus, ...]:
+        """What is stored for each point, the status last."""
+        return *self.task.variables, STATUS
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -239,3 +211,69 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
             "chunk", chunk, f"gives {chunks} chunks, at most {MOST_CHUNKS} are allowed; {least} or more points"
         )
     return tuple(sizes)
+
+
+def check_varied(case: Case, name: str) -> None:
+    """Refuse to vary a physical parameter of a machine that is given by dimensionless numbers."""
+    if name in MACHINE_FIELDS and case.machine is None:
+        allowed = "the machine is dimensionless; vary dimensionless parameters"
+        raise InputError(f"axes.{name}", shown(name), allowed)
+
+
+def plan_sweep(
+    machine: Subject,
+    axes: Sequence[GridAxis],
+    work: Plan | StudyTask,
+    *,
+    seed: int | None = None,
+    chunk: int | None = None,
+) -> SweepPlan:
+    """Plan a sweep in Python; a sweep file is read by :func:`~carom.sweeps.load_sweep`.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+        The machine whose parameters the axes vary.
+    axes : sequence of GridAxis
+        Such as ``GridAxis.between("damping", "700 N s/m", "2800 N s/m", 16)`` or ``GridAxis.of("friction", [0.1, 0.2])``.
+    work : Sample, Grid or StudyTask
+        What is done at each point: disturbances to follow, with models of carom or of your own, or a study.  Each point
+        draws a sample of its own.  Sizes are those of this machine; where an axis changes its scales, they stay the
+        same in SI units.
+    seed : int, optional
+        By default that of the sample; otherwise 0.
+    chunk : int, optional
+        Points that are computed and stored together, by default as many as take some seconds.
+
+    Returns
+    -------
+    SweepPlan
+
+    Raises
+    ------
+    InputError
+        There is no axis, or two of them vary the same, or a parameter that cannot be varied here.
+    """
+    from carom.models.subjects import case_of
+
+    case = case_of(machine)
+    names = [axis.name for axis in axes]
+    if not names or len(set(names)) < len(names):
+        raise InputError("axes", ", ".join(names) or None, "must be one or more, each for another parameter")
+    check_names(dict.fromkeys(names, "varied"))
+    for name in names:
+        check_varied(case, name)
+    scales = case.parameters.scales
+    if seed is None:
+        seed = work.seed if isinstance(work, Sample) else 0
+    task: Task
+    if isinstance(work, Grid | Sample):
+        tried = replace(work, seed=0) if isinstance(work, Sample) else work  # each point has a seed of its own
+        task = BasinsTask(tried, tuple(work.model.measured_in), scales)
+    else:
+        task = replace(work, zone_limits=case.zones.limits, has_scales=scales is not None)
+    if not 0 <= seed < 2**63:
+        raise InputError("seed", seed, "must be a whole number from 0 to 2^63 - 1")
+    if chunk is not None and chunk < 1:
+        raise InputError("chunk", chunk, "must be a whole number of at least 1")
+    return SweepPlan(case, tuple(axes), task, cut(tuple(axis.count for axis in axes), task, chunk), seed)

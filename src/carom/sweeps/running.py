@@ -6,17 +6,19 @@ import os
 import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, closing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from carom.core.processors import available_cores
 from carom.outcome import InputError
 from carom.sweeps.chunk import Chunk
+from carom.sweeps.memory import SweepMemory
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.store import SweepStore
 
 if TYPE_CHECKING:
+    import xarray
     from distributed import Client
 
 __all__ = ["Tally", "run_sweep"]
@@ -28,7 +30,8 @@ class Tally:
 
     Attributes
     ----------
-    store : Path
+    store : Path or None
+        Directory of the results; ``None`` in memory.
     points, done, failed : int
         Numbers of points of the grid; points that are neither done nor failed are waiting.
     computed : int
@@ -39,13 +42,26 @@ class Tally:
         Finished chunks of which a file was damaged or missing; they are computed again.
     """
 
-    store: Path
+    store: Path | None
     points: int
     done: int
     failed: int
     computed: int
     seconds: float
     damaged: tuple[int, ...] = ()
+    results: SweepStore | SweepMemory | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def dataset(self) -> xarray.Dataset:
+        """Results so far, as of :func:`~carom.sweeps.open_sweep`."""
+        if self.results is None:
+            raise RuntimeError("these are no results of run_sweep")
+        return self.results.dataset()
+
+    @property
+    def failures(self) -> list[dict[str, Any]]:
+        """The first failed points: index in the grid, parameters and error of each."""
+        return self.results.failures() if self.results else []
 
     @property
     def waiting(self) -> int:
@@ -65,15 +81,15 @@ class Tally:
 
 def run_sweep(
     plan: SweepPlan,
-    store: str | os.PathLike[str],
+    store: str | os.PathLike[str] | None = None,
     *,
     workers: int | None = None,
-    threads: bool = False,
+    threads: bool | None = None,
     scheduler: str | Client | None = None,
     retry_failed: bool = False,
     progress: Callable[[Tally], None] | None = None,
 ) -> Tally:
-    """Compute all points of a sweep that are not in its store yet.
+    """Compute all points of a sweep that are not in its store yet; without a store, keep the results in memory.
 
     Each chunk is stored as soon as it is computed, completely or not at all.  If this function is interrupted for any
     reason, the same call resumes the sweep.  Chunks finished before are compared with their checksums, and damaged ones
@@ -82,12 +98,13 @@ def run_sweep(
     Parameters
     ----------
     plan : SweepPlan
-    store : path
+        From :func:`~carom.sweeps.plan_sweep`, or from a file by :func:`~carom.sweeps.load_sweep`.
+    store : path, optional
         Directory of the Zarr store; created if it does not exist.
     workers : int, optional
         Number of processes on this machine, by default one for each available core.
     threads : bool
-        Use threads of this process instead of processes.
+        Use threads of this process instead of processes; by default in memory only.
     scheduler : str or distributed.Client, optional
         Compute on a Dask cluster instead: address or file of its scheduler, ``"slurm"``, or a client.
     retry_failed : bool
@@ -98,6 +115,7 @@ def run_sweep(
     Returns
     -------
     Tally
+        With the results as its ``dataset``.
 
     Raises
     ------
@@ -115,12 +133,14 @@ def run_sweep(
         raise InputError(
             "--workers", workers, "must be left out with --scheduler ADDRESS, whose workers compute; allowed with slurm"
         )
-    book = SweepStore(store, plan)
+    book = SweepMemory(plan) if store is None else SweepStore(store, plan)
+    if threads is None:
+        threads = store is None and scheduler is None
     began, computed = time.monotonic(), 0
 
     def tally() -> Tally:
         seconds = time.monotonic() - began
-        return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged))
+        return Tally(book.path, plan.points, book.done, book.failed, computed, seconds, tuple(book.damaged), book)
 
     if next(book.waiting(retry_failed), None) is None:
         return tally()

@@ -70,8 +70,7 @@ class SweepStore:
         self._failed: dict[int, int] = {}
         self._processors: list[str] = []
         points = math.prod(plan.chunk_shape)
-        self._sizes = [points * math.prod(one.shape) * one.dtype.itemsize for one in plan.task.variables]
-        self._sizes.append(points * STATUS.dtype.itemsize)
+        self._sizes = [points * math.prod(one.shape) * one.dtype.itemsize for one in plan.variables]
         try:
             if is_new(self.path):
                 create(self.path, plan)
@@ -126,11 +125,10 @@ class SweepStore:
     def _files(self, number: int) -> dict[str, Path]:
         """Return the files of a chunk by variable name; that of the status, which is written last, comes last."""
         key = "/".join(("c", *map(str, self.plan.place(number))))
-        files = {
+        return {
             variable.name: self.path / variable.name / key / "/".join("0" * len(variable.shape))
-            for variable in self.plan.task.variables
+            for variable in self.plan.variables
         }
-        return files | {STATUS.name: self.path / STATUS.name / key}
 
     @property
     def done(self) -> int:
@@ -156,6 +154,10 @@ class SweepStore:
             if len(found) >= most:
                 break
         return found[:most]
+
+    def dataset(self) -> xarray.Dataset:
+        """Return the results stored so far; see :func:`open_sweep`."""
+        return open_sweep(self.path)
 
     # ------------------------------------------------------------------------------------------------- writing
 
@@ -196,7 +198,7 @@ class SweepStore:
         if self._writers is None:
             raise RuntimeError("the store is not open for writing")
         plan, number = self.plan, chunk.number
-        fills = {variable.name: variable.fill for variable in plan.task.variables} | {STATUS.name: Status.WAITING}
+        fills = {variable.name: variable.fill for variable in plan.variables}
         files = {
             file: seal(_padded(plan, chunk.arrays[name], fills[name])) for name, file in self._files(number).items()
         }

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from carom.outcome import InputError
+from carom.parameters import Zones
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
@@ -60,15 +62,21 @@ class StudyTask:
         Whether to search for the least safe damping too, with the same number of fresh disturbances at each damping
         checked.
     zone_limits : tuple of float
-        Limits of the amplitude zones.
+        Limits of the amplitude zones; :func:`plan_sweep` sets those of the machine.
     has_scales : bool
-        Whether mass, clearance and speed are known, so that results are stored in SI units too.
+        Whether mass, clearance and speed are known, so that results are stored in SI units too; set by
+        :func:`plan_sweep`.
     """
 
-    disturbances: int
-    least_damping: bool
-    zone_limits: tuple[float, float, float]
-    has_scales: bool
+    disturbances: int = 0
+    least_damping: bool = False
+    zone_limits: tuple[float, float, float] = Zones().limits
+    has_scales: bool = False
+
+    def __post_init__(self) -> None:
+        if self.least_damping and not self.disturbances:
+            allowed = "must be above 0 where least_damping is wanted, such as 100"
+            raise InputError("study.disturbances", self.disturbances, allowed)
 
     kind: ClassVar[str] = "study"
     dimensions: ClassVar[tuple[Dimension, ...]] = ()
@@ -154,7 +162,7 @@ class StudyTask:
     def _simulated(self, rotor: Jeffcott, seed: int) -> dict[str, Any]:
         from carom.attractors import find_attractors
 
-        found = find_attractors(rotor, seed=seed, count=self.disturbances)
+        found = find_attractors(rotor, seed=seed, count=self.disturbances, threads=1)
         smallest = found.smallest_unrecovered_kick
         return {
             "attractors": sum(member.count > 0 for member in found),

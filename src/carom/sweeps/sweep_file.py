@@ -10,32 +10,29 @@ from typing import Any, Literal, TypeAlias, TypeVar, cast
 
 import pydantic
 
-from carom.disturbances import MODELS
+from carom.disturbances import MODELS, Sample
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
-    MACHINE_FIELDS,
     Case,
-    Field,
     Scales,
     Zones,
     load,
-    read_quantity,
     read_size,
     unknown_name,
 )
 from carom.parameters.fields import nearest_name
 from carom.parameters.machine import check_names
 from carom.parameters.toml_reader import read_toml
+from carom.sweeps.axes import LONGEST_AXIS, PARAMETERS, GridAxis
 from carom.sweeps.basins import BasinsTask
-from carom.sweeps.plan import GridAxis, SweepPlan, Task, cut
+from carom.sweeps.plan import SweepPlan, Task, check_varied, cut
 from carom.sweeps.studies import StudyTask
 
 __all__ = ["load_sweep"]
 
 _WHAT = "sweep file"
 _REMEDY = 'must hold machine = "...", a table [axes.NAME] for each axis, and a [study] or a [basins] table'
-_LONGEST_AXIS = 1_000_000
 _MOST_STARTS = 10**12
 _ANY_SCALES = Scales(1.0, 1.0, 1.0)
 """Scales used to check sizes if the machine file has errors, so that the scales of the machine are unknown."""
@@ -51,9 +48,9 @@ _Value = float | int | str
 class _Axis(_Table):
     start: _Value | None = pydantic.Field(None, alias="from")
     end: _Value | None = pydantic.Field(None, alias="to")
-    count: int | None = pydantic.Field(None, ge=2, le=_LONGEST_AXIS)
+    count: int | None = pydantic.Field(None, ge=2, le=LONGEST_AXIS)
     spacing: Literal["linear", "log"] | None = None
-    values: list[Any] | None = pydantic.Field(None, min_length=1, max_length=_LONGEST_AXIS)
+    values: list[Any] | None = pydantic.Field(None, min_length=1, max_length=LONGEST_AXIS)
 
 
 class _Study(_Table):
@@ -74,8 +71,7 @@ class _Top(_Table):
 
 
 _TABLES = ("axes", "study", "basins")
-_PARAMETERS = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
-_Sizes: TypeAlias = tuple[tuple[str, Any, bool], ...]
+_Sizes: TypeAlias = dict[str, tuple[Any, bool]]
 _Model = TypeVar("_Model", bound=_Table)
 _ALLOWED = {
     "machine": 'must be the path of a machine file, from the folder of the sweep file, such as "keogh-cole.toml"',
@@ -85,9 +81,9 @@ _ALLOWED = {
     "axes": "must be tables [axes.NAME], one for each parameter to vary",
     "from": "must be the first value, a number or text with a unit",
     "to": "must be the last value, a number or text with a unit",
-    "count": f"must be a whole number from 2 to {_LONGEST_AXIS}: how many values",
+    "count": f"must be a whole number from 2 to {LONGEST_AXIS}: how many values",
     "spacing": 'must be "linear" or "log"',
-    "values": f"must be a list of 1 to {_LONGEST_AXIS} values, numbers or texts with a unit",
+    "values": f"must be a list of 1 to {LONGEST_AXIS} values, numbers or texts with a unit",
     "disturbances": "must be a whole number from 0 to 1000000: motions simulated at each point",
     "least_damping": "must be true or false",
     "starts": f"must be a whole number from 1 to {_MOST_STARTS:.0e}: disturbances at each point",
@@ -165,7 +161,7 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
         raise InputError("axes", None if tables is None else shown(tables), _ALLOWED["axes"])
     problems = Problems()
     problems.attempt(_check_varied, list(tables), settings)
-    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in _PARAMETERS]
+    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in PARAMETERS]
     problems.tell()
     return cast("tuple[GridAxis, ...]", tuple(axes))
 
@@ -177,7 +173,7 @@ def _check_varied(axes: list[str], settings: list[str]) -> None:
     problems.errors += [
         InputError(f"axes.{name}", "varied", "is set too; do one of the two") for name in axes if name in names
     ]
-    unknown = [name for name in names if name not in _PARAMETERS]  # reported as an error of the settings
+    unknown = [name for name in names if name not in PARAMETERS]  # reported as an error of the settings
     problems.attempt(
         check_names,
         {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
@@ -186,18 +182,18 @@ def _check_varied(axes: list[str], settings: list[str]) -> None:
 
 
 def _axis(case: Case | None, name: str, given: object) -> GridAxis:
-    where, field = f"axes.{name}", _PARAMETERS[name]
+    where = f"axes.{name}"
     problems = Problems()
-    if name in MACHINE_FIELDS and case is not None and case.machine is None:
-        words = "the machine file is dimensionless; vary dimensionless parameters"
-        problems.errors.append(InputError(where, shown(name), words))
+    if case is not None:
+        problems.attempt(check_varied, case, name)
     table = problems.attempt(_read, _Axis, given, where)
-    axis = problems.attempt(_values, where, field, table) if table else None
+    axis = problems.attempt(_values, name, table) if table else None
     problems.tell()
     return cast("GridAxis", axis)
 
 
-def _values(where: str, field: Field, table: _Axis) -> GridAxis:
+def _values(name: str, table: _Axis) -> GridAxis:
+    where = f"axes.{name}"
     ends = {"from": table.start, "to": table.end, "count": table.count}
     problems = Problems()
     if table.values is not None:
@@ -206,35 +202,17 @@ def _values(where: str, field: Field, table: _Axis) -> GridAxis:
             for key, value in {**ends, "spacing": table.spacing}.items()
             if value is not None
         ]
-        values = [problems.attempt(_number, f"{where}.values", field, value) for value in table.values]
+        axis = problems.attempt(GridAxis.of, name, table.values)
         problems.tell()
-        if len(set(values)) < len(values):
-            raise InputError(f"{where}.values", shown(table.values), "must be different values")
-        return GridAxis(field.name, "list", cast("tuple[float, ...]", tuple(values)), len(values))
+        return cast("GridAxis", axis)
     problems.errors += [
         InputError(f"{where}.{key}", None, f"missing; {_ALLOWED[key]}; or give values = [...]")
         for key, value in ends.items()
         if value is None
     ]
-    low, high = (
-        problems.attempt(_number, f"{where}.{key}", field, ends[key]) if ends[key] is not None else None
-        for key in ("from", "to")
-    )
     problems.tell()
-    low, high = cast("tuple[float, float]", (low, high))
-    if low == high:
-        raise InputError(f"{where}.to", shown(table.end), "must be another value than from")
-    spacing = table.spacing or "linear"
-    if spacing == "log" and not (low > 0 and high > 0):
-        raise InputError(f"{where}.spacing", "log", "needs ends above 0")
-    return GridAxis(field.name, spacing, (low, high), int(table.count or 0))
-
-
-def _number(where: str, field: Field, given: object) -> float:
-    try:
-        return read_quantity(field, given)
-    except InputError as problem:
-        raise InputError(where, problem.value, problem.allowed) from None
+    low, high, count = cast("tuple[_Value, _Value, int]", (table.start, table.end, table.count))
+    return GridAxis.between(name, low, high, count, table.spacing or "linear")
 
 
 # -------------------------------------------------------------------------------------------------------------- work
@@ -250,15 +228,13 @@ def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> 
         return _basins(tables["basins"], scales)
     study = _read(_Study, tables["study"], "study")
     problems = Problems()
-    if study.least_damping and not study.disturbances:
-        allowed = "must be above 0 where least_damping is wanted, such as 100"
-        problems.errors.append(InputError("study.disturbances", study.disturbances, allowed))
+    limits = case.zones.limits if case else Zones().limits
+    task = problems.attempt(StudyTask, study.disturbances, study.least_damping, limits, scales is not None)
     if top and top.seed is not None and not study.disturbances:
         allowed = "goes with simulated disturbances; leave it out, or set study.disturbances above 0"
         problems.errors.append(InputError("seed", top.seed, allowed))
     problems.tell()
-    limits = case.zones.limits if case else Zones().limits
-    return StudyTask(study.disturbances, study.least_damping, limits, has_scales=scales is not None)
+    return cast("StudyTask", task)
 
 
 def _basins(given: object, scales: Scales | None) -> BasinsTask:
@@ -268,12 +244,13 @@ def _basins(given: object, scales: Scales | None) -> BasinsTask:
     found = problems.attempt(_disturbance, table, scales) if isinstance(table, dict) else None
     problems.tell()
     basins, (kind, sizes) = cast("tuple[_Basins, tuple[str, _Sizes]]", (basins, found))
-    task = BasinsTask(basins.starts, kind, sizes, has_scales=scales is not None)
+    units = MODELS[kind].measured_in
+    own = {name: value / getattr(scales, units[name]) if si else value for name, (value, si) in sizes.items()}
     try:
-        task.model(scales)
+        model = MODELS[kind](**own)
     except InputError as problem:
         raise InputError(f"basins.disturbance.{problem.field}", problem.value, problem.allowed) from None
-    return task
+    return BasinsTask(Sample(model, basins.starts), tuple(name for name, (_, si) in sizes.items() if si), scales)
 
 
 def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, _Sizes]:
@@ -289,16 +266,16 @@ def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, 
         unknown_name(name, table[name], {"kind": None, **fields}, f"[{where}] of a {kind}") for name in unknown
     ]
     meant = {nearest_name(name, fields) for name in unknown}
-    sizes: list[tuple[str, Any, bool] | None] = []
+    sizes = {}
     for name, field in fields.items():
         if name in table:
-            sizes.append(problems.attempt(_size, f"{where}.{name}", table[name], kind, field, scales))
+            sizes[name] = problems.attempt(_size, f"{where}.{name}", table[name], kind, field, scales)
         elif field.default is not dataclasses.MISSING:
-            sizes.append((name, field.default, False))
+            sizes[name] = field.default, False
         elif name not in meant:
             problems.errors.append(InputError(f"{where}.{name}", None, f"missing; a {kind} needs it"))
     problems.tell()
-    return kind, cast("_Sizes", tuple(sizes))
+    return kind, cast("_Sizes", sizes)
 
 
 def _unknown(where: str, given: object, known: Mapping[str, Any]) -> InputError:
@@ -309,16 +286,16 @@ def _unknown(where: str, given: object, known: Mapping[str, Any]) -> InputError:
 
 def _size(
     where: str, given: object, kind: str, field: dataclasses.Field[Any], scales: Scales | None
-) -> tuple[str, Any, bool]:
-    """Read a size: its name, its value (complex from two parts), and whether it is in SI units."""
+) -> tuple[Any, bool]:
+    """Read a size: its value (complex from two parts), and whether it is in SI units."""
     scale = MODELS[kind].measured_in.get(field.name, "")
     if not scale:
-        return field.name, given, False
+        return given, False
     if not isinstance(field.default, complex):
         size = read_size(where, given, scale, scales)
-        return field.name, size.value, size.in_si
+        return size.value, size.in_si
     parts = [read_size(where, part, scale, scales) for part in given] if isinstance(given, list) else []
     if len(parts) != 2 or parts[0].in_si != parts[1].in_si:
         allowed = 'must be two sizes along x and y, both with a unit or none, such as [0.5, 0], or ["0.3 m/s", "0 m/s"]'
         raise InputError(where, shown(given), allowed)
-    return field.name, complex(parts[0].value, parts[1].value), parts[0].in_si
+    return complex(parts[0].value, parts[1].value), parts[0].in_si

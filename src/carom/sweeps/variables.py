@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.parameters import UNITS
 
-__all__ = ["STATUS", "Dimension", "Status", "Variable", "flag_attributes", "with_si"]
+__all__ = ["STATUS", "Dimension", "PointStatus", "Status", "Variable", "flag_attributes", "with_si"]
 
 Kind = Literal["number", "count", "flag"]
 _DTYPES: dict[Kind, str] = {"number": "<f8", "count": "<i8", "flag": "|i1"}
@@ -101,10 +101,15 @@ class Variable:
         return attributes
 
 
-class _Status(NamedTuple):
+class PointStatus(NamedTuple):
+    """The same of the status of a point."""
+
     name: str
     dtype: np.dtype[Any]
     attributes: dict[str, Any]
+    fill: int = Status.WAITING
+    shape: tuple[int, ...] = ()
+    along: Dimension | None = None
 
 
 def flag_attributes(values: Sequence[int], meanings: Sequence[str]) -> dict[str, Any]:
@@ -113,7 +118,7 @@ def flag_attributes(values: Sequence[int], meanings: Sequence[str]) -> dict[str,
     return {"flag_values": list(values), "flag_meanings": words}
 
 
-STATUS = _Status(
+STATUS = PointStatus(
     "status",
     np.dtype("|i1"),
     {

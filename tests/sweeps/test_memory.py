@@ -1,0 +1,154 @@
+"""Sweeps planned in Python: the same as those of files, in memory as in a store."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from sweep_tasks import Drop, Failing, basins_plan, plan_of, stored_bytes
+
+import carom as cm
+from carom.disturbances import Grid, KickPlane, Sample, VelocityKick
+from carom.outcome import InputError
+from carom.sweeps import GridAxis, StudyTask, load_sweep, open_sweep, plan_sweep, run_sweep
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+FILE = """
+machine = "machine.toml"
+seed = 3
+chunk = 2
+[axes.speed]
+from = "900 rpm"
+to = "1800 rpm"
+count = 3
+[axes.damping]
+values = ["1400 N s/m", 5600]
+{work}
+"""
+KICKS = '[basins]\nstarts = 30\ndisturbance = {kind = "kick", fastest = "0.1 m/s"}'
+STUDY = "[study]\ndisturbances = 15"
+AXES = GridAxis.between("speed", "900 rpm", "1800 rpm", 3), GridAxis.of("damping", ["1400 N s/m", 5600])
+
+
+def without_history(data):
+    return data.assign_attrs(history="", sweep_file="", machine_file="").load()
+
+
+@pytest.fixture
+def machine(tmp_path):
+    shutil.copy(EXAMPLE, tmp_path / "machine.toml")
+    return cm.load(tmp_path / "machine.toml")
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("work", [KICKS, STUDY])
+def test_file_and_python_give_the_same_in_a_store_and_in_memory(tmp_path, machine, work):
+    (tmp_path / "sweep.toml").write_text(FILE.format(work=work))
+    read = load_sweep(tmp_path / "sweep.toml")
+    kicks = Sample(VelocityKick.in_si(machine.parameters.scales, 0.1), 30, seed=3)
+    planned = plan_sweep(machine, AXES, kicks if work == KICKS else StudyTask(15), seed=3, chunk=2)
+
+    assert planned == read
+    assert planned.digest == read.digest
+    tally = run_sweep(read, tmp_path / "file.zarr", workers=2, threads=True)
+    assert (tally.done, tally.store) == (6, tmp_path / "file.zarr")
+    run_sweep(planned, tmp_path / "python.zarr", workers=1, threads=True)
+    assert stored_bytes(tmp_path / "file.zarr") == stored_bytes(tmp_path / "python.zarr")
+    inside = run_sweep(planned)
+    assert (inside.done, inside.waiting, inside.store) == (6, 0, None)
+    stored = without_history(open_sweep(tmp_path / "file.zarr"))
+    xarray.testing.assert_identical(without_history(inside.dataset), stored)
+    xarray.testing.assert_identical(without_history(tally.dataset), stored)
+
+
+@pytest.mark.jit_only
+def test_own_disturbances_on_processes_and_in_memory(tmp_path, machine):
+    plan = plan_sweep(machine, AXES[:1], Sample(Drop(), 40, seed=5))
+    run_sweep(plan, tmp_path / "store", workers=1)
+    data = run_sweep(plan).dataset
+
+    xarray.testing.assert_identical(without_history(open_sweep(tmp_path / "store")), without_history(data))
+    rotor = cm.models.Jeffcott(plan.case_at((2,)).parameters)
+    (starts,) = plan.task._batches(rotor, plan.seed_of((2,)))
+    back = cm.settle(rotor, starts.positions[starts.exists], starts.velocities[starts.exists]).recovered
+    assert data["possible"].values[2] == starts.exists.sum() < 40
+    assert data["recovered"].values[2] == back.mean()
+
+
+@pytest.mark.jit_only
+def test_a_grid_is_the_same_at_each_point_and_a_sample_is_not(machine):
+    kicks = Grid(KickPlane(0.3), (5, 6))
+    data = run_sweep(plan_sweep(machine, AXES[1:], kicks)).dataset
+
+    for place, damping in enumerate(data["damping"].values):
+        share = cm.map_basins(cm.bifurcations.vary(machine.parameters, "damping", damping), kicks).share_recovered
+        assert data["recovered"].values[place] == share.fraction == data["recovered_low"].values[place]
+    plan = plan_sweep(machine, AXES[1:], Sample(KickPlane(0.3), 30))
+    rotors = [cm.models.Jeffcott(plan.case_at((place,)).parameters) for place in (0, 1)]
+    (first,), (second,) = (plan.task._batches(rotor, plan.seed_of((n,))) for n, rotor in enumerate(rotors))
+    assert (first.velocities != second.velocities).all()
+
+
+def test_failures_are_kept_in_memory():
+    tally = run_sweep(plan_of(Failing(above=0.45), chunk=5))
+
+    assert (tally.done, tally.failed) == (4, 6)
+    assert tally.failures[0]["values"] == {"gamma": 0.5}
+    np.testing.assert_array_equal(tally.dataset["status"], [1] * 4 + [2] * 6)
+
+
+@pytest.mark.jit_only
+def test_workers_change_nothing_in_memory():
+    plan = basins_plan(starts=20)
+    many, one = (run_sweep(plan, workers=workers).dataset for workers in (2, 1))
+
+    xarray.testing.assert_identical(without_history(many), without_history(one))
+
+
+def test_sizes_keep_si_or_their_number(tmp_path, machine):
+    scales = machine.parameters.scales
+    half = cm.parameters.Scales(scales.mass, scales.clearance, scales.speed / 2.0)
+    (tmp_path / "sweep.toml").write_text(FILE.format(work=KICKS.replace('"0.1 m/s"', "0.2")))
+
+    assert plan_sweep(machine, AXES, Sample(VelocityKick(0.2), 3)).task.model(half).fastest == pytest.approx(0.4)
+    assert load_sweep(tmp_path / "sweep.toml").task.model(half).fastest == 0.2
+
+
+@pytest.mark.parametrize(
+    ("axes", "more", "words"),
+    [
+        ([], {}, "axes = nothing given: must be one or more"),
+        ([AXES[0], AXES[0]], {}, "axes = speed, speed: must be one or more, each for another"),
+        ([AXES[1], GridAxis.of("gamma", [0.1])], {}, "sets damping, which is set too"),
+        (AXES, {"seed": -1}, "seed = -1"),
+        (AXES, {"chunk": 0}, "chunk = 0"),
+    ],
+)
+def test_what_cannot_be_planned(machine, axes, more, words):
+    with pytest.raises(InputError, match=words):
+        plan_sweep(machine, axes, StudyTask(), **more)
+
+
+def test_what_is_dimensionless_has_no_physical_axes(source_paper):
+    with pytest.raises(InputError, match=r"axes\.speed = .*dimensionless"):
+        plan_sweep(source_paper, AXES, StudyTask())
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: GridAxis.between("dampin", 1, 2, 3), "damping"),
+        (lambda: GridAxis.between("damping", "1 kg", 2, 3), r"axes\.damping\.from = "),
+        (lambda: GridAxis.between("damping", 1, 1, 3), r"axes\.damping\.to = 1: must be another value"),
+        (lambda: GridAxis.between("damping", 1, 2, 1), r"axes\.damping\.count = 1"),
+        (lambda: GridAxis.between("gamma", 0, 2, 3, "log"), "needs ends above 0"),
+        (lambda: GridAxis.between("gamma", 1, 2, 3, "cubic"), r'must be "linear" or "log"'),
+        (lambda: GridAxis.of("gamma", []), r"axes\.gamma\.values"),
+        (lambda: GridAxis.of("gamma", [0.1, 0.1]), "must be different values"),
+        (lambda: StudyTask(0, True), "must be above 0 where least_damping"),
+    ],
+)
+def test_what_is_no_axis_or_work(make, words):
+    with pytest.raises(InputError, match=words):
+        make()
