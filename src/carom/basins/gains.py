@@ -99,13 +99,6 @@ class GainMap(Result):
         """``patience`` and ``max_events`` of :func:`~carom.basins.map_basins` used for the map."""
         return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
 
-    @property
-    def safe_sizes(self) -> np.ndarray:
-        """Size at each node up to which no kick or shock is lost, in the present machine's units; see ``integrity``."""
-        largest = self.plan.model.coordinates[0].high
-        sizes: np.ndarray = self.dataset["integrity"].values * largest
-        return sizes
-
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a netCDF file atomically."""
         from carom.files.netcdf import save

@@ -11,8 +11,6 @@ from carom.cli.terminal import AsJson, console, print_document, progress
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from rich.table import Table
-
     from carom.reproductions.mora2014 import Reproduction
 
 __all__ = ["paper"]
@@ -53,71 +51,17 @@ def paper(
 
 
 def _print_reproduction(found: Reproduction) -> None:
-    screen = console()
-    screen.print(_numbers(found))
-    given = [row for row in found.numbers if row.kind == "given"]
-    screen.print(
-        "Used as given: "
-        + ", ".join(f"{row.quantity} = {row.printed}{' ' * bool(row.unit)}{row.unit}" for row in given)
-    )
-    screen.print()
-    screen.print(_misprints(found))
-    screen.print(_claims(found))
-    screen.print(_regions(found))
-
-
-def _table(title: str) -> Table:
     from rich import box
     from rich.table import Table
 
-    return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+    from carom.reproductions.mora2014.document import given_words, tables
 
-
-def _numbers(found: Reproduction) -> Table:
-    table = _table("Numbers printed in the source and computed here")
-    for heading in ("where", "quantity", "printed", "computed", "difference", "note"):
-        table.add_column(heading, justify="right" if heading in ("printed", "computed", "difference") else "left")
-    for row in found.numbers:
-        if row.kind != "given":
-            table.add_row(
-                row.place,
-                row.quantity,
-                row.printed,
-                f"{row.value:.10g}",
-                f"{row.difference:.1e}" if row.difference else "0",
-                row.note,
-                style="" if row.agrees else "yellow",
-            )
-    return table
-
-
-def _misprints(found: Reproduction) -> Table:
-    table = _table("Misprints of the source, evaluated")
-    for heading in ("where", "printed", "right", "evaluated"):
-        table.add_column(heading)
-    for heading in ("printed form", "right form"):
-        table.add_column(heading, justify="right")
-    for row in found.misprints:
-        wrong = "" if row.printed_value is None else f"{row.printed_value:.6g}"
-        table.add_row(row.place, row.printed, row.right, row.quantity, wrong, f"{row.value:.6g}")
-    return table
-
-
-def _claims(found: Reproduction) -> Table:
-    table = _table("Statements of the source")
-    for heading in ("where", "statement", "holds", "found"):
-        table.add_column(heading)
-    for claim in found.claims:
-        style = "" if claim.holds else "yellow"
-        table.add_row(claim.place, claim.statement, "yes" if claim.holds else "no", claim.found, style=style)
-    return table
-
-
-def _regions(found: Reproduction) -> Table:
-    table = _table("Regions of figure 6b, with the rub that the source leaves out")
-    for heading in ("part", "for example at γ, ω", "simple motions", ""):
-        table.add_column(heading)
-    for region in found.plane.regions:
-        place = ", ".join(f"{value:g}" for value in region.point)
-        table.add_row(region.part, place, region.motions.words, region.words)
-    return table
+    screen = console()
+    for shown in tables(found):
+        table = Table(title=shown.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+        for heading in shown.headings:
+            table.add_column(heading, justify="right" if heading in shown.numbers else "left")
+        for row, agrees in zip(shown.rows, shown.agrees, strict=True):
+            table.add_row(*row, style="" if agrees else "yellow")
+        screen.print(table)
+    screen.print(given_words(found))

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import ArrayLike, NDArray
 
+from carom.outcome import Outcome
 from carom.plots.bands import bands_over_time, drawing_times
 from carom.plots.plane import (
     MANY_MARKERS,
@@ -174,7 +175,7 @@ def _marks(axes: Axes, history: _History) -> None:
         if chosen.any():
             struck = history.impacts[chosen]
             _mark(axes, struck, np.ones_like(struck), meaning, size, LOOKS[meaning].words)
-    if history.trajectory is not None and history.trajectory.outcome.label != "time-reached":
+    if history.trajectory is not None and history.trajectory.outcome is not Outcome.TIME_REACHED:
         words = f"end: {ending(history.trajectory.outcome)}"
         _mark(axes, history.times[-1:], history.radius[-1:], "end", 5.0, words)
 

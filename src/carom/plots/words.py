@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from carom.outcome import Outcome
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
     from carom.bifurcations import Axis
     from carom.orbits.single_impact import Orbit
-    from carom.outcome import Outcome
     from carom.parameters import Scales
 
 __all__ = [
@@ -58,7 +58,7 @@ def ending(outcome: Outcome) -> str:
     """Describe how a motion ended, briefly enough for a legend."""
     if outcome.label in OUTCOMES:
         return OUTCOMES[outcome.label].words
-    return "chatter, goes over into lasting contact" if outcome.label == "chatter" else outcome.label.replace("-", " ")
+    return "chatter, goes over into lasting contact" if outcome is Outcome.CHATTER else outcome.label.replace("-", " ")
 
 
 def number(value: float, digits: int = 4) -> str:

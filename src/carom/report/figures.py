@@ -87,7 +87,7 @@ def _overview(study: Study) -> Picture:
 
 
 def _of_orbit(study: Study, orbit: Orbit) -> Iterator[Picture]:
-    file = orbit.name.replace(",", "")
+    file = _file_name(orbit.name)
     say = study.wording
     kind = "stable, so that the machine can stay on it" if orbit.stable else "unstable, so that the machine leaves it"
     yield Picture(
@@ -129,8 +129,8 @@ def _of_disturbances(study: Study) -> Iterator[Picture]:
         )
 
 
-def _file_name(attractor: str) -> str:
-    return "".join(character if character.isalnum() else "-" for character in attractor.replace(",", "")).strip("-")
+def _file_name(name: str) -> str:
+    return "".join(character if character.isalnum() else "-" for character in name.replace(",", "")).strip("-")
 
 
 def _history(study: Study, example: Ending) -> Figure:

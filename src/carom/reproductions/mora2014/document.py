@@ -1,15 +1,37 @@
-"""The reproduction as plain data for JSON, and as a table in Markdown."""
+"""The reproduction as plain data for JSON, and as tables of text, in Markdown too."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from carom.reproductions.mora2014.pictures import Picture
-from carom.reproductions.mora2014.plane import NamedRegion
 from carom.reproductions.mora2014.reproduction import Reproduction
 from carom.reproductions.mora2014.source import CITATION, machine_at
 
-__all__ = ["markdown", "paper_document"]
+__all__ = ["TextTable", "given_words", "markdown", "paper_document", "tables"]
+
+
+@dataclass(frozen=True)
+class TextTable:
+    """A table of text.
+
+    Attributes
+    ----------
+    title : str
+    headings : tuple of str
+    rows : tuple of tuple of str
+    agrees : tuple of bool
+        Of each row: whether the source agrees with what was computed.
+    numbers : tuple of str
+        Headings of the columns that hold numbers.
+    """
+
+    title: str
+    headings: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    agrees: tuple[bool, ...]
+    numbers: tuple[str, ...] = ()
 
 
 def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> dict[str, Any]:
@@ -25,40 +47,18 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
     -------
     dict
     """
+    value = ("printed_value", "value", "difference")
     return {
         "source": CITATION,
         "parameters": {name: value for name, value in machine_at(0.1).as_dict().items() if name != "gamma"},
         "numbers": [
-            {
-                "where": row.place,
-                "quantity": row.quantity,
-                "kind": row.kind,
-                "printed": row.printed,
-                "printed_value": row.printed_value,
-                "value": row.value,
-                "difference": row.difference,
-                "unit": row.unit,
-                "agrees": row.agrees,
-                "note": row.note,
-            }
+            {"where": row.place, **_fields(row, "quantity", "kind", "printed", *value, "unit", "agrees", "note")}
             for row in found.numbers
         ],
         "misprints": [
-            {
-                "where": row.place,
-                "printed": row.printed,
-                "right": row.right,
-                "quantity": row.quantity,
-                "printed_value": row.printed_value,
-                "value": row.value,
-                "difference": row.difference,
-            }
-            for row in found.misprints
+            {"where": row.place, **_fields(row, "printed", "right", "quantity", *value)} for row in found.misprints
         ],
-        "claims": [
-            {"where": claim.place, "statement": claim.statement, "holds": claim.holds, "found": claim.found}
-            for claim in found.claims
-        ],
+        "claims": [{"where": claim.place, **_fields(claim, "statement", "holds", "found")} for claim in found.claims],
         "curves": [
             {
                 "kind": curve.kind,
@@ -73,31 +73,94 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
             for curve in found.plane.curves
             for point in curve.codimension2
         ],
-        "regions": [_region(region) for region in found.plane.regions],
+        "regions": [
+            {
+                "name": region.source,
+                "part": region.part,
+                "point": list(region.point),
+                "motions": region.motions.words,
+                **_fields(region.motions, "contact_free", "orbits", "stable_orbits", "rub", "rolling"),
+                "note": region.words,
+            }
+            for region in found.plane.regions
+        ],
         "figures": [
             {"name": picture.name, "panels": list(picture.panels), "caption": picture.caption} for picture in pictures
         ],
     }
 
 
-def _region(region: NamedRegion) -> dict[str, Any]:
-    motions = region.motions
-    return {
-        "name": region.source,
-        "part": region.part,
-        "point": list(region.point),
-        "motions": motions.words,
-        "contact_free": motions.contact_free,
-        "orbits": motions.orbits,
-        "stable_orbits": motions.stable_orbits,
-        "rub": motions.rub,
-        "rolling": motions.rolling,
-        "note": region.words,
-    }
+def _fields(entry: object, *names: str) -> dict[str, Any]:
+    return {name: getattr(entry, name) for name in names}
+
+
+def tables(found: Reproduction) -> tuple[TextTable, ...]:
+    """Return the numbers, the misprints, the statements and the regions as tables of text."""
+    compared = [row for row in found.numbers if row.kind != "given"]
+    return (
+        TextTable(
+            "Numbers printed in the source and computed here",
+            ("where", "quantity", "printed", "computed", "difference", "note"),
+            tuple(
+                (
+                    row.place,
+                    row.quantity,
+                    _with_unit(row.printed, row.unit),
+                    f"{row.value:.10g}",
+                    f"{row.difference:.2g}",
+                    row.note,
+                )
+                for row in compared
+            ),
+            tuple(row.agrees for row in compared),
+            ("printed", "computed", "difference"),
+        ),
+        TextTable(
+            "Misprints of the source, evaluated",
+            ("where", "printed", "right", "evaluated", "printed form", "right form"),
+            tuple(
+                (
+                    row.place,
+                    row.printed,
+                    row.right,
+                    row.quantity,
+                    "" if row.printed_value is None else f"{row.printed_value:.8g}",
+                    f"{row.value:.8g}",
+                )
+                for row in found.misprints
+            ),
+            (True,) * len(found.misprints),
+            ("printed form", "right form"),
+        ),
+        TextTable(
+            "Statements of the source",
+            ("where", "statement", "holds", "found"),
+            tuple(
+                (claim.place, claim.statement, "yes" if claim.holds else "no", claim.found) for claim in found.claims
+            ),
+            tuple(claim.holds for claim in found.claims),
+        ),
+        TextTable(
+            "Regions of figure 6b, with the rub that the source leaves out",
+            ("part", "for example at γ, ω", "simple motions", ""),
+            tuple(
+                (region.part, "{:g}, {:g}".format(*region.point), region.motions.words, region.words)
+                for region in found.plane.regions
+            ),
+            (True,) * len(found.plane.regions),
+        ),
+    )
+
+
+def given_words(found: Reproduction) -> str:
+    """Return the printed numbers that were used as they are, in a sentence."""
+    given = (row for row in found.numbers if row.kind == "given")
+    listed = (f"{row.quantity} = {_with_unit(row.printed, row.unit)} ({row.place})" for row in given)
+    return f"Used as given: {', '.join(listed)}."
 
 
 def markdown(found: Reproduction) -> str:
-    """Return tables of the numbers, the misprints and the regions.
+    """Return the tables and the numbers used as given in Markdown.
 
     Parameters
     ----------
@@ -107,63 +170,13 @@ def markdown(found: Reproduction) -> str:
     -------
     str
     """
-    lines = ["# Printed and computed", "", f"Source: {CITATION}.", "", "## Numbers", ""]
-    lines += _table(
-        ("where", "quantity", "printed", "computed", "difference", "note"),
-        [
-            (
-                row.place,
-                row.quantity,
-                _with_unit(row.printed, row.unit),
-                f"{row.value:.10g}",
-                f"{row.difference:.2g}",
-                row.note,
-            )
-            for row in found.numbers
-            if row.kind != "given"
-        ],
-    )
-    given = ", ".join(
-        f"{row.quantity} = {_with_unit(row.printed, row.unit)} ({row.place})"
-        for row in found.numbers
-        if row.kind == "given"
-    )
-    lines += ["", f"Used as given: {given}.", "", "## Misprints", ""]
-    lines += _table(
-        ("where", "printed", "right", "evaluated", "printed form", "right form"),
-        [
-            (
-                row.place,
-                row.printed,
-                row.right,
-                row.quantity,
-                "" if row.printed_value is None else f"{row.printed_value:.8g}",
-                f"{row.value:.8g}",
-            )
-            for row in found.misprints
-        ],
-    )
-    lines += ["", "## Statements", ""]
-    lines += _table(
-        ("where", "statement", "holds", "found"),
-        [(claim.place, claim.statement, "yes" if claim.holds else "no", claim.found) for claim in found.claims],
-    )
-    lines += ["", "## Regions of figure 6b", ""]
-    lines += _table(
-        ("part", "for example at γ, ω", "simple motions", ""),
-        [
-            (region.part, f"{region.point[0]:g}, {region.point[1]:g}", region.motions.words, region.words)
-            for region in found.plane.regions
-        ],
-    )
-    return "\n".join(lines) + "\n"
+    parts = ["# Printed and computed", f"Source: {CITATION}.", given_words(found)]
+    for table in tables(found):
+        cells = [[cell.replace("|", "\\|") for cell in row] for row in table.rows]
+        lines = (table.headings, ["---"] * len(table.headings), *cells)
+        parts += [f"## {table.title}", "\n".join(f"| {' | '.join(line)} |" for line in lines)]
+    return "\n\n".join(parts) + "\n"
 
 
 def _with_unit(text: str, unit: str) -> str:
     return f"{text} {unit}" if unit else text
-
-
-def _table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
-    """Return a table in Markdown; vertical bars inside cells are escaped."""
-    cells = [[cell.replace("|", "\\|") for cell in row] for row in rows]
-    return [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *cells)]
