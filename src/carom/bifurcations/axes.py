@@ -184,9 +184,12 @@ def _root(value: complex) -> Any:
 
 
 def _plain(name: str, field: str) -> Axis:
-    return Axis(
-        name, lambda numbers: getattr(numbers, field), lambda numbers, value: numbers._replace(**{field: value})
-    )
+    place = Numbers._fields.index(field)
+
+    def change(numbers: Numbers, value: float) -> Numbers:
+        return Numbers._make((*numbers[:place], value, *numbers[place + 1 :]))
+
+    return Axis(name, lambda numbers: numbers[place], change)
 
 
 _AXES: dict[str, Axis] = {

@@ -12,7 +12,7 @@ from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
 from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott
+from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.names import OrbitName, combined, in_order
 from carom.parameters import Parameters
 
@@ -87,7 +87,7 @@ def motions_at(parameters: Parameters) -> Motions:
     hundreds of pairs, only those with periods up to 60/Ω are counted.
     """
     rotor = Jeffcott(parameters)
-    orbits = [orbit for orbit in forward_orbits(parameters) if is_admissible(*orbit[1:])]
+    orbits = [orbit for orbit in forward_orbits(rotor) if is_admissible(*orbit[1:])]
     radii = [float(np.abs(np.linalg.eigvals(jacobian_at(*orbit[1:]))).max()) for orbit in orbits]
     return Motions(
         contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY),
@@ -100,6 +100,7 @@ def motions_at(parameters: Parameters) -> Motions:
     )
 
 
-def forward_orbits(parameters: Parameters) -> list[Solution]:
+def forward_orbits(machine: Subject) -> list[Solution]:
     """All single-impact orbits with forward slip that :func:`motions_at` considers, including virtual ones."""
-    return orbit_solutions(parameters, LONGEST_PERIOD if parameters.gamma < 0.05 else None)
+    rotor = model_of(machine)
+    return orbit_solutions(rotor, LONGEST_PERIOD if rotor.parameters.gamma < 0.05 else None)

@@ -7,10 +7,9 @@ from typing import NamedTuple
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
+from carom.models import Subject, model_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_of_roots
-from carom.parameters import Parameters
 
 __all__ = ["Solution", "orbit_solutions"]
 
@@ -33,14 +32,12 @@ class Solution(NamedTuple):
     radial_speed: float
 
 
-def orbit_solutions(
-    parameters: Parameters, longest_period: float | None = None, *, backward: bool = False
-) -> list[Solution]:
+def orbit_solutions(machine: Subject, longest_period: float | None = None, *, backward: bool = False) -> list[Solution]:
     """Solve the equations at all roots of ``F₁`` (:func:`carom.orbits.single_impact.find_orbits`).
 
     Parameters
     ----------
-    parameters : Parameters
+    machine : Machine, Case, Parameters or model
     longest_period : float, optional
         Longest period searched, in ``1/Ω``.
     backward : bool
@@ -51,10 +48,10 @@ def orbit_solutions(
     list of Solution
         Solutions with a positive radial speed, which meet the wall from inside.
     """
-    rotor = Jeffcott(parameters)
+    rotor = model_of(machine)
     if rotor.equilibrium == 0.0:
         return []
-    numbers = Numbers.of(parameters)
+    numbers = Numbers.of(rotor.parameters)
     if backward:
         numbers = numbers._replace(mu=-numbers.mu)
     roots = PeriodCondition(rotor.system, -1 if backward else 1).roots(longest_period)

@@ -217,7 +217,7 @@ class _Tracer:
 
         A Jacobian from nearby is kept as long as the residual falls by a factor of 30 in each iteration.
         """
-        x, previous, correction = guess, np.inf, np.inf
+        x, previous, correction, inverse = guess, np.inf, np.inf, _inverse(jacobian, normal)
         for _ in range(self.steps.iterations):
             value = self.value(x)
             size = float(np.abs(value).max())
@@ -225,12 +225,12 @@ class _Tracer:
                 return None
             good = size <= self.steps.tolerance or correction <= self.steps.tolerance
             if size > previous / 30.0 and not good:
-                jacobian = self.jacobian(x)
-            change = _solved(jacobian, normal, np.append(-value, -(normal @ (x - guess))))
+                inverse = _inverse(self.jacobian(x), normal)
+            if inverse is None:
+                return x if good else None
+            change = inverse @ np.array([*-value, normal @ (guess - x)])
             if good:
-                return x if change is None or size > self.steps.tolerance else x + change
-            if change is None:
-                return None
+                return x if size > self.steps.tolerance else x + change
             x, previous, correction = x + change, size, float(np.abs(change).max())
         return None
 
@@ -281,8 +281,8 @@ class _Tracer:
 
     def _tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
         """Unit tangent on the side of ``along``."""
-        direction = _solved(jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
-        return None if direction is None else direction / np.linalg.norm(direction)
+        inverse = _inverse(jacobian, along)
+        return None if inverse is None else inverse[:, -1] / np.linalg.norm(inverse[:, -1])
 
     def _stuck(self, here: _Stand) -> StopReason:
         """Why no step succeeds: the equations may be undefined within the reach of the central differences."""
@@ -391,10 +391,10 @@ class _Tracer:
         )
 
 
-def _solved(jacobian: np.ndarray, normal: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-    """Solution of the bordered system; ``None`` if it is singular."""
+def _inverse(jacobian: np.ndarray, normal: np.ndarray) -> np.ndarray | None:
+    """Inverse of the bordered Jacobian; ``None`` if it is singular."""
     try:
-        solution = np.linalg.solve(np.vstack([jacobian, normal]), right)
+        inverse = np.linalg.inv(np.vstack([jacobian, normal]))
     except np.linalg.LinAlgError:
         return None
-    return solution if np.isfinite(solution).all() else None
+    return inverse if np.isfinite(inverse).all() else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, overload
@@ -331,12 +332,12 @@ def _radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:
 
     ``lever`` is ``q a₁₂``.
     """
-    square, half = abs(lever) ** 2, lever.real
-    constant = (1.0 - abs(rotor.equilibrium)) * (1.0 + abs(rotor.equilibrium))
+    square, half, rest = abs(lever) ** 2, lever.real, abs(rotor.equilibrium)
+    constant = (1.0 - rest) * (1.0 + rest)
     discriminant = half**2 - square * constant
-    if discriminant < 0.0 or rotor.equilibrium == 0:
+    if discriminant < 0.0 or rest == 0.0:
         return ()
-    larger = -(half + np.copysign(np.sqrt(discriminant), half))
+    larger = -(half + math.copysign(math.sqrt(discriminant), half))
     if larger == 0.0:
         return (0.0, 0.0)
-    return tuple(sorted((float(larger / square), float(constant / larger))))
+    return tuple(sorted((larger / square, constant / larger)))
