@@ -186,6 +186,7 @@ def test_random_machines_end_with_a_stated_reason():
                 "closed loop",
                 "step too small",
                 "most points",
+                "radial speed without bound",
             }
             assert ((interval[0] <= branch.values) & (branch.values <= interval[1])).all()
             assert np.isfinite(branch.period).all()
@@ -198,3 +199,11 @@ def test_inputs_that_cannot_be_used(upper):
         continue_orbit(orbit, "gamma", (0.2, 0.3))
     with pytest.raises(InputError, match="unknown name"):
         continue_orbit(orbit, "dampening", (0.2, 0.3))
+
+
+def test_a_branch_ends_where_the_radial_speed_grows_without_bound():
+    """Above ω = 1.4 the speed of ``B1,b`` grows as ``a₁₂`` vanishes; the branch is not followed into the hundreds."""
+    branch = continue_orbit(find_orbits(PAPER)["B1,b"], "omega", (0.7, 1.9))
+    assert branch.stops == ("parameter limit", "radial speed without bound")
+    assert np.abs(branch.radial_speed).max() == pytest.approx(30.0, rel=1e-3)
+    assert 1.40 < branch.values[-1] < 1.42

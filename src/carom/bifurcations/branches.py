@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from carom.bifurcations.axes import Axis, Ends, Numbers, axis, interval_around
 from carom.bifurcations.conditions import (
+    BOUNDLESS,
+    FASTEST,
     TESTS,
     conditions_at,
     is_admissible,
@@ -64,7 +66,7 @@ class OrbitBranch(Result):
     special : tuple of Bifurcation
         In the order of the branch.
     stops : tuple of two str
-        Reason for its end at both ends; see :class:`~carom.continuation.Branch`.
+        Reason for its end at both ends: ``"radial speed without bound"``, or see :class:`~carom.continuation.Branch`.
     """
 
     shown: ClassVar[tuple[str, ...]] = (
@@ -175,6 +177,7 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         test = TESTS[kind]
         return Watch(kind, lambda u, p: test(numbers_at(p), float(u[0]), float(u[1])))
 
+    fastest = max(FASTEST, 2.0 * abs(orbit.radial_speed))
     size = max(abs(present), 0.1 * (limits[1] - limits[0]))
     branch = continue_branch(
         residual,
@@ -182,10 +185,14 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         present,
         limits,
         jacobian=jacobian,
-        watches=[watch(kind) for kind in WATCHED],
+        watches=[*map(watch, WATCHED), Watch(BOUNDLESS, lambda u, _: fastest - abs(u[1]), ends_branch=True)],
         steps=steps or STEPS,
         scales=np.array([1.0, 1.0, size]),
     )
+
+    def stop(end: Literal[0, -1]) -> str:
+        return BOUNDLESS if abs(branch.unknowns[end, 1]) > 0.999 * fastest else branch.stops[end]
+
     special = (_bifurcation(point, along.name, numbers_at(point.parameter), pair) for point in branch.special)
     return OrbitBranch(
         axis=along,
@@ -195,7 +202,7 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         period=branch.unknowns[:, 0],
         radial_speed=branch.unknowns[:, 1],
         special=tuple(point for point in special if point is not None),
-        stops=branch.stops,
+        stops=(stop(0), stop(-1)),
     )
 
 
@@ -209,7 +216,7 @@ def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: in
     at = numbers, float(point.unknowns[0]), float(point.unknowns[1])
     conditions = conditions_at(*at)
     kind = point.kind
-    if kind == "branch point" or (kind == "neimark-sacker" and abs(conditions.pair_sum) >= 2.0):
+    if kind in ("branch point", BOUNDLESS) or (kind == "neimark-sacker" and abs(conditions.pair_sum) >= 2.0):
         return None
     if kind == "grazing" and (abs(at[2]) < NOTHING or not profile_at(*at).top > EMERGING * at[1]):
         return None

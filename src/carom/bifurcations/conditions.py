@@ -20,6 +20,8 @@ from carom.orbits.single_impact import Orbit, orbit_at
 from carom.orbits.stability import multipliers
 
 __all__ = [
+    "BOUNDLESS",
+    "FASTEST",
     "RESONANCES",
     "TESTS",
     "OrbitConditions",
@@ -35,6 +37,9 @@ __all__ = [
     "pressed_on",
     "profile_at",
 ]
+
+BOUNDLESS, FASTEST = "radial speed without bound", 30.0
+"""Radial speed, in ``c_r Ω``, beyond which orbits are not followed: it grows without bound where ``a₁₂`` vanishes."""
 
 
 class OrbitConditions(NamedTuple):

@@ -10,7 +10,15 @@ from typing import Literal
 import numpy as np
 
 from carom.bifurcations.axes import Numbers
-from carom.bifurcations.conditions import RESONANCES, TESTS, conditions_at, grazing_equations, profile_at
+from carom.bifurcations.conditions import (
+    BOUNDLESS,
+    FASTEST,
+    RESONANCES,
+    TESTS,
+    conditions_at,
+    grazing_equations,
+    profile_at,
+)
 from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
 from carom.bifurcations.onsets import ONSETS, follow_onset
@@ -26,8 +34,6 @@ from carom.results import Result
 __all__ = ["KINDS", "Codimension2Point", "Curve", "can_be_followed", "continue_curve"]
 
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
-BOUNDLESS, FASTEST = "radial speed without bound", 30.0
-"""Radial speed, in ``c_r Ω``, beyond which a curve is not followed: it grows without bound where ``a₁₂`` vanishes."""
 BEND = 5e-5
 """Largest distance of a curve from the straight lines between its points, in widths of the plane."""
 VANISHING = 1e-2
