@@ -6,13 +6,13 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from carom.attractors import MotionName, document_of, follow_out
 from carom.attractors.naming import name_motions
-from carom.basins.dataset import dataset_of, plan_of, provenance
+from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Sample
 from carom.disturbances.following import NO_START, follow, require_start
@@ -20,13 +20,7 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
 from carom.outcome import InputError, Outcome
-from carom.parameters import Parameters, Scales
-from carom.results import Result
-
-if TYPE_CHECKING:
-    import os
-
-    import xarray
+from carom.parameters import Scales
 
 __all__ = ["Basin", "map_basins"]
 
@@ -45,7 +39,7 @@ CRITERIA = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Basin(Result):
+class Basin(Mapped):
     """Where each of many disturbances ends.
 
     Attributes
@@ -69,22 +63,12 @@ class Basin(Result):
         "unresolved",
     )
 
-    dataset: xarray.Dataset
-
-    @cached_property
-    def parameters(self) -> Parameters:
-        """Parameters of the machine."""
-        return Parameters.from_attributes(self.dataset.attrs)
+    needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "time", "touched")
 
     @cached_property
     def rotor(self) -> Jeffcott:
         """Model of the machine."""
         return Jeffcott(self.parameters)
-
-    @cached_property
-    def plan(self) -> Plan:
-        """Disturbances that were tried."""
-        return plan_of(json.loads(self.dataset.attrs["disturbances"]))
 
     @property
     def scales(self) -> Scales | None:
@@ -172,25 +156,6 @@ class Basin(Result):
             raise InputError("motion", motion, f"one of: {', '.join(self.motions)}")
         count = int((self.dataset["motion"].values == self.motions.index(motion)).sum())
         return Share.of(count, self.starts, drawn=isinstance(self.plan, Sample))
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file atomically; see :func:`carom.files.netcdf.save`."""
-        from carom.files.netcdf import save
-
-        save(self.dataset, path)
-
-    @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Basin:
-        """Read a netCDF file written by :meth:`save`.
-
-        Raises
-        ------
-        InputError
-            The file cannot be read, or does not contain a basin.
-        """
-        from carom.files.netcdf import load
-
-        return cls(load(path, ("outcome", "motion", "time", "touched")))
 
 
 def map_basins(

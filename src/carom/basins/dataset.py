@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from functools import cached_property
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
 from carom.attractors import MotionName
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.following import NO_START
+from carom.files.netcdf import load, save
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
+from carom.parameters import Parameters
+from carom.results import Result
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["dataset_of", "plan_of", "provenance"]
+__all__ = ["Mapped", "dataset_of", "plan_of", "provenance"]
 
 
 def plan_of(document: Mapping[str, Any]) -> Plan:
@@ -35,6 +40,40 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
     if "cells" in document:
         return Grid(model, tuple(document["cells"]))
     return Sample(model, document["starts"], document["seed"])
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Mapped(Result):
+    """What becomes of disturbances, as a dataset whose attributes hold what is needed to repeat the computation."""
+
+    needed: ClassVar[tuple[str, ...]] = ()
+
+    dataset: xarray.Dataset
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """Parameters of the machine."""
+        return Parameters.from_attributes(self.dataset.attrs)
+
+    @cached_property
+    def plan(self) -> Plan:
+        """Disturbances that were tried, of this machine; with known scales they are the same in SI units for others."""
+        return plan_of(json.loads(self.dataset.attrs["disturbances"]))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a netCDF file atomically; see :func:`carom.files.netcdf.save`."""
+        save(self.dataset, path)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Self:
+        """Read a netCDF file written by :meth:`save`.
+
+        Raises
+        ------
+        InputError
+            The file cannot be read, or holds other results.
+        """
+        return cls(load(path, cls.needed))
 
 
 def provenance(rotor: Jeffcott, plan: Plan) -> dict[str, str]:

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import tee
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.basins.dataset import plan_of, provenance
+from carom.basins.dataset import Mapped, provenance
 from carom.basins.entropy import entropies
 from carom.basins.integrity_measures import safe_size
 from carom.basins.losses import smallest_lost
@@ -25,11 +23,8 @@ from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
-from carom.results import Result
 
 if TYPE_CHECKING:
-    import os
-
     import xarray
 
 __all__ = ["GainMap", "map_gains", "measured"]
@@ -41,7 +36,7 @@ CHUNK = 50_000
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class GainMap(Result):
+class GainMap(Mapped):
     """Measures of recoverability against two parameters.
 
     Attributes
@@ -63,17 +58,7 @@ class GainMap(Result):
         "present_share",
     )
 
-    dataset: xarray.Dataset
-
-    @cached_property
-    def parameters(self) -> Parameters:
-        """Parameters of the present machine."""
-        return Parameters.from_attributes(self.dataset.attrs)
-
-    @cached_property
-    def plan(self) -> Plan:
-        """Disturbances of the present machine; with known scales they are the same in SI units at other nodes."""
-        return plan_of(json.loads(self.dataset.attrs["disturbances"]))
+    needed: ClassVar[tuple[str, ...]] = ("recovered", "levitates")
 
     @property
     def axes(self) -> tuple[Axis, Axis]:
@@ -98,25 +83,6 @@ class GainMap(Result):
     def limits(self) -> dict[str, int]:
         """``patience`` and ``max_events`` of :func:`~carom.basins.map_basins` used for the map."""
         return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a netCDF file atomically."""
-        from carom.files.netcdf import save
-
-        save(self.dataset, path)
-
-    @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> GainMap:
-        """Read a netCDF file written by :meth:`save`.
-
-        Raises
-        ------
-        InputError
-            The file cannot be read, or does not contain a gain map.
-        """
-        from carom.files.netcdf import load
-
-        return cls(load(path, ("recovered", "levitates")))
 
 
 def map_gains(

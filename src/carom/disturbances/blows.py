@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
@@ -40,11 +40,6 @@ class VelocityKick(Disturbance):
     kind: ClassVar[str] = "kick"
     measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
 
-    @classmethod
-    def in_si(cls, scales: Scales, metres_per_second: float) -> VelocityKick:
-        """Create from the largest change of velocity in m/s."""
-        return cls(metres_per_second / scales.velocity)
-
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Size and direction."""
@@ -72,11 +67,6 @@ class KickPlane(Disturbance):
     fastest: float = FASTEST
     kind: ClassVar[str] = "kick-plane"
     measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
-
-    @classmethod
-    def in_si(cls, scales: Scales, metres_per_second: float) -> KickPlane:
-        """Create from the largest part in m/s."""
-        return cls(metres_per_second / scales.velocity)
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -123,7 +113,7 @@ class BaseShock(Disturbance):
             raise InputError("duration", self.duration, f"at most {LONGEST_SHOCK:g}, in 1/Omega: a shock, no vibration")
 
     @classmethod
-    def in_si(cls, scales: Scales, g: float, milliseconds: float) -> BaseShock:
+    def in_si(cls, scales: Scales, g: float, milliseconds: float) -> Self:  # type: ignore[override]
         """Create from the largest peak in standard gravities and the duration in ms."""
         return cls(g * GRAVITY / scales.acceleration, 1e-3 * milliseconds / scales.time)
 

@@ -75,6 +75,13 @@ class Disturbance:
         """
         raise NotImplementedError
 
+    @classmethod
+    def in_si(cls, scales: Scales, *sizes: float) -> Self:
+        """Create from the first fields in SI units, in their order."""
+        fields = dataclasses.fields(cls)[: len(sizes)]
+        units = (getattr(scales, cls.measured_in[one.name]) for one in fields)
+        return cls(*(size / unit for size, unit in zip(sizes, units, strict=True)))
+
     def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:
         """Return the disturbance that is the same in SI units for a machine with other scales.
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,16 @@ __all__ = ["Grid", "Plan", "Sample", "kick_grid"]
 
 
 @dataclass(frozen=True)
-class Grid:
+class _Plan:
+    model: Disturbance
+
+    def rescaled(self, before: Scales | None, after: Scales | None) -> Self:
+        """Return the plan that is the same in SI units for a machine with other scales."""
+        return replace(self, model=self.model.rescaled(before, after))
+
+
+@dataclass(frozen=True)
+class Grid(_Plan):
     """Cells of equal weight along every coordinate, each represented by its middle.
 
     Attributes
@@ -31,7 +40,6 @@ class Grid:
         Cells along each coordinate.
     """
 
-    model: Disturbance
     shape: tuple[int, ...]
 
     def __post_init__(self) -> None:
@@ -55,13 +63,9 @@ class Grid:
         """Starts, arrays of the shape of the grid."""
         return self.model.starts(rotor, *np.meshgrid(*self.values(), indexing="ij"))
 
-    def rescaled(self, before: Scales | None, after: Scales | None) -> Grid:
-        """Return the grid that is the same in SI units for a machine with other scales."""
-        return Grid(self.model.rescaled(before, after), self.shape)
-
 
 @dataclass(frozen=True)
-class Sample:
+class Sample(_Plan):
     """A seeded random sample, uniform in every coordinate; a longer one of the same seed begins with the shorter.
 
     Attributes
@@ -71,7 +75,6 @@ class Sample:
     seed : int
     """
 
-    model: Disturbance
     count: int
     seed: int = 0
 
@@ -90,10 +93,6 @@ class Sample:
     def starts(self, rotor: Jeffcott) -> Starts:
         """Starts, arrays of shape (count,)."""
         return self.model.starts(rotor, *self.values())
-
-    def rescaled(self, before: Scales | None, after: Scales | None) -> Sample:
-        """Return the sample that is the same in SI units for a machine with other scales."""
-        return Sample(self.model.rescaled(before, after), self.count, self.seed)
 
 
 Plan: TypeAlias = Grid | Sample

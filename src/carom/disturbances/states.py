@@ -19,7 +19,6 @@ from carom.disturbances.coordinates import (
 )
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
-from carom.parameters import Scales
 
 if TYPE_CHECKING:
     from carom.models import Jeffcott
@@ -45,11 +44,6 @@ class UnbalanceStep(Disturbance):
     largest: float
     kind: ClassVar[str] = "unbalance"
     measured_in: ClassVar[dict[str, str]] = {"largest": "length"}
-
-    @classmethod
-    def in_si(cls, scales: Scales, metres: float) -> UnbalanceStep:
-        """Create from the largest eccentricity before the step in m."""
-        return cls(metres / scales.length)
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
@@ -140,11 +134,6 @@ class AnyState(Disturbance):
     fastest: float = FASTEST
     kind: ClassVar[str] = "state"
     measured_in: ClassVar[dict[str, str]] = {"fastest": "velocity"}
-
-    @classmethod
-    def in_si(cls, scales: Scales, metres_per_second: float) -> AnyState:
-        """Create from the largest speed in m/s."""
-        return cls(metres_per_second / scales.velocity)
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
