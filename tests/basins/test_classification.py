@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -117,6 +118,7 @@ def test_a_file_holds_all_it_takes_to_do_it_again(rotor, plan, tmp_path):
     assert read.plan == plan
     assert read.parameters == MACHINE
     assert read.dataset.identical(basin.dataset)
+    assert [asdict(name) for name in read.motions] == [asdict(name) for name in basin.motions]
     assert map_basins(read.rotor, read.plan).dataset.identical(basin.dataset)
 
 

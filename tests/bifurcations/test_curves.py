@@ -80,6 +80,7 @@ def test_equilibrium_curves_in_closed_form(curves):
 
 def test_fold_meets_the_boundary_equilibrium(curves):
     (point,) = [point for point in curves["fold"].codimension2 if point.kind == "fold + boundary-equilibrium"]
+    assert (point.kinds, point.resonance) == (("fold", "boundary-equilibrium"), "")
     assert point.value == pytest.approx((0.1779723, 0.7811076), abs=5e-8)
     rotor = Jeffcott(PAPER.replace(gamma=point.value[0], omega=point.value[1]))
     assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-11)

@@ -32,7 +32,8 @@ def test_a_short_curve_between_two_resonances():
     pair = near.multipliers.values[np.abs(near.multipliers.values.imag) > 1e-4]
     assert len(pair) == 2
     assert np.abs(pair) == pytest.approx(1.0, abs=1e-7)
-    resonances = [point for point in found.codimension2 if point.kind == "resonance-1:1"]
+    resonances = [point for point in found.codimension2 if point.resonance == "1:1"]
+    assert {point.kinds for point in resonances} == {("resonance-1:1",)}
     assert len(resonances) == 2
     for point in resonances:
         assert np.sort(np.abs(multipliers_at(PAPER, PLANE, point) - 1.0))[:2] == pytest.approx(0.0, abs=1e-3)

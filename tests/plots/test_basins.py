@@ -10,6 +10,7 @@ from matplotlib.contour import QuadContourSet
 
 import carom
 from carom import plots
+from carom.attractors import MotionName
 from carom.basins import least_gain_change, map_basins, map_gains, smallest_unrecovered_kick
 from carom.disturbances import (
     AnyState,
@@ -22,7 +23,9 @@ from carom.disturbances import (
     UnbalanceStep,
     VelocityKick,
 )
+from carom.orbits.names import OrbitName
 from carom.outcome import InputError, Outcome
+from carom.plots.basins import _words
 
 pytestmark = pytest.mark.jit_only
 
@@ -46,6 +49,25 @@ def painted(figure):
 
 def words(figure):
     return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        (MotionName(Outcome.LEVITATED), "levitates without contact"),
+        (MotionName(Outcome.ROLLING), "rolls in backward whirl"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), r"keeps bouncing: $B_{\mathrm{1,d}}$"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(2, True, True, -1)), r"keeps bouncing: $R_{\mathrm{2,d}}$"),
+        (MotionName(Outcome.BOUNCING, 3, number=2), "keeps bouncing: 3-impact bouncing (2)"),
+        (MotionName(Outcome.FORWARD_RUB), "rubs in forward whirl: synchronous rub"),
+        (MotionName(Outcome.BOUNCING), "keeps bouncing irregularly"),
+        (MotionName(Outcome.MIXED), "keeps bouncing irregularly, with rub"),
+        (MotionName(Outcome.TIME_REACHED), "time reached"),
+    ],
+)
+def test_legends_say_which_motion_it_is(name, said):
+    look = plots.OUTCOMES["irregular" if name.irregular else name.outcome.label]
+    assert _words(look, name) == said
 
 
 def test_every_settled_outcome_has_a_look_of_its_own():
