@@ -16,6 +16,7 @@ from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
+from carom.progress import Reporter
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -240,7 +241,12 @@ def test_start_outside_the_wall_is_an_error():
 
 def test_progress_grows_to_one():
     shares_done = []
-    find_attractors(Jeffcott(SOURCE), [kick(0.001), kick(0.002)], known=False, progress=shares_done.append)
+    find_attractors(
+        Jeffcott(SOURCE),
+        [kick(0.001), kick(0.002)],
+        known=False,
+        progress=lambda report: shares_done.append(report.share),
+    )
 
     assert shares_done == sorted(shares_done)
     assert shares_done[-1] == 1.0
@@ -281,7 +287,8 @@ def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
     monkeypatch.setattr(carom.attractors.survival, "settle", fake)
     monkeypatch.setattr(carom.attractors.survival, "measure_survival", lambda *states, impacts, threads: survival)
     starts = Starts.of(np.arange(len(lives), dtype=complex), 0j, True)
-    ends, lasted, found = following.follow_in_stages(None, starts, patience, None, progress.append)
+    tell = Reporter(lambda report: progress.append(report.share))
+    ends, lasted, found = following.follow_in_stages(None, starts, patience, None, tell)
     assert progress == sorted(progress)
     assert lasted.tolist() == [life > min(1000, patience) for life in lives]
     assert found is (survival if lasted.any() else None)

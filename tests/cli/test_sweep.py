@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from carom.cli.app import BAD_INPUT
-from carom.cli.sweep import _rate, _words
 from carom.sweeps import Tally, open_sweep
+from carom.sweeps.running import rate_words
 
 SWEEP = """
 machine = "{machine}"
@@ -156,11 +156,11 @@ def test_bad_input_is_one_line(carom, sweep_file, tmp_path, monkeypatch, argumen
 def test_progress_tells_rate_and_time_left():
     tally = Tally(Path("s.zarr"), points=10_000, done=1200, failed=34, computed=617, seconds=100.0)
 
-    assert _words(tally) == "1,234 of 10,000 points, 6.17 points/s, 24 min left, 34 failed"
+    assert tally.words == "1,234 of 10,000 points, 6.17 points/s, 24 min left, 34 failed"
 
 
 @pytest.mark.parametrize(
     ("rate", "words"), [(0.0, "0"), (0.01234, "0.0123"), (6.174, "6.17"), (999.6, "1,000"), (11_420.0, "11,400")]
 )
 def test_rates_have_three_digits_and_no_power_of_ten(rate, words):
-    assert _rate(rate, "starts") == f"{words} starts/s"
+    assert rate_words(rate, "starts") == f"{words} starts/s"

@@ -10,7 +10,8 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.cli.screen import Screen
-from carom.cli.terminal import _bar, print_document
+from carom.cli.terminal import print_document
+from carom.progress import _bar
 
 
 @pytest.mark.parametrize(
@@ -22,7 +23,7 @@ from carom.cli.terminal import _bar, print_document
     ],
 )
 def test_clock_and_words_stay_whole(words, width):
-    bar = _bar()
+    bar = _bar(None)
     bar.update(bar.add_task(words, total=1.0), completed=0.4)
     screen = Console(file=io.StringIO(), width=width)
     screen.print(bar.make_tasks_table(bar.tasks))
@@ -50,7 +51,7 @@ def test_texts_in_tables_and_bars_are_printable():
     table.add_column(EVIL)
     table.add_row(EVIL)
     table.add_row(Text(EVIL, style="bold"))
-    bar = _bar()
+    bar = _bar(screen)
     bar.update(bar.add_task(EVIL, total=1.0), completed=0.4)
     screen.print(table)
     screen.print(bar.make_tasks_table(bar.tasks))

@@ -60,7 +60,9 @@ def written(tmp_path_factory):
     example = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
     result = study_once(load(example))
     told = []
-    path = write_report(result, str(tmp_path_factory.mktemp("report")), lambda share, words: told.append(share))
+    path = write_report(
+        result, str(tmp_path_factory.mktemp("report")), progress=lambda report: told.append(report.share)
+    )
     assert told == sorted(told)
     return result, path, path.read_text(encoding="utf-8")
 

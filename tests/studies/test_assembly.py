@@ -116,7 +116,7 @@ def test_advice_names_the_change_and_how_it_was_checked(real):
 
 def test_progress_never_goes_back():
     told = []
-    study(QUIET, progress=lambda share, words: told.append((share, words)))
+    study(QUIET, progress=lambda report: told.append((report.share, report.step)))
 
     shares = [share for share, _ in told]
     assert shares == sorted(shares)

@@ -120,7 +120,7 @@ def test_no_search_along_stiffness_without_damping_or_with_too_many_orbits(gamma
 
 def test_progress_grows_to_one():
     shares = []
-    single_impact_ranges(SOURCE, "gamma", shares.append)
+    single_impact_ranges(SOURCE, "gamma", lambda report: shares.append(report.share))
 
     assert shares == sorted(shares)
     assert shares[-1] == 1.0

@@ -90,8 +90,8 @@ def test_worker_killed_during_the_run_costs_nothing(cluster, tmp_path):
     plan, killed = basins_plan(starts=200), []
     address = distributed.Client(scheduler_file=str(cluster.file), set_as_default=False)
 
-    def kill_one(tally):
-        if not killed and tally.done >= 4:
+    def kill_one(report):
+        if not killed and report.share * plan.points >= 3.5:
             killed.append(cluster.workers.pop("second"))
             killed[0].send_signal(signal.SIGKILL)
             killed[0].wait()
@@ -113,8 +113,8 @@ def test_few_chunks_are_with_the_scheduler_at_a_time(cluster, tmp_path):
     plan, seen = plan_of(Drawn(), count=60, chunk=1), []
     with distributed.Client(scheduler_file=str(cluster.file), set_as_default=False) as client:
 
-        def look(tally):
-            if tally.done % 20 == 0:
+        def look(report):
+            if round(report.share * plan.points) % 20 == 0:
                 seen.append(client.run_on_scheduler(lambda dask_scheduler: len(dask_scheduler.tasks)))
 
         run_sweep(plan, tmp_path / "s.zarr", scheduler=client, progress=look)
@@ -150,8 +150,8 @@ def test_lost_scheduler_is_one_line_and_what_was_finished_is_kept(tmp_path, capf
         own.hire("only")
         own.wait_for(1)
 
-        def end(tally):
-            if tally.done == 3:
+        def end(report):
+            if round(report.share * plan.points) == 3:
                 own.close()
 
         with pytest.raises(CaromError, match=r"lost the scheduler .* finished chunks are kept") as caught:

@@ -1,6 +1,7 @@
 """The same bytes whoever computes, and whatever ends the sweep in the middle."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -219,7 +220,7 @@ def test_worker_killed_from_outside_costs_nothing(tmp_path):
 
     plan, killed = plan_of(Drawn(seconds_taken=0.1)), []
 
-    def kill_one(tally):
+    def kill_one(_):
         if not killed:
             killed.append(multiprocessing.active_children()[0].pid)
             os.kill(killed[0], signal.SIGKILL)
@@ -270,8 +271,10 @@ def test_progress_tells_how_far_and_how_fast(tmp_path):
     plan = plan_of(Failing(above=0.75), chunk=5)
     last = run_sweep(plan, tmp_path / "s.zarr", workers=1, threads=True, progress=told.append)
 
-    assert [(tally.done, tally.failed, tally.waiting) for tally in told] == [(5, 0, 5), (7, 3, 0)]
-    assert told[0].left == pytest.approx(5 / told[0].rate)
+    assert [report.share for report in told] == [0.5, 1.0]
+    assert re.fullmatch(r"5 of 10 points, .+ points/s, .+ left", told[0].step)
+    assert told[1].step.endswith(" left, 3 failed")
+    assert last.left == pytest.approx(0.0)
     assert (last.computed, last.points) == (10, 10)
 
 

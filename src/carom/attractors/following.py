@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -17,6 +16,7 @@ from carom.models import Jeffcott
 from carom.motions.ensembles import Endings
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
+from carom.progress import Reporter
 
 __all__ = ["Ending", "follow_in_stages"]
 
@@ -73,7 +73,7 @@ class Ending:
 
 
 def follow_in_stages(
-    rotor: Jeffcott, starts: Starts, patience: int, threads: int | None, progress: Callable[[float], None]
+    rotor: Jeffcott, starts: Starts, patience: int, threads: int | None, tell: Reporter
 ) -> tuple[Endings, np.ndarray, Survival | None]:
     """Follow all starts: first each for a short time, then longer those that are still irregular.
 
@@ -89,8 +89,7 @@ def follow_in_stages(
         Impacts without recurrence after which bouncing counts as irregular.
     threads : int or None
         By default the number of available cores; the result does not depend on it.
-    progress : callable
-        Called with the fraction done, 0 to 1.
+    tell : Reporter
 
     Returns
     -------
@@ -101,7 +100,7 @@ def follow_in_stages(
         How long irregular motion lasts; ``None`` if no motion was irregular after 1000 impacts.
     """
     seen = min(FIRST_PATIENCE, patience)
-    first = follow(rotor, starts, patience=seen, threads=threads, progress=lambda share: progress(0.8 * share))
+    first = follow(rotor, starts, patience=seen, threads=threads, progress=tell.part(0.0, 0.8))
     endings, lasted = first, still_irregular(first)
     irregular = lasted
     while irregular.any() and seen < patience:
@@ -109,7 +108,7 @@ def follow_in_stages(
         endings = follow_further(rotor, endings, irregular, patience=span, threads=threads)
         irregular = still_irregular(endings)
         seen += span
-        progress(0.8 + 0.1 * min(seen / patience, 1.0))
+        tell(0.8 + 0.1 * min(seen / patience, 1.0))
     endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads, were=first, affordable=AFFORDABLE)
-    progress(1.0)
+    tell(1.0)
     return endings, lasted, survival

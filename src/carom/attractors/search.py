@@ -18,6 +18,7 @@ from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
+from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line
 
 __all__ = ["AttractorSet", "find_attractors"]
@@ -128,6 +129,7 @@ class AttractorSet(Result):
         )
 
 
+@shows_progress
 def find_attractors(
     machine: Subject,
     disturbances: DisturbanceSet | Plan | Disturbance | Sequence[State | Kick] | None = None,
@@ -138,7 +140,7 @@ def find_attractors(
     known: bool = True,
     patience: int = PATIENCE,
     threads: int | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> AttractorSet:
     """Follow disturbances, and starts next to every known motion, to the attractors on which they settle.
 
@@ -162,8 +164,8 @@ def find_attractors(
         settle, unless that would take too long.
     threads : int, optional
         By default the number of available cores; the result does not depend on it.
-    progress : callable, optional
-        Called with the fraction done, 0 to 1.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -175,7 +177,7 @@ def find_attractors(
     InputError
         A start lies outside the wall, none of the disturbances is possible, or there is nothing to follow.
     """
-    rotor, tell = model_of(machine), progress or (lambda share: None)
+    rotor, tell = model_of(machine), Reporter.of(progress, "following disturbances")
     given: DisturbanceSet | Plan | Sequence[State | Kick]
     if disturbances is None:
         given = DisturbanceSet(count, seed, fastest)
@@ -189,7 +191,7 @@ def find_attractors(
         starts = Starts.joined([starts, starts_at([start.state for start in nearby])])
     if not tried:
         raise InputError("count", count, "at least one start to follow")
-    ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, lambda share: tell(0.9 * share))
+    ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, tell.part(0.0, 0.9))
     index, names = name_motions(rotor, ends, orbits)
     touched = starts.touched | (ends.impacts > 0) | (ends.outcomes > Outcome.LEVITATED)
     endings = tuple(

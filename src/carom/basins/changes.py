@@ -11,6 +11,7 @@ from carom.basins.gains import GainMap, measured
 from carom.basins.shares import Share
 from carom.disturbances import Sample
 from carom.outcome import InputError
+from carom.progress import Reporter, Wish, shows_progress
 
 __all__ = ["GainChange", "least_gain_change"]
 
@@ -46,11 +47,13 @@ class GainChange:
         return math.hypot(*self.changes)
 
 
+@shows_progress
 def least_gain_change(
     found: GainMap,
     wanted: float = WANTED,
     *,
     threads: int | None = None,
+    progress: Wish = None,
 ) -> GainChange | None:
     """Least relative change of the two parameters that brings back a wanted share of the disturbances.
 
@@ -65,6 +68,8 @@ def least_gain_change(
     wanted : float
         Share, 0 to 1.
     threads : int, optional
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -89,11 +94,12 @@ def least_gain_change(
     if not good.any():
         return None
     nearest = np.argsort(np.where(good, size, np.inf), axis=None, kind="stable")[: min(CANDIDATES, int(good.sum()))]
-    found_changes = []
+    found_changes, tell = [], Reporter.of(progress, "looking for the least change")
     for place in zip(*np.unravel_index(nearest, size.shape), strict=True):
         goal = float(x[place[0]]), float(y[place[1]])
         part, share = _least_part(found, goal, wanted, threads)
         found_changes.append(GainChange(*_moved(present, goal, part), share, wanted))
+        tell(len(found_changes) / len(nearest))
     return min(found_changes, key=lambda change: change.size)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
@@ -21,6 +21,7 @@ from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
 from carom.outcome import InputError, Outcome
 from carom.parameters import Scales
+from carom.progress import Wish, shows_progress
 
 __all__ = ["Basin", "map_basins"]
 
@@ -158,6 +159,7 @@ class Basin(Mapped):
         return Share.of(count, self.starts, drawn=isinstance(self.plan, Sample))
 
 
+@shows_progress
 def map_basins(
     machine: Subject,
     disturbances: Plan,
@@ -167,7 +169,7 @@ def map_basins(
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
     source: Mapping[str, str] | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> Basin:
     """Follow disturbances until they settle.
 
@@ -187,8 +189,8 @@ def map_basins(
         By default the number of available cores; the result does not depend on it.
     source : mapping of str to str, optional
         Further attributes of the dataset that say where the machine comes from, such as its file.
-    progress : callable, optional
-        Called with the fraction done, 0 to 1.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import tee
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -23,6 +23,7 @@ from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters
+from carom.progress import Reporter, Wish, shows_progress
 
 if TYPE_CHECKING:
     import xarray
@@ -85,6 +86,7 @@ class GainMap(Mapped):
         return {name: int(self.dataset.attrs[name]) for name in ("patience", "max_events")}
 
 
+@shows_progress
 def map_gains(
     machine: Subject,
     disturbances: Plan,
@@ -96,7 +98,7 @@ def map_gains(
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
     source: Mapping[str, str] | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> GainMap:
     """Measure the share of disturbances that recover, on a grid of two parameters.
 
@@ -116,8 +118,8 @@ def map_gains(
         Number of values of both, ends included.
     patience, max_events, threads, source
         As for :func:`~carom.basins.map_basins`.
-    progress : callable, optional
-        Called with the fraction done, 0 to 1.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -141,13 +143,12 @@ def map_gains(
     limits = {"patience": patience, "max_events": max_events}
     nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
     present = tuple(varied.get(Numbers.of(parameters)) for varied in axes)
-    measures = []
+    measures, tell = [], Reporter.of(progress, "following starts of other gains")
     for done, found in enumerate(
         measured(parameters, disturbances, axes, [*nodes, present], {**limits, "threads": threads}), start=1
     ):
         measures.append(found)
-        if progress:
-            progress(done / (len(nodes) + 1))
+        tell(done / (len(nodes) + 1))
     *grid, now = measures
     dataset = _dataset(axes, values, grid)
     dataset.attrs = {

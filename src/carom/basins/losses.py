@@ -27,6 +27,7 @@ from carom.disturbances import (
 from carom.disturbances.following import follow
 from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome
+from carom.progress import Reporter, Wish, shows_progress
 
 __all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_kick"]
 
@@ -128,6 +129,7 @@ def _by_size(model: Disturbance) -> bool:
     return len(axes) == 2 and axes[0].low == 0.0 and axes[1].periodic
 
 
+@shows_progress
 def smallest_loss(
     machine: Subject,
     model: Disturbance,
@@ -136,6 +138,7 @@ def smallest_loss(
     sizes: int = SIZES,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
+    progress: Wish = None,
 ) -> SmallestLoss:
     """Search the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
@@ -157,6 +160,8 @@ def smallest_loss(
         Numbers of directions and sizes in the scan.
     tolerance : float
     threads : int, optional
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Raises
     ------
@@ -177,20 +182,24 @@ def smallest_loss(
         if search.best is not None:
             return search.result(None, 0)
     levels = family.harmless + (family.largest - family.harmless) * np.arange(sizes + 1) / sizes
+    tell = Reporter.of(progress, "looking for the smallest that is lost")
     search.look(_all_round(family, directions), levels)
     search.close_in(TURN / directions)
     for number in range(MOST_CHECKS):
+        tell(0.5 + 0.5 * number / MOST_CHECKS)
         below = family.largest if search.best is None else search.best[0]
         if below <= family.harmless:
             break
         before = search.best
         fresh = search.draw(below, number)
         if search.best is before:
+            tell(1.0)
             return search.result(below, fresh)
         search.close_in(TURN / directions)
     return search.result(family.harmless or None, 0)
 
 
+@shows_progress
 def smallest_unrecovered_kick(
     machine: Subject,
     fastest: float = FASTEST,
@@ -199,6 +208,7 @@ def smallest_unrecovered_kick(
     speeds: int = SIZES,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
+    progress: Wish = None,
 ) -> SmallestLoss | None:
     """Search the smallest kick out of levitation that does not come back; see :func:`smallest_loss`.
 
@@ -211,6 +221,8 @@ def smallest_unrecovered_kick(
         Numbers of directions and speeds in the scan.
     tolerance : float
     threads : int, optional
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -224,7 +236,9 @@ def smallest_unrecovered_kick(
     """
     rotor = model_of(machine)
     model = VelocityKick(fastest)
-    found = smallest_loss(rotor, model, directions=directions, sizes=speeds, tolerance=tolerance, threads=threads)
+    found = smallest_loss(
+        rotor, model, directions=directions, sizes=speeds, tolerance=tolerance, threads=threads, progress=progress
+    )
     return None if found.size is None else found
 
 

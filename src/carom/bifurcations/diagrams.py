@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -25,6 +25,7 @@ from carom.bifurcations.steady import (
 from carom.models import Jeffcott, Subject, model_of
 from carom.orbits.single_impact import Orbit, find_orbits
 from carom.parameters import Parameters
+from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line
 
 __all__ = ["Diagram", "find_bifurcations"]
@@ -90,6 +91,7 @@ class Diagram(Result):
         return self.axis.name
 
 
+@shows_progress
 def find_bifurcations(
     machine: Subject,
     parameter: str,
@@ -99,7 +101,7 @@ def find_bifurcations(
     lasting: bool = False,
     attractors: int = 0,
     seed: int = 0,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> Diagram:
     """Find the branches of motions on an interval of a parameter, and their special points.
 
@@ -122,8 +124,8 @@ def find_bifurcations(
         settle: irregular bouncing, orbits with several impacts, rolling and so on.  None by default.
     seed : int
         Seed of these disturbances.
-    progress : callable, optional
-        Called with the fraction done.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -137,7 +139,7 @@ def find_bifurcations(
     parameters = model_of(machine).parameters
     along = axis(parameters, parameter)
     limits = read_interval(parameter, interval)
-    tell = progress or (lambda _: None)
+    tell = Reporter.of(progress, "following motions")
     followed = 1.0 if not attractors else FOLLOWING_SHARE
     branches: list[OrbitBranch] = []
     rubbing: list[RubbingBranch] = []
@@ -168,7 +170,7 @@ def find_bifurcations(
             parameter,
             limits,
             disturbances,
-            progress=lambda share: tell(followed + (1.0 - followed) * share),
+            progress=tell.part(followed, 1.0),
         )
         if disturbances
         else (),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -21,6 +20,7 @@ from carom.bifurcations.survey import Survey
 from carom.models import Subject, model_of
 from carom.orbits.names import combined
 from carom.outcome import CaromError
+from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result
 
 __all__ = ["RegionMap", "map_regions"]
@@ -137,6 +137,7 @@ def _joined(point: Codimension2Point, other: Codimension2Point) -> tuple[str, ..
     return *point.kinds, *(part for part in _parts(other) if part not in _parts(point))
 
 
+@shows_progress
 def map_regions(
     machine: Subject,
     plane: Plane,
@@ -144,7 +145,7 @@ def map_regions(
     grid: int = 24,
     virtual: bool = False,
     lasting: bool = False,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> RegionMap:
     """Compute the map of a plane: the curves of bifurcations, and the regions between them.
 
@@ -164,8 +165,8 @@ def map_regions(
         Follow bifurcations of virtual orbits too.
     lasting : bool
         Follow the onsets of lasting and of permanent contact too (a few seconds).
-    progress : callable, optional
-        Called with the fraction done.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -178,7 +179,7 @@ def map_regions(
     """
     parameters = model_of(machine).parameters
     axes = plane.axes(parameters)
-    tell = progress or (lambda _: None)
+    tell = Reporter.of(progress, "counting motions, following curves")
     place = plane.place_of(Numbers.of(parameters))
     inside = plane.holds(*place)
     base = parameters if inside else plane.at(parameters, *np.mean([plane.first_range, plane.second_range], axis=1))
@@ -195,7 +196,7 @@ def map_regions(
         stands.append([survey.stand(np.array([x, y])) for y in ys])
         tell(0.3 + 0.4 * (i + 1) / len(xs))
     survey.leave_resonances()
-    survey.explain_all(stands, lambda share: tell(0.7 + 0.3 * share))
+    survey.explain_all(stands, tell.part(0.7, 1.0))
     survey.leave_resonances()
     present = motions_at(parameters)
     if inside:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +13,7 @@ from carom.models import Jeffcott
 from carom.motions.trajectories import REPEATING, simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
+from carom.progress import Reporter, Wish
 from carom.results import Result
 
 __all__ = ["VALUES", "AttractorSample", "sample_attractors"]
@@ -85,7 +85,7 @@ def sample_attractors(
     disturbances: DisturbanceSet | Plan,
     *,
     values: int = VALUES,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> tuple[AttractorSample, ...]:
     """Follow disturbances until they settle, at evenly spaced values of a parameter.
 
@@ -98,8 +98,8 @@ def sample_attractors(
         Disturbances followed at each value.  Starts next to every known motion are followed too, but do not count for
         the shares.
     values : int
-    progress : callable, optional
-        Called with the fraction done.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def sample_attractors(
         In ascending order of the parameter.  Motions that were given up are left out.  Irregular bouncing that ends is
         an ``"irregular transient"``, with the share of the disturbances that were in it for 1000 impacts or more.
     """
-    tell = progress or (lambda _: None)
+    tell = Reporter.of(progress, "following disturbances")
     found: list[AttractorSample] = []
     for done, value in enumerate(np.linspace(*interval, values).tolist()):
         rotor = Jeffcott(vary(parameters, parameter, value))

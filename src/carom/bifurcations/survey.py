@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -16,6 +16,7 @@ from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.resonances import TURNS, beside_resonance
 from carom.outcome import CaromError
 from carom.parameters import Parameters
+from carom.progress import Reporter
 
 __all__ = ["Survey"]
 
@@ -61,14 +62,14 @@ class Survey:
         self.seen.setdefault(motions, (float(place[0]), float(place[1])))
         return Stand(place, motions)
 
-    def explain_all(self, stands: Sequence[Sequence[Stand]], progress: Callable[[float], None]) -> None:
+    def explain_all(self, stands: Sequence[Sequence[Stand]], tell: Reporter) -> None:
         """Explain the changes between all neighbouring points of a grid whose motions differ."""
         for i, column in enumerate(stands):
             for j, here in enumerate(column):
                 for other in [*(next_column[j] for next_column in stands[i + 1 : i + 2]), *column[j + 1 : j + 2]]:
                     if other.motions != here.motions:
                         self.explain(here, other)
-            progress((i + 1) / len(stands))
+            tell((i + 1) / len(stands))
 
     def leave_resonances(self) -> None:
         """Follow the Neimark–Sacker curves that begin at the resonances 1:1 and 1:2 of the known curves."""

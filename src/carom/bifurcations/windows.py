@@ -8,7 +8,7 @@ it does so only between the values.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, NamedTuple
@@ -24,6 +24,7 @@ from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach
 from carom.outcome import CaromError
 from carom.parameters import Parameters
+from carom.progress import Reporter, Wish
 
 __all__ = ["OrbitWindows", "Window", "WindowEnd", "orbit_windows"]
 
@@ -110,7 +111,7 @@ class _Arc(NamedTuple):
 
 
 def orbit_windows(
-    parameters: Parameters, parameter: str, values: Sequence[float], progress: Callable[[float], None] | None = None
+    parameters: Parameters, parameter: str, values: Sequence[float], progress: Wish = None
 ) -> OrbitWindows:
     """Find where along a parameter single-impact orbits are motions of the machine.
 
@@ -124,14 +125,14 @@ def orbit_windows(
         Values, in ascending order, at which all orbits are searched
         (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two of them is found if its orbit
         is admissible, or nearly so, at one of them.
-    progress : callable, optional
-        Called with the fraction done, 0 to 1.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
     OrbitWindows
     """
-    tell = progress or (lambda _: None)
+    tell = Reporter.of(progress, "following orbits")
     columns: list[list[_Member]] = []
     for done, value in enumerate(values):
         columns.append(_members(vary(parameters, parameter, value)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -36,10 +35,9 @@ if TYPE_CHECKING:
     from carom.basins import Basin, GainChange, GainMap, SmallestLoss
     from carom.disturbances import Plan
     from carom.parameters import Case
+    from carom.progress import Reporter
 
 __all__ = ["basins"]
-
-Tell = Callable[[float, str], None]
 
 
 def basins(
@@ -120,7 +118,7 @@ class _Answer:
         return basin_document(self.basin, self.smallest, self.harmless, self.gains, self.change, **wanted)
 
 
-def _follow(question: _Question, tell: Tell) -> _Answer:
+def _follow(question: _Question, tell: Reporter) -> _Answer:
     """Compute the basin, smallest loss and harmless speed of a machine, and the gain map if requested."""
     from carom.basins import map_basins as classify
     from carom.basins import smallest_loss
@@ -135,18 +133,17 @@ def _follow(question: _Question, tell: Tell) -> _Answer:
         plan,
         threads=question.threads,
         source=question.source,
-        progress=lambda done: tell(share * done, f"following {plan.count} starts"),
+        progress=tell.part(0.0, share, f"following {plan.count} starts"),
     )
     harmless, smallest = harmless_kick(rotor), None
     if harmless > 0.0 and has_sizes(plan.model):
-        tell(share, "looking for the smallest that is lost")
-        smallest = smallest_loss(rotor, plan.model, threads=question.threads)
+        smallest = smallest_loss(rotor, plan.model, threads=question.threads, progress=tell.part(share, 1.1 * share))
     if question.gains is None:
         return _Answer(basin, smallest, harmless, None, None, None)
     return _Answer(basin, smallest, harmless, *_map(question, question.gains, tell), question.gains)
 
 
-def _map(question: _Question, asked: Gains, tell: Tell) -> tuple[GainMap, GainChange | None]:
+def _map(question: _Question, asked: Gains, tell: Reporter) -> tuple[GainMap, GainChange | None]:
     from carom.basins import least_gain_change, map_gains
 
     found = map_gains(
@@ -157,10 +154,11 @@ def _map(question: _Question, asked: Gains, tell: Tell) -> tuple[GainMap, GainCh
         shape=asked.shape,
         threads=question.threads,
         source=question.source,
-        progress=lambda done: tell(0.3 + 0.6 * done, "following starts of other gains"),
+        progress=tell.part(0.33, 0.9),
     )
-    tell(0.92, "looking for the least change")
-    return found, least_gain_change(found, asked.wanted, threads=question.threads) if all(found.present) else None
+    if not all(found.present):
+        return found, None
+    return found, least_gain_change(found, asked.wanted, threads=question.threads, progress=tell.part(0.9, 0.97))
 
 
 def _source(machine: str, settings: list[str] | None) -> dict[str, str]:

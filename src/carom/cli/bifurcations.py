@@ -92,7 +92,7 @@ def bifurcations(
             lasting=lasting,
             attractors=attractors,
             seed=seed or 0,
-            progress=lambda share: tell(share, "following motions"),
+            progress=tell,
         )
     document = diagram_document(parameters, diagram)
     if directory is not None:
@@ -149,7 +149,7 @@ def regions(
             grid=grid,
             virtual=virtual,
             lasting=lasting,
-            progress=lambda share: tell(share, "counting motions, following curves"),
+            progress=tell,
         )
     document = regions_document(parameters, found)
     if directory is not None:

@@ -37,10 +37,10 @@ def paper(
         from carom.reproductions.mora2014 import figures, paper_document, reproduce, write_paper
 
         share_of_results = 1.0 if out is None else 0.3
-        found = reproduce(lambda share, words: tell(share_of_results * share, words))
+        found = reproduce(progress=tell.part(0.0, share_of_results))
         written: list[Path] = []
         if out is not None:
-            written = write_paper(found, out, lambda share, words: tell(0.3 + 0.7 * share, words))
+            written = write_paper(found, out, progress=tell.part(share_of_results, 1.0))
     if as_json:
         print_document(paper_document(found, figures(found) if written else ()))
     else:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
+    from carom.progress import Reporter
 
 __all__ = ["simulate"]
 
@@ -94,23 +95,21 @@ def _read(case: Case, start: str | None, kick: str | None, until: str | None) ->
     return read_kick(str(kick), scales) if start is None else read_start(start, scales), end
 
 
-def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None, tell) -> Trajectory:  # type: ignore[no-untyped-def]
+def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
     from carom.models import Jeffcott
-    from carom.motions.settling import longest_time
     from carom.motions.starts import Kick
     from carom.motions.trajectories import simulate as follow
 
     rotor = Jeffcott(case.parameters)
     if isinstance(start, Kick):
         _check_levitation(rotor, kick)
-    limit = longest_time(rotor) if end is None else end
     return follow(
         rotor,
         start,
         end,
         settle=end is None,
         max_events=MOST_EVENTS,
-        progress=lambda time: tell(time / limit, "simulating"),
+        progress=tell,
     )
 
 

@@ -36,12 +36,12 @@ def study(
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
-        result = study_case(case, progress=lambda share, words: tell(share_of_study * share, words))
+        result = study_case(case, progress=tell.part(0.0, share_of_study))
         report = None
         if out is not None:
             from carom.report import write_report
 
-            report = write_report(result, out, lambda share, words: tell(0.4 + 0.6 * share, words))
+            report = write_report(result, out, progress=tell.part(share_of_study, 1.0))
     if as_json:
         print_document(result.to_dict())
         if report is not None:

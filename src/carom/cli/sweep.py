@@ -46,15 +46,10 @@ def sweep(
     carom.open_sweep or xarray.open_zarr.
     """
     from carom.sweeps import load_sweep, run_sweep
+    from carom.sweeps.store import SweepStore
 
     plan = load_sweep(file, settings or ())
-    last: list[Tally] = []
     with progress(f"{plan.points:,} points") as tell:
-
-        def told(tally: Tally) -> None:
-            last[:] = [tally]
-            tell((tally.done + tally.failed) / tally.points, _words(tally))
-
         try:
             tally = run_sweep(
                 plan,
@@ -63,40 +58,17 @@ def sweep(
                 threads=threads,
                 scheduler=scheduler,
                 retry_failed=retry_failed,
-                progress=told,
+                progress=tell,
             )
         except KeyboardInterrupt:
-            kept = f"{last[0].done:,} of {plan.points:,} points are stored; " if last else ""
+            done = SweepStore(out, plan).done
+            kept = f"{done:,} of {plan.points:,} points are stored; " if done else ""
             raise InterruptionError(f"interrupted; {kept}the same command resumes {out}") from None
     failures = tally.failures
     if as_json:
         print_document(_document(plan, tally, failures))
     else:
         _print(plan, tally, failures)
-
-
-def _words(tally: Tally) -> str:
-    """Describe the progress in less than 80 columns: points done, rate and time left."""
-    parts = [f"{tally.done + tally.failed:,} of {tally.points:,} points", _rate(tally.rate, "points")]
-    if tally.left is not None:
-        parts.append(f"{_duration(tally.left)} left")
-    if tally.failed:
-        parts.append(f"{tally.failed:,} failed")
-    return ", ".join(parts)
-
-
-def _rate(rate: float, noun: str) -> str:
-    from carom.studies.wording import number
-
-    return f"{number(rate, 3)} {noun}/s"
-
-
-def _duration(seconds: float) -> str:
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    if seconds < 5400:
-        return f"{seconds / 60:.0f} min"
-    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:
@@ -126,6 +98,8 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     from rich import box
     from rich.table import Table
 
+    from carom.sweeps.running import duration_words, rate_words
+
     screen = console()
     table = Table(box=box.SIMPLE_HEAD)
     for heading in ("", "points"):
@@ -137,10 +111,10 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     screen.print(f"Sweep of {plan.case.name} ({plan.task.kind}): {grid}", soft_wrap=True)
     screen.print(table)
     if tally.computed:
-        rate = _rate(tally.rate, "points")
+        rate = rate_words(tally.rate, "points")
         if plan.task.starts:
-            rate += f" ({_rate(tally.rate * plan.task.starts, 'starts')})"
-        screen.print(f"This run: {tally.computed:,} points in {_duration(tally.seconds)}, {rate}")
+            rate += f" ({rate_words(tally.rate * plan.task.starts, 'starts')})"
+        screen.print(f"This run: {tally.computed:,} points in {duration_words(tally.seconds)}, {rate}")
     else:
         screen.print("Nothing was left to compute.")
     if tally.damaged:

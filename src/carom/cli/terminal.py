@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import sys
-import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from carom.progress import Reporter, bar
+
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.progress import Progress
 
 __all__ = ["AsJson", "InterruptionError", "MachineFile", "Settings", "console", "print_document", "progress"]
 
@@ -29,9 +29,6 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and 
 
 PIPE_WIDTH = 140
 """Width of tables, in columns, if the output is not a terminal."""
-PATIENCE = 0.7
-"""Seconds before a progress bar appears."""
-_CLOCK = len("0:00:00")
 
 
 class InterruptionError(Exception):
@@ -55,40 +52,21 @@ def print_document(document: dict[str, Any]) -> None:
 
 
 @contextmanager
-def progress(words: str) -> Iterator[Callable[[float, str], None]]:
-    """Show a progress bar on the error stream for longer tasks; nothing if that stream is not a terminal.
+def progress(step: str) -> Iterator[Reporter]:
+    """Show a bar on the error stream for longer tasks; nothing if that stream is not a terminal.
 
     Parameters
     ----------
-    words : str
+    step : str
         Description of the first step.
 
     Yields
     ------
-    callable
-        To be called with the share done, 0 to 1, and a description of the next step.
+    Reporter
+        To be called with the share done, 0 to 1, and a description of the next step, or handed on as ``progress``.
     """
     if not sys.stderr.isatty():
-        yield lambda share, words: None
+        yield Reporter()
         return
-    bar = _bar()
-    task = bar.add_task(words, total=1.0)
-    timer = threading.Timer(PATIENCE, bar.start)
-    timer.daemon = True
-    timer.start()
-    try:
-        yield lambda share, words: bar.update(task, completed=share, description=words)
-    finally:
-        timer.cancel()
-        timer.join()
-        bar.stop()
-
-
-def _bar() -> Progress:
-    """Return a bar with clock and words; a narrow terminal shortens first the bar, then the words, never the clock."""
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-    from rich.table import Column
-
-    clock = TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=_CLOCK))
-    columns = (BarColumn(bar_width=30), clock, TextColumn("{task.description}", markup=False))
-    return Progress(*columns, console=console(errors=True), transient=True)
+    with bar(step, console(errors=True)) as shown:
+        yield shown

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from numbers import Integral
@@ -22,6 +22,7 @@ from carom.motions.settling import PATIENCE, fresh_memory, longest_time
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE
 from carom.motions.trajectories import EventLog
 from carom.outcome import InputError, Outcome
+from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result
 
 __all__ = ["Endings", "settle"]
@@ -82,6 +83,7 @@ class Endings(Result):
         return recovered
 
 
+@shows_progress
 def settle(
     machine: Subject | Sequence[Subject],
     positions: np.ndarray,
@@ -92,7 +94,7 @@ def settle(
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> Endings:
     """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
 
@@ -121,8 +123,8 @@ def settle(
         Impacts and steps of lasting contact after which a motion is given up.
     threads : int, optional
         By default the number of available cores.
-    progress : callable, optional
-        Called from time to time with the fraction of starts done.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -152,11 +154,10 @@ def settle(
     for number, portion in _portions(which.ravel()[order], len(rotors)):
         part = _Part(rotors[number], motions[portion], fresh_counter())
         parts += [part] * min(threads, 1 + len(part.motions) // FEW)
-    done = 0
+    done, tell = 0, Reporter.of(progress, "following starts")
     for finished in _settle_parts(parts, limits, threads):
         done += finished
-        if progress:
-            progress(done / positions.size)
+        tell(done / positions.size)
     return _endings(motions, order, positions.shape)
 
 

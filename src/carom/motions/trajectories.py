@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -21,6 +20,7 @@ from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
 from carom.motions.starts import Kick, State, amplitudes_of, own_size
 from carom.outcome import InputError, Outcome, Phase
+from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -239,6 +239,7 @@ class Trajectory(Result):
         return radius
 
 
+@shows_progress
 def simulate(
     machine: Subject,
     start: State | Kick,
@@ -248,7 +249,7 @@ def simulate(
     stop_at_chatter: bool = False,
     patience: int = PATIENCE,
     max_events: int = 1_000_000,
-    progress: Callable[[float], None] | None = None,
+    progress: Wish = None,
 ) -> Trajectory:
     """Follow a start through flights, impacts, sliding and rolling.
 
@@ -268,8 +269,8 @@ def simulate(
         With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
     max_events : int
         Impacts and steps of lasting contact after which to give up.
-    progress : callable, optional
-        Called from time to time with the time reached.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -295,14 +296,13 @@ def simulate(
     first = amplitudes.copy()
     logs: list[EventLog] = []
     reached, events, outcome, phase = 0.0, 0, Outcome.EVENT_LIMIT, int(Phase.FLIGHT)
-    multiplicity = 0
+    multiplicity, tell = 0, Reporter.of(progress, "simulating")
     while outcome is Outcome.EVENT_LIMIT and events < max_events:
         log = EventLog.empty(min(CHUNK, max_events - events), modes)
         outcome, time, count, phase, plane = follow(rotor, amplitudes, until - reached, phase, plane, log, recollection)
         logs.append(EventLog(reached + log.times[:count], *(part[:count] for part in log[1:])))
         reached, events = reached + time, events + count
-        if progress:
-            progress(reached)
+        tell(reached / until)
         if outcome in REPEATING:
             multiplicity = multiplicity_of(rotor, amplitudes, int(recollection.period))
             if multiplicity == PASSES:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import platform
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.resources import files
@@ -14,6 +13,7 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from carom import plots
+from carom.progress import Reporter, Wish, shows_progress
 from carom.report.directory import FIGURES, MANIFEST, filled_at_once
 from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study, as_json
@@ -33,8 +33,6 @@ FORMATS = ("svg",)
 SCREEN_SCALE = 1.3
 """Enlargement of the figures on a screen: they are made for print, and a screen is farther away."""
 
-Progress = Callable[[float, str], None]
-
 
 @dataclass(frozen=True)
 class InlineFigure:
@@ -45,7 +43,8 @@ class InlineFigure:
     svg: Markup
 
 
-def write_report(study: Study, directory: str, progress: Progress | None = None) -> Path:
+@shows_progress
+def write_report(study: Study, directory: str, *, progress: Wish = None) -> Path:
     """Write ``report.html``, ``study.json`` and the figures of a study.
 
     Parameters
@@ -53,8 +52,8 @@ def write_report(study: Study, directory: str, progress: Progress | None = None)
     study : Study
     directory : str
         Target directory, created if it does not exist.  Files of an earlier study are replaced; other files stay.
-    progress : callable, optional
-        Called with the share done, 0 to 1, and a description of the next step.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -66,7 +65,7 @@ def write_report(study: Study, directory: str, progress: Progress | None = None)
     InputError
         The directory cannot be written; nothing has been changed then.
     """
-    tell = progress or (lambda share, words: None)
+    tell = Reporter.of(progress, "drawing")
     wanted = pictures(study)
     with filled_at_once(directory, "--out") as place:
         (place / FIGURES).mkdir()

@@ -15,6 +15,7 @@ from carom.disturbances import Disturbance, Plan
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
+from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line
 from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
@@ -137,9 +138,8 @@ class Study(Result):
         return study_document(self)
 
 
-def study(
-    machine: Subject, disturbances: Plan | Disturbance | None = None, *, progress: Progress | None = None
-) -> Study:
+@shows_progress
+def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, progress: Wish = None) -> Study:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
 
     Parameters
@@ -148,8 +148,8 @@ def study(
     disturbances : Grid, Sample or Disturbance, optional
         The disturbances followed at the machine's own damping and stiffness instead of the standard set, as in
         :func:`~carom.attractors.find_attractors`.  At other values the standard kinds are tried.
-    progress : callable, optional
-        Called with the share done (0 to 1) and a description of the next step.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -168,14 +168,14 @@ def study(
     >>> print(result.verdict.text)  # doctest: +SKIP
     """
     case = case_of(machine)
-    tell = progress or (lambda share, words: None)
+    tell = Reporter.of(progress, "study")
     parameters = case.parameters
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     rotor = Jeffcott(parameters)
     orbits = orbits_within_reach(rotor)
     tell(0.15, "disturbances")
-    found = find_attractors(rotor, disturbances, progress=lambda share: tell(0.15 + 0.15 * share, "disturbances"))
-    ranges = _ranges(parameters, lambda share: tell(0.3 + 0.15 * share, "thresholds of damping and stiffness"))
+    found = find_attractors(rotor, disturbances, progress=tell.part(0.15, 0.3, "disturbances"))
+    ranges = _ranges(parameters, tell.part(0.3, 0.45, "thresholds of damping and stiffness"))
     tell(0.45, "disturbances where levitation is alone")
     alone = tuple(entry for gain in _gains(parameters) if (entry := levitation_alone(parameters, gain, ranges)))
     tell(0.53, "loss of levitation")
@@ -185,23 +185,17 @@ def study(
         if found.recovered == 1.0 and disturbances is None
         else None
     )
-    safe = least_safe_damping(
-        parameters, progress=lambda share: tell(0.55 + 0.45 * share, "disturbances at other dampings")
-    )
+    safe = least_safe_damping(parameters, progress=tell.part(0.55, 1.0, "disturbances at other dampings"))
     advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
     return Study(case, rotor, find_equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe, fresh)
 
 
-def _ranges(parameters: Parameters, progress: Callable[[float], None]) -> tuple[MotionRange, ...]:
+def _ranges(parameters: Parameters, tell: Reporter) -> tuple[MotionRange, ...]:
     found: list[MotionRange] = []
     gains = _gains(parameters)
     for place, gain in enumerate(gains):
-
-        def tell(share: float, place: int = place) -> None:
-            progress((place + share) / len(gains))
-
         found += [steady_range(parameters, motion, gain) for motion in get_args(Steady)]
-        found += single_impact_ranges(parameters, gain, tell)
+        found += single_impact_ranges(parameters, gain, tell.part(place / len(gains), (place + 1) / len(gains)))
     return tuple(found)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from carom.bifurcations import Window, WindowEnd, orbit_windows, vary
 from carom.models import Jeffcott
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
+from carom.progress import Wish
 from carom.studies.ranges import Edge, Gain, MotionRange, Span
 
 __all__ = ["single_impact_ranges"]
@@ -20,12 +20,8 @@ FINEST_STEP = {"gamma": 0.1, "omega": 0.05}
 NEARBY = 1e-6
 """Relative distance from an edge at which the certified lists of orbits must confirm it."""
 
-Progress = Callable[[float], None]
 
-
-def single_impact_ranges(
-    parameters: Parameters, gain: Gain, progress: Progress | None = None
-) -> tuple[MotionRange, ...]:
+def single_impact_ranges(parameters: Parameters, gain: Gain, progress: Wish = None) -> tuple[MotionRange, ...]:
     """Find where single-impact orbits are motions of the machine (:func:`~carom.bifurcations.orbit_windows`).
 
     Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a
@@ -36,8 +32,8 @@ def single_impact_ranges(
     parameters : Parameters
     gain : {"gamma", "omega"}
         The gain that is varied.
-    progress : callable, optional
-        Called with the share done, 0 to 1.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

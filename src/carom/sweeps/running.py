@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Generator, Iterator
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from carom.core.processors import available_cores
 from carom.outcome import InputError
+from carom.progress import Reporter, Wish, shows_progress
+from carom.studies.wording import number
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.memory import SweepMemory
 from carom.sweeps.plan import SweepPlan
@@ -78,7 +80,32 @@ class Tally:
         """Seconds left at this rate, if it is known."""
         return self.waiting / self.rate if self.rate > 0 else None
 
+    @property
+    def words(self) -> str:
+        """Points done, rate and time left, in less than 80 characters."""
+        parts = [f"{self.done + self.failed:,} of {self.points:,} points", rate_words(self.rate, "points")]
+        if self.left is not None:
+            parts.append(f"{duration_words(self.left)} left")
+        if self.failed:
+            parts.append(f"{self.failed:,} failed")
+        return ", ".join(parts)
 
+
+def rate_words(rate: float, noun: str) -> str:
+    """Write a number per second."""
+    return f"{number(rate, 3)} {noun}/s"
+
+
+def duration_words(seconds: float) -> str:
+    """Write a time, with a unit that suits it."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    if seconds < 5400:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
+
+
+@shows_progress
 def run_sweep(
     plan: SweepPlan,
     store: str | os.PathLike[str] | None = None,
@@ -87,7 +114,7 @@ def run_sweep(
     threads: bool | None = None,
     scheduler: str | Client | None = None,
     retry_failed: bool = False,
-    progress: Callable[[Tally], None] | None = None,
+    progress: Wish = None,
 ) -> Tally:
     """Compute all points of a sweep that are not in its store yet; without a store, keep the results in memory.
 
@@ -109,8 +136,8 @@ def run_sweep(
         Compute on a Dask cluster instead: address or file of its scheduler, ``"slurm"``, or a client.
     retry_failed : bool
         Compute chunks with failed points again.
-    progress : callable, optional
-        Called with a :class:`Tally` after each chunk.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -136,7 +163,7 @@ def run_sweep(
     book = SweepMemory(plan) if store is None else SweepStore(store, plan)
     if threads is None:
         threads = store is None and scheduler is None
-    began, computed = time.monotonic(), 0
+    began, computed, tell = time.monotonic(), 0, Reporter.of(progress, "computing points")
 
     def tally() -> Tally:
         seconds = time.monotonic() - began
@@ -150,8 +177,8 @@ def run_sweep(
         for chunk in stack.enter_context(closing(chunks)):
             book.write(chunk)
             computed += plan.size(chunk.number)
-            if progress:
-                progress(tally())
+            now = tally()
+            tell((now.done + now.failed) / now.points, now.words)
     return tally()
 
 

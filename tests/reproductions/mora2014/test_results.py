@@ -189,7 +189,7 @@ def test_new_curves_of_figure_6(found, omega):
 
 def test_progress_is_told():
     shares = []
-    mora2014.reproduce(lambda share, words: shares.append((share, words)))
+    mora2014.reproduce(progress=lambda report: shares.append((report.share, report.step)))
     assert [share for share, _ in shares] == sorted(share for share, _ in shares)
     assert all(words for _, words in shares)
     assert len(shares) >= 4

@@ -16,7 +16,7 @@ from carom.reproductions import mora2014
 def written(found, tmp_path_factory):
     place = tmp_path_factory.mktemp("paper") / "out"
     shares = []
-    files = mora2014.write_paper(found, str(place), lambda share, words: shares.append(share))
+    files = mora2014.write_paper(found, str(place), progress=lambda report: shares.append(report.share))
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
     return place, files
@@ -92,10 +92,10 @@ def test_a_directory_that_cannot_be_written(found, tmp_path):
 
 
 def test_nothing_is_left_of_an_interrupted_write(found, tmp_path):
-    def interrupt(share, words):
-        if share > 0.0:
+    def interrupt(report):
+        if report.share > 0.0:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        mora2014.write_paper(found, str(tmp_path / "out"), interrupt)
+        mora2014.write_paper(found, str(tmp_path / "out"), progress=interrupt)
     assert list(tmp_path.iterdir()) == []

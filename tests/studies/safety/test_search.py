@@ -194,7 +194,7 @@ def test_contact_at_the_highest_damping_is_said_so():
 
 def test_progress_grows_to_one():
     done = []
-    least_safe_damping(SOURCE, count=60, highest=0.5, progress=done.append)
+    least_safe_damping(SOURCE, count=60, highest=0.5, progress=lambda report: done.append(report.share))
 
     assert done == sorted(done)
     assert done[-1] == 1.0

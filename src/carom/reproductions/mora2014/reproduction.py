@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
+from carom.progress import Reporter, Wish, shows_progress
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.extrema import RadiusDiagram, radius_diagram
 from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
@@ -72,19 +72,20 @@ class Reproduction(Result):
     claims: tuple[Claim, ...]
 
 
-def reproduce(progress: Callable[[float, str], None] | None = None) -> Reproduction:
+@shows_progress
+def reproduce(*, progress: Wish = None) -> Reproduction:
     """Compute the data of all figures of the source paper and all numbers that it prints.
 
     Parameters
     ----------
-    progress : callable, optional
-        Called with the share done, 0 to 1, and a description of the next step.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
     Reproduction
     """
-    tell = progress or (lambda share, words: None)
+    tell = Reporter.of(progress, "reproducing the paper")
     tell(0.0, "finding the motions of figure 2 (the kernels are compiled on first use)")
     motions = shown_motions()
     tell(0.3, "following the periods")

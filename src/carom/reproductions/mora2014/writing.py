@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
+from carom.progress import Reporter, Wish, shows_progress
 from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.pictures import figures
 from carom.reproductions.mora2014.reproduction import Reproduction
@@ -12,9 +12,8 @@ from carom.reproductions.mora2014.reproduction import Reproduction
 __all__ = ["write_paper"]
 
 
-def write_paper(
-    found: Reproduction, directory: str, progress: Callable[[float, str], None] | None = None
-) -> list[Path]:
+@shows_progress
+def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -> list[Path]:
     """Draw the figures, and write them with the numbers.
 
     Parameters
@@ -22,8 +21,8 @@ def write_paper(
     found : Reproduction
     directory : str
         Target directory, created if it does not exist; files of the same name are replaced.
-    progress : callable, optional
-        Called with the share done, 0 to 1, and a description of the next step.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -39,7 +38,7 @@ def write_paper(
     from carom.report.directory import filled_at_once
     from carom.studies import as_json
 
-    tell = progress or (lambda share, words: None)
+    tell = Reporter.of(progress, "drawing")
     pictures = figures(found)
     with filled_at_once(directory, "--out") as place:
         names = []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
+from carom.progress import Reporter, Wish, shows_progress
 from carom.studies.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping
 from carom.studies.safety.losses import DampingCheck, Loss, Losses
 
@@ -43,9 +44,8 @@ ONWARD = 1.25
 FASTER, FASTER_SHARE = 2.0, 0.25
 """Speed of the faster disturbances relative to that of the others, and their number relative to ``count``."""
 
-Progress = Callable[[float], None]
 
-
+@shows_progress
 def least_safe_damping(
     machine: Subject,
     *,
@@ -54,7 +54,7 @@ def least_safe_damping(
     fastest: float = FASTEST,
     highest: float | None = None,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: Wish = None,
 ) -> SafeDamping:
     """Find the least damping above which no disturbance of a standard set ends in a contact motion.
 
@@ -79,8 +79,8 @@ def least_safe_damping(
         Largest ``γ`` to search.
     threads : int, optional
         By default one for each core; the result does not depend on it.
-    progress : callable, optional
-        Called with the share done, 0 to 1.
+    progress : callable or bool, optional
+        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
@@ -93,7 +93,7 @@ def least_safe_damping(
         ``highest`` is not above the lowest damping searched, or ``count`` is below 1.
     """
     parameters = model_of(machine).parameters
-    tell = progress or (lambda share: None)
+    tell = Reporter.of(progress, "disturbances at other dampings")
     unit = max(1.0, parameters.omega)
     lowest = LOWEST * unit
     if highest is None:
@@ -112,7 +112,7 @@ def least_safe_damping(
     sample = DisturbanceSet(count, seed, fastest)
     losses = Losses(parameters, sample, rub.above if rub else 0.0, threads)
     known = max((limit.above for limit in (rub, orbits) if limit), default=0.0)
-    search = _Search(losses, grid, known, lambda share: tell(0.2 + 0.7 * share))
+    search = _Search(losses, grid, known, tell.part(0.2, 0.9))
     simulated, checks = search.run()
     faster = losses.faster(checks[0].gamma, max(1, int(FASTER_SHARE * count)), FASTER) if checks else None
     tell(1.0)
@@ -161,8 +161,8 @@ def _orbit_at(parameters: Parameters, gamma: float) -> OrbitName | None:
 class _Search:
     """Search for the largest damping at which a disturbance is lost, with checks by fresh disturbances above it."""
 
-    def __init__(self, losses: Losses, grid: np.ndarray, known: float, progress: Progress) -> None:
-        self.losses, self.grid, self.known, self.tell = losses, grid, known, progress
+    def __init__(self, losses: Losses, grid: np.ndarray, known: float, tell: Reporter) -> None:
+        self.losses, self.grid, self.known, self.tell = losses, grid, known, tell
         self.highest, self.count = float(grid[0]), losses.sample.count
 
     def run(self) -> tuple[DampingLimit | None, tuple[DampingCheck, ...]]:

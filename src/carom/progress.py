@@ -1,0 +1,134 @@
+"""How far a long function is: one kind of report, and a bar."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import wraps
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+if TYPE_CHECKING:
+    import rich.progress
+    from rich.console import Console
+
+__all__ = ["Progress", "Reporter", "Wish", "bar", "shows_progress"]
+
+Arguments = ParamSpec("Arguments")
+Value = TypeVar("Value")
+
+PATIENCE = 0.7
+"""Seconds before a bar appears."""
+_CLOCK = len("0:00:00")
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A report of a function that takes long.
+
+    Attributes
+    ----------
+    share : float
+        Share of the work done, 0 to 1.
+    step : str
+        What is done now, in words.
+    """
+
+    share: float
+    step: str
+
+
+class Reporter:
+    """Sends reports of a function, or of a part of one, to whoever asked for them.
+
+    Parameters
+    ----------
+    send : callable, optional
+        Receives a :class:`Progress`; by default nobody does.
+    low, high : float
+        Shares of the whole at which this part begins and ends.
+    step : str
+        What is done, unless a report says so itself.
+    """
+
+    def __init__(
+        self, send: Callable[[Progress], object] | None = None, low: float = 0.0, high: float = 1.0, step: str = ""
+    ) -> None:
+        self.send, self.low, self.high, self.step = send, low, high, step
+
+    @classmethod
+    def of(cls, wish: Wish, step: str) -> Reporter:
+        """Return the reporter of a function that does `step`, unless what it is a part of has said so."""
+        if isinstance(wish, Reporter):
+            return cls(wish.send, wish.low, wish.high, wish.step or step)
+        return cls(wish if callable(wish) else None, step=step)
+
+    def __call__(self, share: float, step: str = "") -> None:
+        """Report the share of this part that is done, 0 to 1."""
+        if self.send is not None:
+            self.send(Progress(self.low + share * (self.high - self.low), step or self.step))
+
+    def part(self, low: float, high: float, step: str = "") -> Reporter:
+        """Return the reporter of a part that begins and ends at these shares of this one."""
+        width = self.high - self.low
+        return Reporter(self.send, self.low + low * width, self.low + high * width, step or self.step)
+
+
+Wish = Callable[[Progress], object] | Reporter | bool | None
+"""What the argument ``progress`` may be: ``True`` shows a bar, a callable receives each :class:`Progress`."""
+
+
+def shows_progress(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
+    """Let ``progress=True`` of a function show a bar on the error stream, or in the notebook."""
+
+    @wraps(function)
+    def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Value:
+        if kwargs.get("progress") is not True:
+            return function(*args, **kwargs)
+        with bar("") as shown:
+            kwargs["progress"] = shown
+            return function(*args, **kwargs)
+
+    return wrapper
+
+
+@contextmanager
+def bar(step: str, console: Console | None = None) -> Iterator[Reporter]:
+    """Show a bar that appears if the work takes longer than a moment.
+
+    Parameters
+    ----------
+    step : str
+        The first step, in words.
+    console : rich.console.Console, optional
+        By default the error stream, or the notebook.
+
+    Yields
+    ------
+    Reporter
+        Moves the bar.
+    """
+    shown = _bar(console)
+    task = shown.add_task(step, total=1.0)
+    timer = threading.Timer(PATIENCE, shown.start)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield Reporter(lambda report: shown.update(task, completed=report.share, description=report.step))
+    finally:
+        timer.cancel()
+        timer.join()
+        shown.stop()
+
+
+def _bar(console: Console | None) -> rich.progress.Progress:
+    """Return a bar with clock and words; a narrow terminal shortens first the bar, then the words, never the clock."""
+    from rich.console import Console
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+    from rich.table import Column
+
+    clock = TimeElapsedColumn(table_column=Column(no_wrap=True, min_width=_CLOCK))
+    columns = (BarColumn(bar_width=30), clock, TextColumn("{task.description}", markup=False))
+    return Bar(*columns, console=console or Console(stderr=True), transient=True)
