@@ -59,9 +59,11 @@ class PeriodCondition:
 
     def __init__(self, system: System, slip: int = 1) -> None:
         arrays = system.arrays
-        row, column, driven = arrays.rows[0], arrays.columns[:, 0], arrays.driven
+        row, column = arrays.rows[0], arrays.columns[:, 0]
         self.factor = complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0])
-        self.modes = np.array([system.exponents, row * column, row * np.roll(column, 1) * driven]).T.copy()
+        self.modes = np.zeros((len(row), 3), complex)
+        self.modes[:, 0], self.modes[:, 1] = system.exponents, row * column
+        self.modes[1:, 2] = row[1:] * column[:-1] * arrays.driven[1:]
 
     def a12(self, periods: np.ndarray) -> np.ndarray:
         """``a₁₂(T)``, complex, of the shape of ``periods``."""

@@ -55,5 +55,6 @@ def multipliers(jacobian: np.ndarray) -> Multipliers:
     -------
     Multipliers
     """
+    # Conjugates are exact, so that their moduli are equal.
     values = np.linalg.eigvals(jacobian).astype(complex).tolist()
-    return Multipliers(np.array(sorted(values, key=lambda value: (-round(abs(value), 12), -value.imag))))
+    return Multipliers(np.array(sorted(values, key=lambda value: (-abs(value), -value.imag))))
