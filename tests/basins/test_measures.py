@@ -61,7 +61,7 @@ def test_integrity_of_kicks_agrees_between_pictures():
     rotor = carom.models.Jeffcott(MACHINE)
     rings = integrity(map_basins(rotor, Grid(VelocityKick(1.0), (80, 90))))
     plane = integrity(map_basins(rotor, Grid(KickPlane(1.0), (80, 80))))
-    smallest = carom.basins.smallest_unrecovered_kick(rotor, 1.0)
+    smallest = carom.basins.smallest_loss(rotor, VelocityKick(1.0))
     assert rings.local == pytest.approx(smallest.size, abs=1.5 / 80)
     assert plane.local == pytest.approx(smallest.size, abs=3.0 / 80)
     assert plane.largest >= plane.local - 2.0 / 80

@@ -21,7 +21,6 @@ from carom.disturbances import (
     StateSlice,
     UnbalanceStep,
     VelocityKick,
-    kick_grid,
 )
 from carom.outcome import InputError
 
@@ -135,12 +134,6 @@ def test_rescaling_keeps_what_happens_in_si():
     slice_ = StateSlice(0.1 + 0.2j).rescaled(SCALES, other)
     assert slice_.velocity * other.velocity == pytest.approx((0.1 + 0.2j) * SCALES.velocity)
     assert shock.rescaled(None, None) is shock
-
-
-def test_the_plane_of_kicks_by_its_short_name():
-    plan = kick_grid(radial=8, tangential=6, fastest=0.4)
-    assert plan == Grid(KickPlane(0.4), (8, 6))
-    assert plan.starts(carom.models.Jeffcott(QUIET)).positions.shape == (8, 6)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from matplotlib.contour import QuadContourSet
 import carom
 from carom import plots
 from carom.attractors import MotionName
-from carom.basins import least_gain_change, map_basins, map_gains, smallest_unrecovered_kick
+from carom.basins import least_gain_change, map_basins, map_gains, smallest_loss
 from carom.disturbances import (
     AnyState,
     BaseShock,
@@ -88,7 +88,7 @@ def grey(colour):
 
 def test_kicks_by_size_and_direction(rotor):
     basin = map_basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
-    smallest = smallest_unrecovered_kick(rotor, 1.0)
+    smallest = smallest_loss(rotor, VelocityKick(1.0))
     figure = plots.basin(basin, smallest)
     green = np.array(to_rgb(plots.OUTCOMES["levitated"].colour))
     shown = np.isclose(painted(figure), green).all(axis=1)

@@ -18,7 +18,7 @@ from carom.basins.classification import Basin, map_basins
 from carom.basins.entropy import BasinEntropy, basin_entropy
 from carom.basins.gains import GainMap, map_gains
 from carom.basins.integrity_measures import Integrity, integrity
-from carom.basins.losses import SmallestLoss, smallest_loss, smallest_unrecovered_kick
+from carom.basins.losses import SmallestLoss, smallest_loss
 from carom.basins.shares import Share
 
 __all__ = [
@@ -35,5 +35,4 @@ __all__ = [
     "map_basins",
     "map_gains",
     "smallest_loss",
-    "smallest_unrecovered_kick",
 ]

@@ -29,7 +29,7 @@ from carom.models import Jeffcott, Subject, model_of
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, Wish, shows_progress
 
-__all__ = ["SmallestLoss", "has_sizes", "smallest_loss", "smallest_unrecovered_kick"]
+__all__ = ["SmallestLoss", "has_sizes", "smallest_loss"]
 
 DIRECTIONS, SIZES = 96, 96
 TOLERANCE = 1e-3
@@ -197,49 +197,6 @@ def smallest_loss(
             return search.result(below, fresh)
         search.close_in(TURN / directions)
     return search.result(family.harmless or None, 0)
-
-
-@shows_progress
-def smallest_unrecovered_kick(
-    machine: Subject,
-    fastest: float = FASTEST,
-    *,
-    directions: int = DIRECTIONS,
-    speeds: int = SIZES,
-    tolerance: float = TOLERANCE,
-    threads: int | None = None,
-    progress: Wish = None,
-) -> SmallestLoss | None:
-    """Search the smallest kick out of levitation that does not come back; see :func:`smallest_loss`.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-    fastest : float
-        Largest kick tried, in ``c_r Ω``.
-    directions, speeds : int
-        Numbers of directions and speeds in the scan.
-    tolerance : float
-    threads : int, optional
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    SmallestLoss or None
-        ``None`` if every kick tried comes back.
-
-    Raises
-    ------
-    InputError
-        The rotor cannot levitate inside the wall, or its levitation is unstable.
-    """
-    rotor = model_of(machine)
-    model = VelocityKick(fastest)
-    found = smallest_loss(
-        rotor, model, directions=directions, sizes=speeds, tolerance=tolerance, threads=threads, progress=progress
-    )
-    return None if found.size is None else found
 
 
 def _family(rotor: Jeffcott, model: Disturbance) -> _Family:

@@ -26,7 +26,7 @@ from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.disturbances.kinds import MODELS
 from carom.disturbances.model import FASTEST, Disturbance
-from carom.disturbances.plans import Grid, Plan, Sample, kick_grid
+from carom.disturbances.plans import Grid, Plan, Sample
 from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
 
 __all__ = [
@@ -46,6 +46,5 @@ __all__ = [
     "StateSlice",
     "UnbalanceStep",
     "VelocityKick",
-    "kick_grid",
     "outward_from",
 ]

@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING, Self, TypeAlias
 
 import numpy as np
 
-from carom.disturbances.blows import KickPlane
 from carom.disturbances.coordinates import Starts
-from carom.disturbances.model import FASTEST, Disturbance
+from carom.disturbances.model import Disturbance
 from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
     from carom.models import Jeffcott
 
-__all__ = ["Grid", "Plan", "Sample", "kick_grid"]
+__all__ = ["Grid", "Plan", "Sample"]
 
 
 @dataclass(frozen=True)
@@ -96,16 +95,3 @@ class Sample(_Plan):
 
 
 Plan: TypeAlias = Grid | Sample
-
-
-def kick_grid(radial: int = 100, tangential: int = 100, fastest: float = FASTEST) -> Grid:
-    """Grid of velocity kicks out of levitation, by their radial and tangential parts.
-
-    Parameters
-    ----------
-    radial, tangential : int
-        Numbers of cells.
-    fastest : float
-        Largest part, in ``c_r Ω``.
-    """
-    return Grid(KickPlane(fastest), (radial, tangential))
