@@ -175,7 +175,7 @@ def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] 
 def steady_range(parameters: Parameters, motion: Steady, gain: Gain) -> MotionRange:
     """Return where a steady motion exists (:func:`~carom.closed_forms.thresholds.ranges_of`).
 
-    Where a synchronous rub exists along the damping, or along the stiffness of a damped rotor, a stable one exists.
+    Where a synchronous rub exists with positive damping, a stable one does too, unless the restitution is one.
     """
     spans = tuple(Span(Edge(*low), Edge(*high)) for low, high in ranges_of(motion, parameters, gain))
     return MotionRange(motion, gain, spans)
