@@ -115,7 +115,7 @@ def test_unknown_gain():
 # ------------------------------------------------------------------------------------------------ synchronous rub
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(parameters=degenerate)
 def test_stable_rub_exists_where_an_equilibrium_is_one(parameters):
     assume(clear(parameters))
@@ -126,7 +126,7 @@ def test_stable_rub_exists_where_an_equilibrium_is_one(parameters):
 
 
 @pytest.mark.parametrize("gain", ["gamma", "omega"])
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=120, deadline=None)
 @given(parameters=degenerate, value=st.floats(0.02, 2.0))
 def test_range_of_the_rub_for_either_sign_of_the_damping(gain, parameters, value):
     assume(gain == "gamma" or abs(parameters.gamma) + abs(value - 1.0) > 1e-8)
