@@ -138,6 +138,23 @@ def test_range_of_the_rub_for_either_sign_of_the_damping(gain, parameters, value
     assert any(low.value <= value <= high.value for low, high in found) == any(rub.normal_force > 0.0 for rub in rubs)
 
 
+@pytest.mark.parametrize("mu", [0.15, 1.0, 4.0])
+@pytest.mark.parametrize("edge", [1.0, -1.0])
+@pytest.mark.parametrize("ahead", [0.5, -0.5])
+def test_rubs_next_to_the_fold_on_both_sides_of_where_it_touches_the_circle(mu, edge, ahead):
+    """Just inside the strip, outside of the disc: the rubs are pressed on the wall towards larger ``κ`` only."""
+    rho, slope = 0.4, math.hypot(1.0, mu)
+    kappa = rho * (0.99 * edge * mu + ahead) / slope
+    gamma = rho * (0.99 * edge - ahead * mu) / slope
+    machine = PAPER.replace(gamma=gamma, omega=math.sqrt(1.0 - kappa), rho=rho, mu=mu)
+    rubs = find_equilibria(Jeffcott(machine))[1:]
+
+    assert [rub.normal_force > 0.0 for rub in rubs] == [ahead > 0.0] * 2
+    assert has_stable_rub(machine) == any(rub.stable for rub in rubs) == (ahead > 0.0 and gamma + 2.0 * mu > 0.0)
+    found = ranges_of("rub", machine, "omega")
+    assert any(low.value <= machine.omega <= high.value for low, high in found) == (ahead > 0.0)
+
+
 @pytest.mark.parametrize("gamma", [-0.4, -0.31, -0.29, -0.05, 0.05])
 def test_motions_of_a_machine_with_negative_damping(gamma):
     """Friction damps the rub down to γ = −2μ."""

@@ -176,7 +176,7 @@ def happens_to_rubs(at: Values) -> bool:
 
 def has_stable_rub(at: Values) -> bool:
     """Whether a stable synchronous rub, pressed on the wall, exists; for either sign of the damping."""
-    strip = at.rho > 0.0 and boundary_balance(at) > 0.0 and rub_fold_condition(at) > 0.0
+    strip = boundary_balance(at) > 0.0 and rub_fold_condition(at) > 0.0
     return (strip or wall_condition(at) > 0.0) and at.gamma + 2.0 * at.mu > 0.0 and at.d < 1.0
 
 
