@@ -32,9 +32,6 @@ LONG = {
     "map_basins": lambda **given: carom.map_basins(PAPER, KICKS, **given),
     "map_gains": lambda **given: carom.map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2), **given),
     "smallest_loss": lambda **given: basins.smallest_loss(PAPER, VelocityKick(0.5), directions=8, sizes=8, **given),
-    "smallest_unrecovered_kick": lambda **given: basins.smallest_unrecovered_kick(
-        PAPER, 0.5, directions=8, speeds=8, **given
-    ),
     "least_safe_damping": lambda **given: least_safe_damping(DAMPED, count=60, **given),
 }
 

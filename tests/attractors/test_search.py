@@ -7,7 +7,7 @@ import carom
 from carom.attractors import find_attractors, following
 from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
-from carom.disturbances import Starts
+from carom.disturbances import BaseShock, Grid, KickPlane, Sample, Starts
 from carom.models import Jeffcott
 from carom.motions import ensembles, trajectories
 from carom.motions.ensembles import Endings
@@ -209,6 +209,26 @@ def test_given_starts_replace_the_sample():
     assert [ending.start.kind for ending in found.endings] == ["kick", "start"]
     assert found.endings[0].recovered
     assert found.fastest == 1.0
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("plan", [Grid(BaseShock(2.5, 0.9), (6, 8)), Sample(KickPlane(0.4), 60, seed=2)])
+def test_any_plan_ends_as_its_basins_do(plan):
+    rotor = Jeffcott(SOURCE.replace(gamma=0.15, rho=0.3))
+    found, basin = find_attractors(rotor, plan, known=False), carom.map_basins(rotor, plan)
+
+    assert [ending.attractor for ending in found.endings] == [
+        basin.motions[place] for place in basin.dataset["motion"].values[basin.exists]
+    ]
+    assert [ending.touched for ending in found.endings] == basin.touched[basin.exists].tolist()
+    assert [ending.time for ending in found.endings] == basin.dataset["time"].values[basin.exists].tolist()
+    kicks = {ending.start.kind for ending in found.endings} == {"kick"}
+    assert kicks == isinstance(plan.model, KickPlane)
+
+
+def test_kicks_out_of_no_levitation_are_an_error():
+    with pytest.raises(InputError, match="one that is possible"):
+        find_attractors(Jeffcott(SOURCE.replace(gamma=0.05)), Sample(KickPlane(0.4), 10))
 
 
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):

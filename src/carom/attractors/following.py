@@ -65,7 +65,10 @@ class Ending:
 
     @cached_property
     def hardest_impulse(self) -> float:
-        """Largest normal impulse until then, in ``m c_r Ω``; the motion is simulated again to find it."""
+        """Largest normal impulse until then, in ``m c_r Ω``.
+
+        The motion is simulated again to find it; one that is irregular for long may then take another course.
+        """
         if not self.impacts:
             return 0.0
         motion = simulate(self.rotor, self.start.state, self.time)
