@@ -14,7 +14,7 @@ import numpy as np
 
 from carom.outcome import InputError
 
-__all__ = ["Result", "in_a_line"]
+__all__ = ["Result", "fields_of", "in_a_line"]
 
 WIDEST = 120
 """Largest number of characters of a line, without the name before it."""
@@ -68,6 +68,16 @@ class Result:
         names = self.shown or tuple(field.name for field in dataclasses.fields(self))  # type: ignore[arg-type]
         values = [(name, getattr(self, name)) for name in names]
         return [(name, in_a_line(value)) for name, value in values if not callable(value)]
+
+
+def fields_of(entry: object, *names: str, **renamed: str) -> dict[str, Any]:
+    """Attributes as plain data for JSON, under their own names or under others: ``ends="stops"``."""
+    keys = dict(zip(names, names, strict=True)) | renamed
+    values = {key: getattr(entry, name) for key, name in keys.items()}
+    return {
+        key: value.tolist() if isinstance(value, np.ndarray) else list(value) if type(value) is tuple else value
+        for key, value in values.items()
+    }
 
 
 def in_a_line(value: object) -> str:

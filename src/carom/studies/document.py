@@ -25,6 +25,7 @@ from carom.motions.trajectories import Trajectory
 from carom.orbits.single_impact import Orbit, OrbitSet
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
+from carom.results import fields_of
 from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone
 from carom.studies.endings import came_back, hardest_impulse, largest_all_back, touching
@@ -60,7 +61,7 @@ def orbits_document(
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
         "equilibria": [_equilibrium(entry, parameters) for entry in equilibria],
         "orbits": [_orbit(entry, scales) for entry in orbits],
-        **_fields(orbits, "complete", "longest_period", "argument"),
+        **fields_of(orbits, "complete", "longest_period", "argument"),
     }
 
 
@@ -78,7 +79,7 @@ def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
         "time": trajectory.time,
         "impacts": [dict(zip(keys, map(float, impact), strict=True)) for impact in impacts],
         "contacts": [
-            {"kind": contact.kind, "phase": contact.phase.label, **_fields(contact, "start", "end")}
+            {"kind": contact.kind, "phase": contact.phase.label, **fields_of(contact, "start", "end")}
             for contact in trajectory.lasting_contacts
         ],
         "final": _state(trajectory.final),
@@ -124,7 +125,7 @@ def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
     document = {
         "kind": entry.kind,
         "U": entry.position,
-        **_fields(entry, "radius", "normal_force", "status", "stable"),
+        **fields_of(entry, "radius", "normal_force", "status", "stable"),
         "eigenvalues": list(entry.eigenvalues),
     }
     if scales is not None:
@@ -137,9 +138,9 @@ def _equilibrium(entry: Equilibrium, parameters: Parameters) -> dict[str, Any]:
 
 def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
     document = {
-        **_fields(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed"),
+        **fields_of(entry, "name", "impacts", "period", "radial_speed", "angle", "angular_speed"),
         "multipliers": list(entry.multipliers.values),
-        **_fields(entry, "stable", "admissible", "reason"),
+        **fields_of(entry, "stable", "admissible", "reason"),
     }
     if scales is not None:
         impulse = (1.0 + entry.rotor.parameters.d) * entry.radial_speed
@@ -148,10 +149,6 @@ def _orbit(entry: Orbit, scales: Scales | None) -> dict[str, Any]:
         document["normal_impulse_si"] = impulse * scales.impulse
         document |= _wall(indentation_of_hit(entry.rotor.parameters, entry.radial_speed))
     return document
-
-
-def _fields(entry: Any, *names: str) -> dict[str, Any]:
-    return {name: getattr(entry, name) for name in names}
 
 
 def _value_in_si(say: Wording, gain: Gain, value: float) -> dict[str, Any]:
@@ -166,7 +163,7 @@ def _state(state: State) -> dict[str, complex]:
 
 
 def _scales(scales: Scales) -> dict[str, float]:
-    return _fields(
+    return fields_of(
         scales, "length", "time", "velocity", "acceleration", "force", "impulse", "energy", "damping", "stiffness"
     )
 
@@ -177,7 +174,7 @@ def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
         "kind": entry.edge.kind,
         "exists": entry.exists,
         "parameter": entry.gain,
-        **_fields(entry.edge, "value", "period", "certified"),
+        **fields_of(entry.edge, "value", "period", "certified"),
         **_value_in_si(say, entry.gain, entry.edge.value),
     }
 
@@ -185,9 +182,11 @@ def _threshold(entry: Threshold, say: Wording) -> dict[str, Any]:
 def _boundary(entry: BoundaryEquilibrium, say: Wording) -> dict[str, Any]:
     return {
         "parameter": entry.gain,
-        **_fields(entry, "value", "levitates", "kind"),
+        **fields_of(entry, "value", "levitates", "kind"),
         "orbits": [
-            _fields(orbit, "name", "levitating_side", "stable", "period") for orbit in entry.orbits if orbit.admissible
+            fields_of(orbit, "name", "levitating_side", "stable", "period")
+            for orbit in entry.orbits
+            if orbit.admissible
         ],
         "complete": entry.complete,
         **_value_in_si(say, entry.gain, entry.value),
@@ -225,21 +224,21 @@ def _alone(entry: LevitationAlone) -> dict[str, Any]:
         "values": list(entry.values),
         "disturbances": entry.disturbances,
         "on_the_wall": entry.rim,
-        **_fields(entry, "seed", "fastest"),
+        **fields_of(entry, "seed", "fastest"),
     }
 
 
 def _advice(entry: Advice, say: Wording) -> dict[str, Any]:
     document: dict[str, Any] = {
         "parameter": entry.gain,
-        **_fields(entry, "value", "change"),
+        **fields_of(entry, "value", "change"),
         "levitation_alone": entry.alone,
         "margin": entry.margin,
         "disturbances": entry.returned.total,
         "recovered": entry.returned.count,
         "share_low": entry.returned.low,
         "share_high": entry.returned.high,
-        **_fields(entry, "seed", "fastest"),
+        **fields_of(entry, "seed", "fastest"),
         **_value_in_si(say, entry.gain, entry.value),
     }
     if say.scales is not None:
@@ -254,9 +253,9 @@ def _attractor(entry: Attractor, parameters: Parameters) -> dict[str, Any]:
         "outcome": entry.name.outcome.label,
         "settled": entry.settled,
         "multiplicity": entry.name.multiplicity,
-        **_fields(entry, "period", "whirl", "count", "share"),
+        **fields_of(entry, "period", "whirl", "count", "share"),
         "known_starts": entry.known,
-        **_fields(entry, "largest_impulse", "largest_force"),
+        **fields_of(entry, "largest_impulse", "largest_force"),
         **document_of(entry.survival),
     }
     if scales is not None:
@@ -295,15 +294,15 @@ def _ending(entry: Ending) -> dict[str, Any]:
     return {
         "kind": entry.start.kind,
         "start": _state(entry.start.state),
-        **_fields(entry, "attractor", "time", "impacts", "hardest_impulse"),
+        **fields_of(entry, "attractor", "time", "impacts", "hardest_impulse"),
     }
 
 
 def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
-    limits = _fields(safe, "within_reach", "at_all", "rub", "orbits", "simulated", "rolling")
+    limits = fields_of(safe, "within_reach", "at_all", "rub", "orbits", "simulated", "rolling")
     return {
         **{name: _limit(limit, scales) if limit else None for name, limit in limits.items()},
-        **_fields(safe, "lowest", "highest"),
+        **fields_of(safe, "lowest", "highest"),
         "disturbances": safe.sample.count,
         "seed": safe.sample.seed,
         "fastest": safe.sample.fastest,
@@ -315,12 +314,12 @@ def _safe_damping(safe: SafeDamping, scales: Scales | None) -> dict[str, Any]:
 
 
 def _check(check: DampingCheck) -> dict[str, Any]:
-    sample = _fields(check.sample, "fastest", "seed", "count")
-    return {"gamma": check.gamma, **sample, **_fields(check, "lost", "share_below")}
+    sample = fields_of(check.sample, "fastest", "seed", "count")
+    return {"gamma": check.gamma, **sample, **fields_of(check, "lost", "share_below")}
 
 
 def _limit(limit: DampingLimit, scales: Scales | None) -> dict[str, Any]:
-    document = _fields(limit, "motion", "gamma", "above", "evidence")
+    document = fields_of(limit, "motion", "gamma", "above", "evidence")
     if scales is not None:
         document["gamma_si"] = limit.gamma * scales.damping
         document["above_si"] = limit.above * scales.damping
@@ -335,7 +334,7 @@ def _wall(indentation: float) -> dict[str, Any]:
 def _rolling(rotor: Jeffcott) -> dict[str, Any]:
     """Return whether rolling backward whirl sustains itself, with its speed and force."""
     roll, scales = rolling(rotor), rotor.scales
-    document = _fields(roll, "holds", "speed", "largest_force")
+    document = fields_of(roll, "holds", "speed", "largest_force")
     if scales is not None:
         document["largest_force_si"] = roll.largest_force * scales.force
         document |= _wall(indentation_of_force(rotor.parameters, roll.largest_force))
