@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar
@@ -185,36 +186,33 @@ def _orbits(parameters: Parameters) -> Iterator[Orbit]:
         yield from (orbit for orbit in find_orbits(Jeffcott(parameters), longest) if orbit.slip > 0)
 
 
+def _steps_at(values: np.ndarray, value: float) -> list[int]:
+    """Steps of a branch that pass a value of the parameter; each by the index of its first point."""
+    slack = 1e-9 * float(np.ptp(values))
+    low, high = np.sort([values[:-1], values[1:]], axis=0) - value
+    return np.flatnonzero((low <= slack) & (high >= -slack)).tolist()
+
+
 def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     """Whether a branch passes through an orbit.
 
     Where the branch passes the value, its orbit there is found by Newton's method from both neighbouring points.
     """
-    slack = 1e-9 * abs(branch.values.max() - branch.values.min())
-    offset = branch.values - value
-    first, last = np.minimum(offset[:-1], offset[1:]), np.maximum(offset[:-1], offset[1:])
     numbers = Numbers.of(orbit.rotor.parameters)
-    for i in np.flatnonzero((first <= slack) & (last >= -slack)):
-        for end in (i, i + 1):
-            found = corrected(numbers, float(branch.period[end]), float(branch.radial_speed[end]))
-            if max(abs(found[0] - orbit.period), abs(found[1] - orbit.radial_speed)) < SAME * (1.0 + orbit.period):
-                return True
+    for end in (end for i in _steps_at(branch.values, value) for end in (i, i + 1)):
+        found = corrected(numbers, float(branch.period[end]), float(branch.radial_speed[end]))
+        if max(abs(found[0] - orbit.period), abs(found[1] - orbit.radial_speed)) < SAME * (1.0 + orbit.period):
+            return True
     return False
 
 
 def _rubs_alike(motion: RubbingOrbit, value: float, branch: RubbingBranch) -> bool:
     """Whether a branch passes through a motion with lasting contact."""
-    if branch.whirl != motion.whirl:
-        return False
-    offset = branch.values - value
-    slack = 1e-9 * float(np.ptp(branch.values))
-    for i in np.flatnonzero(
-        (np.minimum(offset[:-1], offset[1:]) <= slack) & (np.maximum(offset[:-1], offset[1:]) >= -slack)
-    ):
-        width = offset[i + 1] - offset[i]
-        share = -offset[i] / width if width else 0.0
+    for i in _steps_at(branch.values, value) if branch.whirl == motion.whirl else ():
+        width = branch.values[i + 1] - branch.values[i]
+        share = (value - branch.values[i]) / width if width else 0.0
         angle = branch.angle[i] + share * (branch.angle[i + 1] - branch.angle[i])
         period = branch.period[i] + share * (branch.period[i + 1] - branch.period[i])
-        if abs(np.remainder(angle - motion.angle + np.pi, 2.0 * np.pi) - np.pi) < SAME_ANGLE:
+        if abs(math.remainder(angle - motion.angle, math.tau)) < SAME_ANGLE:
             return bool(abs(period / motion.period - 1.0) < SAME_ANGLE)
     return False

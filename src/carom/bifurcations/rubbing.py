@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import pairwise
 from typing import Literal
 
@@ -38,7 +39,7 @@ from carom.bifurcations.lift_offs import (
 )
 from carom.bifurcations.points import Bifurcation, MotionKind
 from carom.continuation import Steps, Watch, continue_branch
-from carom.continuation.roots import bracketed_root
+from carom.continuation.roots import bracketed_root, sign_change
 from carom.models import Jeffcott
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, InputError
@@ -192,12 +193,17 @@ def rubbing_orbits(
     whirls: tuple[Whirl, Whirl] = (1, -1)
     for whirl in whirls:
 
+        @cache
         def shift(angle: float, whirl: Whirl = whirl) -> float:
             return shift_of(next_lift_off(rotor, whirl, angle, longest), whirl, angle)
 
-        for low, high in _brackets(shift, angles):
+        for neighbours in pairwise(angles):
+            bracket = sign_change(shift, *neighbours, HALVINGS)
+            # A change of sign through ±π, or a jump, is no fixed point.
+            if bracket is None or abs(shift(bracket[0])) + abs(shift(bracket[1])) >= math.pi:
+                continue
             try:
-                angle = bracketed_root(shift, low, high, 1e-13)
+                angle = bracketed_root(shift, *bracket, 1e-13)
             except CaromError:
                 continue
             here = next_lift_off(rotor, whirl, angle, longest)
@@ -330,28 +336,3 @@ def _why_it_ends(course: list[LiftOff], end: Literal[0, -1]) -> str:
     if len(course) > 1 and last.landing_force < FORCE_SHARE * max(entry.landing_force for entry in course):
         return "contact-onset" if last.contact_time < 0.5 * last.time else "permanent-contact"
     return "longest period" if last.time > 0.98 * LONGEST else "other contacts"
-
-
-def _brackets(shift: Callable[[float], float], angles: list[float]) -> list[tuple[float, float]]:
-    """Intervals that contain a fixed point of the map, including those next to angles without a next lift-off."""
-    brackets = []
-
-    def note(low: float, at_low: float, high: float, at_high: float) -> None:
-        # A change of sign through ±π, or a jump, is no fixed point.
-        if at_low * at_high < 0.0 and abs(at_low) + abs(at_high) < math.pi:
-            brackets.append((min(low, high), max(low, high)))
-
-    values = [shift(angle) for angle in angles]
-    for (low, at_low), (high, at_high) in pairwise(zip(angles, values, strict=True)):
-        note(low, at_low, high, at_high)
-        if math.isnan(at_low) != math.isnan(at_high):
-            inner, at_inner, outer = (high, at_high, low) if math.isnan(at_low) else (low, at_low, high)
-            for _ in range(HALVINGS):
-                middle = 0.5 * (inner + outer)
-                value = shift(middle)
-                if math.isnan(value):
-                    outer = middle
-                else:
-                    note(inner, at_inner, middle, value)
-                    inner, at_inner = middle, value
-    return brackets

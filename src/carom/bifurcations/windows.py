@@ -296,23 +296,23 @@ def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[flo
 
 def _arcs(branch: OrbitBranch) -> list[_Arc]:
     """Parts of a branch between its special points; along each the parameter is monotone."""
-    marks = [
-        (0.0, _branch_end(branch, 0)),
-        *(
-            (point.place, WindowEnd(point.value, point.kind, point.name, point.period, point.radial_speed))
-            for point in branch.special
-        ),
-        (len(branch) - 1.0, _branch_end(branch, -1)),
-    ]
+    special, inner = branch.special, len(branch) - 2
+    course = np.column_stack([branch.values, branch.period, branch.radial_speed])
+    ends = [WindowEnd(point.value, point.kind, point.name, point.period, point.radial_speed) for point in special]
+    marks = [_branch_end(branch, 0), *ends, *([None] * inner), _branch_end(branch, -1)]
+    rows = [course[0], *([end.value, end.period, end.radial_speed] for end in ends), *course[1:]]
+    # A special point at the end of the branch comes before that end.
+    order = np.argsort([0.0, *(point.place for point in special), *range(1, len(branch))], kind="stable").tolist()
+    course, at = np.array([rows[k] for k in order]), [(i, marks[k]) for i, k in enumerate(order)]
     arcs = []
-    for (start, one), (end, other) in pairwise(sorted(marks, key=lambda mark: mark[0])):
+    for (start, one), (end, other) in pairwise((i, mark) for i, mark in at if mark is not None):
         low, high = sorted((one, other), key=lambda mark: mark.value)
         if high.value - low.value <= 1e-14 * abs(high.value):
             continue
-        at = _halfway(branch, (start, one), (end, other))
-        if at is not None:
-            possible = is_admissible(*at)
-            stable = possible and float(np.abs(np.linalg.eigvals(jacobian_at(*at))).max()) < 1.0
+        halfway = _halfway(branch, course[start : end + 1])
+        if halfway is not None:
+            possible = is_admissible(*halfway)
+            stable = possible and float(np.abs(np.linalg.eigvals(jacobian_at(*halfway))).max()) < 1.0
             arcs.append(_Arc(low, high, possible, stable))
     return arcs
 
@@ -326,34 +326,18 @@ def _branch_end(branch: OrbitBranch, end: Literal[0, -1]) -> WindowEnd:
     return WindowEnd(value, kind, branch.names[end], period, float(branch.radial_speed[end]))
 
 
-def _halfway(
-    branch: OrbitBranch, start: tuple[float, WindowEnd], end: tuple[float, WindowEnd]
-) -> tuple[Numbers, float, float] | None:
-    """Orbit in the middle of an arc; ``None`` if Newton's method does not converge to one."""
-    inner = np.arange(int(np.floor(start[0])) + 1, int(np.ceil(end[0])))
-    ends = [_at_mark(branch, mark) for mark in (start, end)]
-    values = np.array([ends[0][0], *branch.values[inner], ends[1][0]])
-    periods = np.array([ends[0][1], *branch.period[inner], ends[1][1]])
-    speeds = np.array([ends[0][2], *branch.radial_speed[inner], ends[1][2]])
-    order = np.argsort(values)
-    middle = 0.5 * float(values[0] + values[-1])
-    guess = (float(np.interp(middle, values[order], course[order])) for course in (periods, speeds))
+def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, float] | None:
+    """Orbit in the middle of an arc; ``None`` if Newton's method does not converge to one.
+
+    ``course`` holds the parameter, period and radial speed along the arc, shape (m, 3).
+    """
+    middle = 0.5 * float(course[0, 0] + course[-1, 0])
+    values, *others = course[np.argsort(course[:, 0])].T
     numbers = branch.axis.set(branch.numbers[0], middle)
     if branch.numbers[0].mu < 0.0:
         numbers = numbers._replace(mu=-abs(numbers.mu))
-    period, speed = corrected(numbers, *guess)
+    period, speed = corrected(numbers, *(float(np.interp(middle, values, other)) for other in others))
     return (numbers, period, speed) if np.isfinite([period, speed]).all() and period > 0.0 else None
-
-
-def _at_mark(branch: OrbitBranch, mark: tuple[float, WindowEnd]) -> tuple[float, float, float]:
-    place, end = mark
-    if end.period is None or end.radial_speed is None:
-        return (
-            float(branch.values[int(place)]),
-            float(branch.period[int(place)]),
-            float(branch.radial_speed[int(place)]),
-        )
-    return end.value, end.period, end.radial_speed
 
 
 def _joined(pieces: Iterable[Window]) -> tuple[Window, ...]:

@@ -12,7 +12,7 @@ from carom.outcome import CaromError
 __all__ = ["bracketed_root", "sign_change"]
 
 HALVINGS = 30
-"""Halvings of an interval after which a function is taken to have one sign wherever it is defined."""
+"""Default number of halvings."""
 
 
 def bracketed_root(function: Callable[[float], float], low: float, high: float, tolerance: float = 0.0) -> float:
@@ -64,7 +64,9 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     return high if abs(above) < abs(below) else low
 
 
-def sign_change(function: Callable[[float], float], low: float, high: float) -> tuple[float, float] | None:
+def sign_change(
+    function: Callable[[float], float], low: float, high: float, halvings: int = HALVINGS
+) -> tuple[float, float] | None:
     """Part of an interval at whose ends a function has opposite signs.
 
     If a function is ``nan`` at one end, the point is approached at which it begins to be defined: a new maximum of the
@@ -84,7 +86,7 @@ def sign_change(function: Callable[[float], float], low: float, high: float) -> 
     if math.isnan(below) == math.isnan(above):
         return (low, high) if below * above < 0.0 else None
     undefined, defined, known = (low, high, above) if math.isnan(below) else (high, low, below)
-    for _ in range(HALVINGS):
+    for _ in range(halvings):
         middle = 0.5 * (undefined + defined)
         value = function(middle)
         if value * known < 0.0:
