@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 from carom import Machine, find_bifurcations, find_orbits
-from carom.bifurcations import KINDS, Bifurcation, Curve, Plane, continue_curve, continue_orbit
+from carom.bifurcations import KINDS, Bifurcation, Curve, Numbers, Plane, continue_curve, continue_orbit
 from carom.bifurcations.passing import passes
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
@@ -164,6 +164,8 @@ def test_inputs_that_cannot_be_used():
         Plane("gamma", "omega", (0.3, 0.1), (0.5, 1.0))
     with pytest.raises(InputError, match="one of: fold"):
         continue_curve(Bifurcation.near("hopf", PAPER), PLANE)
+    with pytest.raises(InputError, match="forward slip"):
+        continue_curve(Bifurcation("fold", Numbers.of(PAPER)._replace(mu=-0.15), 1.6, 0.5, "R1,b"), PLANE)
     with pytest.raises(InputError, match="one of an orbit"):
         _ = Bifurcation.near("rub-fold", PAPER).orbit
     with pytest.raises(InputError, match="a point of the plane"):

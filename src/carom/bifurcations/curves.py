@@ -33,6 +33,7 @@ from carom.results import Result
 
 __all__ = ["KINDS", "Codimension2Point", "Curve", "can_be_followed", "continue_curve"]
 
+Function = Callable[[np.ndarray, float], np.ndarray]
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 BEND = 5e-5
 """Largest distance of a curve from the straight lines between its points, in widths of the plane."""
@@ -193,6 +194,8 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         No such bifurcation near the start.
     """
     kind, base = bifurcation.kind, bifurcation.numbers
+    if base.mu < 0.0:
+        raise InputError("bifurcation", f"{kind} of {bifurcation.name}", "one of an orbit with forward slip")
     first, second = plane.axes(base.parameters)
     start = np.array(plane.place_of(base))
     lows, highs = np.transpose([plane.first_range, plane.second_range])
@@ -223,7 +226,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
     bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), ends_branch=True)] if definition.unknowns else []
     sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
-    equations, jacobian = _equations(kind, numbers), _jacobian(kind, numbers_at)
+    equations, jacobian = _system(kind, numbers_at)
     scales = np.array([*np.ones(definition.unknowns), *sizes])
     branch = continue_branch(
         equations,
@@ -255,39 +258,28 @@ def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:
     return (float(unknowns[0]), float(unknowns[1])) if KINDS[kind].unknowns else (1.0, 0.0)
 
 
-def _equations(kind: str, numbers: Callable[[np.ndarray, float], Numbers]) -> Callable[[np.ndarray, float], np.ndarray]:
+def _system(kind: str, numbers_at: Callable[..., Numbers]) -> tuple[Function, Function]:
+    """Equations of a curve and their exact derivatives."""
     test = TESTS[kind]
 
     def equilibrium(u: np.ndarray, p: float) -> np.ndarray:
-        return np.array([test(numbers(u, p), 1.0, 0.0)])
+        return np.array([test(numbers_at(float(u[0]), p), 1.0, 0.0)])
 
-    def grazing(u: np.ndarray, p: float) -> np.ndarray:
-        if not 0.0 < u[2] < u[0]:
-            return np.full(4, np.nan)
-        at = numbers(u, p), float(u[0]), float(u[1])
-        return np.array([*conditions_at(*at)[:2], *grazing_equations(*at, float(u[2]))])
-
-    def orbit(u: np.ndarray, p: float) -> np.ndarray:
-        if u[0] <= 0.0:
-            return np.full(3, np.nan)
-        at = numbers(u, p), float(u[0]), float(u[1])
-        return np.array([*conditions_at(*at)[:2], test(*at)])
-
-    return {0: equilibrium, 2: orbit, 3: grazing}[KINDS[kind].unknowns]
-
-
-def _jacobian(kind: str, numbers_at: Callable[..., Numbers]) -> Callable[[np.ndarray, float], np.ndarray]:
-    """Exact derivatives of the equations of a curve."""
-    test = TESTS[kind]
-
-    def equilibrium(u: np.ndarray, p: float) -> np.ndarray:
+    def equilibrium_rates(u: np.ndarray, p: float) -> np.ndarray:
         return analytic_rates(lambda *place: (test(numbers_at(*place), 1.0, 0.0),), float(u[0]), p)
 
     def orbit(u: np.ndarray, p: float) -> np.ndarray:
         period, speed, *time, x = u.tolist()
+        if not (period > 0.0 and all(0.0 < each < period for each in time)):
+            return np.full(len(u), np.nan)
+        at = numbers_at(x, p), period, speed
+        return np.array([*conditions_at(*at)[:2], *(grazing_equations(*at, *time) if time else (test(*at),))])
+
+    def orbit_rates(u: np.ndarray, p: float) -> np.ndarray:
+        period, speed, *time, x = u.tolist()
         return orbit_jacobian(numbers_at, (x, p), period, speed, () if time else (kind,), *time)
 
-    return orbit if KINDS[kind].unknowns else equilibrium
+    return (orbit, orbit_rates) if KINDS[kind].unknowns else (equilibrium, equilibrium_rates)
 
 
 def _curve(

@@ -54,11 +54,15 @@ def analytic_rates(function: Callable[..., Sequence[complex]], *values: float) -
     ----------
     .. [1] Squire and Trapp, "Using complex variables to estimate derivatives of real functions", SIAM Review 40 (1998).
     """
+    return np.array(_columns(function, values)).T
+
+
+def _columns(function: Callable[..., Sequence[complex]], values: Sequence[float]) -> list[list[float]]:
     columns = []
     for place in range(len(values)):
         moved = [complex(value, STEP) if place == other else value for other, value in enumerate(values)]
         columns.append([result.imag / STEP for result in function(*moved)])
-    return np.array(columns).T
+    return columns
 
 
 class Direction(NamedTuple):
@@ -296,11 +300,10 @@ def orbit_jacobian(
     timed = time is not None
     if not period > 0.0:
         return np.full((2 + len(tests) + 2 * timed, 2 + timed + len(values)), np.nan)
-    rates = analytic_rates(lambda *moved: numbers_at(*moved)[:7], *values)
     at = OrbitValues(numbers_at(*values), period, speed)
     flight = None if time is None else at.flight_of(time)
     directions = [(Direction(period=1.0), 0.0), (Direction(speed=1.0), 0.0), *([(Direction(), 1.0)] * timed)]
-    directions += [(Direction(*column), 0.0) for column in rates.T.tolist()]
+    directions += [(Direction(*column), 0.0) for column in _columns(lambda *moved: numbers_at(*moved)[:7], values)]
     columns = []
     for direction, late in directions:
         change = OrbitChange(at, direction)
