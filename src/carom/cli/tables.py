@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Collection
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,6 +21,7 @@ from carom.parameters.indentation import indentation_of_hit
 from carom.studies import Study, Wording
 from carom.studies.summaries import (
     MotionRow,
+    State,
     dimensionless_rows,
     kick_rows,
     motion_rows,
@@ -43,10 +45,11 @@ TEXT_WIDTH = 110
 """Largest width of running text, in columns; longer lines are hard to read."""
 NARROW = 116
 """Width in columns below which the table of motions leaves out remarks, unless a motion is not possible."""
-_STYLES = {
+_STYLES: dict[State, str] = {
     "stable": "bold",
     "seen": "bold",
     "unstable": "",
+    "transient": "",
     "not possible": "dim",
     "undecided": "",
 }
@@ -124,8 +127,11 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     )
 
 
-def _table(title: str) -> Table:
-    return Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+def _table(title: str, *headings: str, right: Collection[str] = (), no_wrap: Collection[str] = ()) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+    for heading in headings:
+        table.add_column(heading, justify="right" if heading in right else "left", no_wrap=heading in no_wrap)
+    return table
 
 
 def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
@@ -157,9 +163,9 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
 
 
 def _orbit_numbers(shown: list[Orbit]) -> Table:
-    table = _table("Orbits in the units of the equations, just before the impact")
-    for heading in ("orbit", "period T", "ṙ", "θ", "θ̇"):
-        table.add_column(heading, justify="left" if heading == "orbit" else "right", no_wrap=True)
+    columns = ("period T", "ṙ", "θ", "θ̇")
+    title = "Orbits in the units of the equations, just before the impact"
+    table = _table(title, "orbit", *columns, right=columns, no_wrap=("orbit", *columns))
     for orbit in shown:
         numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
         style = "" if orbit.admissible else "dim"
@@ -168,9 +174,8 @@ def _orbit_numbers(shown: list[Orbit]) -> Table:
 
 
 def _multipliers(shown: list[Orbit]) -> Table:
-    table = _table("Multipliers: a small disturbance is multiplied by these from impact to impact")
-    for heading in ("orbit", "largest modulus", "multipliers"):
-        table.add_column(heading, justify="right" if heading == "largest modulus" else "left")
+    title, size = "Multipliers: a small disturbance is multiplied by these from impact to impact", "largest modulus"
+    table = _table(title, "orbit", size, "multipliers", right=[size])
     for orbit in shown:
         values = "   ".join(_complex(value, 6) for value in orbit.multipliers.values)
         style = "" if orbit.admissible else "dim"
@@ -179,22 +184,17 @@ def _multipliers(shown: list[Orbit]) -> Table:
 
 
 def _thresholds(study: Study) -> Table:
-    table = _table("Thresholds, each with all else as it is")
-    si = study.wording.scales is not None
-    for heading in ("motion", "exists", "quantity", "value", "dimensionless", "where"):
-        if si or heading != "value":
-            value = heading == "value"
-            table.add_column(heading, justify="right" if value else "left", no_wrap=value or heading == "dimensionless")
+    values = ["value", "dimensionless"] if study.wording.scales is not None else ["dimensionless"]
+    headings = ("motion", "exists", "quantity", *values, "where")
+    table = _table("Thresholds, each with all else as it is", *headings, right=["value"], no_wrap=values)
     for row in threshold_rows(study):
-        cells = [row.motion, row.exists, row.quantity, row.value, row.dimensionless, row.what]
-        table.add_row(*(cell for place, cell in enumerate(cells) if si or place != 3))
+        table.add_row(row.motion, row.exists, row.quantity, *(getattr(row, value) for value in values), row.what)
     return table
 
 
 def _kicks(rows: list[tuple[str, str, str]]) -> Table:
-    table = _table("Kicks out of levitation")
-    for heading in ("speed", "came back", "the others ended"):
-        table.add_column(heading, justify="right" if heading == "speed" else "left", no_wrap=heading == "speed")
+    headings = ("speed", "came back", "the others ended")
+    table = _table("Kicks out of levitation", *headings, right=headings[:1], no_wrap=headings[:1])
     for row in rows:
         table.add_row(*row)
     return table
@@ -202,19 +202,9 @@ def _kicks(rows: list[tuple[str, str, str]]) -> Table:
 
 def _events(say: Wording, motion: Trajectory) -> Table:
     """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
-    table = _table("Contacts")
-    for heading in (
-        "time",
-        "contact",
-        "angle",
-        "speed towards wall",
-        "whirl",
-        "normal impulse",
-        "friction impulse",
-        "slip",
-    ):
-        left = heading in ("contact", "whirl", "slip")
-        table.add_column(heading, justify="left" if left else "right", no_wrap=heading != "contact")
+    numbers = ("time", "angle", "speed towards wall", "normal impulse", "friction impulse")
+    headings = ("time", "contact", "angle", "speed towards wall", "whirl", "normal impulse", "friction impulse", "slip")
+    table = _table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl", "slip"))
     rows = _event_rows(say, motion)
     hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
     if hidden > 1:

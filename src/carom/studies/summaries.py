@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MotionRow",
+    "State",
     "ThresholdRow",
     "ValueRow",
     "dimensionless_rows",
@@ -42,6 +43,9 @@ class ValueRow:
     value: str
 
 
+State = Literal["stable", "unstable", "not possible", "seen", "transient", "undecided"]
+
+
 @dataclass(frozen=True)
 class MotionRow:
     """A motion of the machine.
@@ -49,9 +53,9 @@ class MotionRow:
     Attributes
     ----------
     name : str
-    state : str
-        ``"stable"``, ``"unstable"``, ``"not possible"``, ``"seen"`` (disturbances ended there; its stability was not
-        computed), ``"transient"`` (it ends) or ``"undecided"`` (its end was not found).
+    state : {"stable", "unstable", "not possible", "seen", "transient", "undecided"}
+        Seen: disturbances ended there, its stability was not computed; transient: it ends; undecided: its end was not
+        found.
     period : str
     size : str
         Radius of a steady motion, or radial speed of impacts.
@@ -65,7 +69,7 @@ class MotionRow:
     """
 
     name: str
-    state: str
+    state: State
     period: str = ""
     size: str = ""
     impulse: str = ""
