@@ -46,7 +46,7 @@ _DAMPING = (
     Variable("least_damping_rolling", "the same with rolling, however fast the start", scale="damping"),
 )
 _COST = 0.01
-_COST_OF_DISTURBANCE = 0.001
+_COST_OF_DISTURBANCE = 0.0001
 _COST_OF_SEARCH, _COST_OF_CHECK = 0.6, 0.0002
 
 
