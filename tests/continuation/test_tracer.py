@@ -168,7 +168,7 @@ def test_start_on_the_edge_walks_inward_only(edge, other):
 def test_watch_that_ends_the_branch():
     watch = Watch("wall", lambda u, p: 0.25 - u[0], ends_branch=True)
     branch = continue_branch(lambda u, p: np.array([u[0] - p]), np.array([0.0]), 0.0, (-1.0, 1.0), watches=[watch])
-    assert branch.stops == ("parameter limit", "end of domain")
+    assert branch.stops == ("parameter limit", "wall")
     assert branch.parameters[-1] == pytest.approx(0.25, abs=1e-13)
     assert [point.kind for point in branch.special] == ["wall"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 import numpy as np
 
@@ -189,10 +189,6 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         steps=steps or STEPS,
         scales=np.array([1.0, 1.0, size]),
     )
-
-    def stop(end: Literal[0, -1]) -> str:
-        return BOUNDLESS if abs(branch.unknowns[end, 1]) > 0.999 * fastest else branch.stops[end]
-
     special = (_bifurcation(point, along.name, numbers_at(point.parameter), pair) for point in branch.special)
     return OrbitBranch(
         axis=along,
@@ -202,7 +198,7 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         period=branch.unknowns[:, 0],
         radial_speed=branch.unknowns[:, 1],
         special=tuple(point for point in special if point is not None),
-        stops=(stop(0), stop(-1)),
+        stops=branch.stops,
     )
 
 

@@ -330,9 +330,6 @@ def _stop(kind: str, branch: Branch, end: Literal[0, -1]) -> str:
         return EDGE
     if reason not in ("end of domain", "step too small"):
         return reason
-    for point in branch.special:
-        if point.kind in (EDGE, BOUNDLESS, *KINDS[kind].ends) and np.array_equal(point.unknowns, branch.unknowns[end]):
-            return point.kind
     unknowns = branch.unknowns[end]
     if KINDS[kind].unknowns and unknowns[0] < VANISHING:
         return "period vanishes"

@@ -169,7 +169,6 @@ def _on_edge(value: float, limits: tuple[float, float]) -> bool:
 
 def _stop(beside: Branch, end: Literal[0, -1]) -> str:
     reason = beside.stops[end]
-    at_edge = any(np.array_equal(point.unknowns, beside.unknowns[end]) for point in beside.of_kind(EDGE))
-    if reason == "parameter limit" or at_edge:
+    if reason == "parameter limit":
         return EDGE
     return "other contacts" if reason in ("end of domain", "step too small") else reason

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from carom.results import Result
 
-__all__ = ["Branch", "SpecialPoint", "Steps", "StopReason", "Watch"]
-
-StopReason = Literal["parameter limit", "end of domain", "closed loop", "step too small", "most points"]
+__all__ = ["Branch", "SpecialPoint", "Steps", "Watch"]
 
 
 @dataclass(frozen=True)
@@ -91,15 +88,15 @@ class Branch(Result):
     special : tuple of SpecialPoint
         In the order of ``place``.
     stops : tuple of two str
-        Why the branch ends at its first and last point: ``"parameter limit"`` (the point lies on it exactly),
-        ``"end of domain"`` (a watch ended it, or the equations are not defined beyond), ``"closed loop"`` (the last
+        Why the branch ends at its first and last point: ``"parameter limit"`` (the point lies on it exactly), the kind of
+        the watch that ended it, ``"end of domain"`` (the equations are not defined beyond), ``"closed loop"`` (the last
         point is the first), ``"step too small"`` or ``"most points"``.
     """
 
     unknowns: np.ndarray
     parameters: np.ndarray
     special: tuple[SpecialPoint, ...]
-    stops: tuple[StopReason, StopReason]
+    stops: tuple[str, str]
 
     def __len__(self) -> int:
         return len(self.parameters)

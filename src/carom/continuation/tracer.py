@@ -18,7 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from carom.continuation.branch import Branch, SpecialPoint, Steps, StopReason, Watch
+from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.outcome import CaromError, InputError
 
@@ -157,7 +157,7 @@ class _Path:
 
     points: list[np.ndarray]
     special: list[tuple[str, np.ndarray, float]]
-    stop: StopReason
+    stop: str
 
 
 @dataclass(eq=False)
@@ -284,7 +284,7 @@ class _Tracer:
         inverse = _inverse(jacobian, along)
         return None if inverse is None else inverse[:, -1] / np.linalg.norm(inverse[:, -1])
 
-    def _stuck(self, here: _Stand) -> StopReason:
+    def _stuck(self, here: _Stand) -> str:
         """Why no step succeeds: the equations may be undefined within the reach of the central differences."""
         reach = 10.0 * DIFFERENCE * np.eye(len(here.x))
         around = [self.value(here.x + side) for side in (*reach, *-reach)]
@@ -316,9 +316,7 @@ class _Tracer:
         """Determinant of the bordered Jacobian; it changes sign where another branch crosses."""
         return float(np.linalg.det(np.vstack([stand.jacobian, stand.tangent])))
 
-    def _locate(
-        self, path: _Path, here: _Stand, there: _Stand, length: float, share: float | None
-    ) -> StopReason | None:
+    def _locate(self, path: _Path, here: _Stand, there: _Stand, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, "branch point"]
         ends = [True, *(watch.ends_branch for watch in self.watches), False, False]
@@ -333,7 +331,7 @@ class _Tracer:
                 path.special.append((kinds[which], x, len(path.points) - 1 + distance / length))
             if ends[which]:
                 path.points.append(x)
-                return "end of domain" if kinds[which] else "parameter limit"
+                return kinds[which] or "parameter limit"
         return None
 
     def _root_on_step(self, here: _Stand, there: _Stand, length: float, which: int) -> tuple[float, np.ndarray] | None:
