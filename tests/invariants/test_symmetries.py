@@ -93,7 +93,7 @@ def test_the_same_motion_integrated_in_si_units():
     physical = Machine.from_parameters(machine)
     start = State(0.3 + 0.1j, 0.9 - 0.4j)
     motion = simulate(Jeffcott(machine), start, 12.0)
-    columns = {name: values for name, (values, _) in motion.contacts.in_si(scales).items()}
+    columns = {name: column.values for name, column in motion.contacts.to_dataset().variables.items()}
     position = start.position * physical.clearance
     velocity = (start.velocity + 1j * start.position) * physical.clearance * physical.speed
     time = 0.0
@@ -189,6 +189,6 @@ def test_without_unbalance_and_friction_energy_only_falls(machine, start):
 def test_times_and_speeds_scale_with_the_shaft_speed():
     slow, fast = (Scales(mass=50.0, clearance=0.7e-3, speed=speed) for speed in (100.0, 300.0))
     log = simulate(Jeffcott(PAPER), State(0.3 + 0.1j, 0.9 - 0.4j), 10.0).contacts
-    assert np.allclose(log.in_si(slow)["time"][0], 3.0 * log.in_si(fast)["time"][0], rtol=1e-15, atol=0)
-    energy = [log.in_si(scales)["contact_work"][0] for scales in (slow, fast)]
-    assert np.allclose(9.0 * energy[0], energy[1], rtol=1e-14, atol=0)
+    one, other = (dataclasses.replace(log, scales=scales).to_dataset() for scales in (slow, fast))
+    assert np.allclose(one["time"], 3.0 * other["time"], rtol=1e-15, atol=0)
+    assert np.allclose(9.0 * one["contact_work"], other["contact_work"], rtol=1e-14, atol=0)

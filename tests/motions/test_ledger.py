@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from compilation import sized
@@ -63,7 +65,7 @@ def test_a_rotor_at_rest_has_nothing_to_account_for():
 def test_energies_in_joules():
     scales = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
     ledger = energy_ledger(carom.simulate(_rotor(0.2), carom.State(0.2 + 0.1j, 0.5 + 0.3j), until=30.0))
-    table, plain = ledger.to_dataset(scales), ledger.to_dataset()
+    table, plain = replace(ledger, scales=scales).to_dataset(), ledger.to_dataset()
     assert {name: table[name].attrs["units"] for name in table} == dict.fromkeys(
         ("kinetic", "spring", "unbalance", "damping", "impacts", "friction", "drive"), "J"
     )

@@ -95,7 +95,8 @@ def test_forces_that_are_drawn_need_no_words(rub):
 def test_energies_draw_every_account(ledger):
     figure = plots.energies(ledger)
     drawn = {line.get_label(): line.get_ydata() for line in figure.axes[0].lines}
-    np.testing.assert_allclose(drawn["work of the drive"], ledger.drive)
+    np.testing.assert_allclose(drawn["work of the drive"], ledger.scales.energy * ledger.drive)
+    assert "(J)" in figure.axes[0].get_ylabel()
     assert len([label for label in drawn if not label.startswith("_")]) == 6
 
 

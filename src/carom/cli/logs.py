@@ -84,7 +84,7 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
 
 
 def _columns(motion: Trajectory) -> dict[str, tuple[np.ndarray, str]]:
-    dataset = motion.contacts.to_dataset(motion.rotor.scales)
+    dataset = motion.contacts.to_dataset()
     return {str(name): (column.values, column.attrs["units"]) for name, column in dataset.items()}
 
 
@@ -92,7 +92,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
     from carom.motions.contacts import phase_flags
 
     scales = motion.rotor.scales
-    dataset = motion.contacts.to_dataset(scales)
+    dataset = motion.contacts.to_dataset()
     unit, scale = ("s", scales.time) if scales else ("1/Omega", 1.0)
     contacts = motion.lasting_contacts
     for name, words in (("start", "start"), ("end", "end")):

@@ -47,28 +47,25 @@ class Table(Result):
     """Table of columns with units, all along one dimension.
 
     ``columns`` maps the name of each column to the property of :class:`~carom.parameters.Scales` that converts it to SI
-    units (empty if there is none), the SI unit and a description.
+    units (empty if there is none), the SI unit and a description.  Arrays are in the units of the equations; a table
+    knows the scales of its machine, if these are known.
     """
 
     dimension: ClassVar[str]
     columns: ClassVar[dict[str, tuple[str, str, str]]]
+    scales: Scales | None
 
-    def in_si(self, scales: Scales) -> dict[str, tuple[np.ndarray, str]]:
-        """Columns with their SI units: name to (values, unit)."""
-        return {
-            name: (getattr(self, name) * (getattr(scales, scale) if scale else 1), unit)
-            for name, (scale, unit, _) in self.columns.items()
-        }
-
-    def to_dataset(self, scales: Scales | None = None) -> xarray.Dataset:
-        """Table with units and long names as attributes; in SI if scales are given."""
+    def to_dataset(self) -> xarray.Dataset:
+        """Table with units and long names as attributes; in SI if the machine is known."""
         import xarray
 
-        si = self.in_si(scales) if scales else {}
         columns = {}
         for name, (scale, unit, words) in self.columns.items():
-            own_unit = UNITS[scale][0] if scale else unit
-            values, unit = si.get(name, (getattr(self, name), own_unit))
+            values = getattr(self, name)
+            if scale and self.scales:
+                values = values * getattr(self.scales, scale)
+            elif scale:
+                unit = UNITS[scale][0]
             columns[name] = (self.dimension, values, {"units": unit, "long_name": words})
         return xarray.Dataset(columns)
 
@@ -113,6 +110,7 @@ class ContactLog(Table):
     sticks: np.ndarray
     contact_work: np.ndarray
     drive_work: np.ndarray
+    scales: Scales | None = None
 
     dimension: ClassVar[str] = "impact"
     columns: ClassVar[dict[str, tuple[str, str, str]]] = {
@@ -161,6 +159,7 @@ class ContactLog(Table):
             sticks=rotor.system.arrays.friction[0] * normal >= np.abs(slip),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-(drive - 1.0) * tangential,
+            scales=rotor.scales,
         )
 
     def __len__(self) -> int:
@@ -201,6 +200,7 @@ class ContactHistory(Table):
     slip: np.ndarray
     friction_power: np.ndarray
     drive_power: np.ndarray
+    scales: Scales | None = None
 
     dimension: ClassVar[str] = "time"
     columns: ClassVar[dict[str, tuple[str, str, str]]] = {
@@ -239,11 +239,12 @@ class ContactHistory(Table):
             slip=slip,
             friction_power=friction * slip,
             drive_power=-(drive - 1.0) * friction,
+            scales=rotor.scales,
         )
 
-    def to_dataset(self, scales: Scales | None = None) -> xarray.Dataset:
-        """Table with units and long names as attributes; in SI if scales are given."""
-        dataset = super().to_dataset(scales)
+    def to_dataset(self) -> xarray.Dataset:
+        """Table with units and long names as attributes; in SI if the machine is known."""
+        dataset = super().to_dataset()
         del dataset["phase"].attrs["units"]
         dataset["phase"].attrs |= phase_flags(Phase)
         return dataset

@@ -10,6 +10,7 @@ import numpy as np
 from carom.motions.contacts import Table
 from carom.motions.trajectories import Trajectory
 from carom.outcome import Phase
+from carom.parameters import Scales
 
 __all__ = ["EnergyLedger", "energy_ledger"]
 
@@ -49,6 +50,7 @@ class EnergyLedger(Table):
     impacts: np.ndarray
     friction: np.ndarray
     drive: np.ndarray
+    scales: Scales | None = None
 
     dimension: ClassVar[str] = "times"
     columns: ClassVar[dict[str, tuple[str, str, str]]] = {
@@ -132,6 +134,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         drive=work(-parameters.radius_ratio * grip)
         + at_events(impact, impacts.drive_work)
         + at_events(landing, landings.drive_work),
+        scales=trajectory.rotor.scales,
     )
 
 

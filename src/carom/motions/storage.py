@@ -42,7 +42,7 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
     """
     times = motion.sample() if times is None else np.asarray(times, float)
     scales = motion.rotor.scales
-    dataset = motion.history(times).to_dataset(scales)
+    dataset = motion.history(times).to_dataset()
     position, velocity = motion.at(times)
     for name, values, scale, units in (
         ("x", position.real, "length", ("c_r", "m")),

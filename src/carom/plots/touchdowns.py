@@ -50,7 +50,7 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
     draw_radius(panels[0], trajectory)
     regimes(trajectory, axes=panels[1])
     forces(trajectory, axes=panels[2])
-    energies(ledger, trajectory.rotor.scales, axes=panels[3])
+    energies(ledger, axes=panels[3])
     for panel, letter in zip(panels, "abcd", strict=True):
         panel.set_title(f"({letter})", loc="left", y=1.0)
         panel.set_xlabel("")
@@ -192,14 +192,12 @@ def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None
 
 
 @styled
-def energies(ledger: EnergyLedger, scales: Scales | None = None, *, axes: Axes | None = None) -> Figure:
+def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     """Draw the energy of the rotor centre and the works that change it.
 
     Parameters
     ----------
     ledger : carom.motions.ledger.EnergyLedger
-    scales : carom.parameters.Scales, optional
-        Scales that convert the energies to J.
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
 
@@ -208,6 +206,7 @@ def energies(ledger: EnergyLedger, scales: Scales | None = None, *, axes: Axes |
     matplotlib.figure.Figure
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
+    scales = ledger.scales
     unit = scales.energy if scales else 1.0
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():

@@ -92,7 +92,7 @@ def _impact_law(orbit: Orbit) -> Iterator[Misprint]:
     """List the misprints of section 2, evaluated on ``B1,d`` at ``γ = 0.1``."""
     motion = orbit.trajectory(1.5)
     parameters = orbit.rotor.parameters
-    impulse = float(motion.contacts.in_si(SCALES)["normal_impulse"][0][0])
+    impulse = SCALES.impulse * float(motion.contacts.normal_impulse[0])
     yield Misprint(
         "(2.5)",
         "(1 + d)ṙ⁻, without the mass: a speed",
