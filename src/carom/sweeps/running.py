@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 from carom.core.processors import available_cores
 from carom.outcome import InputError
 from carom.progress import Reporter, Wish, shows_progress
-from carom.studies.wording import number
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.memory import SweepMemory
 from carom.sweeps.plan import SweepPlan
@@ -93,6 +92,8 @@ class Tally:
 
 def rate_words(rate: float, noun: str) -> str:
     """Write a number per second."""
+    from carom.studies.wording import number  # it loads the kernels
+
     return f"{number(rate, 3)} {noun}/s"
 
 
