@@ -52,6 +52,9 @@ _OPTIONS = {
     "state": ("fastest",),
 }
 """Kinds of disturbances, and the options that belong to each."""
+_FIELDS = {"before": "largest", "release": "motion"}
+"""Fields of the models where they do not have the name of the option."""
+_NEEDED = {"peak": "'20 g'", "duration": "'5 ms'"}
 KINDS = tuple(_OPTIONS)
 
 Kind = Annotated[str, typer.Option(metavar="KIND", help=f"What happens to the rotor: {', '.join(KINDS)}.")]
@@ -175,42 +178,22 @@ def read_plan(
 
 def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> Disturbance:
     from carom.cli.starts import read_positive
-    from carom.disturbances import (
-        FASTEST,
-        AnyState,
-        BaseShock,
-        ContactRelease,
-        KickPlane,
-        StateSlice,
-        UnbalanceStep,
-        VelocityKick,
-    )
+    from carom.disturbances import MODELS
 
-    scales = parameters.scales
-
-    def size(name: str, measure: str, default: float | None) -> float:
-        given = sizes[name]
-        if given is not None:
-            return read_positive(f"--{name}", given, measure, scales)
-        if default is None:
-            example = {"peak": "'20 g'", "duration": "'5 ms'"}[name]
-            raise InputError(f"--{name}", None, f"needed for a {kind}, such as {example}, or dimensionless")
-        return default
-
-    if kind == "shock":
-        return BaseShock(size("peak", "acceleration", None), size("duration", "time", None))
-    if kind == "unbalance":
-        # By default the unbalance whose contact-free whirl just reaches the wall.
-        return UnbalanceStep(size("before", "length", abs(complex(parameters.omega**2 - 1.0, parameters.gamma))))
-    if kind == "release":
-        motion = sizes["release"] or "fixed"
-        if motion not in ("fixed", "rotating", "rolling"):
-            raise InputError("--release", motion, "must be fixed, rotating or rolling")
-        return ContactRelease(motion)  # type: ignore[arg-type]
-    if kind == "slice":
-        return StateSlice()
-    model = {"kick": VelocityKick, "kick-plane": KickPlane, "state": AnyState}[kind]
-    return model(size("fastest", "velocity", FASTEST))
+    model, given = MODELS[kind], dict[str, Any]()
+    for option in _OPTIONS[kind]:
+        name, text = _FIELDS.get(option, option), sizes[option]
+        if option == "release":
+            given[name] = text or "fixed"
+            if given[name] not in ("fixed", "rotating", "rolling"):
+                raise InputError("--release", text, "must be fixed, rotating or rolling")
+        elif text is not None:
+            given[name] = read_positive(f"--{option}", text, model.measured_in[name], parameters.scales)
+        elif option in _NEEDED:
+            raise InputError(f"--{option}", None, f"needed for a {kind}, such as {_NEEDED[option]}, or dimensionless")
+        elif option == "before":  # the unbalance whose contact-free whirl just reaches the wall
+            given[name] = abs(complex(parameters.omega**2 - 1.0, parameters.gamma))
+    return model(**given)
 
 
 def _cells(option: str, text: str, dimensions: int) -> tuple[int, ...]:

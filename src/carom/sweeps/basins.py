@@ -20,15 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["BasinsTask"]
 
 ENDINGS = (
-    Outcome.LEVITATED,
-    Outcome.BOUNCING,
-    Outcome.MIXED,
-    Outcome.FORWARD_RUB,
-    Outcome.BACKWARD_WHIRL,
-    Outcome.ROLLING,
-    Outcome.TIME_REACHED,
-    Outcome.EVENT_LIMIT,
-    Outcome.GRAZING,
+    *(outcome for outcome in Outcome if outcome.settled),
+    *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING),
 )
 OUTCOMES = Dimension(
     "outcome",
