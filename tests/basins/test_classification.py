@@ -7,6 +7,7 @@ from dataclasses import asdict
 
 import numpy as np
 import pytest
+import xarray
 from machines import PAPER
 
 import carom
@@ -191,3 +192,9 @@ def test_a_failed_write_leaves_the_old_file(kicks, tmp_path, monkeypatch):
         kicks.save(target)
     assert target.read_text() == "before"
     assert [path.name for path in tmp_path.iterdir()] == ["basins.nc"]
+
+
+def test_a_time_may_have_a_unit(rotor):
+    plan = Grid(VelocityKick(1.0), (3, 4))
+    in_words = map_basins(rotor, plan, until="20 ms").dataset
+    xarray.testing.assert_identical(in_words["time"], map_basins(rotor, plan, until=0.02 / SCALES.time).dataset["time"])

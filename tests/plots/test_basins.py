@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from drawn_legends import fits
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import to_rgb
 from matplotlib.contour import QuadContourSet
@@ -175,6 +176,7 @@ def test_gain_map(rotor):
     found = map_gains(MACHINE, plan, shape=(6, 7), ranges=((7e5, 1.6e6), (200.0, 4000.0)))
     change = least_gain_change(found, 0.9)
     figure = plots.gain_map(found, change)
+    assert fits(figure)
     axes, bar = figure.axes
     assert axes.get_xlabel() == "P gain: stiffness of the levitation $k$ (N/m)"
     assert axes.get_ylabel() == "D gain: damping of the levitation $c$ (N s/m)"

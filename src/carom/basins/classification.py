@@ -19,6 +19,7 @@ from carom.disturbances.following import NO_START, follow, require_start
 from carom.models import Jeffcott, Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
+from carom.motions.starts import own_size
 from carom.outcome import InputError, Outcome
 from carom.parameters import Scales
 from carom.progress import Wish, shows_progress
@@ -164,7 +165,7 @@ def map_basins(
     machine: Subject,
     disturbances: Plan,
     *,
-    until: float | None = None,
+    until: float | str | None = None,
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
@@ -178,8 +179,8 @@ def map_basins(
     machine : Machine, Case, Parameters or model
     disturbances : Grid or Sample
         Plan for a model of :mod:`carom.disturbances`.
-    until : float
-        Time after which a motion that has not settled is given up, in ``1/Ω``; by default
+    until : float or str
+        Time after which a motion that has not settled is given up, in ``1/Ω`` or text with a unit; by default
         :func:`~carom.motions.settling.longest_time`.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
@@ -204,7 +205,7 @@ def map_basins(
     """
     rotor = model_of(machine)
     starts = disturbances.starts(rotor)
-    until = longest_time(rotor) if until is None else until
+    until = longest_time(rotor) if until is None else own_size("until", until, "time", rotor.scales)
     require_start(rotor, starts)
     endings = follow(
         rotor,

@@ -196,7 +196,7 @@ def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
     if smallest is not None and basin.plan.model.kind == smallest.kind:
         handles = _mark_smallest(round_, smallest, factor)
     _stacked(beside, basin, motions)
-    beside.set_title("(b)", loc="left")
+    beside.set_title("(b)", loc="left", y=1.0)
     return _finish(figure, motions, title, handles, columns=3)
 
 

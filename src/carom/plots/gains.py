@@ -35,6 +35,8 @@ _MEASURES = {
     "smallest_unrecovered_kick": ("smallest kick tried that does not come back", False),
 }
 """Measures that shades can show: their words, and whether they are shares."""
+_HALF = 50
+"""Number of characters of an entry of the legend that fit in half of the width."""
 _NAMES = {"stiffness": "P gain", "damping": "D gain"}
 _JUDGED_BY = MappingProxyType({"boundary_basin_entropy": "basin_entropy", "smallest_unrecovered_kick": "recovered"})
 """Measures that may have no value at some machines; for each, the measure that shows whether it was computed."""
@@ -115,7 +117,8 @@ def gain_map(
     drawn.set_ylim(y[0], y[-1])
     if title:
         drawn.set_title(title)
-    figure.legend(handles=handles, loc="outside lower center", ncols=2)
+    wide = max(len(str(handle.get_label())) for handle in handles) > _HALF
+    figure.legend(handles=handles, loc="outside lower center", ncols=1 if wide else 2)
     return figure
 
 

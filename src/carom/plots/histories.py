@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 from carom.outcome import Outcome
 from carom.plots.bands import bands_over_time, drawing_times
 from carom.plots.plane import (
-    MANY_MARKERS,
     MANY_POINTS,
     Floats,
     key,
@@ -23,6 +22,7 @@ from carom.plots.plane import (
     marker_size,
     one_axes,
     orbit_path,
+    point,
 )
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_length, axis_time, ending, orbit_look, orbit_title
@@ -173,30 +173,10 @@ def _marks(axes: Axes, history: _History) -> None:
     size = marker_size(len(history.impacts))
     for meaning, chosen in (("forward", history.forward), ("backward", ~history.forward)):
         if chosen.any():
-            struck = history.impacts[chosen]
-            _mark(axes, struck, np.ones_like(struck), meaning, size, LOOKS[meaning].words)
+            point(axes, np.asarray(history.impacts[chosen] + 1j, complex), meaning, size=size, clip=False)
     if history.trajectory is not None and history.trajectory.outcome is not Outcome.TIME_REACHED:
-        words = f"end: {ending(history.trajectory.outcome)}"
-        _mark(axes, history.times[-1:], history.radius[-1:], "end", 5.0, words)
-
-
-def _mark(axes: Axes, times: Floats, values: Floats, meaning: str, size: float, words: str) -> None:
-    look = LOOKS[meaning]
-    axes.plot(
-        times,
-        values,
-        linestyle="none",
-        marker=look.marker,
-        markersize=size,
-        markerfacecolor=look.colour,
-        markeredgecolor="#1a1a1a",
-        markeredgewidth=0.4,
-        rasterized=len(times) > MANY_MARKERS,
-        label=words,
-        zorder=4,
-        clip_on=False,
-        gid=meaning,
-    )
+        last = complex(history.times[-1], history.radius[-1])
+        point(axes, last, "end", label=f"end: {ending(history.trajectory.outcome)}", clip=False)
 
 
 def _bands(axes: Axes, zones: Zones) -> None:

@@ -204,8 +204,12 @@ def point(
     label: str | None = None,
     colour: str | None = None,
     layer: float = 4.0,
+    clip: bool = True,
 ) -> None:
-    """Mark one or more points with the look of `meaning`; hollow means unstable or virtual."""
+    """Mark one or more points with the look of `meaning`; hollow means unstable or virtual.
+
+    The position is ``x + iy``.  With `clip` a marker ends at the frame.
+    """
     look = LOOKS[meaning]
     drawn = colour or look.colour
     where = np.atleast_1d(position)
@@ -222,6 +226,7 @@ def point(
         rasterized=len(where) > MANY_MARKERS,
         label=look.words if label is None else label or "_",
         zorder=layer + ring,
+        clip_on=clip,
         gid=meaning,
     )
 

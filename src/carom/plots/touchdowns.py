@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from carom.plots.figure import StyledFigure
 from carom.plots.histories import draw_radius
@@ -83,14 +82,13 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     for first, last in itertools.pairwise(bounds):
         regime = REGIMES[int(trajectory.segment_phases[first])]
         _ribbon(drawn, ends[first], ends[last], 1.05, regime.colour)
-        shown[regime.words] = Patch(color=regime.colour, label=regime.words)
+        shown[regime.words] = regime.colour
     for start, end, forward in _whirl(trajectory):
-        look = LOOKS["forward" if forward else "backward"]
-        words = "forward whirl" if forward else "backward whirl"
-        _ribbon(drawn, start, end, 0.0, look.colour)
-        shown[words] = Patch(color=look.colour, label=words)
-    for patch in shown.values():
-        drawn.fill_between([], [], color=patch.get_facecolor(), lw=0, label=patch.get_label())
+        whirl = "forward" if forward else "backward"
+        _ribbon(drawn, start, end, 0.0, LOOKS[whirl].colour)
+        shown[f"{whirl} whirl"] = LOOKS[whirl].colour
+    for words, colour in shown.items():
+        drawn.fill_between([], [], color=colour, lw=0, label=words)
     drawn.set_ylim(-0.1, 2.1)
     drawn.set_yticks([0.475, 1.525], ["whirl", "regime"])
     drawn.tick_params(axis="y", length=0)
