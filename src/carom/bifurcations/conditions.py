@@ -36,6 +36,7 @@ __all__ = [
     "orbit_of",
     "pressed_on",
     "profile_at",
+    "spectral_radius",
 ]
 
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
@@ -92,6 +93,11 @@ def jacobian_at(numbers: Numbers, period: float, speed: float) -> np.ndarray:
     gamma, omega, _, _, mu, d, *_ = numbers
     jacobian: np.ndarray = planar.impact_jacobian(gamma, omega, mu, d, period, speed)
     return jacobian
+
+
+def spectral_radius(numbers: Numbers, period: float, speed: float) -> float:
+    """Largest modulus of the non-trivial multipliers; the orbit is stable where it is below 1."""
+    return float(np.abs(np.linalg.eigvals(jacobian_at(numbers, period, speed))).max())
 
 
 def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float]:

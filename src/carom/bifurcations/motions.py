@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
-from carom.bifurcations.conditions import is_admissible, jacobian_at
+from carom.bifurcations.conditions import is_admissible, spectral_radius
 from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
@@ -88,7 +86,7 @@ def motions_at(parameters: Parameters) -> Motions:
     """
     rotor = Jeffcott(parameters)
     orbits = [orbit for orbit in forward_orbits(rotor) if is_admissible(*orbit[1:])]
-    radii = [float(np.abs(np.linalg.eigvals(jacobian_at(*orbit[1:]))).max()) for orbit in orbits]
+    radii = [spectral_radius(*orbit[1:]) for orbit in orbits]
     return Motions(
         contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY),
         orbits=len(orbits),

@@ -17,7 +17,14 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers, vary
 from carom.bifurcations.branches import OrbitBranch, continue_orbit
-from carom.bifurcations.conditions import corrected, grazing_equations, is_admissible, jacobian_at, margins_of, orbit_of
+from carom.bifurcations.conditions import (
+    corrected,
+    grazing_equations,
+    is_admissible,
+    margins_of,
+    orbit_of,
+    spectral_radius,
+)
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.models import Jeffcott
 from carom.orbits.admissibility import slip_stays_forward
@@ -177,7 +184,7 @@ def _member(solution: Solution) -> _Member:
     possible = min(margins_of(*at).values())
     if possible <= 0.0:
         return _Member(solution, possible, possible)
-    radius = float(np.abs(np.linalg.eigvals(jacobian_at(*at))).max())
+    radius = spectral_radius(*at)
     return _Member(solution, possible, min(possible, 1.0 - radius))
 
 
@@ -312,7 +319,7 @@ def _arcs(branch: OrbitBranch) -> list[_Arc]:
         halfway = _halfway(branch, course[start : end + 1])
         if halfway is not None:
             possible = is_admissible(*halfway)
-            stable = possible and float(np.abs(np.linalg.eigvals(jacobian_at(*halfway))).max()) < 1.0
+            stable = possible and spectral_radius(*halfway) < 1.0
             arcs.append(_Arc(low, high, possible, stable))
     return arcs
 
