@@ -137,6 +137,17 @@ def test_the_reference_has_the_functions_of_the_package():
     assert found[6:9] == pytest.approx([at.period_doubling, at.neimark_sacker, at.pair_sum], rel=1e-12)
 
 
+def test_the_slope_over_the_period_keeps_its_sign_where_the_period_vanishes():
+    """With ``d = 1`` the period of a pair can shrink to nothing; a wrong sign of ``∂F₁/∂T`` there would show as a fold."""
+    numbers = Numbers.of(PAPER.replace(d=1.0))
+    for period in (1e-2, 1e-4, 1e-6):
+        found = OrbitChange(OrbitValues(numbers, period, 1e-3), Direction(period=1.0)).equations()[0]
+        step = 0.1 * period
+        ends = [reference([arb(x) for x in (*numbers[:7], period + side * step, 1e-3, 0.0)])[0] for side in (1, -1)]
+        # ``F₁`` is nearly a straight line from here to there.
+        assert found == pytest.approx(float(ends[0] - ends[1]) / (2.0 * step), rel=1e-3)
+
+
 def test_long_flights_of_overdamped_rotors_do_not_overflow():
     numbers = Numbers.of(PAPER.replace(gamma=30.0))
     at = OrbitValues(numbers, 100.0, 0.3)

@@ -12,6 +12,7 @@ from carom.bifurcations.axes import Axis, Ends, Numbers, axis, interval_around
 from carom.bifurcations.conditions import (
     BOUNDLESS,
     FASTEST,
+    SHORTEST,
     TESTS,
     conditions_at,
     is_admissible,
@@ -166,7 +167,7 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         return numbers if orbit.slip > 0 else numbers._replace(mu=-numbers.mu)
 
     def residual(u: np.ndarray, p: float) -> np.ndarray:
-        if u[0] <= 0.0:
+        if not u[0] > SHORTEST:
             return np.full(2, np.nan)
         return np.array(conditions_at(numbers_at(p), float(u[0]), float(u[1]))[:2])
 

@@ -23,6 +23,7 @@ __all__ = [
     "BOUNDLESS",
     "FASTEST",
     "RESONANCES",
+    "SHORTEST",
     "TESTS",
     "OrbitConditions",
     "RadialProfile",
@@ -41,6 +42,10 @@ __all__ = [
 
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, beyond which orbits are not followed: it grows without bound where ``a₁₂`` vanishes."""
+
+
+SHORTEST = 1e-5
+"""Period, in ``1/Ω``, below which test functions are only rounding; with ``d = 1`` the period of a pair can vanish."""
 
 
 class OrbitConditions(NamedTuple):

@@ -14,6 +14,7 @@ from carom.bifurcations.conditions import (
     BOUNDLESS,
     FASTEST,
     RESONANCES,
+    SHORTEST,
     TESTS,
     conditions_at,
     grazing_equations,
@@ -270,7 +271,7 @@ def _system(kind: str, numbers_at: Callable[..., Numbers]) -> tuple[Function, Fu
 
     def orbit(u: np.ndarray, p: float) -> np.ndarray:
         period, speed, *time, x = u.tolist()
-        if not (period > 0.0 and all(0.0 < each < period for each in time)):
+        if not (period > SHORTEST and all(0.0 < each < period for each in time)):
             return np.full(len(u), np.nan)
         at = numbers_at(x, p), period, speed
         return np.array([*conditions_at(*at)[:2], *(grazing_equations(*at, *time) if time else (test(*at),))])

@@ -25,6 +25,8 @@ import numpy as np
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import jacobian_at
+from carom.core.periods import returns
+from carom.core.planar import planar_exponents
 
 __all__ = ["Direction", "OrbitChange", "OrbitValues", "analytic_rates", "orbit_jacobian"]
 
@@ -122,7 +124,10 @@ class OrbitValues:
         root = cmath.sqrt(self.split)
         first, second = np.expm1([(0.5 * self.sum + root) * period, (0.5 * self.sum - root) * period]).tolist()
         self.gap = first * second
-        self.a12, self.a22 = self.flight.odd / self.gap, (self.flight.lower - self.decay) / self.gap
+        # The kernel sums a series at short periods, where the differences here would cancel.
+        lower, upper = planar_exponents(gamma, omega)
+        self.a12, self.a22, self.a22_rate, _ = returns(lower, upper, period)
+        self.a12_rate = self.a22 * (1.0 + self.a22) - self.product * self.a12**2
         self.factor = complex(1.0 + d, (1.0 + d) * mu)
         self.lever, self.turn = self.factor * self.a12, self.factor * self.a22
         # Velocity before the impact and acceleration, over the radial speed, and velocity after the impact.
@@ -170,10 +175,10 @@ class OrbitChange:
         self.product = complex(2.0 * numbers.omega * direction.omega, direction.gamma)
         self.split = 0.5 * numbers.gamma * direction.gamma - 2.0 * numbers.omega * direction.omega
         self.flight = self._flight(values.flight, direction.period)
-        decay = values.decay * (self.sum * values.period + values.sum * direction.period)
-        gap = decay - 2.0 * self.flight.even
-        self.a12 = (self.flight.right - values.a12 * gap) / values.gap
-        self.a22 = (self.flight.lower - decay - values.a22 * gap) / values.gap
+        still, decay = self._flight(values.flight, 0.0), values.decay * self.sum * values.period
+        gap = decay - 2.0 * still.even
+        self.a12 = (still.right - values.a12 * gap) / values.gap + values.a12_rate * direction.period
+        self.a22 = (still.lower - decay - values.a22 * gap) / values.gap + values.a22_rate * direction.period
         grip = complex(1.0, numbers.mu)
         self.factor = grip * direction.d + complex(0.0, (1.0 + numbers.d) * direction.mu)
         self.lever = self.factor * values.a12 + values.factor * self.a12
