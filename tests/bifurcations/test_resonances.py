@@ -15,7 +15,8 @@ PLANE = Plane("rho", "gamma", (0.2, 0.25), (0.15, 0.19))
 
 def multipliers_at(base, plane, point) -> np.ndarray:
     """Of the orbit there, by the general derivative of the impact map and not by the planar closed form."""
-    orbits = find_orbits(Jeffcott(plane.at(base, *point.value)))
+    # Both resonances lie on folds: by rounding their own place may be on the side without orbits.
+    orbits = find_orbits(Jeffcott(plane.at(base, point.value[0], point.value[1] - 1e-13)))
     near = min(orbits, key=lambda o: abs(o.period - point.period) + abs(o.radial_speed - point.radial_speed))
     return near.multipliers.values
 
