@@ -217,7 +217,7 @@ class _Tracer:
 
         A Jacobian from nearby is kept as long as the residual falls by a factor of 30 in each iteration.
         """
-        x, previous, correction, inverse = guess, np.inf, np.inf, _inverse(jacobian, normal)
+        x, previous, correction, inverse = guess, np.inf, np.inf, _applied(np.linalg.inv, jacobian, normal)
         for _ in range(self.steps.iterations):
             value = self.value(x)
             size = float(np.abs(value).max())
@@ -225,7 +225,7 @@ class _Tracer:
                 return None
             good = size <= self.steps.tolerance or correction <= self.steps.tolerance
             if size > previous / 30.0 and not good:
-                inverse = _inverse(self.jacobian(x), normal)
+                inverse = _applied(np.linalg.inv, self.jacobian(x), normal)
             if inverse is None:
                 return x if good else None
             change = inverse @ np.array([*-value, normal @ (guess - x)])
@@ -281,8 +281,8 @@ class _Tracer:
 
     def _tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
         """Unit tangent on the side of ``along``."""
-        inverse = _inverse(jacobian, along)
-        return None if inverse is None else inverse[:, -1] / np.linalg.norm(inverse[:, -1])
+        direction = _applied(np.linalg.solve, jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
+        return None if direction is None else direction / np.linalg.norm(direction)
 
     def _stuck(self, here: _Stand) -> str:
         """Why no step succeeds: the equations may be undefined within the reach of the central differences."""
@@ -389,10 +389,12 @@ class _Tracer:
         )
 
 
-def _inverse(jacobian: np.ndarray, normal: np.ndarray) -> np.ndarray | None:
-    """Inverse of the bordered Jacobian; ``None`` if it is singular."""
+def _applied(
+    method: Callable[..., np.ndarray], jacobian: np.ndarray, normal: np.ndarray, *right: np.ndarray
+) -> np.ndarray | None:
+    """Solution or inverse of the bordered Jacobian; ``None`` if it is singular."""
     try:
-        inverse = np.linalg.inv(np.vstack([jacobian, normal]))
+        found = method(np.vstack([jacobian, normal]), *right)
     except np.linalg.LinAlgError:
         return None
-    return inverse if np.isfinite(inverse).all() else None
+    return found if np.isfinite(found).all() else None
