@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 
+import mpmath
 import numpy as np
 import pytest
-from machines import PAPER
+from machines import PAPER, ExactMotion
 
 from carom import find_equilibria, find_orbits, simulate
 from carom.bifurcations import Bifurcation, Diagram, Numbers, Plane, find_bifurcations, map_regions, vary
@@ -15,7 +16,7 @@ from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.motions.starts import State
-from carom.orbits.maps import Section, impact_map, section_jacobian
+from carom.orbits.maps import Section, impact_map
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Phase
 from carom.parameters import Parameters
@@ -182,7 +183,9 @@ def vanishes(kind: str, parameters: Parameters, point) -> bool:
         return abs(abs(lever) * point.radial_speed + lever.real / abs(lever)) < 1e-7
     # A search may find no orbit here: where two meet, rounding decides whether there are any.
     orbit = orbit_of(Numbers.of(parameters), 1, point.period, point.radial_speed)
-    values = np.linalg.eigvals(section_jacobian(rotor.system, orbit.section, point.period))
+    section = (orbit.angle, orbit.radial_speed, orbit.angular_speed)
+    with mpmath.workdps(40):
+        values = np.linalg.eigvals(ExactMotion(parameters).jacobian(section, 1, point.period))
     if kind == "period-doubling":
         return float(np.abs(values + 1.0).min()) < 1e-4
     if kind == "neimark-sacker":

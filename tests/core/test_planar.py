@@ -1,16 +1,16 @@
-"""Closed forms of the planar rotor against the general rotor and dense sampling."""
+"""Closed forms of the planar rotor against many digits and dense sampling."""
 
 from __future__ import annotations
 
+import mpmath
 import numpy as np
 import pytest
 from compilation import sized
-from machines import PAPER, random_parameters
+from machines import PAPER, ExactMotion, random_parameters
 
 from carom import find_orbits
 from carom.core.planar import orbit_conditions, radial_course, radial_profile
 from carom.models import Jeffcott
-from carom.orbits.maps import section_jacobian
 
 
 def machines(count: int, seed: int):
@@ -50,7 +50,9 @@ def test_orbits_fulfil_the_conditions_and_have_these_multipliers():
             assert values[5] == pytest.approx(arrays.drive[0] + orbit.angular_speed - loss, abs=1e-9 * scale)
             if min(values[5], arrays.drive[0] + orbit.angular_speed) <= 0.0:
                 continue
-            jacobian = section_jacobian(orbit.rotor.system, orbit.section, orbit.period)
+            section = (orbit.angle, orbit.radial_speed, orbit.angular_speed)
+            with mpmath.workdps(40):
+                jacobian = ExactMotion(parameters).jacobian(section, 1, orbit.period)
             eigenvalues = np.linalg.eigvals(jacobian)
             size = (1.0 + np.abs(jacobian).max()) ** 3
             assert values[6] == pytest.approx(np.prod(eigenvalues + 1.0).real, abs=1e-9 * size)

@@ -8,7 +8,7 @@
 ==================  =======================================================
 """
 
-from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, section_jacobian, stroboscopic_map
+from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, stroboscopic_map
 from carom.orbits.single_impact import Orbit, OrbitSet, find_orbits, orbits_within_reach, period_condition
 from carom.orbits.stability import Multipliers, multipliers
 
@@ -24,6 +24,5 @@ __all__ = [
     "multipliers",
     "orbits_within_reach",
     "period_condition",
-    "section_jacobian",
     "stroboscopic_map",
 ]

@@ -9,14 +9,13 @@ import numpy as np
 
 from carom.core import variation
 from carom.core.fate import memory
-from carom.core.impact import strike
-from carom.models import Jeffcott, Subject, System, model_of
+from carom.models import Jeffcott, Subject, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import EventLog, Trajectory, follow, simulate
 from carom.outcome import InputError, Outcome, Phase
 from carom.results import Result
 
-__all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "section_jacobian", "stroboscopic_map"]
+__all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "stroboscopic_map"]
 
 
 @dataclass(frozen=True)
@@ -118,35 +117,9 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
         return ImpactMap(Outcome.CLEAR if outcome is Outcome.TIME_REACHED else outcome, None, time, None)
     position, velocity = rotor.system.state(log.before[1])
     image = Section.from_state(complex(position), complex(velocity))
-    return ImpactMap(Outcome.CONTACT, image, time, section_jacobian(rotor.system, section, time))
-
-
-def section_jacobian(system: System, section: Section, duration: float) -> np.ndarray:
-    """Derivative of the impact map along a flight of known duration.
-
-    The flight need not stay inside the wall, so this works for virtual orbits too.
-
-    Parameters
-    ----------
-    system : System
-    section : Section
-        State just before the impact that starts the flight.
-    duration : float
-        Time to the next impact in ``1/Ω``.
-
-    Returns
-    -------
-    ndarray, shape (3, 3)
-        Derivative with respect to ``(θ, ṙ, θ̇)``.
-    """
-    position, velocity = section.state.position, section.state.velocity
-    arrays = system.arrays
-    change, _ = strike(position, velocity, arrays.friction[0], arrays.restitution[0], arrays.drive[0])
-    before = system.amplitudes(position, velocity)
-    arrival = system.fly(before + arrays.columns[:, 0] * change, np.asarray(duration))
     jacobian = np.empty((3, 3))
-    variation.section_jacobian(arrays, np.array([before, arrival]), np.array([duration], float), jacobian)
-    return jacobian
+    variation.section_jacobian(rotor.system.arrays, log.before[:2], np.array([time]), jacobian)
+    return ImpactMap(Outcome.CONTACT, image, time, jacobian)
 
 
 def stroboscopic_map(rotor: Jeffcott, state: State, period: float) -> StroboscopicMap:
