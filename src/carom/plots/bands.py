@@ -83,9 +83,7 @@ def _band(axes: Axes, kind: str, x: Floats, y: Floats) -> None:
     axes.plot(
         x,
         y,
-        linestyle=look.line,
-        color=look.colour,
-        lw=look.width,
+        **look.stroke,
         solid_capstyle="butt",
         dash_capstyle="butt",
         label=look.words,

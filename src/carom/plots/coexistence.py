@@ -73,14 +73,7 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
         if row in heights:
             look = LOOKS["unstable"]
             for low, high in _joined(unstable):
-                axes.plot(
-                    [low / unit, high / unit],
-                    [heights[row]] * 2,
-                    color=look.colour,
-                    ls=look.line,
-                    lw=look.width,
-                    zorder=1.5,
-                )
+                axes.plot([low / unit, high / unit], [heights[row]] * 2, **look.stroke, zorder=1.5)
             for low, high in _joined(stable):
                 ends = [low / unit, high / unit]
                 axes.plot(ends, [heights[row]] * 2, color=_COLOURS[row], lw=_THICK, solid_capstyle="butt")

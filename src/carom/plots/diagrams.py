@@ -201,15 +201,8 @@ def branch_line(
     nearest = np.where(whole[1:], where[1:], np.floor(where[:-1])).astype(int)
     stretches = looks[np.minimum(nearest, len(looks) - 1)]
     for first, last, look in _runs(np.append(stretches, stretches[-1:])):
-        style = LOOKS[look]
-        axes.plot(
-            x[first : last + 1],
-            y[first : last + 1],
-            color=style.colour,
-            ls=style.line,
-            lw=style.width,
-            alpha=0.6 if look == "virtual" else 1.0,
-        )
+        alpha = 0.6 if look == "virtual" else 1.0
+        axes.plot(x[first : last + 1], y[first : last + 1], **LOOKS[look].stroke, alpha=alpha)
 
 
 def _runs(looks: np.ndarray) -> list[tuple[int, int, str]]:
@@ -280,8 +273,7 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
     entries = []
     if diagram.orbits:
         for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
-            style = LOOKS[look]
-            entries.append(Line2D([], [], color=style.colour, ls=style.line, lw=style.width, label=words))
+            entries.append(Line2D([], [], **LOOKS[look].stroke, label=words))
     entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free levitation: gap"))
     admissible = {branch.kind for branch in diagram.equilibria if branch.admissible.any()}
     for line, kind in (("-", "stable rub"), ("--", "saddle rub")):
@@ -325,4 +317,4 @@ def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:
     x, y = (curve.points / units).T
     for first, last, real in _runs(np.where(curve.admissible, "real", "virtual")):
         alpha = 1.0 if real == "real" else FAINT
-        axes.plot(x[first : last + 1], y[first : last + 1], color=look.colour, ls=look.line, lw=look.width, alpha=alpha)
+        axes.plot(x[first : last + 1], y[first : last + 1], **look.stroke, alpha=alpha)

@@ -145,10 +145,7 @@ def _set_range(axes: Axes, history: _History, zones: Zones | None) -> None:
 
 
 def _wall_line(axes: Axes) -> None:
-    look = LOOKS["wall"]
-    axes.axhline(
-        1.0, linestyle=look.line, color=look.colour, lw=look.width, label="wall (touchdown bearing)", gid="wall"
-    )
+    axes.axhline(1.0, **LOOKS["wall"].stroke, label="wall (touchdown bearing)", gid="wall")
 
 
 def _curve(axes: Axes, history: _History) -> None:
@@ -159,9 +156,7 @@ def _curve(axes: Axes, history: _History) -> None:
             axes.plot(
                 history.times,
                 np.where(part, history.radius, np.nan),
-                linestyle=look.line,
-                color=look.colour,
-                lw=max(look.width, 0.7),
+                **look.stroke | {"lw": max(look.width, 0.7)},
                 rasterized=len(history.times) > MANY_POINTS,
                 label=words,
                 gid="outside" if look is beyond else "path",

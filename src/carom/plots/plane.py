@@ -71,8 +71,7 @@ def clearance_circle(axes: Axes, reach: float = 1.12) -> None:
 
 
 def _wall(axes: Axes, angle: Floats) -> None:
-    look = LOOKS["wall"]
-    axes.plot(np.cos(angle), np.sin(angle), look.line, color=look.colour, lw=look.width, label=look.words, gid="wall")
+    axes.plot(np.cos(angle), np.sin(angle), **LOOKS["wall"].stroke, label=LOOKS["wall"].words, gid="wall")
     axes.set_aspect("equal")
 
 
@@ -134,7 +133,7 @@ def faded_path(axes: Axes, position: Complex, look: Look, pieces: int = 60) -> N
     drawn = LineCollection(segments, colors=tints, linewidths=look.width, gid="path")
     drawn.set_rasterized(len(position) > MANY_POINTS)
     axes.add_collection(drawn)
-    axes.plot([], [], look.line, color=look.colour, lw=look.width, label=f"{look.words} (early part pale)")
+    axes.plot([], [], **look.stroke, label=f"{look.words} (early part pale)")
 
 
 def direction_arrow(axes: Axes, position: Complex, look: Look, fraction: float = 0.4) -> None:

@@ -82,7 +82,7 @@ def _curve_key(found: RegionMap) -> list[Line2D]:
         if any(curve.kind == kind for curve in found.curves):
             orbits = found.orbits_of(kind)
             words = f"{look.words}: {orbits}" if orbits else look.words
-            lines.append(Line2D([], [], color=look.colour, ls=look.line, lw=look.width, label=words))
+            lines.append(Line2D([], [], **look.stroke, label=words))
     if not all(np.all(curve.admissible) for curve in found.curves):
         lines.append(Line2D([], [], color=_BLACK, lw=1.1, alpha=FAINT, label="faint: virtual motions only"))
     return lines

@@ -31,7 +31,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
 from types import MappingProxyType
-from typing import ParamSpec
+from typing import Any, ParamSpec
 
 from matplotlib.figure import Figure
 
@@ -88,6 +88,11 @@ class Look:
     width: float = 0.9
     marker: str = "none"
     hatch: str = ""
+
+    @property
+    def stroke(self) -> dict[str, Any]:
+        """Colour, style and width of a line, as arguments of matplotlib."""
+        return {"color": self.colour, "ls": self.line, "lw": self.width}
 
 
 LOOKS = MappingProxyType(

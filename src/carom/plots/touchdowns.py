@@ -156,7 +156,7 @@ def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -
         (normal, LOOKS["wall"], "normal force of lasting contact"),
         (np.abs(friction), LOOKS["roll"], "friction force, size"),
     ):
-        axes.plot(times, np.where(gaps, np.nan, values), ls=look.line, color=look.colour, lw=0.9, label=words)
+        axes.plot(times, np.where(gaps, np.nan, values), **look.stroke | {"lw": 0.9}, label=words)
     held = normal[~gaps & (normal > 0.0)]
     if len(held) and held.max() > _WIDE_RANGE * np.median(held):
         axes.set_yscale("log")
@@ -208,9 +208,7 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     unit = scales.energy if scales else 1.0
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
-        drawn.plot(
-            ledger.times, unit * getattr(ledger, name), ls=look.line, color=look.colour, lw=look.width, label=look.words
-        )
+        drawn.plot(ledger.times, unit * getattr(ledger, name), **look.stroke, label=look.words)
     drawn.set_xlim(0.0, float(ledger.times[-1]))
     drawn.set_xlabel(axis_time(scales))
     drawn.set_ylabel("energy, work since the start (J)" if scales else r"energy, work ($m c_r^2 \Omega^2$)")

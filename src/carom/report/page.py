@@ -13,6 +13,7 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from carom import plots
+from carom.plots.sheet import drawing
 from carom.progress import Reporter, Wish, shows_progress
 from carom.report.directory import FIGURES, MANIFEST, filled_at_once
 from carom.report.figures import Picture, pictures
@@ -67,7 +68,7 @@ def write_report(study: Study, directory: str, *, progress: Wish = None) -> Path
     """
     tell = Reporter.of(progress, "drawing")
     wanted = pictures(study)
-    with filled_at_once(directory, "--out") as place:
+    with filled_at_once(directory, "--out") as place, drawing():
         (place / FIGURES).mkdir()
         inline, names = [], []
         for done, picture in enumerate(wanted):
