@@ -31,14 +31,12 @@ _NAMES = {
 
 def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, harmless: float) -> None:
     """Print the disturbances tried, where they end, and the smallest that is lost."""
-    from rich import box
-    from rich.table import Table
+    from carom.cli.fitting import plain_table
 
     screen.print(_tried(basin))
-    table = Table(box=box.SIMPLE_HEAD)
     drawn = basin.share_recovered.drawn
-    for heading in ("where they end", "starts", "share", *(["95 % interval"] if drawn else []), "known after (median)"):
-        table.add_column(heading, justify="left" if heading == "where they end" else "right")
+    numbers = ("starts", "share", *(["95 % interval"] if drawn else []), "known after (median)")
+    table = plain_table("", "where they end", *numbers, right=numbers)
     index, times = basin.dataset["motion"].values, basin.dataset["time"].values
     for name in basin.fractions:
         share = basin.share_of(name)

@@ -206,18 +206,14 @@ def _named(kind: str) -> str:
 
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
-    from rich import box
-    from rich.table import Table
-
-    from carom.cli.fitting import fitted
+    from carom.cli.fitting import fitted, plain_table
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
     now = _shown(diagram.axis, present)
     screen.print(f"Bifurcations for {diagram.axis.field.words} {diagram.parameter} = {ends}; now {now}")
-    table = Table(box=box.SIMPLE_HEAD)
-    for heading in (diagram.parameter, "what happens", "to", "period (1/Ω)", "radial speed (c_r Ω)", ""):
-        table.add_column(heading)
+    headings = (diagram.parameter, "what happens", "to", "period (1/Ω)", "radial speed (c_r Ω)", "")
+    table = plain_table("", *headings)
     for point in diagram.points:
         table.add_row(
             _shown(diagram.axis, point.value),
@@ -242,18 +238,13 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
 
 def _print_attractors(diagram: Diagram) -> None:
     """Print the ranges in which disturbances reached each motion, and those in which only a start next to it did."""
-    from rich import box
-    from rich.table import Table
-
-    from carom.cli.fitting import fitted
+    from carom.cli.fitting import fitted, plain_table
 
     screen, tried = console(), diagram.disturbances
     if tried is None:
         return
     values = len({sample.value for sample in diagram.attractors})
-    table = Table(box=box.SIMPLE_HEAD, title="Where motions settled", title_justify="left")
-    for heading in ("motion", "from", "to", "at values", "reached by"):
-        table.add_column(heading)
+    table = plain_table("Where motions settled", "motion", "from", "to", "at values", "reached by")
     for name in dict.fromkeys(sample.name for sample in diagram.attractors):
         for met in (True, False):
             alike = [sample for sample in diagram.attractors if sample.name == name and sample.met == met]

@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
+from rich import box
 from rich.cells import cell_len
+from rich.table import Table
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Column, Table
+    from rich.table import Column
 
-__all__ = ["fitted"]
+__all__ = ["fitted", "plain_table"]
 
 _PADDINGS = ((0, 1, 0, 0), (0, 0))
 """Paddings between columns, from wide to narrow; the box adds one to each."""
+
+
+def plain_table(title: str, *headings: str, right: Collection[str] = (), no_wrap: Collection[str] = ()) -> Table:
+    """Return a table with a title and headings; the columns in `right` are flush right."""
+    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
+    for heading in headings:
+        table.add_column(heading, justify="right" if heading in right else "left", no_wrap=heading in no_wrap)
+    return table
 
 
 def fitted(screen: Console, table: Table) -> Table:

@@ -51,16 +51,12 @@ def paper(
 
 
 def _print_reproduction(found: Reproduction) -> None:
-    from rich import box
-    from rich.table import Table
-
+    from carom.cli.fitting import plain_table
     from carom.reproductions.mora2014.document import given_words, tables
 
     screen = console()
     for shown in tables(found):
-        table = Table(title=shown.title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
-        for heading in shown.headings:
-            table.add_column(heading, justify="right" if heading in shown.numbers else "left")
+        table = plain_table(shown.title, *shown.headings, right=shown.numbers)
         for row, agrees in zip(shown.rows, shown.agrees, strict=True):
             table.add_row(*row, style="" if agrees else "yellow")
         screen.print(table)

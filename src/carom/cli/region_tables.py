@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from rich import box
 from rich.table import Table
+
+from carom.cli.fitting import plain_table
 
 if TYPE_CHECKING:
     from carom.bifurcations import RegionMap
@@ -17,20 +18,13 @@ Names = tuple[str, str]
 """Names of both parameters with their units."""
 
 
-def _table(title: str, *headings: str) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left")
-    for heading in headings:
-        table.add_column(heading, no_wrap=heading in ("share", "#"))
-    return table
-
-
 def _place(point: tuple[float, float]) -> str:
     return ", ".join(f"{value:.6g}" for value in point)
 
 
 def curve_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> Table:
     """Return the table of curves with their orbits; curves that only virtual orbits have are dim."""
-    table = _table("Curves", "bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "")
+    table = plain_table("Curves", "bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "")
     for curve in found.curves:
         first, last = (_place(tuple(curve.points[end])) for end in (0, -1))
         virtual = "" if curve.admissible.all() else "in part virtual" if curve.admissible.any() else "virtual"
@@ -43,7 +37,7 @@ def curve_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> 
 
 def meeting_table(found: RegionMap, names: Names, named: Callable[[str], str]) -> Table:
     """Return the table of codimension-2 points."""
-    table = _table("Where two happen at once, and resonances", "kinds", *names, "period (1/Ω)", "")
+    table = plain_table("Where two happen at once, and resonances", "kinds", *names, "period (1/Ω)", "")
     for point in found.codimension2:
         kinds = " + ".join(named(kind) for kind in point.kinds)
         period = "" if point.period != point.period else f"{point.period:.6g}"
@@ -53,7 +47,9 @@ def meeting_table(found: RegionMap, names: Names, named: Callable[[str], str]) -
 
 def region_table(found: RegionMap, names: Names) -> Table:
     """Return the table of regions, with their numbers in figure and JSON."""
-    table = _table("Regions", "#", "share", f"for example at {', '.join(names)}", "region", "motions")
+    table = plain_table(
+        "Regions", "#", "share", f"for example at {', '.join(names)}", "region", "motions", no_wrap=("#", "share")
+    )
     for number, region in enumerate(found.regions, start=1):
         words = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
         share = f"{100 * region.share:.1f} %" if region.share else "thin"
@@ -63,7 +59,9 @@ def region_table(found: RegionMap, names: Names) -> Table:
 
 def unexplained_table(found: RegionMap, names: Names) -> Table:
     """Return the table of changes of motions that lie on no curve."""
-    table = _table("Changes of motions on no curve found", f"at {', '.join(names)}", "what changes", "why no curve")
+    table = plain_table(
+        "Changes of motions on no curve found", f"at {', '.join(names)}", "what changes", "why no curve"
+    )
     for change in found.unexplained:
         table.add_row(_place(change.point), change.words, change.reason)
     return table

@@ -95,15 +95,11 @@ def _place(failure: dict[str, Any]) -> str:
 
 
 def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> None:
-    from rich import box
-    from rich.table import Table
-
+    from carom.cli.fitting import plain_table
     from carom.sweeps.running import duration_words, rate_words
 
     screen = console()
-    table = Table(box=box.SIMPLE_HEAD)
-    for heading in ("", "points"):
-        table.add_column(heading, justify="right" if heading else "left")
+    table = plain_table("", "", "points", right=("points",))
     table.add_row("done", f"{tally.done:,}")
     table.add_row("failed", f"{tally.failed:,}")
     table.add_row("all", f"{tally.points:,}")

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Collection
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich import box
 from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from carom.cli.fitting import fitted
+from carom.cli.fitting import fitted, plain_table
 from carom.motions.trajectories import Trajectory
 from carom.parameters.indentation import indentation_of_hit
 from carom.studies import Study, Wording
@@ -127,15 +125,8 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
     )
 
 
-def _table(title: str, *headings: str, right: Collection[str] = (), no_wrap: Collection[str] = ()) -> Table:
-    table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, pad_edge=False)
-    for heading in headings:
-        table.add_column(heading, justify="right" if heading in right else "left", no_wrap=heading in no_wrap)
-    return table
-
-
 def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
-    table = _table(title)
+    table = plain_table(title)
     if width < NARROW and all(row.state != "not possible" for row in rows):
         rows = [dataclasses.replace(row, remark="") for row in rows]
     headings = {
@@ -165,7 +156,7 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
 def _orbit_numbers(shown: list[Orbit]) -> Table:
     columns = ("period T", "ṙ", "θ", "θ̇")
     title = "Orbits in the units of the equations, just before the impact"
-    table = _table(title, "orbit", *columns, right=columns, no_wrap=("orbit", *columns))
+    table = plain_table(title, "orbit", *columns, right=columns, no_wrap=("orbit", *columns))
     for orbit in shown:
         numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
         style = "" if orbit.admissible else "dim"
@@ -175,7 +166,7 @@ def _orbit_numbers(shown: list[Orbit]) -> Table:
 
 def _multipliers(shown: list[Orbit]) -> Table:
     title, size = "Multipliers: a small disturbance is multiplied by these from impact to impact", "largest modulus"
-    table = _table(title, "orbit", size, "multipliers", right=[size])
+    table = plain_table(title, "orbit", size, "multipliers", right=[size])
     for orbit in shown:
         values = "   ".join(_complex(value, 6) for value in orbit.multipliers.values)
         style = "" if orbit.admissible else "dim"
@@ -186,7 +177,7 @@ def _multipliers(shown: list[Orbit]) -> Table:
 def _thresholds(study: Study) -> Table:
     values = ["value", "dimensionless"] if study.wording.scales is not None else ["dimensionless"]
     headings = ("motion", "exists", "quantity", *values, "where")
-    table = _table("Thresholds, each with all else as it is", *headings, right=["value"], no_wrap=values)
+    table = plain_table("Thresholds, each with all else as it is", *headings, right=["value"], no_wrap=values)
     for row in threshold_rows(study):
         table.add_row(row.motion, row.exists, row.quantity, *(getattr(row, value) for value in values), row.what)
     return table
@@ -194,7 +185,7 @@ def _thresholds(study: Study) -> Table:
 
 def _kicks(rows: list[tuple[str, str, str]]) -> Table:
     headings = ("speed", "came back", "the others ended")
-    table = _table("Kicks out of levitation", *headings, right=headings[:1], no_wrap=headings[:1])
+    table = plain_table("Kicks out of levitation", *headings, right=headings[:1], no_wrap=headings[:1])
     for row in rows:
         table.add_row(*row)
     return table
@@ -204,7 +195,7 @@ def _events(say: Wording, motion: Trajectory) -> Table:
     """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
     numbers = ("time", "angle", "speed towards wall", "normal impulse", "friction impulse")
     headings = ("time", "contact", "angle", "speed towards wall", "whirl", "normal impulse", "friction impulse", "slip")
-    table = _table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl", "slip"))
+    table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl", "slip"))
     rows = _event_rows(say, motion)
     hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
     if hidden > 1:
