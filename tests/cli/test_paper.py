@@ -18,7 +18,7 @@ def found():
 
 @pytest.fixture(autouse=True)
 def computed_once(monkeypatch, found):
-    monkeypatch.setattr(mora2014, "reproduce", lambda tell: found)
+    monkeypatch.setattr(mora2014, "reproduce", lambda *, progress: found)
 
 
 def test_table_alone(carom, tmp_path, monkeypatch):
