@@ -203,6 +203,7 @@ def test_known_motion_is_found_though_no_disturbance_reaches_it():
     assert found.smallest_unrecovered_kick is None
 
 
+@pytest.mark.jit_only
 def test_given_starts_replace_the_sample():
     found = find_attractors(Jeffcott(SOURCE), [kick(0.001), State(0.9 + 0j, 1j)], known=False)
 
@@ -231,6 +232,7 @@ def test_kicks_out_of_no_levitation_are_an_error():
         find_attractors(Jeffcott(SOURCE.replace(gamma=0.05)), Sample(KickPlane(0.4), 10))
 
 
+@pytest.mark.jit_only
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     for module in (ensembles, trajectories):
         monkeypatch.setattr(module, "longest_time", lambda rotor: 5.0)
@@ -242,6 +244,7 @@ def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     assert found.members[0].name == "levitation"
 
 
+@pytest.mark.jit_only
 def test_unknown_attractor_names_the_known():
     found = find_attractors(Jeffcott(SOURCE), [kick(0.001)], known=False)
 
@@ -256,9 +259,10 @@ def test_nothing_to_follow_is_an_error():
 
 def test_start_outside_the_wall_is_an_error():
     with pytest.raises(InputError, match="inside the wall"):
-        find_attractors(Jeffcott(SOURCE), [State(1.5 + 0j)])
+        find_attractors(Jeffcott(SOURCE), [State(1.5 + 0j)], known=False)
 
 
+@pytest.mark.jit_only
 def test_progress_grows_to_one():
     shares_done = []
     find_attractors(
