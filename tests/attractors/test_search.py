@@ -252,11 +252,13 @@ def test_unknown_attractor_names_the_known():
         found["B9,z"]
 
 
+@pytest.mark.jit_only
 def test_nothing_to_follow_is_an_error():
     with pytest.raises(InputError, match="count"):
         find_attractors(Jeffcott(SOURCE), [], known=False)
 
 
+@pytest.mark.jit_only
 def test_start_outside_the_wall_is_an_error():
     with pytest.raises(InputError, match="inside the wall"):
         find_attractors(Jeffcott(SOURCE), [State(1.5 + 0j)], known=False)
