@@ -10,14 +10,15 @@ from flights import parameters, task_from_state
 from flint import acb, arb
 from reference import first_crossing, jeffcott_flight, unit
 
-from carom.core.advance import CHATTER_HEIGHT, INSIDE_ALL, advance
+from carom.core.advance import CHATTER_HEIGHT, advance
+from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.fate import memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.core.table import flight_table
 from carom.models import Jeffcott
 from carom.motions.starts import State
 from carom.motions.trajectories import EventLog, simulate
-from carom.outcome import Outcome, Phase
+from carom.outcome import Outcome
 from carom.parameters import Parameters
 
 PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -26,28 +27,27 @@ PAPER = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, 
 class Run:
     """A motion advanced by direct calls of the kernel."""
 
-    def __init__(self, arrays, table, amplitudes, plane=INSIDE_ALL, stop_at_landing=False):
+    def __init__(self, arrays, table, amplitudes, contact=AWAY, stop_at_landing=False):
         self.arrays, self.table = arrays, table
         self.amplitudes = np.array(amplitudes, complex)
-        self.time, self.phase, self.plane = 0.0, int(Phase.FLIGHT), plane
+        self.time, self.contact = 0.0, np.full(len(arrays.rows), contact)
         self.recollection = memory(len(amplitudes), stop_at_landing=stop_at_landing)
         self.times, self.planes, self.before, self.after = [], [], [], []
 
     def go(self, until, size=1000):
         """Advance to a time or until as many events are logged."""
         modes = len(self.amplitudes)
-        log = EventLog.empty(size, modes)
-        outcome, time, count, self.phase, self.plane = advance(
+        log = EventLog.empty(size, modes, len(self.contact))
+        outcome, time, count = advance(
             self.arrays,
             self.table,
             self.amplitudes,
             until - self.time,
-            self.phase,
-            self.plane,
+            self.contact,
             *log,
             self.recollection,
             workspace(modes),
-            rub_workspace(modes),
+            rub_workspace(modes, len(self.contact)),
         )
         self.times += list(self.time + log.times[:count])
         self.planes += list(log.planes[:count])
@@ -68,7 +68,9 @@ def wall_run(machine, angle, radial_speed, angular_speed, stop_at_landing=True):
     rotor = Jeffcott(machine)
     normal = np.exp(1j * angle)
     amplitudes = rotor.system.amplitudes(normal, complex(radial_speed, angular_speed) * normal)
-    return rotor, Run(rotor.system.arrays, rotor.system.table, amplitudes, plane=0, stop_at_landing=stop_at_landing)
+    return rotor, Run(
+        rotor.system.arrays, rotor.system.table, amplitudes, contact=FLIGHT, stop_at_landing=stop_at_landing
+    )
 
 
 def test_a_flight_that_meets_nothing_ends_at_its_time():
@@ -78,7 +80,7 @@ def test_a_flight_that_meets_nothing_ends_at_its_time():
     assert run.go(12.5) is Outcome.TIME_REACHED
     assert run.time == 12.5
     assert run.times == []
-    assert run.plane == INSIDE_ALL
+    assert run.contact.tolist() == [AWAY]
     assert np.allclose(run.amplitudes, rotor.system.fly(start, np.array(12.5)), rtol=0, atol=1e-14)
 
 
@@ -94,7 +96,7 @@ def test_an_interrupted_motion_goes_on_as_if_it_were_not(size):
     assert np.array_equal(parts.before, whole.before)
     assert np.array_equal(parts.after, whole.after)
     assert np.allclose(parts.times, whole.times, rtol=1e-14, atol=0)
-    assert (parts.phase, parts.plane) == (whole.phase, whole.plane)
+    assert np.array_equal(parts.contact, whole.contact)
 
 
 def test_a_full_log_ends_at_its_last_event():

@@ -13,22 +13,20 @@ from compilation import sized
 from machines import PAPER, fly, random_parameters
 from scipy.integrate import solve_ivp
 
+from carom.core.contact_series import rub_series
 from carom.core.flow import acceleration, displacement, fly_all, velocity
 from carom.core.layout import ORDER, rotor_record, rub_workspace
 from carom.core.rub import (
-    _first_fall,
     first_transition,
     lift_off,
     next_phase,
     push_rounding,
     rest_on_wall,
-    rub_series,
-    rub_step,
     speed_rounding,
-    sum_series,
     turn_ahead,
     wall_push,
 )
+from carom.core.taylor import first_fall, series_step, sum_series
 from carom.models import Jeffcott
 from carom.outcome import Phase
 from carom.parameters import Parameters
@@ -48,7 +46,7 @@ def on_wall(parameters, angle, rate):
 def series_of(parameters, angle, rate, phase):
     rotor = Jeffcott(parameters).system.arrays
     work = rub_workspace(2)
-    rub_series(rotor, 0, on_wall(parameters, angle, rate), phase, work)
+    rub_series(rotor, np.array([phase]), on_wall(parameters, angle, rate), work)
     return rotor, work
 
 
@@ -154,7 +152,7 @@ SLIDES = [
 @pytest.mark.parametrize(("parameters", "angle", "rate", "phase"), SLIDES)
 def test_a_step_of_sliding_is_exact_to_rounding(parameters, angle, rate, phase):
     rotor, work = series_of(parameters, angle, rate, phase)
-    step = rub_step(work)
+    step = series_step(work)
     moved = np.empty(2, complex)
     with mpmath.workdps(40):
         exact = ExactSlide(parameters, angle, rate, SIGN[phase])
@@ -169,7 +167,7 @@ def test_a_step_of_sliding_is_exact_to_rounding(parameters, angle, rate, phase):
 @pytest.mark.parametrize(("parameters", "angle", "rate", "phase"), SLIDES)
 def test_coefficients_up_to_the_order(parameters, angle, rate, phase):
     _, work = series_of(parameters, angle, rate, phase)
-    step = rub_step(work)
+    step = series_step(work)
     with mpmath.workdps(40):
         rates = ExactSlide(parameters, angle, rate, SIGN[phase]).pieces[0][1]
         position = [mpmath.expj(mpmath.mpf(angle))]
@@ -178,14 +176,14 @@ def test_coefficients_up_to_the_order(parameters, angle, rate, phase):
     # The circle round the start on which the terms of the series are of one size.
     radius = step / 0.135
     for k in range(ORDER + 1):
-        assert abs(work.position[k] - complex(position[k])) * radius**k < 1e-12 * (1.0 + abs(rate))
+        assert abs(work.position[0, k] - complex(position[k])) * radius**k < 1e-12 * (1.0 + abs(rate))
 
 
 @pytest.mark.parametrize(("parameters", "angle", "rate", "phase"), SLIDES)
 def test_order_of_the_series(parameters, angle, rate, phase):
     """The error grows with the 21st power of the step, from below rounding at the step that is taken."""
     rotor, work = series_of(parameters, angle, rate, phase)
-    step = rub_step(work)
+    step = series_step(work)
     moved = np.empty(2, complex)
     points = []
     with mpmath.workdps(40):
@@ -208,7 +206,7 @@ def test_rolling_is_a_rotation():
     for parameters, angle in ((PAPER, 0.4), (SLENDER, -2.0), (SLENDER.replace(radius_ratio=0.02), 3.0)):
         drive = parameters.radius_ratio + 1.0
         rotor, work = series_of(parameters, angle, -drive, ROLLING)
-        step = rub_step(work)
+        step = series_step(work)
         moved = np.empty(2, complex)
         for time in np.linspace(0.0, step, 7):
             sum_series(work, time, moved)
@@ -225,16 +223,16 @@ def test_series_hold_push_slip_and_grip():
         drive = parameters.radius_ratio + 1.0
         phase = FORWARD if drive + rate > 0 else BACKWARD
         rotor, work = series_of(parameters, angle, rate, phase)
-        step = rub_step(work)
+        step = series_step(work)
         powers = (0.7 * step) ** np.arange(ORDER + 1)
         moved = np.empty(2, complex)
         sum_series(work, 0.7 * step, moved)
         x, w, _, _ = polar(rotor, moved)
         noise = 1e3 * push_rounding(rotor, 0, moved)
         push = push_of(parameters, x, w)
-        assert work.push @ powers == pytest.approx(push, abs=noise)
-        assert work.slip @ powers == pytest.approx(drive + w, abs=1e3 * speed_rounding(rotor, 0, moved))
-        assert work.grip @ powers == pytest.approx(-SIGN[phase] * parameters.mu * push, abs=noise)
+        assert work.push[0] @ powers == pytest.approx(push, abs=noise)
+        assert work.slip[0] @ powers == pytest.approx(drive + w, abs=1e3 * speed_rounding(rotor, 0, moved))
+        assert work.grip[0] @ powers == pytest.approx(-SIGN[phase] * parameters.mu * push, abs=noise)
 
 
 def test_flight_is_a_series_without_force():
@@ -243,7 +241,7 @@ def test_flight_is_a_series_without_force():
         parameters = random_parameters(random)
         angle, rate = random.uniform(-3, 3), random.normal()
         rotor, work = series_of(parameters, angle, rate, FLIGHT)
-        step = rub_step(work)
+        step = series_step(work)
         moved = np.empty(2, complex)
         sum_series(work, step, moved)
         start = cmath.rect(1.0, angle)
@@ -261,8 +259,8 @@ def next_event(parameters, angle, rate, phase):
     rotor = Jeffcott(parameters).system.arrays
     amplitudes, work, time = on_wall(parameters, angle, rate), rub_workspace(2), 0.0
     for _ in range(200):
-        rub_series(rotor, 0, amplitudes, phase, work)
-        step = rub_step(work)
+        rub_series(rotor, np.array([phase]), amplitudes, work)
+        step = series_step(work)
         duration, following, slip_stops = first_transition(rotor, 0, phase, step, work)
         sum_series(work, duration, amplitudes)
         rest_on_wall(rotor, 0, amplitudes, phase == ROLLING)
@@ -351,7 +349,10 @@ def test_slip_decides_what_goes_on(mu):
             parameters = SLENDER.replace(mu=mu, radius_ratio=30.0)
             amplitudes = on_wall(parameters, 0.7, -31.0 + sign * slip)
             for before in Phase:
-                assert next_phase(Jeffcott(parameters).system.arrays, 0, amplitudes, before) == phase
+                assert (
+                    next_phase(Jeffcott(parameters).system.arrays, np.array([before]), 0, amplitudes, rub_workspace(2))
+                    == phase
+                )
 
 
 def test_without_slip_the_cone_decides():
@@ -367,16 +368,19 @@ def test_without_slip_the_cone_decides():
         for factor, expected in ((0.5, slips), (1 - 1e-6, slips), (1.0, ROLLING), (1 + 1e-6, ROLLING), (3.0, ROLLING)):
             rotor = Jeffcott(parameters.replace(mu=factor * abs(pull) / push)).system.arrays
             amplitudes = on_wall(parameters, angle, -drive)
-            assert next_phase(rotor, 0, amplitudes, slips) == expected
+            assert next_phase(rotor, np.array([slips]), 0, amplitudes, rub_workspace(2)) == expected
 
 
 def test_without_friction_slip_goes_on_to_the_other_side():
     parameters = SLENDER.replace(mu=0.0, gamma=0.0, rho=0.0)
     rotor, amplitudes = Jeffcott(parameters).system.arrays, on_wall(parameters, 0.3, -2.2)
-    assert next_phase(rotor, 0, amplitudes, FORWARD) == BACKWARD
-    assert next_phase(rotor, 0, amplitudes, BACKWARD) == FORWARD
+    assert next_phase(rotor, np.array([FORWARD]), 0, amplitudes, rub_workspace(2)) == BACKWARD
+    assert next_phase(rotor, np.array([BACKWARD]), 0, amplitudes, rub_workspace(2)) == FORWARD
     pulled = parameters.replace(gamma=0.5)
-    assert next_phase(Jeffcott(pulled).system.arrays, 0, on_wall(pulled, 0.3, -2.2), FORWARD) == FORWARD
+    assert (
+        next_phase(Jeffcott(pulled).system.arrays, np.array([FORWARD]), 0, on_wall(pulled, 0.3, -2.2), rub_workspace(2))
+        == FORWARD
+    )
 
 
 def test_slip_that_starts_at_zero_goes_on():
@@ -387,11 +391,11 @@ def test_slip_that_starts_at_zero_goes_on():
     rotor, work = Jeffcott(parameters).system.arrays, rub_workspace(2)
     assert time > 0.0
     assert following == FORWARD
-    rub_series(rotor, 0, amplitudes, following, work)
-    assert abs(work.slip[0]) < 1e-14
-    assert abs(work.slip[1]) < 1e-12
-    assert work.slip[2] > 1e-3
-    step = rub_step(work)
+    rub_series(rotor, np.array([following]), amplitudes, work)
+    assert abs(work.slip[0, 0]) < 1e-14
+    assert abs(work.slip[0, 1]) < 1e-12
+    assert work.slip[0, 2] > 1e-3
+    step = series_step(work)
     assert first_transition(rotor, 0, following, step, work)[0] == step
 
 
@@ -409,7 +413,7 @@ def test_margins_fall_where_they_say():
         if trial % 3 == 2:
             margin[:2] = 0.0
         rounding = 1e-13
-        time = _first_fall(margin, 1.0, rounding)
+        time = first_fall(margin, 1.0, rounding)
         if margin[0] < -rounding:
             assert time == 0.0
             continue
@@ -432,26 +436,26 @@ def test_margins_fall_where_they_say():
 def test_narrow_dips_are_not_stepped_over(depth):
     margin = np.zeros(ORDER + 1)
     margin[:3] = 0.3**2 - depth, -0.6, 1.0
-    assert _first_fall(margin, 1.0, 1e-14) == pytest.approx(0.3 - math.sqrt(depth), abs=1e-9)
+    assert first_fall(margin, 1.0, 1e-14) == pytest.approx(0.3 - math.sqrt(depth), abs=1e-9)
     margin[0] = 0.3**2 + depth
-    assert _first_fall(margin, 1.0, 1e-14) == 1.0
+    assert first_fall(margin, 1.0, 1e-14) == 1.0
 
 
 def test_margins_that_vanish_do_not_fall():
-    assert _first_fall(np.zeros(ORDER + 1), 0.5, 1e-14) == 0.5
-    assert _first_fall(np.full(ORDER + 1, 1e-17), 0.5, 1e-14) == 0.5
-    assert _first_fall(np.full(ORDER + 1, -1.0), 0.5, 1e-14) == 0.0
+    assert first_fall(np.zeros(ORDER + 1), 0.5, 1e-14) == 0.5
+    assert first_fall(np.full(ORDER + 1, 1e-17), 0.5, 1e-14) == 0.5
+    assert first_fall(np.full(ORDER + 1, -1.0), 0.5, 1e-14) == 0.0
 
 
 def test_turns_are_found_to_rounding():
     parameters = SLENDER
     drive = parameters.radius_ratio + 1.0
     _, work = series_of(parameters, 0.4, -drive, ROLLING)
-    step = rub_step(work)
+    step = series_step(work)
     ahead = 0.6 * step
-    time = turn_ahead(cmath.rect(1.0, 0.4 - drive * ahead), -1.0, step, work)
+    time = turn_ahead(0, cmath.rect(1.0, 0.4 - drive * ahead), -1.0, step, work)
     assert time == pytest.approx(ahead, abs=1e-15)
-    assert turn_ahead(cmath.rect(1.0, 0.4 - drive * 1.5 * step), -1.0, step, work) == step
+    assert turn_ahead(0, cmath.rect(1.0, 0.4 - drive * 1.5 * step), -1.0, step, work) == step
 
 
 # ---------------------------------------------------------------------------------------------------- lift-off
@@ -530,7 +534,7 @@ def test_lift_off_leaves_as_the_cube_of_time():
         assert abs(push) < 2 * push_rounding(rotor, 0, amplitudes)
         assert change < 0.0
         start = amplitudes.copy()
-        time, returned = lift_off(rotor, 0, amplitudes, 1.0, rub_workspace(2))
+        time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, rub_workspace(2))
         assert time > 0.0
         position, speed = displacement(rotor, 0, start), velocity(rotor, 0, start)
         # It does not come back at once, and where it ends agrees with the flight.
@@ -542,8 +546,8 @@ def test_lift_off_leaves_as_the_cube_of_time():
         assert returned == (abs(abs(end) - 1.0) < 1e-13 and time < 1.0)
         # The cubic law, where the next term of the series is small.
         work = rub_workspace(2)
-        rub_series(rotor, 0, start, FLIGHT, work)
-        early = min(time, 1e-2 * abs(change) / (1.0 + abs(work.push[2])))
+        rub_series(rotor, np.array([FLIGHT]), start, work)
+        early = min(time, 1e-2 * abs(change) / (1.0 + abs(work.push[0, 2])))
         if abs(change) * early**3 > 1e-9:
             there, _ = fly(parameters, position, speed, early)
             assert 1.0 - abs(there) == pytest.approx(-change * early**3 / 6, rel=0.02)
@@ -561,12 +565,12 @@ def test_a_short_hop_is_followed_to_its_landing():
             rate = -1.0 + sign * math.sqrt(square)
             amplitudes = on_wall(parameters, angle, rate)
             rotor, work = Jeffcott(parameters).system.arrays, rub_workspace(2)
-            rub_series(rotor, 0, amplitudes, FLIGHT, work)
-            change, bend = work.push[1], 2 * work.push[2]
+            rub_series(rotor, np.array([FLIGHT]), amplitudes, work)
+            change, bend = work.push[0, 1], 2 * work.push[0, 2]
             if not (change < -1e-9 and bend > 0.0 and -4 * change / bend < 0.05):
                 continue
             start = amplitudes.copy()
-            time, returned = lift_off(rotor, 0, amplitudes, 1.0, work)
+            time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, work)
             assert returned
             assert time == pytest.approx(-4 * change / bend, rel=0.2)
             with mpmath.workdps(40):
@@ -593,7 +597,7 @@ def test_a_start_without_push_that_is_pressed_on_does_not_leave():
     amplitudes = on_wall(parameters, angle, rate)
     rotor = Jeffcott(parameters).system.arrays
     assert wall_push(rotor, 0, amplitudes)[1] > 0.0
-    time, returned = lift_off(rotor, 0, amplitudes, 1.0, rub_workspace(2))
+    time, returned = lift_off(rotor, np.array([FLIGHT]), amplitudes, 1.0, rub_workspace(2))
     assert time < 1e-14
     assert returned
 
@@ -666,9 +670,9 @@ def test_a_rotor_of_four_modes_stays_on_the_wall(seed, phase):
     state = rotor.start(0.3, {FORWARD: 2.5, BACKWARD: -7.0, ROLLING: -3.0}[phase])
     amplitudes, work, time = rotor.amplitudes(state), rub_workspace(4), 0.0
     for _ in range(12):
-        rub_series(rotor.arrays, 0, amplitudes, phase, work)
-        step = rub_step(work)
-        push = work.push @ step ** np.arange(ORDER + 1)
+        rub_series(rotor.arrays, np.array([phase]), amplitudes, work)
+        step = series_step(work)
+        push = work.push[0] @ step ** np.arange(ORDER + 1)
         sum_series(work, step, amplitudes)
         rest_on_wall(rotor.arrays, 0, amplitudes, phase == ROLLING)
         time += step

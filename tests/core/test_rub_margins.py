@@ -11,7 +11,7 @@ import pytest
 from flights import EPSILON
 from machines import PAPER
 
-from carom.core import rub
+from carom.core import contact_series, rub, taylor
 from carom.core.flow import displacement, fly_all, velocity
 from carom.core.layout import ORDER, record, rotor_record, rub_workspace
 from carom.models import Jeffcott
@@ -89,17 +89,17 @@ def test_margins_within_their_rounding_do_not_end_a_phase():
     for share, ends in ((0.9, False), (1.1, True)):
         work = rub_workspace(2)
         work.series[0] = amplitudes
-        work.push[0], slip = 1.0, share * rub.speed_rounding(ARRAYS, 0, amplitudes) * lasts
+        work.push[0, 0], slip = 1.0, share * rub.speed_rounding(ARRAYS, 0, amplitudes) * lasts
         for side, phase in ((-1.0, FORWARD), (1.0, BACKWARD)):
             work.slip[:] = side * slip
             assert rub.first_transition(ARRAYS, 0, phase, 0.5, work) == ((0.0 if ends else 0.5), phase, ends)
-        work.slip[:], work.push[0] = lasts, -share * rounding
+        work.slip[:], work.push[0, 0] = lasts, -share * rounding
         assert rub.first_transition(ARRAYS, 0, FORWARD, 0.5, work) == (
             (0.0, FLIGHT, False) if ends else (0.5, FORWARD, False)
         )
         for side, phase in ((1.0, BACKWARD), (-1.0, FORWARD)):
-            work.push[0] = 1.0
-            work.grip[0] = side * (FRICTION + share * (1.0 + FRICTION) * rounding)
+            work.push[0, 0] = 1.0
+            work.grip[0, 0] = side * (FRICTION + share * (1.0 + FRICTION) * rounding)
             expected = (0.0, phase, False) if ends else (0.5, ROLLING, False)
             assert rub.first_transition(ARRAYS, 0, ROLLING, 0.5, work) == expected
 
@@ -117,7 +117,7 @@ def test_all_coefficients_of_a_margin_count(order):
         assert transition(ROLLING, 0.5, push=lasts, grip=grip) == (time, phase, False)
     work = rub_workspace(2)
     work.position[:] = -1j * late
-    assert rub.turn_ahead(1.0 + 0j, 1.0, 0.5, work) == time
+    assert rub.turn_ahead(0, 1.0 + 0j, 1.0, 0.5, work) == time
 
 
 def test_rest_on_the_wall_keeps_the_angle_and_the_speed_along_it():
@@ -143,14 +143,14 @@ def test_motions_in_different_phases_are_moved_each_in_its_own():
     for row in amplitudes:
         rub.rest_on_wall(ARRAYS, 0, row, True)
     times, phases = np.array([2e-3, 3.0, 3e-3, 4e-3]), np.array([FORWARD, FLIGHT, ROLLING, BACKWARD])
-    moved = rub.fly_or_rub_all(ARRAYS, 0, amplitudes, phases, times, rub_workspace(2))
+    moved = rub.fly_or_rub_all(ARRAYS, amplitudes, phases[:, None], times, rub_workspace(2))
     for i, phase in enumerate(phases):
         if phase == FLIGHT:
             expected = fly_all(ARRAYS, amplitudes[i : i + 1], times[i : i + 1])[0]
         else:
             work, expected = rub_workspace(2), np.empty(2, complex)
-            rub.rub_series(ARRAYS, 0, amplitudes[i], int(phase), work)
-            rub.sum_series(work, times[i], expected)
+            contact_series.rub_series(ARRAYS, np.array([int(phase)]), amplitudes[i], work)
+            taylor.sum_series(work, times[i], expected)
         assert moved[i] == pytest.approx(expected, rel=1e-14)
         assert (abs(abs(displacement(ARRAYS, 0, moved[i])) - 1.0) < 1e-13) == (phase != FLIGHT)
 
@@ -175,7 +175,9 @@ def test_what_goes_on_without_slip_is_decided_by_the_cone_of_friction_and_its_ro
         rounding = rub.push_rounding(pressed_rotor(friction, acceleration), 0, motion)
         acceleration += complex(-0.9 * rounding if push is None else 0.0, side * share * rounding)
         slips = FORWARD if side > 0.0 else BACKWARD
-        following = rub.next_phase(pressed_rotor(friction, acceleration), 0, motion, ROLLING)
+        following = rub.next_phase(
+            pressed_rotor(friction, acceleration), np.array([ROLLING]), 0, motion, rub_workspace(2)
+        )
         assert following == (ROLLING if share < 1.0 else slips)
 
 
@@ -191,37 +193,37 @@ def test_a_step_is_the_same_share_of_the_radius_of_convergence_at_any_scale():
     for start, radius in ((1.0, 0.5), (40.0, 0.02), (40.0, 3.0)):
         work = rub_workspace(2)
         geometric(work, 0, start, radius)
-        assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION * radius, rel=1e-12)
+        assert taylor.series_step(work) == pytest.approx(taylor.STEP_FRACTION * radius, rel=1e-12)
         geometric(work, 1, 0.5j * start, 0.5 * radius)
-        assert rub.rub_step(work) < rub.STEP_FRACTION * radius
+        assert taylor.series_step(work) < taylor.STEP_FRACTION * radius
         # What is left out, summed up, is below the rounding of the sum.
-        left_out = start * rub.STEP_FRACTION ** (ORDER + 1) / (1.0 - rub.STEP_FRACTION)
+        left_out = start * taylor.STEP_FRACTION ** (ORDER + 1) / (1.0 - taylor.STEP_FRACTION)
         assert left_out < EPSILON * start
     # Amplitudes below one are measured by one.
     geometric(work, 0, 1e-3, 0.5)
     geometric(work, 1, 0.0, 1.0)
-    assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION * 0.5 * 1e3 ** (1.0 / ORDER), rel=1e-12)
+    assert taylor.series_step(work) == pytest.approx(taylor.STEP_FRACTION * 0.5 * 1e3 ** (1.0 / ORDER), rel=1e-12)
 
 
 def test_either_of_the_last_two_coefficients_decides_where_the_other_is_zero():
     for order in (ORDER, ORDER - 1):
         work = rub_workspace(2)
         work.series[0, 0], work.series[order, 1] = 2.0, 2.0j * 5.0**order
-        assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 5.0, rel=1e-12)
+        assert taylor.series_step(work) == pytest.approx(taylor.STEP_FRACTION / 5.0, rel=1e-12)
         work.series[order, 1] = 2.0j * 0.5**order
-        assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION * 2.0, rel=1e-12)
+        assert taylor.series_step(work) == pytest.approx(taylor.STEP_FRACTION * 2.0, rel=1e-12)
         work.series[order, 1] = 2.0j * 5.0**order
     work.series[ORDER, 0] = 2.0 * 4.0**ORDER
-    assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 5.0, rel=1e-12)
+    assert taylor.series_step(work) == pytest.approx(taylor.STEP_FRACTION / 5.0, rel=1e-12)
     work.series[ORDER, 0] = 2.0 * 6.0**ORDER
-    assert rub.rub_step(work) == pytest.approx(rub.STEP_FRACTION / 6.0, rel=1e-12)
+    assert taylor.series_step(work) == pytest.approx(taylor.STEP_FRACTION / 6.0, rel=1e-12)
 
 
 def test_a_step_of_a_rotor_at_rest_ends_at_one():
-    assert rub.rub_step(rub_workspace(2)) == 1.0
+    assert taylor.series_step(rub_workspace(2)) == 1.0
     work = rub_workspace(2)
     geometric(work, 0, 1.0, 100.0)
-    assert rub.rub_step(work) == 1.0
+    assert taylor.series_step(work) == 1.0
 
 
 def test_a_sum_is_that_of_the_series():
@@ -229,7 +231,7 @@ def test_a_sum_is_that_of_the_series():
     work, moved = rub_workspace(3), np.empty(3, complex)
     work.series[:] = random.normal(size=(ORDER + 1, 3)) + 1j * random.normal(size=(ORDER + 1, 3))
     for time in (0.0, 0.3, 1.1):
-        rub.sum_series(work, time, moved)
+        taylor.sum_series(work, time, moved)
         assert moved == pytest.approx(time ** np.arange(ORDER + 1.0) @ work.series, rel=1e-14)
 
 
@@ -281,15 +283,15 @@ def polynomial(*roots, lead=1.0):
 def test_the_first_fall_of_polynomials_with_known_zeros():
     """A fall at each zero that is passed downward; double zeros are no falls; nothing beyond the step."""
     for first, second in ((0.2, 0.7), (1e-3, 0.9), (0.45, 0.46)):
-        assert rub._first_fall(polynomial(first, second), 1.0, 1e-14) == pytest.approx(first, abs=1e-12)
-        assert rub._first_fall(polynomial(-first, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
-        assert rub._first_fall(polynomial(-first, second, lead=-1.0), 0.999 * second, 1e-14) == 0.999 * second
+        assert taylor.first_fall(polynomial(first, second), 1.0, 1e-14) == pytest.approx(first, abs=1e-12)
+        assert taylor.first_fall(polynomial(-first, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
+        assert taylor.first_fall(polynomial(-first, second, lead=-1.0), 0.999 * second, 1e-14) == 0.999 * second
         # It rises from a negative start: that is a fall at the start.
-        assert rub._first_fall(polynomial(first, second, lead=-1.0), 1.0, 1e-14) == 0.0
+        assert taylor.first_fall(polynomial(first, second, lead=-1.0), 1.0, 1e-14) == 0.0
         # From zero up, and down again.
-        assert rub._first_fall(polynomial(0.0, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
-    assert rub._first_fall(polynomial(0.4, 0.4, 0.8, lead=-1.0), 1.0, 1e-14) == pytest.approx(0.8, abs=1e-12)
-    assert rub._first_fall(polynomial(0.4, 0.4), 1.0, 1e-14) == 1.0
+        assert taylor.first_fall(polynomial(0.0, second, lead=-1.0), 1.0, 1e-14) == pytest.approx(second, abs=1e-12)
+    assert taylor.first_fall(polynomial(0.4, 0.4, 0.8, lead=-1.0), 1.0, 1e-14) == pytest.approx(0.8, abs=1e-12)
+    assert taylor.first_fall(polynomial(0.4, 0.4), 1.0, 1e-14) == 1.0
 
 
 @pytest.mark.parametrize("rounding", [1e-14, 1e-20, 1e-30])
@@ -297,7 +299,7 @@ def test_a_fall_after_a_rise_is_not_passed_over_just_before_the_end(rounding):
     """The curvature of a parabola is the same everywhere: the steps that it allows lead to the zero and not beyond."""
     for first, second in ((0.2, 0.7), (0.45, 0.46), (0.0, 0.46), (0.0, 1e-3), (0.0, 500.0)):
         rising = polynomial(-first, second, lead=-1.0)
-        assert rub._first_fall(rising, 1.001 * second, rounding) == pytest.approx(second, rel=1e-9)
+        assert taylor.first_fall(rising, 1.001 * second, rounding) == pytest.approx(second, rel=1e-9)
 
 
 @pytest.mark.parametrize("step", [0.1, 0.4, 2.0])
@@ -307,12 +309,14 @@ def test_no_dip_within_a_step_is_passed_over(step):
         dip = polynomial(0.7 * step, 0.7 * step)
         dip[0] -= depth * step**2
         expected = 0.7 * step - math.sqrt(depth) * step
-        assert rub._first_fall(dip, step, 1e-14) == pytest.approx(expected, abs=1e-8 * step)
+        assert taylor.first_fall(dip, step, 1e-14) == pytest.approx(expected, abs=1e-8 * step)
         dip[0] += 2.0 * depth * step**2
-        assert rub._first_fall(dip, step, 1e-14) == step
+        assert taylor.first_fall(dip, step, 1e-14) == step
     for order in (1, 2, ORDER):
-        assert rub._first_fall(falling(0.75 * step, order=order), step, 1e-14) == pytest.approx(0.75 * step, rel=1e-12)
-        assert rub._first_fall(falling(1.01 * step, order=order), step, 1e-14) == step
+        assert taylor.first_fall(falling(0.75 * step, order=order), step, 1e-14) == pytest.approx(
+            0.75 * step, rel=1e-12
+        )
+        assert taylor.first_fall(falling(1.01 * step, order=order), step, 1e-14) == step
 
 
 @pytest.mark.parametrize("step", [1e-3, 1.0])
@@ -325,11 +329,11 @@ def test_a_dip_after_a_summit_is_not_passed_over(step):
         margin = wave.copy()
         lowest = np.polynomial.polynomial.polyval(np.linspace(0.45, 0.55, 20001) * step, wave).min()
         margin[0] -= lowest + depth
-        time = rub._first_fall(margin, step, 1e-14)
+        time = taylor.first_fall(margin, step, 1e-14)
         assert time < 0.5 * step
         assert abs(np.polynomial.polynomial.polyval(time, margin)) < 1e-12
         margin[0] += 2.0 * depth
-        assert rub._first_fall(margin, 0.6 * step, 1e-14) == 0.6 * step
+        assert taylor.first_fall(margin, 0.6 * step, 1e-14) == 0.6 * step
 
 
 def test_lift_off_ends_at_its_horizon_with_the_state_of_the_flight():
@@ -387,7 +391,7 @@ def test_the_value_and_slope_of_a_margin():
     margin = np.random.default_rng(7).normal(size=ORDER + 1)
     derivative = margin[1:] * np.arange(1, ORDER + 1)
     for time in (0.0, 0.4, 1.3):
-        value, slope = rub._value_and_slope(margin, time)
+        value, slope = taylor._value_and_slope(margin, time)
         assert value == pytest.approx(np.polynomial.polynomial.polyval(time, margin), rel=1e-12)
         assert slope == pytest.approx(np.polynomial.polynomial.polyval(time, derivative), rel=1e-12)
 
@@ -395,14 +399,14 @@ def test_the_value_and_slope_of_a_margin():
 def test_a_zero_is_looked_for_from_later_times_on_and_never_left_of_the_start():
     margin = polynomial(0.3, lead=-1.0) + polynomial(0.3, 0.3, lead=-5.0)
     for time in (0.30001, 0.31, 0.5, 1.0):
-        assert rub._zero_before(margin, time) == pytest.approx(0.3, abs=1e-14)
+        assert taylor._zero_before(margin, time) == pytest.approx(0.3, abs=1e-14)
     below = falling(1.0)
     below[0] = -1.0
-    assert rub._zero_before(below, 0.5) == 0.0
+    assert taylor._zero_before(below, 0.5) == 0.0
     # Where it does not fall there is no zero to look for.
-    assert rub._zero_before(-0.5 * below, 0.5) == 0.5
+    assert taylor._zero_before(-0.5 * below, 0.5) == 0.5
     # A summit below zero at the start, to which one step leads.
-    assert rub._zero_before(-polynomial(-0.5j, 0.5j) + 0.0, 0.5) == 0.0
+    assert taylor._zero_before(-polynomial(-0.5j, 0.5j) + 0.0, 0.5) == 0.0
 
 
 def test_a_turn_is_passed_in_its_direction_only():

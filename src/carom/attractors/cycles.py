@@ -69,9 +69,11 @@ def cycle_of(motion: Trajectory) -> Cycle:
     outcome = motion.outcome
     none = np.empty(0, complex)
     if outcome is Outcome.ROLLING:
-        return Cycle(outcome, False, rolling(motion.rotor).period, none, none)
+        return Cycle(outcome, False, 2.0 * math.pi / float(motion.rotor.system.arrays.drive[motion.plane]), none, none)
     if outcome not in REPEATING:
-        resting = outcome is Outcome.LEVITATED or (outcome is Outcome.FORWARD_RUB and abs(motion.final.velocity) < SAME)
+        resting = outcome is Outcome.LEVITATED or (
+            outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME
+        )
         whirling = outcome is Outcome.BACKWARD_WHIRL or (outcome is Outcome.FORWARD_RUB and not resting)
         return Cycle(outcome, resting, _turn_time(motion) if whirling else None, none, none)
     count = motion.multiplicity
@@ -92,13 +94,13 @@ def _turn_time(motion: Trajectory) -> float | None:
     speed = abs((end.conjugate() * motion.final.velocity).imag)
     span = 2.0 * math.pi * min(TURNS, 4.0 / speed if speed > 0.0 else TURNS)
     times = np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
-    angles = np.unwrap(np.angle(motion.at(times)[0] / end))
+    angles = np.unwrap(np.angle(motion.at_plane(times)[0] / end))
     turned = np.flatnonzero(np.abs(angles - angles[-1]) >= 2.0 * math.pi * (1.0 - SAME))
     if not len(turned):
         return None
     start = float(times[turned[-1]])
     for _ in range(4):  # Newton's method from a start less than a sample's width away
-        position, velocity = motion.at(np.array(start))
+        position, velocity = motion.at_plane(np.array(start))
         start -= cmath.phase(complex(position) / end) / (complex(position).conjugate() * complex(velocity)).imag
         start = max(0.0, start)
     return motion.time - start
@@ -158,7 +160,7 @@ def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:
     last = impulses[-cycle.multiplicity :] if cycle.multiplicity else impulses[len(impulses) // 2 :]
     touching = cycle.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL)
     impulse = float(last.max()) if len(last) and not touching else 0.0
-    if (motion.segment_phases == Phase.FLIGHT).all():
+    if (motion.segment_phases[:, motion.plane] == Phase.FLIGHT).all():
         return impulse, 0.0
     normal, _ = motion.forces(_last_times(motion, cycle))
     return impulse, float(normal.max())
@@ -169,7 +171,7 @@ def whirl_of(motion: Trajectory, cycle: Cycle) -> Whirl:
 
     The areal velocity is ``Im(Z̄Ż)/2 = (|U|² + Im(ŪU̇))/2``.
     """
-    position, velocity = motion.at(_last_times(motion, cycle))
+    position, velocity = motion.at_plane(_last_times(motion, cycle))
     swept = float((np.abs(position) ** 2 + (position.conj() * velocity).imag).mean())
     if abs(swept) < SAME:
         return "none"

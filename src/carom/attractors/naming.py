@@ -9,8 +9,8 @@ import numpy as np
 
 from carom.attractors.cycles import Cycle, cycle_of, orbit_of, same_cycle
 from carom.attractors.names import MotionName
-from carom.closed_forms.absorbing import rub_neighbourhood
-from carom.models import Jeffcott
+from carom.closed_forms.known import known_of
+from carom.models import Model
 from carom.motions.ensembles import Endings
 from carom.motions.starts import State
 from carom.motions.trajectories import REPEATING, simulate
@@ -27,7 +27,7 @@ AT_REST = 1e-6
 
 
 def name_motions(
-    rotor: Jeffcott, endings: Endings, orbits: Sequence[Orbit] | None = None
+    rotor: Model, endings: Endings, orbits: Sequence[Orbit] | None = None
 ) -> tuple[np.ndarray, tuple[MotionName, ...]]:
     """Name the motion each start ends on.
 
@@ -37,7 +37,7 @@ def name_motions(
 
     Parameters
     ----------
-    rotor : Jeffcott
+    rotor : Model
     endings : Endings
         Outcomes are negative where there is no start.
     orbits : sequence of Orbit, optional
@@ -78,10 +78,11 @@ def name_motions(
     return named, tuple(names)
 
 
-def _goes_over_to_rub(rotor: Jeffcott, endings: Endings) -> np.ndarray:
+def _goes_over_to_rub(rotor: Model, endings: Endings) -> np.ndarray:
     """Which motions in forward rub are at the synchronous rub, or are proven to go over to it."""
-    still: np.ndarray = np.abs(endings.velocities) < AT_REST
-    around = rub_neighbourhood(rotor)
+    axes = tuple(range(endings.outcomes.ndim, endings.velocities.ndim))
+    still: np.ndarray = np.abs(endings.velocities).max(axis=axes, initial=0.0) < AT_REST
+    around = known_of(rotor).around
     if around is None:
         return still
     along = endings.positions.real * endings.velocities.imag - endings.positions.imag * endings.velocities.real
@@ -89,13 +90,15 @@ def _goes_over_to_rub(rotor: Jeffcott, endings: Endings) -> np.ndarray:
 
 
 def _periodic(
-    rotor: Jeffcott, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
+    rotor: Model, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
 ) -> list[tuple[np.ndarray, MotionName]]:
     """Kinds of periodic bouncing: the starts that belong to each, and its name."""
-    positions, velocities = endings.positions.ravel()[places], endings.velocities.ravel()[places]
-    codes, counts = endings.outcomes.ravel()[places], endings.multiplicities.ravel()[places]
+    ends = Endings(**{name: values[places] for name, values in vars(endings.reshaped(-1)).items()})
+    positions, velocities, codes, counts = ends.positions, ends.velocities, ends.outcomes, ends.multiplicities
     radial = positions.real * velocities.real + positions.imag * velocities.imag
     along = positions.real * velocities.imag - positions.imag * velocities.real
+    if positions.ndim > 1:
+        radial, along = radial.sum(axis=1), along.sum(axis=1)
     first, kinds = _alike(codes, counts, radial.round(ALIKE), along.round(ALIKE))
     known: dict[MotionName, Cycle] = {}
     found = []
@@ -103,7 +106,7 @@ def _periodic(
         chosen = np.zeros(endings.outcomes.size, bool)
         chosen[places[kinds == kind]] = True
         if kind < LOOKED_AT:
-            state = State(complex(positions[place]), complex(velocities[place]))
+            state = State.of(positions[place], velocities[place])
             name = _cycle_name(cycle_of(simulate(rotor, state, settle=True)), known, orbits)
         else:
             name = MotionName(Outcome(codes[place]), int(counts[place]))
@@ -135,7 +138,7 @@ def _alike(*features: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return first, groups
 
 
-def _orbits(rotor: Jeffcott) -> Sequence[Orbit]:
+def _orbits(rotor: Model) -> Sequence[Orbit]:
     """Orbits known in closed form; empty where their search fails."""
     try:
         return orbits_within_reach(rotor)

@@ -13,7 +13,7 @@ from carom.attractors.naming import name_motions
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
 from carom.disturbances import FASTEST, Disturbance, Plan, Sample, Starts
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
 from carom.orbits.single_impact import orbits_within_reach
@@ -177,7 +177,7 @@ def find_attractors(
     InputError
         A start lies outside the wall, none of the disturbances is possible, or there is nothing to follow.
     """
-    rotor, tell = model_of(machine), Reporter.of(progress, "following disturbances")
+    rotor, tell = jeffcott_of(machine), Reporter.of(progress, "following disturbances")
     given: DisturbanceSet | Plan | Sequence[State | Kick]
     if disturbances is None:
         given = DisturbanceSet(count, seed, fastest)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.motions.ensembles import Endings, settle
 from carom.motions.trajectories import REPEATING
 from carom.outcome import Outcome
@@ -120,7 +120,7 @@ def still_irregular(endings: Endings) -> np.ndarray:
 
 
 def measure_survival(
-    rotor: Jeffcott,
+    rotor: Model,
     positions: np.ndarray,
     velocities: np.ndarray,
     *,
@@ -131,7 +131,7 @@ def measure_survival(
 
     Parameters
     ----------
-    rotor : Jeffcott
+    rotor : Model
     positions, velocities : ndarray of complex, shape (M,)
         States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a random part is
         taken; fewer are extended to 200 by small changes of their velocity.
@@ -146,7 +146,8 @@ def measure_survival(
     """
     random = np.random.default_rng(SEED)
     places = np.resize(random.permutation(len(positions)), MOTIONS)
-    change = APART * np.exp(2j * np.pi * random.random(MOTIONS))
+    change = APART * np.exp(2j * np.pi * random.random(MOTIONS)).reshape(-1, *np.ones(velocities.ndim - 1, int))
+    change = change.reshape(-1, *np.ones(velocities.ndim - 1, int))
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
     looks, left = [], []
     for _ in range(1 + max(1, impacts // LOOK)):
@@ -164,7 +165,7 @@ def measure_survival(
     return Survival.of(looks[1], LOOK * (len(looks) - 1), sum(left[1:]), sum(looks[1:]), sum(left[1:]))
 
 
-def follow_further(rotor: Jeffcott, endings: Endings, chosen: np.ndarray, **limits: Any) -> Endings:
+def follow_further(rotor: Model, endings: Endings, chosen: np.ndarray, **limits: Any) -> Endings:
     """Follow chosen motions of an ensemble, bool of its shape, from where they are; times and impacts are added up."""
     further = settle(rotor, endings.positions[chosen], endings.velocities[chosen], **limits)
     whole = {name: values.copy() for name, values in vars(endings).items()}
@@ -174,7 +175,7 @@ def follow_further(rotor: Jeffcott, endings: Endings, chosen: np.ndarray, **limi
 
 
 def follow_out(
-    rotor: Jeffcott,
+    rotor: Model,
     endings: Endings,
     *,
     impacts: int,
@@ -186,7 +187,7 @@ def follow_out(
 
     Parameters
     ----------
-    rotor : Jeffcott
+    rotor : Model
     endings : Endings
     impacts : int
         Number of impacts for which irregular motions are followed to measure how long they last.

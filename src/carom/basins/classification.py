@@ -16,7 +16,7 @@ from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
 from carom.disturbances import Coordinate, Plan, Sample
 from carom.disturbances.following import NO_START, follow, require_start
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
 from carom.motions.starts import own_size
@@ -67,15 +67,10 @@ class Basin(Mapped):
 
     needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "time", "touched")
 
-    @cached_property
-    def rotor(self) -> Jeffcott:
-        """Model of the machine."""
-        return Jeffcott(self.parameters)
-
     @property
     def scales(self) -> Scales | None:
         """Mass, clearance and speed, if known."""
-        return self.parameters.scales
+        return self.rotor.scales
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

@@ -16,7 +16,7 @@ from carom.attractors import MotionName
 from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.disturbances.following import NO_START
 from carom.files.netcdf import load, save
-from carom.models import Jeffcott
+from carom.models import Model, jeffcott_of, model_from
 from carom.motions.ensembles import Endings
 from carom.outcome import Outcome
 from carom.parameters import Parameters
@@ -51,9 +51,14 @@ class Mapped(Result):
     dataset: xarray.Dataset
 
     @cached_property
+    def rotor(self) -> Model:
+        """Model of the machine."""
+        return model_from(self.dataset.attrs)
+
+    @property
     def parameters(self) -> Parameters:
-        """Parameters of the machine."""
-        return Parameters.from_attributes(self.dataset.attrs)
+        """Parameters of the machine, which must be a planar rotor."""
+        return jeffcott_of(self.rotor).parameters
 
     @cached_property
     def plan(self) -> Plan:
@@ -76,7 +81,7 @@ class Mapped(Result):
         return cls(load(path, cls.needed))
 
 
-def provenance(rotor: Jeffcott, plan: Plan) -> dict[str, str]:
+def provenance(rotor: Model, plan: Plan) -> dict[str, str]:
     """Attributes that are needed to repeat the computation."""
     how: dict[str, object] = (
         {"cells": plan.shape} if isinstance(plan, Grid) else {"starts": plan.count, "seed": plan.seed}
@@ -85,13 +90,13 @@ def provenance(rotor: Jeffcott, plan: Plan) -> dict[str, str]:
         "Conventions": "CF-1.11",
         "title": "Where disturbances of a rotor inside its touchdown bearing end",
         "source": f"carom {version('carom')}, numba {version('numba')}, numpy {version('numpy')}",
-        **rotor.parameters.attributes(),
+        **rotor.attributes(),
         "disturbances": json.dumps({"model": plan.model.describe(), **how}),
     }
 
 
 def dataset_of(
-    rotor: Jeffcott,
+    rotor: Model,
     plan: Plan,
     starts: Starts,
     endings: Endings,
@@ -145,8 +150,13 @@ def dataset_of(
         "start_vx": (starts.velocities.real, {**speed, "long_name": "velocity at the start, Re dU/dt"}),
         "start_vy": (starts.velocities.imag, {**speed, "long_name": "velocity at the start, Im dU/dt"}),
     }
+    # The starts of a rotor of several coordinates have one axis more.
+    several = (*dimensions, "coordinate")
     return xarray.Dataset(
-        {name: (dimensions, np.ascontiguousarray(values), notes) for name, (values, notes) in variables.items()},
+        {
+            name: (several[: values.ndim], np.ascontiguousarray(values), notes)
+            for name, (values, notes) in variables.items()
+        },
         coords=axes,
         attrs=dict(attributes),
     )
@@ -159,7 +169,7 @@ def _touched(starts: Starts, endings: Endings) -> np.ndarray:
     return touched
 
 
-def _axes(rotor: Jeffcott, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
+def _axes(rotor: Model, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:
     """Coordinates of a dataset, including those in SI units, and its dimensions."""
     coordinates = plan.model.coordinates
     grid = isinstance(plan, Grid)

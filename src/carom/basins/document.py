@@ -20,6 +20,7 @@ from carom.basins.losses import SmallestLoss, size_coordinate
 from carom.basins.shares import Share, starts_enough
 from carom.closed_forms.thresholds import harmless_shock, harmless_step
 from carom.disturbances import BaseShock, Sample, UnbalanceStep
+from carom.models import jeffcott_of
 from carom.outcome import InputError
 
 __all__ = ["basin_document"]
@@ -75,7 +76,7 @@ def basin_document(
     if smallest is not None and smallest.kind != "kick":
         document |= _loss(smallest, basin, smallest.kind)
     if isinstance(model, UnbalanceStep):
-        document["harmless_step"] = harmless_step(basin.rotor)
+        document["harmless_step"] = harmless_step(jeffcott_of(basin.rotor))
         if scales is not None:
             document["harmless_step_si"] = document["harmless_step"] * scales.length
     if isinstance(model, BaseShock):

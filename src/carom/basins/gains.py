@@ -18,7 +18,7 @@ from carom.basins.shares import Share
 from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.following import NO_START, follow_machines
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
@@ -131,7 +131,7 @@ def map_gains(
     InputError
         A name or range that cannot be used.
     """
-    parameters = model_of(machine).parameters
+    parameters = jeffcott_of(machine).parameters
     axes = axis(parameters, names[0]), axis(parameters, names[1])
     if axes[0].name == axes[1].name:
         raise InputError("names", ",".join(names), "two different parameters")

@@ -67,7 +67,7 @@ def integrity(basin: Basin) -> Integrity:
             reach = float(plan.values()[0][lost].min(initial=size.high))
         return Integrity(reach / size.high, math.nan, (), size.high)
     if isinstance(model, KickPlane | StateSlice) and isinstance(plan, Grid):
-        rest = basin.rotor.equilibrium
+        rest = complex(basin.rotor.system.arrays.offsets[0])
         centre = (0.0, 0.0) if isinstance(model, KickPlane) else (rest.real, rest.imag)
         return _in_plane(basin, plan, lost, centre)
     if isinstance(model, KickPlane | StateSlice):
@@ -123,7 +123,7 @@ def _distances(barred: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 def _in_sample(basin: Basin, lost: np.ndarray) -> Integrity:
     """Distance of the nearest lost start from levitation in the plane."""
-    dataset, rest = basin.dataset, basin.rotor.equilibrium
+    dataset, rest = basin.dataset, complex(basin.rotor.system.arrays.offsets[0])
     if isinstance(basin.plan.model, KickPlane):
         apart, whole = np.hypot(dataset["start_vx"].values, dataset["start_vy"].values), basin.coordinates[0].high
     else:

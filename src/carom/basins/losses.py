@@ -25,7 +25,7 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.disturbances.following import follow
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, Wish, shows_progress
 
@@ -168,7 +168,7 @@ def smallest_loss(
     InputError
         The model has no size, or the rotor cannot levitate inside the wall, or its levitation is unstable.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     if abs(rotor.equilibrium) >= 1.0:
         raise InputError("disturbance", f"|U*| = {abs(rotor.equilibrium):.6g}", "needs levitation inside the wall")
     if rotor.parameters.gamma < 0.0:

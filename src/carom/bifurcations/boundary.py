@@ -31,7 +31,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
@@ -151,7 +151,7 @@ def boundary_equilibria(machine: Subject, gain: Gain = "gamma") -> tuple[Boundar
     InputError
         There is no such gain.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     found = []
     for low, high in ranges_of("contact-free", rotor.parameters, gain):
         if low.kind:

@@ -23,7 +23,7 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.single_impact import Orbit, find_orbits
 from carom.parameters import Parameters
 from carom.progress import Reporter, Wish, shows_progress
@@ -137,7 +137,7 @@ def find_bifurcations(
     InputError
         Empty interval, unknown parameter, or values out of the range of the parameter.
     """
-    parameters = model_of(machine).parameters
+    parameters = jeffcott_of(machine).parameters
     along = axis(parameters, parameter)
     limits = read_interval(parameter, interval)
     tell = Reporter.of(progress, "following motions")

@@ -14,7 +14,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.models import Jeffcott
+from carom.models import Jeffcott, jeffcott_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, Phase
@@ -119,8 +119,8 @@ def next_lift_off(rotor: Jeffcott, whirl: Whirl, angle: float, longest: float = 
 
 def _first_lift_off(motion: Trajectory) -> LiftOff | None:
     """The first lift-off of a motion that begins with one."""
-    rotor = motion.rotor
-    flying = motion.segment_phases == Phase.FLIGHT
+    rotor = jeffcott_of(motion.rotor)
+    flying = motion.segment_phases[:, 0] == Phase.FLIGHT
     # By rounding the rotor may stay on the wall for an instant before it lifts off.
     first = int(np.argmax(flying))
     landing = first + int(np.argmin(flying[first:]))

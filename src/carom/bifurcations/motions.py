@@ -10,7 +10,7 @@ from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
 from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName, combined, in_order
 from carom.parameters import Parameters
 
@@ -100,5 +100,5 @@ def motions_at(parameters: Parameters) -> Motions:
 
 def forward_orbits(machine: Subject) -> list[Solution]:
     """All single-impact orbits with forward slip that :func:`motions_at` considers, including virtual ones."""
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     return orbit_solutions(rotor, LONGEST_PERIOD if rotor.parameters.gamma < 0.05 else None)

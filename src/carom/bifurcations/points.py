@@ -9,7 +9,7 @@ from typing import Literal
 
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import orbit_of
-from carom.models import Subject, model_of
+from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
@@ -81,7 +81,7 @@ class Bifurcation(Result):
         period, radial_speed : float
             Those of the orbit; left out for steady motions.
         """
-        return cls(kind, Numbers.of(model_of(machine).parameters), period, radial_speed)
+        return cls(kind, Numbers.of(jeffcott_of(machine).parameters), period, radial_speed)
 
     @property
     def motion(self) -> MotionKind:

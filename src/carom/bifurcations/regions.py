@@ -17,7 +17,7 @@ from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.rubbing import RubbingPoint
 from carom.bifurcations.survey import Survey
-from carom.models import Subject, model_of
+from carom.models import Subject, jeffcott_of
 from carom.orbits.names import combined
 from carom.outcome import CaromError
 from carom.progress import Reporter, Wish, shows_progress
@@ -177,7 +177,7 @@ def map_regions(
     InputError
         Unknown parameters, or a range they cannot have.
     """
-    parameters = model_of(machine).parameters
+    parameters = jeffcott_of(machine).parameters
     axes = plane.axes(parameters)
     tell = Reporter.of(progress, "counting motions, following curves")
     place = plane.place_of(Numbers.of(parameters))

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Subject, model_of
+from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_of_roots
 
@@ -48,7 +48,7 @@ def orbit_solutions(machine: Subject, longest_period: float | None = None, *, ba
     list of Solution
         Solutions with a positive radial speed, which meet the wall from inside.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     if rotor.equilibrium == 0.0:
         return []
     numbers = Numbers.of(rotor.parameters)

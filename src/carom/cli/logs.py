@@ -19,6 +19,7 @@ from carom.outcome import InputError, Phase
 if TYPE_CHECKING:
     import xarray
 
+    from carom.models import jeffcott_of
     from carom.motions.trajectories import Trajectory
 
 __all__ = ["check_file", "write_csv", "write_netcdf"]
@@ -113,7 +114,7 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
         "outcome": motion.outcome.label,
         "comment": motion.outcome.meaning,
         "end_time": motion.time * scale,
-        **motion.rotor.parameters.as_dict(),
+        **jeffcott_of(motion.rotor).parameters.as_dict(),
     }
     return dataset
 

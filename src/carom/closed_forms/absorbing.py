@@ -28,7 +28,7 @@ import numpy as np
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import largest_pull
 from carom.core.fate import rub_potentials
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 
 __all__ = ["GIVEN_UP", "RubNeighbourhood", "neighbourhood_of", "rub_neighbourhood"]
 
@@ -92,7 +92,7 @@ def rub_neighbourhood(machine: Subject) -> RubNeighbourhood | None:
     ----------
     machine : Machine, Case, Parameters or model
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     rub = next((entry for entry in find_equilibria(rotor) if entry.attracts_sliding), None)
     return neighbourhood_of(rotor, rub) if rub else None
 

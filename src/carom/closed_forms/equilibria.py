@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.results import Result
 
 __all__ = ["Equilibrium", "find_equilibria"]
@@ -85,7 +85,7 @@ def find_equilibria(machine: Subject) -> tuple[Equilibrium, ...]:
     -------
     tuple of Equilibrium
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     return (_contact_free(rotor), *_rubs(rotor))
 
 

@@ -33,7 +33,7 @@ from typing import Literal, NamedTuple, Protocol, get_args
 
 import numpy as np
 
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
 
 __all__ = [
@@ -196,7 +196,7 @@ def rub_limit(machine: Subject) -> float:
     float
         ``γ``; not positive if there is no rub with positive damping.
     """
-    return _rub_end(model_of(machine).parameters).value
+    return _rub_end(jeffcott_of(machine).parameters).value
 
 
 def _rub_end(at: Values) -> End:
@@ -328,7 +328,7 @@ def harmless_kick(machine: Subject) -> float:
 
     Zero where the rotor cannot levitate inside the wall or its levitation is unstable.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     return _room(rotor) / _largest_response(rotor.parameters.gamma, rotor.parameters.omega)
 
 
@@ -350,7 +350,7 @@ def harmless_shock(machine: Subject, duration: float) -> float:
     float
         Peak acceleration in ``c_r Ω²``.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     if not (np.isfinite(duration) and duration > 0.0):
         raise InputError("duration", duration, "a time above 0, in 1/Omega")
     return harmless_kick(rotor) * math.pi / (2.0 * duration)
@@ -372,7 +372,7 @@ def harmless_step(machine: Subject) -> float:
     float
         Change in ``c_r``; zero where the rotor cannot levitate inside the wall or its levitation is unstable.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     return (
         _room(rotor) * math.sqrt(_stiffness_squared(rotor.parameters)) / math.hypot(1.0, 1.0 / rotor.parameters.omega)
     )

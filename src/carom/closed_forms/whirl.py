@@ -58,7 +58,7 @@ from carom.closed_forms.thresholds import (
     sustaining_speed,
     whirl_damping,
 )
-from carom.models import Subject, model_of
+from carom.models import Subject, jeffcott_of
 
 __all__ = ["Rolling", "Runaway", "rolling", "runaway_speed"]
 
@@ -145,7 +145,7 @@ def runaway_speed(machine: Subject) -> Runaway:
     -------
     Runaway
     """
-    at = model_of(machine).parameters
+    at = jeffcott_of(machine).parameters
     certain = max(sustaining_speed(at, largest_pull(at)), math.hypot(at.omega, math.sqrt(at.rho)))
     return Runaway(certain, sustaining_speed(at), at.radius_ratio)
 
@@ -164,7 +164,7 @@ def rolling(machine: Subject) -> Rolling:
     -------
     Rolling
     """
-    at = model_of(machine).parameters
+    at = jeffcott_of(machine).parameters
     force = mean_rolling_force(at)
     return Rolling(
         speed=at.radius_ratio,

@@ -21,18 +21,17 @@ import math
 import numpy as np
 
 from carom.core.advance import advance
+from carom.core.contact_series import FLIGHT
 from carom.core.fate import NEAR, same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import unit
 from carom.core.layout import kernel, part
 from carom.core.variation import section_jacobian, set_amplitude_change
-from carom.outcome import Outcome, Phase
+from carom.outcome import Outcome
 
 __all__ = ["ATTRACTS", "CLOSES", "OPEN", "PASSES", "REPELS", "close", "least_period"]
 
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
-FLIGHT = int(Phase.FLIGHT)
-ONLY_PLANE = 0
 OPEN, CLOSES, ATTRACTS, REPELS = 0, 1, 2, 3
 """No orbit was found; an orbit that closes and is not known to attract or repel; one that attracts; one that repels."""
 PASSES = -1
@@ -74,7 +73,7 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     count : int
         Number of impacts after which it has recurred; zero if it has not.
     log : tuple of arrays
-        Log for one event, in the form that :func:`~carom.core.advance.advance` takes.
+        State of contact and log for one event, in the form that :func:`~carom.core.advance.advance` takes.
     memory : record of :func:`~carom.core.fate.memory`
         Its ``attracted`` caches the last state found at a single-impact orbit: many motions end at the same orbit.
     work, rub : records of :func:`~carom.core.layout.workspace` and :func:`~carom.core.layout.rub_workspace`
@@ -199,22 +198,23 @@ def _follow_impacts(rotor, table, states, durations, log, memory, work, rub):
     patience = memory.patience
     memory.patience, memory.lifting = 0, 0
     amplitudes = states[0].copy()
-    phase, plane = int(FLIGHT), int(ONLY_PLANE)
+    contact = log[0]
+    contact[0] = FLIGHT
     count = durations.shape[0]
     met, clock, bounces, quiet = -1, 0.0, True, 0
     while met < count and quiet < SLOW_EVENTS:
-        departed = phase
-        outcome, time, events, phase, plane = advance(
-            rotor, table, amplitudes, LONGEST, phase, plane, log[0], log[1], log[2], log[3], log[4], memory, work, rub
+        departed = contact[0]
+        outcome, time, events = advance(
+            rotor, table, amplitudes, LONGEST, contact, log[1], log[2], log[3], log[4], log[5], memory, work, rub
         )
         if outcome != EVENT_LIMIT or events == 0:
             break
         clock += time
         quiet += 1
-        if departed == FLIGHT and phase == FLIGHT and _changed(log[3][0], log[4][0]):
+        if departed <= FLIGHT and contact[0] <= FLIGHT and _changed(log[4][0], log[5][0]):
             met += 1
             if met > 0:
-                copy(log[3][0], states[met])
+                copy(log[4][0], states[met])
                 durations[met - 1] = clock
             clock, quiet = 0.0, 0
         else:

@@ -11,22 +11,22 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.core.advance import INSIDE_ALL, SHORTEST, STALLED, advance
+from carom.core.advance import SHORTEST, STALLED, advance
 from carom.core.block import move_to
 from carom.core.closing import PASSES, least_period
+from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.counter import next_number
 from carom.core.fate import NEAR, doubt, forget, impacts_until_noted, levitates, recurs, stays_inside
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
 from carom.core.layout import LANES, kernel, part, passage
-from carom.outcome import Outcome, Phase
+from carom.outcome import Outcome
 
 __all__ = ["MOTION", "Task", "Tools", "follow_each"]
 
 EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(Outcome.MIXED)
-FLIGHT = int(Phase.FLIGHT)
 GOES_ON, SINGLY, NONE_YET = -1, -2, -3
 """What to do with a lane whose motion has not ended: fly on; follow it one event at a time; there is no motion yet."""
 VACANT = -1.0
@@ -55,7 +55,7 @@ MOTION = np.dtype(
         ("position", np.complex128),
         ("velocity", np.complex128),
         ("time", np.float64),
-        ("plane", np.int64),
+        ("contact", np.int64),
         ("outcome", np.int64),
         ("impacts", np.int64),
         ("multiplicity", np.int64),
@@ -63,7 +63,7 @@ MOTION = np.dtype(
 )
 """A motion.
 
-On call: position and velocity at its start, and the plane on whose wall it starts, or −1.  On return: position and
+On call: position and velocity at its start, and its state of contact there (see :func:`~carom.core.advance.advance`).  On return: position and
 velocity at its end, outcome and time as in :func:`~carom.core.advance.advance`, the number of impacts, and the
 multiplicity from :func:`~carom.core.closing.least_period`.
 """
@@ -85,6 +85,7 @@ class Tools(NamedTuple):
     work: np.record
     rub: np.record
     amplitudes: np.ndarray
+    contact: np.ndarray
 
 
 @kernel
@@ -141,15 +142,15 @@ def follow_each(task, motions, counter, tools):
 def _begin(task, start, lanes, memory, work, lane):
     """Start a motion on a lane; return how it continues."""
     _set_state(task.rotor, start.position, start.velocity, work.current)
-    plane = start.plane
-    if plane >= 0:
-        set_on_wall(task.rotor, plane, work.current)
+    contact = start.contact
+    if contact == FLIGHT:
+        set_on_wall(task.rotor, 0, work.current)
     forget(memory)
     _save_memory(lanes, memory, lane)
-    lanes.plane[lane] = plane
+    lanes.contact[lane] = contact
     lanes.struck[lane], lanes.events[lane], lanes.stalled[lane], lanes.calm[lane] = 0, 0, 0, 0
     lanes.clock[lane], lanes.quiet[lane] = 0.0, 0.0
-    if plane >= 0 and not surely_flies(task.rotor, work.current):
+    if contact == FLIGHT and not surely_flies(task.rotor, work.current):
         return SINGLY
     _put_on_lane(task, lanes, memory, work, lane)
     return GOES_ON
@@ -181,7 +182,7 @@ def _act_on_verdict(task, lanes, memory, work, lane):
         return TIME_REACHED
     _count_plain_impacts(lanes, lane)
     if verdict == OPEN:
-        lanes.plane[lane] = 0 if lanes.level[lane] == 0.0 else INSIDE_ALL
+        lanes.contact[lane] = FLIGHT if lanes.level[lane] == 0.0 else AWAY
         return SINGLY
     lanes.events[lane] += 1
     lanes.struck[lane] += 1
@@ -203,29 +204,32 @@ def _act_on_verdict(task, lanes, memory, work, lane):
 def _follow_by_events(task, tools, lane):
     """Follow the motion of ``work.current`` event by event until it ends, or flies and can return to its lane."""
     lanes, memory, amplitudes, work = tools.lanes, tools.memory, tools.amplitudes, tools.work
-    phase, plane = int(FLIGHT), lanes.plane[lane]
+    contact = tools.contact
+    contact[0] = lanes.contact[lane]
     _load_memory(lanes, memory, lane)
     outcome, follows = EVENT_LIMIT, True
     while follows:
-        departed = phase
+        departed = contact[0]
         copy(work.current, amplitudes)
-        outcome, time, count, phase, plane = advance(
-            task.rotor, task.table, amplitudes, task.until - lanes.clock[lane], phase, plane,
+        outcome, time, count = advance(
+            task.rotor, task.table, amplitudes, task.until - lanes.clock[lane], contact,
             tools.times, tools.phases, tools.planes, tools.before, tools.after, memory, work, tools.rub,
         )  # fmt: skip
         copy(amplitudes, work.current)
         lanes.clock[lane] += time
         lanes.events[lane] += count
-        if departed == FLIGHT and phase == FLIGHT and count > 0 and _changed(tools.before[0], tools.after[0]):
+        if departed <= FLIGHT and contact[0] <= FLIGHT and count > 0 and _changed(tools.before[0], tools.after[0]):
             lanes.struck[lane] += 1
         lanes.stalled[lane] = lanes.stalled[lane] + 1 if time <= SHORTEST else 0
         if outcome == EVENT_LIMIT and lanes.stalled[lane] == STALLED:
             outcome = GRAZING
-        flies = phase == FLIGHT and memory.lifting == 0 and (plane < 0 or surely_flies(task.rotor, work.current))
+        flies = contact[0] == AWAY or (
+            contact[0] == FLIGHT and memory.lifting == 0 and surely_flies(task.rotor, work.current)
+        )
         follows = outcome == EVENT_LIMIT and lanes.events[lane] < task.most_events and not flies
     if outcome != EVENT_LIMIT or lanes.events[lane] >= task.most_events:
         return outcome
-    lanes.plane[lane] = plane
+    lanes.contact[lane] = contact[0]
     _save_memory(lanes, memory, lane)
     _put_on_lane(task, lanes, memory, work, lane)
     return GOES_ON
@@ -238,7 +242,7 @@ def _put_on_lane(task, lanes, memory, work, lane):
     lanes.lower_re[lane], lanes.lower_im[lane] = lower.real, lower.imag
     lanes.upper_re[lane], lanes.upper_im[lane] = upper.real, upper.imag
     lanes.level[lane] = 0.0
-    if lanes.plane[lane] < 0:
+    if lanes.contact[lane] == AWAY:
         lanes.level[lane] = squared_modulus(displacement(task.rotor, 0, work.current)) - 1.0
     lanes.depth[lane] = 0.0
     _set_next_look(task, lanes, memory, lane)
@@ -293,7 +297,7 @@ def _save_memory(lanes, memory, lane):
 def _passes_by_orbit(task, tools, lane):
     """Whether a motion that has recurred only passes by an orbit; if not, ``memory.period`` is that of its orbit."""
     lanes, memory = tools.lanes, tools.memory
-    log = (tools.times, tools.phases, tools.planes, tools.before, tools.after)
+    log = (tools.contact, tools.times, tools.phases, tools.planes, tools.before, tools.after)
     state = tools.amplitudes
     copy(tools.work.current, state)
     memory.period = least_period(task.rotor, task.table, state, memory.period, log, memory, tools.work, tools.rub)
@@ -301,7 +305,7 @@ def _passes_by_orbit(task, tools, lane):
     if memory.period != PASSES:
         return False
     doubt(memory)
-    lanes.plane[lane] = 0
+    lanes.contact[lane] = FLIGHT
     _save_memory(lanes, memory, lane)
     return True
 

@@ -5,7 +5,8 @@
   long, a second criterion is used: the flight without damping stays inside the wall for one period after which its
   modes nearly repeat, and the drift over later periods, until the first criterion holds, is too small to reach the
   wall.  Both criteria are proofs.
-- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding.  Or it lies in a
+- *Forward rub*: the state slides within ``NEAR`` of the synchronous rub that attracts sliding, or, if the rubs of a rotor
+  are not known, changes by less than ``NEAR`` per unit time.  Or it lies in a
   neighbourhood of that rub which sliding never leaves, if the memory holds one; this is a proof
   (:mod:`carom.closed_forms.absorbing`).
 - *Rolling*: if the memory holds a threshold speed, backward whirl slides faster than it and so certainly ends in
@@ -32,6 +33,7 @@ __all__ = [
     "NEAR",
     "absorbed",
     "approaches_turn",
+    "at_rest",
     "doubt",
     "forget",
     "forget_rub",
@@ -65,6 +67,7 @@ def memory(
     rub_level: float = 0.0,
     rub_shape: tuple[float, float, float] = (0.0, 0.0, 0.0),
     runaway: float = np.inf,
+    resting: bool = False,
 ) -> np.record:
     """Memory of the criteria for one motion, and the options on how far to follow it.
 
@@ -85,6 +88,9 @@ def memory(
         The ``μ``, ``p`` and ``y₀`` of that function, see :mod:`carom.closed_forms.absorbing`.
     runaway : float
         Speed of backward whirl above which sliding certainly ends in permanent rolling; infinite to skip this test.
+    resting : bool
+        Whether lasting contact that is at rest counts as a synchronous rub; for rotors whose rubs are not known.  A rub
+        that repels is marked by −1 until the motion has left it.
     """
     friction, strength, phase = rub_shape
     return record(
@@ -96,6 +102,7 @@ def memory(
         rub_strength=np.asarray(strength, float),
         rub_phase=np.asarray(phase, float),
         runaway=np.asarray(runaway, float),
+        resting=np.asarray(resting, np.int64),
         patience=np.asarray(patience, np.int64),
         recheck=np.asarray(recheck),
         stop_at_landing=np.asarray(stop_at_landing, np.int64),
@@ -264,6 +271,16 @@ def near_rub(memory, position, speed):
     if memory.rub_position == 0.0:
         return False
     return math.sqrt(squared_modulus(position - memory.rub_position)) + abs(speed) < NEAR
+
+
+@kernel
+def at_rest(work):
+    """Whether a motion, given by its Taylor series, is at rest in the co-rotating frame."""
+    size, rate = 1.0, 0.0
+    for m in range(work.series.shape[1]):
+        size += math.sqrt(squared_modulus(work.series[0, m]))
+        rate += math.sqrt(squared_modulus(work.series[1, m]))
+    return rate <= NEAR * size
 
 
 @kernel

@@ -14,7 +14,7 @@ from numba.core.compiler import Compiler, CompileResult
 from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
 from numba.core.registry import CPUDispatcher
 
-__all__ = ["serve_kernels"]
+__all__ = ["CallerPipeline", "serve_kernels"]
 
 
 def serve_kernels(kernel: Any) -> None:
@@ -60,8 +60,48 @@ class _IntermediateLibrary(JITCodeLibrary):  # type: ignore[misc]
         self._finalized = True
 
 
+class _CallerLibrary(JITCodeLibrary):  # type: ignore[misc]
+    """Code of a kernel that Python calls: the kernels that it calls are linked as long as one of them is missing.
+
+    The linker drops a function that nothing linked before it calls, and Numba does not link it a second time.
+    """
+
+    def finalize(self) -> None:
+        """Link the callees that are inlined, then the others, and optimise."""
+        self._apart = [library for library in self._linking_libraries if getattr(library, "apart", False)]
+        self._linking_libraries[:] = [library for library in self._linking_libraries if library not in self._apart]
+        super().finalize()
+
+    def _optimize_final_module(self) -> None:
+        linked: set[Any] = set()
+        while missing := [
+            library
+            for library in self._apart
+            if library not in linked and _functions(self, False) & _functions(library, True)
+        ]:
+            for library in missing:
+                linked.add(library)
+                self._final_module.link_in(library._get_module_for_linking(), preserve=True)
+        super()._optimize_final_module()
+
+
+def _functions(library: Any, defined: bool) -> set[str]:
+    """Names of the functions that a library defines, or of those that it only declares."""
+    return {function.name for function in library._final_module.functions if function.is_declaration != defined}
+
+
+class CallerPipeline(Compiler):  # type: ignore[misc]
+    """Numba's compiler pipeline for kernels that Python calls."""
+
+    def define_pipelines(self) -> Any:
+        """The steps of compilation."""
+        self.state.library = _CallerLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
+        self.state.library.enable_object_caching()
+        return super().define_pipelines()
+
+
 class _Pipeline(Compiler):  # type: ignore[misc]
-    """Numba's compiler pipeline with this library."""
+    """Numba's compiler pipeline for kernels that other kernels call."""
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""

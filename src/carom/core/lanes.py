@@ -49,7 +49,7 @@ _FATE = (
     "reference_lower_re", "reference_lower_im", "reference_upper_re", "reference_upper_im", "reach",
 )  # fmt: skip
 _ANSWER = ("verdict", "arrival_lower_re", "arrival_lower_im", "arrival_upper_re", "arrival_upper_im")
-_BOOKS = ("motion", "plane", "events", "struck", "stalled", "calm", "seen", "since", "renewal", "candidate", "rubbed")
+_BOOKS = ("motion", "contact", "events", "struck", "stalled", "calm", "seen", "since", "renewal", "candidate", "rubbed")
 
 
 def lanes_record() -> np.record:
@@ -63,7 +63,7 @@ def lanes_record() -> np.record:
       ``reach`` of the ``reference``.
     - ``watched`` lanes are examined after each free block.
     - ``verdict`` says what happened last; ``arrival`` is the state just before an impact.
-    - The integers belong to :mod:`carom.core.ensemble`: number of the motion, its plane, events, impacts, events
+    - The integers belong to :mod:`carom.core.ensemble`: number of the motion, its state of contact, events, impacts, events
       without progress, free blocks, and the values that :func:`carom.core.fate.memory` holds for it besides the
       ``reference``.
     """

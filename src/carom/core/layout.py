@@ -11,7 +11,7 @@ import numpy as np
 from numba.core.registry import cpu_target
 
 from carom.core.cache import keep
-from carom.core.intermediate import serve_kernels
+from carom.core.intermediate import CallerPipeline, serve_kernels
 
 __all__ = [
     "DEGREE",
@@ -96,7 +96,7 @@ def rotor_record(
     rows : ndarray of complex, shape (P, N)
         Displacement at the planes per amplitude.
     columns : ndarray of complex, shape (N, P)
-        Change of the amplitudes per unit change of velocity that an impulse makes at a plane.
+        Change of the amplitudes by an impulse at a plane that changes its velocity by one.
     friction, restitution : ndarray, shape (P,)
         Coulomb friction coefficient and coefficient of restitution of the planes.
     drive : ndarray, shape (P,)
@@ -107,7 +107,8 @@ def rotor_record(
     numpy.record
         The arguments and what follows from them: ``gaps`` and ``inverse_gaps`` (``λ_k − λ_{k−1}`` of the pairs),
         ``largest_response`` (bound of their ``|φ|`` over all later time), ``rate_rows``, ``acceleration_rows`` and
-        ``jerk_rows`` (first three derivatives of the displacement at the planes per amplitude), ``weights``
+        ``jerk_rows`` (first three derivatives of the displacement at the planes per amplitude), ``mobility`` (change of
+        velocity at the planes per unit impulse at each, shape (P, P), ones on its diagonal), ``weights``
         (``Σ_k |rows|²``).  A record is passed by address and its shapes are known at compile time: kernels run six
         times as fast as with a tuple of arrays.
     """
@@ -131,6 +132,7 @@ def rotor_record(
         acceleration_rows=rows @ generator @ generator,
         jerk_rows=rows @ generator @ generator @ generator,
         columns=columns,
+        mobility=rows @ generator @ columns,
         weights=(np.abs(rows) ** 2).sum(axis=1),
         friction=friction,
         restitution=restitution,
@@ -237,20 +239,21 @@ def _workspace_layout(modes: int) -> np.dtype:
     )
 
 
-def rub_workspace(modes: int) -> np.record:
-    """Scratch arrays of lasting contact: Taylor coefficients of the motion at the contact plane."""
-    return _blank(_rub_workspace_layout(modes))
+def rub_workspace(modes: int, planes: int = 1) -> np.record:
+    """Scratch arrays of lasting contact: Taylor coefficients of the motion at the contact planes."""
+    return _blank(_rub_workspace_layout(modes, planes))
 
 
 @cache
-def _rub_workspace_layout(modes: int) -> np.dtype:
-    vectors = ("position", "speed", "free", "force")
-    margins = ("push", "slip", "grip", "first_margin", "second_margin")
+def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
     return _layout(
         (
             ("series", COMPLEX, (ORDER + 1, modes)),
-            *((name, COMPLEX, (ORDER + 1,)) for name in vectors),
-            *((name, REAL, (ORDER + 1,)) for name in margins),
+            *((name, COMPLEX, (planes, ORDER + 1)) for name in ("position", "speed", "free", "force")),
+            *((name, REAL, (planes, ORDER + 1)) for name in ("push", "slip", "grip")),
+            *((name, REAL, (ORDER + 1,)) for name in ("first_margin", "second_margin")),
+            ("links", COMPLEX, (planes, planes, ORDER + 1)),
+            ("matrix", REAL, (2 * planes, 2 * planes + 1)),
         )
     )
 
@@ -299,7 +302,7 @@ def passage(function: Kernel) -> Kernel:
 
 def _compile(function: Kernel, **more: bool | str) -> Kernel:
     options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
-    compiled = numba.jit(**options, no_cfunc_wrapper=True)(function)
+    compiled = numba.jit(**options, no_cfunc_wrapper=True, pipeline_class=CallerPipeline)(function)
     if compiled is not function:  # with the compiler switched off, jit returns the function itself
         keep(compiled)
         serve_kernels(compiled)

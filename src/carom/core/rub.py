@@ -1,155 +1,83 @@
-"""Contact that lasts: sliding and rolling on the wall, by Taylor series of the constrained motion.
+"""When lasting contact changes: how long sliding, rolling and flights next to the wall last, and what follows.
 
-With ``|y| = 1`` and ``Re(ȳẏ) = 0`` a contact force ``f`` (per unit of the mass felt at the plane) acts as
-``ċ = Mc + Bf``.  Writing ``a`` for the free acceleration ``WM²c``, staying on the wall needs the normal force
-
-    N = Re(ȳ a) + |ẏ|²,
-
-and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips with ``v = drive + Im(ȳẏ)``, and
-``f = −drive² y − a`` while it rolls (``ẏ = −i drive y``).  Products of series are all this needs, so the coefficients
-follow from a recurrence and a step costs the same for any rotor.  For the planar rotor it is
-``θ̈ = −γ(1 + θ̇) − ρ sin(θ − φ) − μN sgn v`` with ``N = ρ cos(θ − φ) + (1 + θ̇)² − ω²``.
-
-A phase lasts while its margins (normal force, slip, distance from the limit of the friction cone) stay above minus
-their rounding error.  When a margin falls below, the phase ends at the last zero before that.  So a margin that is zero
-at the start of a phase ends it only if it then falls.  Such a margin is the slip where rolling ends, or the normal
-force where a rotor lifts off.  Two phases can therefore not pass a state back and forth.
+The motion is a Taylor series (:mod:`carom.core.contact_series`).  A phase lasts while its margins (normal force, slip,
+distance from the limit of the friction cone) stay above minus their rounding error.  When a margin falls below, the
+phase ends at the last zero before that.  So a margin that is zero at the start of a phase ends it only if it then falls.
+Such a margin is the slip where rolling ends, or the normal force where a rotor lifts off.  Two phases can therefore not
+pass a state back and forth.
 """
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
+from carom.core.contact_series import BACKWARD_SLIP, FLIGHT, FORWARD_SLIP, ROLLING, rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import set_on_wall, unit
 from carom.core.layout import ORDER, kernel, part
-from carom.outcome import Phase
+from carom.core.taylor import first_fall, series_step, sum_series
 
 __all__ = [
+    "RESTING",
+    "first_contact",
     "first_transition",
     "fly_or_rub_all",
+    "forces_all",
     "lift_off",
     "next_phase",
+    "press",
     "push_rounding",
     "rest_on_wall",
-    "rub_series",
-    "rub_step",
     "speed_rounding",
-    "sum_series",
     "turn_ahead",
     "wall_push",
 ]
 
 
-LEAVING, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
-    int(Phase.FLIGHT),
-    int(Phase.FORWARD_SLIP),
-    int(Phase.BACKWARD_SLIP),
-    int(Phase.ROLLING),
-)
-
-STEP_FRACTION = 0.135
-"""Ratio of step to radius of convergence: ``0.135^ORDER`` is below rounding."""
 ROUNDING = 64 * 2.220446049250313e-16
 """Rounding error of a sum over the modes, relative to the moduli of its terms."""
+RESTING = 4.0
+"""Radial speed, in rounding errors, up to which the rotor rests on the wall: so low a flight cannot be resolved."""
 NO_TURN = 1e-15
 """Distance along the wall that counts as zero."""
-NEWTON_STEPS = 8
-"""Far more steps than needed for a zero that is not blurred by rounding."""
 
 
 @kernel
-def rub_series(rotor, plane, amplitudes, phase, work):
-    """Fill the Taylor coefficients of a lasting contact, or of a flight, that starts with these amplitudes.
-
-    ``work.series`` (ORDER + 1, N) receives those of the amplitudes, ``work.push`` those of the normal force,
-    ``work.grip`` those of the friction force along growing angle and ``work.slip`` those of the slip velocity.
-    """
-    modes = amplitudes.shape[0]
-    friction = rotor.friction[plane]
-    drive = rotor.drive[plane]
-    slope = -friction if phase == FORWARD_SLIP else friction
-    for m in range(modes):
-        work.series[0, m] = amplitudes[m]
-    for k in range(ORDER + 1):
-        position, speed, free = 0j, 0j, 0j
-        for m in range(modes):
-            position += rotor.rows[plane, m] * work.series[k, m]
-            speed += rotor.rate_rows[plane, m] * work.series[k, m]
-            free += rotor.acceleration_rows[plane, m] * work.series[k, m]
-        work.position[k] = position + rotor.offsets[plane] if k == 0 else position
-        work.speed[k] = speed
-        work.free[k] = free
-        push, slip = 0.0, drive if k == 0 else 0.0
-        for j in range(k + 1):
-            y, v = work.position[j], work.speed[j]
-            push += (y.conjugate() * work.free[k - j]).real + (v.conjugate() * work.speed[k - j]).real
-            slip += (y.conjugate() * work.speed[k - j]).imag
-        work.push[k] = push
-        work.slip[k] = slip
-        force = 0j
-        if phase == ROLLING:
-            force = -drive * drive * work.position[k] - free
-        elif phase != LEAVING:
-            for j in range(k + 1):
-                force -= work.push[j] * work.position[k - j]
-            force *= complex(1.0, -slope)
-        work.force[k] = force
-        grip = 0.0
-        for j in range(k + 1):
-            grip += (work.position[j].conjugate() * work.force[k - j]).imag
-        work.grip[k] = grip
-        if k < ORDER:
-            for m in range(modes):
-                rate = rotor.exponents[m] * work.series[k, m] + rotor.columns[m, plane] * force
-                if rotor.driven[m]:
-                    rate += work.series[k, m - 1]
-                work.series[k + 1, m] = rate / (k + 1)
-
-
-@kernel
-def rub_step(work):
-    """Step with a truncation error below rounding, from the last two coefficients (Jorba and Zou 2005)."""
-    modes = work.series.shape[1]
-    start, last, before = 0.0, 0.0, 0.0
-    for m in range(modes):
-        start = max(start, abs(work.series[0, m]))
-        last = max(last, abs(work.series[ORDER, m]))
-        before = max(before, abs(work.series[ORDER - 1, m]))
-    scale = max(start, 1.0)
-    radius = math.inf
-    if last > 0.0:
-        radius = (scale / last) ** (1.0 / ORDER)
-    if before > 0.0:
-        radius = min(radius, (scale / before) ** (1.0 / (ORDER - 1)))
-    return min(STEP_FRACTION * radius, 1.0)
-
-
-@kernel
-def sum_series(work, time, amplitudes):
-    """Amplitudes at a time within the step."""
-    for m in range(amplitudes.shape[0]):
-        total = work.series[ORDER, m]
-        for k in range(ORDER - 1, -1, -1):
-            total = total * time + work.series[k, m]
-        amplitudes[m] = total
-
-
-@kernel
-def fly_or_rub_all(rotor, plane, amplitudes, phases, times, work):
-    """Amplitudes (M, N) after given times (M,), each in its own phase (M,) from its own amplitudes (M, N)."""
+def fly_or_rub_all(rotor, amplitudes, phases, times, work):
+    """Amplitudes (M, N) after given times (M,), each in its own phases (M, P) from its own amplitudes (M, N)."""
     moved = np.empty_like(amplitudes)
     for i in range(times.shape[0]):
-        if phases[i] == LEAVING:
+        if _lasts(phases[i]):
+            rub_series(rotor, phases[i], amplitudes[i], work)
+            sum_series(work, times[i], moved[i])
+        else:
             flight_increments(rotor, amplitudes[i : i + 1], times[i], moved[i : i + 1])
             for m in range(amplitudes.shape[1]):
                 moved[i, m] += amplitudes[i, m]
-        else:
-            rub_series(rotor, plane, amplitudes[i], phases[i], work)
-            sum_series(work, times[i], moved[i])
     return moved
+
+
+@kernel
+def forces_all(rotor, amplitudes, phases, work):
+    """Normal and friction force of lasting contact (M, P, 2) of states (M, N) in given phases (M, P); zero in flight."""
+    forces = np.zeros((*phases.shape, 2))
+    for i in range(amplitudes.shape[0]):
+        if not _lasts(phases[i]):
+            continue
+        rub_series(rotor, phases[i], amplitudes[i], work)
+        for plane in range(phases.shape[1]):
+            if phases[i, plane] > FLIGHT:
+                forces[i, plane, 0], forces[i, plane, 1] = work.push[plane, 0], work.grip[plane, 0]
+    return forces
+
+
+@part
+def _lasts(contact):
+    """Whether there is lasting contact at any plane."""
+    lasts = False
+    for plane in range(contact.shape[0]):
+        lasts = lasts or contact[plane] > FLIGHT
+    return lasts
 
 
 @kernel
@@ -167,17 +95,17 @@ def first_transition(rotor, plane, phase, step, work):
         The phase that follows; the same if nothing changes, or if the slip vanishes and :func:`next_phase` must decide.
     slip_stops : bool
     """
-    friction = rotor.friction[plane]
+    friction, push = rotor.friction[plane], work.push[plane]
     rounding = push_rounding(rotor, plane, work.series[0])
-    first = _first_fall(work.push, step, rounding)
-    following = LEAVING if first < step else phase
+    first = first_fall(push, step, rounding)
+    following = FLIGHT if first < step else phase
     if phase == ROLLING:
         for k in range(ORDER + 1):
-            work.first_margin[k] = friction * work.push[k] - work.grip[k]
-            work.second_margin[k] = friction * work.push[k] + work.grip[k]
+            work.first_margin[k] = friction * push[k] - work.grip[plane, k]
+            work.second_margin[k] = friction * push[k] + work.grip[plane, k]
         rounding *= 1.0 + friction
-        backward = _first_fall(work.first_margin, first, rounding)
-        forward = _first_fall(work.second_margin, backward, rounding)
+        backward = first_fall(work.first_margin, first, rounding)
+        forward = first_fall(work.second_margin, backward, rounding)
         if forward < backward:
             return forward, FORWARD_SLIP, False
         if backward < first:
@@ -185,16 +113,41 @@ def first_transition(rotor, plane, phase, step, work):
         return first, following, False
     sign = -1.0 if phase == BACKWARD_SLIP else 1.0
     for k in range(ORDER + 1):
-        work.first_margin[k] = sign * work.slip[k]
-    stop = _first_fall(work.first_margin, first, speed_rounding(rotor, plane, work.series[0]))
+        work.first_margin[k] = sign * work.slip[plane, k]
+    stop = first_fall(work.first_margin, first, speed_rounding(rotor, plane, work.series[0]))
     if stop < first:
         return stop, phase, True
     return first, following, False
 
 
 @kernel
-def lift_off(rotor, plane, amplitudes, horizon, work):
-    """Follow a flight that starts at rest on the wall, in place, to its return or to the end of a Taylor step.
+def first_contact(rotor, plane, on_wall, step, work):
+    """First time within a step at which a plane without lasting contact comes to the wall, or the step.
+
+    From ``(|y|²)'' = 2(Re(ȳÿ) + |ẏ|²)``; at rest on the wall see :func:`lift_off`.
+    """
+    state = work.series[0]
+    position, speed = work.position[plane, 0], work.speed[plane, 0]
+    rise = -2.0 * (position.conjugate() * speed).real
+    if on_wall and abs(rise) <= 2.0 * RESTING * speed_rounding(rotor, plane, state):
+        return _first_return(rotor, plane, step, work)
+    work.first_margin[0], work.first_margin[1] = 0.0 if on_wall else 1.0 - squared_modulus(position), rise
+    for k in range(ORDER - 1):
+        work.first_margin[k + 2] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
+    return first_fall(work.first_margin, step, ROUNDING * _spread(rotor, plane, state) ** 2)
+
+
+@part
+def _first_return(rotor, plane, step, work):
+    """First time within a step at which a plane that starts at rest on its wall is back there, or the step."""
+    for k in range(ORDER + 1):
+        work.first_margin[k] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
+    return first_fall(work.first_margin, step, push_rounding(rotor, plane, work.series[0]))
+
+
+@kernel
+def lift_off(rotor, contact, amplitudes, horizon, work):
+    """Follow a flight that starts at rest on the only wall, in place, to its return or to the end of a Taylor step.
 
     There ``|y|² − 1 = 2∬N`` with ``N = Re(ȳÿ) + |ẏ|²``, so the series of ``N`` gives the distance from the wall without
     cancellation, even for a departure as slow as ``N't³/3``.
@@ -206,24 +159,22 @@ def lift_off(rotor, plane, amplitudes, horizon, work):
     returned : bool
         Whether it is back on the wall.
     """
-    rub_series(rotor, plane, amplitudes, int(LEAVING), work)
-    step = min(rub_step(work), horizon)
-    for k in range(ORDER + 1):
-        work.first_margin[k] = -2.0 * work.push[k] / ((k + 1) * (k + 2))
-    time = _first_fall(work.first_margin, step, push_rounding(rotor, plane, amplitudes))
+    rub_series(rotor, contact, amplitudes, work)
+    step = min(series_step(work), horizon)
+    time = _first_return(rotor, 0, step, work)
     sum_series(work, time, amplitudes)
     returned = time < step
     if returned:
-        set_on_wall(rotor, plane, amplitudes)
+        set_on_wall(rotor, 0, amplitudes)
     return time, returned
 
 
 @kernel
-def turn_ahead(reference, direction, step, work):
-    """Time within a step at which the rotor next passes a reference position in the given direction, or the step."""
+def turn_ahead(plane, reference, direction, step, work):
+    """Time within a step at which a plane next passes a reference position in the given direction, or the step."""
     for k in range(ORDER + 1):
-        work.first_margin[k] = -direction * (reference.conjugate() * work.position[k]).imag
-    return _first_fall(work.first_margin, step, NO_TURN)
+        work.first_margin[k] = -direction * (reference.conjugate() * work.position[plane, k]).imag
+    return first_fall(work.first_margin, step, NO_TURN)
 
 
 @kernel
@@ -235,62 +186,6 @@ def rest_on_wall(rotor, plane, amplitudes, rolling):
     change = complex(-local.real, -(rotor.drive[plane] + local.imag) if rolling else 0.0) * normal
     for m in range(amplitudes.shape[0]):
         amplitudes[m] += rotor.columns[m, plane] * change
-
-
-@kernel
-def _first_fall(margin, step, rounding):
-    """Time within a step at which a polynomial margin falls through zero, or the step; certified for the polynomial.
-
-    That is the last zero before it first falls below minus its rounding error; zero if it is negative up to there.
-    """
-    reach, curvature = 0.0, 0.0
-    power = 1.0
-    for k in range(1, ORDER + 1):
-        power *= step
-        reach += abs(margin[k]) * power
-        curvature += k * (k - 1) * abs(margin[k]) * power
-    if margin[0] + rounding > reach:
-        return step
-    curvature /= step * step
-    time, value, slope = 0.0, margin[0], margin[1]
-    while value > -rounding:
-        height = value + rounding
-        root = math.sqrt(slope * slope + 2.0 * curvature * height)
-        if slope <= 0.0:
-            advance = 2.0 * height / (root - slope) if root > slope else step
-        else:
-            advance = (root + slope) / curvature if curvature > 0.0 else step
-        if time + advance >= step:
-            return step
-        if time + advance <= time * (1.0 + 4e-16):
-            break
-        time += advance
-        value, slope = _value_and_slope(margin, time)
-    return _zero_before(margin, time)
-
-
-@kernel
-def _zero_before(margin, time):
-    """Last zero of a margin before a time at which it is below minus its rounding error, or 0."""
-    latest = time
-    for _ in range(NEWTON_STEPS):
-        value, slope = _value_and_slope(margin, time)
-        if slope >= 0.0:
-            return time
-        before = time
-        time = min(max(time - value / slope, 0.0), latest)
-        if abs(time - before) <= 2e-16 * time:
-            break
-    return time
-
-
-@kernel
-def _value_and_slope(margin, time):
-    value, slope = margin[ORDER], 0.0
-    for k in range(ORDER - 1, -1, -1):
-        slope = slope * time + value
-        value = value * time + margin[k]
-    return value, slope
 
 
 @part
@@ -346,7 +241,15 @@ def wall_push(rotor, plane, amplitudes):
 
 
 @kernel
-def next_phase(rotor, plane, amplitudes, phase):
+def press(rotor, contact, plane, amplitudes, work):
+    """:func:`wall_push` with the forces of lasting contact at other planes."""
+    rub_series(rotor, contact, amplitudes, work)
+    radial = (unit(work.position[plane, 0]).conjugate() * work.speed[plane, 0]).real
+    return work.push[plane, 0] - radial * radial, work.push[plane, 1]
+
+
+@kernel
+def next_phase(rotor, contact, plane, amplitudes, work):
     """Phase that follows from rest against the wall (``|y| = 1``, no radial speed, pressed outward).
 
     If the slip is zero, the rotor rolls if the friction needed for that lies within the cone.  Otherwise it slips in
@@ -358,11 +261,24 @@ def next_phase(rotor, plane, amplitudes, phase):
     slip = rotor.drive[plane] + (position.conjugate() * speed).imag
     if abs(slip) > speed_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if slip > 0.0 else BACKWARD_SLIP
-    push, _ = wall_push(rotor, plane, amplitudes)
-    pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
+    if rotor.rows.shape[0] == 1:
+        push, _ = wall_push(rotor, plane, amplitudes)
+        pull = (position.conjugate() * acceleration(rotor, plane, amplitudes)).imag
+    else:
+        push, pull = _rolling_forces(rotor, contact, plane, amplitudes, work)
     missing = abs(pull) - rotor.friction[plane] * max(push, 0.0)
     if missing > push_rounding(rotor, plane, amplitudes):
         return FORWARD_SLIP if pull > 0.0 else BACKWARD_SLIP
     if rotor.friction[plane] > 0.0:
         return ROLLING
-    return BACKWARD_SLIP if phase == FORWARD_SLIP else FORWARD_SLIP
+    return BACKWARD_SLIP if contact[plane] == FORWARD_SLIP else FORWARD_SLIP
+
+
+@part
+def _rolling_forces(rotor, contact, plane, amplitudes, work):
+    """Normal force if a plane rolls, and the pull along growing angle that friction then has to balance."""
+    before = contact[plane]
+    contact[plane] = ROLLING
+    rub_series(rotor, contact, amplitudes, work)
+    contact[plane] = before
+    return work.push[plane, 0], -work.grip[plane, 0]

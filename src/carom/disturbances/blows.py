@@ -15,7 +15,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.models import Jeffcott
+    from carom.models import Model
 
 __all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
 
@@ -47,11 +47,11 @@ class VelocityKick(Disturbance):
             "direction", "direction of the kick"
         )
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the velocity changed."""
         speed, direction = values
         velocity = complex_of(speed * np.cos(direction), speed * np.sin(direction))
-        return Starts.of(rotor.equilibrium, velocity, _levitates(rotor))
+        return _kicked(rotor, velocity)
 
 
 @dataclass(frozen=True)
@@ -76,14 +76,14 @@ class KickPlane(Disturbance):
             speed_coordinate("tangential_speed", "kick in the sense of rotation", -self.fastest, self.fastest),
         )
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the velocity changed."""
         radial, tangential = values
         outward = outward_from(rotor)
         velocity = complex_of(
             outward.real * radial - outward.imag * tangential, outward.imag * radial + outward.real * tangential
         )
-        return Starts.of(rotor.equilibrium, velocity, _levitates(rotor))
+        return _kicked(rotor, velocity)
 
 
 @dataclass(frozen=True)
@@ -128,22 +128,34 @@ class BaseShock(Disturbance):
         """Change of the housing's velocity over the largest pulse, ``2âT/π``, in ``c_r Ω``."""
         return 2.0 * self.peak * self.duration / math.pi
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""
         from carom.disturbances.shocks import states_after_shocks
+        from carom.models import jeffcott_of
 
         peaks, directions = np.broadcast_arrays(*values)
         if not _levitates(rotor):
             return Starts.of(np.zeros(peaks.shape, complex), 0j, False)
-        positions, velocities, undecided, touched = states_after_shocks(rotor, peaks, self.duration, directions)
+        positions, velocities, undecided, touched = states_after_shocks(
+            jeffcott_of(rotor), peaks, self.duration, directions
+        )
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
 
 
-def outward_from(rotor: Jeffcott) -> complex:
+def outward_from(rotor: Model) -> complex:
     """Direction from the bearing centre to the levitating rotor; that of the unbalance if the rotor is centred."""
-    rest = rotor.equilibrium
-    return rest / abs(rest) if rest else cmath.rect(1.0, rotor.parameters.phi)
+    rest = complex(rotor.system.arrays.offsets[0])
+    return rest / abs(rest) if rest else cmath.rect(1.0, rotor.unbalance_phase)
 
 
-def _levitates(rotor: Jeffcott) -> bool:
-    return abs(rotor.equilibrium) < 1.0
+def _kicked(rotor: Model, velocity: np.ndarray) -> Starts:
+    """Levitation with the velocity of the rotor as a whole changed."""
+    positions, velocities = rotor.system.kicked(velocity)
+    if len(rotor.system.rest) == 1:
+        positions, velocities = positions[..., 0], velocities[..., 0]
+    none = np.zeros(velocity.shape, bool)
+    return Starts(positions, velocities, none | _levitates(rotor), none, none)
+
+
+def _levitates(rotor: Model) -> bool:
+    return bool((np.abs(rotor.system.arrays.offsets) < 1.0).all())

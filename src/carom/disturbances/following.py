@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from carom.disturbances.coordinates import Starts
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
 
@@ -19,13 +19,13 @@ NO_START = -1
 
 
 def follow(
-    machine: Jeffcott | Sequence[Jeffcott], starts: Starts, *, which: np.ndarray | None = None, **limits: Any
+    machine: Model | Sequence[Model], starts: Starts, *, which: np.ndarray | None = None, **limits: Any
 ) -> Endings:
     """Follow all starts that exist and are decided; see :func:`~carom.motions.ensembles.settle`.
 
     Parameters
     ----------
-    machine : Jeffcott or sequence of Jeffcott
+    machine : Model or sequence of Model
     starts : Starts
     which : ndarray of int, optional
         With a sequence: the index of the machine of each start, of their shape.
@@ -43,19 +43,19 @@ def follow(
     found = settle(machine, starts.positions[chosen], starts.velocities[chosen], which=machines, **limits)
     whole = {}
     for name, values in vars(found).items():
-        whole[name] = np.zeros(chosen.shape, values.dtype)
+        whole[name] = np.zeros(chosen.shape + values.shape[1:], values.dtype)
         whole[name][chosen] = values
     whole["outcomes"][starts.undecided] = Outcome.GRAZING
     whole["outcomes"][~starts.exists] = NO_START
     return Endings(**whole)
 
 
-def follow_machines(machines: Iterable[tuple[Jeffcott, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
+def follow_machines(machines: Iterable[tuple[Model, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
     """Follow the disturbances of one machine after another.
 
     Parameters
     ----------
-    machines : iterable of (Jeffcott, Starts)
+    machines : iterable of (Model, Starts)
     chunk : int
         Approximate number of starts that are followed together and held in memory.
     **limits
@@ -66,7 +66,7 @@ def follow_machines(machines: Iterable[tuple[Jeffcott, Starts]], chunk: int, **l
     Endings
         As of :func:`follow`, for each machine in its turn.
     """
-    waiting: list[tuple[Jeffcott, Starts]] = []
+    waiting: list[tuple[Model, Starts]] = []
     for machine in machines:
         waiting.append(machine)
         if sum(starts.exists.size for _, starts in waiting) >= chunk:
@@ -76,7 +76,7 @@ def follow_machines(machines: Iterable[tuple[Jeffcott, Starts]], chunk: int, **l
         yield from _together(waiting, limits)
 
 
-def _together(machines: list[tuple[Jeffcott, Starts]], limits: dict[str, Any]) -> Iterator[Endings]:
+def _together(machines: list[tuple[Model, Starts]], limits: dict[str, Any]) -> Iterator[Endings]:
     rotors, sets = zip(*machines, strict=True)
     sizes = [starts.exists.size for starts in sets]
     found = follow(rotors, Starts.joined(sets), which=np.repeat(np.arange(len(sets)), sizes), **limits)
@@ -85,7 +85,7 @@ def _together(machines: list[tuple[Jeffcott, Starts]], limits: dict[str, Any]) -
         yield Endings(**{name: values[end - size : end].reshape(shape) for name, values in vars(found).items()})
 
 
-def require_start(rotor: Jeffcott, starts: Starts) -> None:
+def require_start(rotor: Model, starts: Starts) -> None:
     """Refuse disturbances of which none is possible.
 
     Raises
@@ -96,6 +96,6 @@ def require_start(rotor: Jeffcott, starts: Starts) -> None:
     if not starts.exists.any():
         raise InputError(
             "disturbance",
-            f"|U*| = {abs(rotor.equilibrium):.6g}",
+            f"|U*| = {np.abs(rotor.system.arrays.offsets).max():.6g}",
             "one that is possible: out of levitation inside the wall (|U*| < 1), or a start inside the wall",
         )

@@ -14,7 +14,7 @@ from carom.outcome import InputError, shown
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.models import Jeffcott
+    from carom.models import Model
 
 __all__ = ["FASTEST", "Disturbance"]
 
@@ -64,12 +64,12 @@ class Disturbance:
         """Coordinates by which the disturbance varies."""
         raise NotImplementedError
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Starts of free motion.
 
         Parameters
         ----------
-        rotor : Jeffcott
+        rotor : Model
         *values : ndarray
             One array for each coordinate, broadcast against each other.
         """

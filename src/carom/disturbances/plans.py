@@ -14,7 +14,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.models import Jeffcott
+    from carom.models import Model
 
 __all__ = ["Grid", "Plan", "Sample"]
 
@@ -58,7 +58,7 @@ class Grid(_Plan):
             coordinate.middles(cells) for coordinate, cells in zip(self.model.coordinates, self.shape, strict=True)
         )
 
-    def starts(self, rotor: Jeffcott) -> Starts:
+    def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of the shape of the grid."""
         return self.model.starts(rotor, *np.meshgrid(*self.values(), indexing="ij"))
 
@@ -89,7 +89,7 @@ class Sample(_Plan):
         shares = np.random.default_rng(self.seed).random((self.count, len(axes)))
         return tuple(coordinate.at(share) for coordinate, share in zip(axes, shares.T, strict=True))
 
-    def starts(self, rotor: Jeffcott) -> Starts:
+    def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of shape (count,)."""
         return self.model.starts(rotor, *self.values())
 

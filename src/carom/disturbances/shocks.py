@@ -22,17 +22,18 @@ import math
 
 import numpy as np
 
-from carom.core.advance import INSIDE_ALL, advance
+from carom.core.advance import advance
+from carom.core.contact_series import AWAY
 from carom.core.fate import forget, memory
 from carom.core.layout import rotor_record, rub_workspace, workspace
 from carom.models import Jeffcott, System
 from carom.motions.trajectories import EventLog
-from carom.outcome import InputError, Outcome, Phase
+from carom.outcome import InputError, Outcome
 
 __all__ = ["shaken", "states_after_shocks"]
 
 MODES = 4
-EVENT_LIMIT, TIME_REACHED, FLIGHT = int(Outcome.EVENT_LIMIT), int(Outcome.TIME_REACHED), int(Phase.FLIGHT)
+EVENT_LIMIT, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.TIME_REACHED)
 LOGGED = 256
 MOST_EVENTS = 1_000_000
 LEAST_DISTANCE = 1e-6
@@ -95,21 +96,21 @@ def states_after_shocks(
     rest, exponents = rotor.equilibrium, arrays.exponents.tolist()
     rows, rate_rows = arrays.rows[0].tolist(), arrays.rate_rows[0].tolist()
     log, work, rub = EventLog.empty(LOGGED, MODES), workspace(MODES), rub_workspace(MODES)
-    recollection = memory(MODES)
+    recollection, contact = memory(MODES), np.empty(1, np.int64)
     positions, velocities = np.empty((2, *peaks.shape), complex)
     undecided, touched = np.zeros((2, *peaks.shape), bool)
     for place in np.ndindex(peaks.shape):
         amplitudes = _at_rest(exponents, float(peaks[place]), float(directions[place]))
         forget(recollection)
-        outcome, phase, plane, events, time = EVENT_LIMIT, FLIGHT, INSIDE_ALL, 0, 0.0
+        outcome, contact[0], events, time = EVENT_LIMIT, AWAY, 0, 0.0
         while outcome == EVENT_LIMIT and events < MOST_EVENTS:
-            outcome, passed, count, phase, plane = advance(
-                arrays, table, amplitudes, duration - time, phase, plane, *log, recollection, work, rub
+            outcome, passed, count = advance(
+                arrays, table, amplitudes, duration - time, contact, *log, recollection, work, rub
             )
             events, time = events + count, time + passed
         values = amplitudes.tolist()
         position = _sum(rest, rows, values)
-        positions[place] = position / abs(position) if plane >= 0 else position
+        positions[place] = position / abs(position) if contact[0] != AWAY else position
         velocities[place] = _sum(0j, rate_rows, values)
         undecided[place], touched[place] = outcome != TIME_REACHED, events > 0
     return positions, velocities, undecided, touched

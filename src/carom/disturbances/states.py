@@ -21,7 +21,7 @@ from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
-    from carom.models import Jeffcott
+    from carom.models import Model
 
 __all__ = ["AnyState", "ContactRelease", "StateSlice", "UnbalanceStep"]
 
@@ -53,10 +53,12 @@ class UnbalanceStep(Disturbance):
             angle_coordinate("phase_before", "phase of the unbalance before the step, relative to that after it"),
         )
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the old unbalance."""
         eccentricity, phase = values
-        numbers = rotor.parameters
+        from carom.models import jeffcott_of
+
+        numbers = jeffcott_of(rotor).parameters
         response = cmath.rect(1.0, numbers.phi) / complex(numbers.omega**2 - 1.0, numbers.gamma)
         cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
         positions = complex_of(
@@ -87,11 +89,13 @@ class ContactRelease(Disturbance):
         """Angle of the contact point on the wall."""
         return (angle_coordinate("angle", "place on the wall"),)
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """States on the wall, moving along it."""
+        from carom.models import jeffcott_of
+
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
-        whirl = {"fixed": 0.0, "rotating": 1.0, "rolling": -rotor.parameters.radius_ratio}[self.motion]
+        whirl = {"fixed": 0.0, "rotating": 1.0, "rolling": -jeffcott_of(rotor).parameters.radius_ratio}[self.motion]
         return Starts.of(complex_of(cosine, sine), complex_of(-(whirl - 1.0) * sine, (whirl - 1.0) * cosine), True)
 
 
@@ -114,7 +118,7 @@ class StateSlice(Disturbance):
         """Both components of the position."""
         return length_coordinate("x", "position Re U", -1.0, 1.0), length_coordinate("y", "position Im U", -1.0, 1.0)
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """All positions inside the wall."""
         x, y = np.broadcast_arrays(*values)
         positions = complex_of(x, y)
@@ -145,7 +149,7 @@ class AnyState(Disturbance):
             angle_coordinate("direction", "direction of the velocity"),
         )
 
-    def starts(self, rotor: Jeffcott, *values: np.ndarray) -> Starts:
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """The given states."""
         radius, angle, speed, direction = np.broadcast_arrays(*values)
         return Starts.of(

@@ -1,14 +1,30 @@
 """Rotors: from parameters to the arrays that the kernels use.
 
 ========================  =================================================================
+``model``                 :class:`Model`: what every description of a rotor offers
 ``system``                :class:`System`: modes and contact planes of any linear rotor
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
+``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
+``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================
 """
 
 from carom.models.jeffcott import Jeffcott
-from carom.models.subjects import Subject, case_of, model_of
+from carom.models.linear import LinearRotor
+from carom.models.model import Model
+from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System, second_order_system
 
-__all__ = ["Jeffcott", "Subject", "System", "case_of", "model_of", "second_order_system"]
+__all__ = [
+    "Jeffcott",
+    "LinearRotor",
+    "Model",
+    "Subject",
+    "System",
+    "case_of",
+    "jeffcott_of",
+    "model_from",
+    "model_of",
+    "second_order_system",
+]

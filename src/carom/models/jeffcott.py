@@ -63,6 +63,11 @@ class Jeffcott:
         return self.parameters.scales
 
     @property
+    def unbalance_phase(self) -> float:
+        """Angle of the unbalance in the co-rotating frame, in rad."""
+        return self.parameters.phi
+
+    @property
     def equilibrium(self) -> complex:
         """Contact-free equilibrium position ``U*``; it may lie outside the clearance."""
         return complex(self.system.rest[0])
@@ -76,3 +81,7 @@ class Jeffcott:
             A name is unknown or a value not allowed.
         """
         return Jeffcott(self.parameters.replace(**changes))
+
+    def attributes(self) -> dict[str, str]:
+        """Return the parameters and the scales as attributes of a dataset, exact to the last bit."""
+        return self.parameters.attributes()

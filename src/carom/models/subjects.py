@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from carom.models.jeffcott import Jeffcott
+from carom.models.linear import LinearRotor
+from carom.models.model import Model
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
-__all__ = ["Subject", "case_of", "model_of"]
+__all__ = ["Subject", "case_of", "jeffcott_of", "model_from", "model_of"]
 
-Subject = Jeffcott | Parameters | Machine | Case
+Subject = Model | Parameters | Machine | Case
 """Any description of a rotor."""
+_ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
 
 
-def model_of(subject: Subject) -> Jeffcott:
+def model_of(subject: Subject) -> Model:
     """Model of a machine, a case or parameters; a model is returned as it is.
 
     Raises
@@ -20,15 +25,42 @@ def model_of(subject: Subject) -> Jeffcott:
     InputError
         It is none of these.
     """
-    if isinstance(subject, Jeffcott):
-        return subject
     if isinstance(subject, Machine | Case):
         return Jeffcott(subject.parameters)
     if isinstance(subject, Parameters):
         return Jeffcott(subject)
-    raise InputError(
-        "machine", shown(subject), "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"
-    )
+    if isinstance(subject, Model):
+        return subject
+    raise InputError("machine", shown(subject), _ALLOWED)
+
+
+def jeffcott_of(subject: Subject) -> Jeffcott:
+    """Model of a machine, a case or parameters, for results in closed form that only the planar rotor has.
+
+    Raises
+    ------
+    InputError
+        It is none of these, or another model.
+    """
+    model = model_of(subject)
+    if isinstance(model, Jeffcott):
+        return model
+    raise InputError("machine", shown(subject), "the planar rotor: this result is not known for other models")
+
+
+def model_from(attributes: Mapping[str, str]) -> Model:
+    """Model whose :meth:`~carom.models.model.Model.attributes` these are.
+
+    Raises
+    ------
+    InputError
+        A value is not allowed.
+    KeyError, TypeError, ValueError
+        An attribute is missing, or is not such text.
+    """
+    if "linear_rotor" in attributes:
+        return LinearRotor.from_attributes(attributes)
+    return Jeffcott(Parameters.from_attributes(attributes))
 
 
 def case_of(subject: Subject) -> Case:
@@ -37,8 +69,9 @@ def case_of(subject: Subject) -> Case:
     Raises
     ------
     InputError
-        It is none of these.
+        It is none of these, or another model than the planar rotor.
     """
     if isinstance(subject, Case):
         return subject
-    return Case("machine", model_of(subject).parameters, subject if isinstance(subject, Machine) else None, Zones())
+    machine = subject if isinstance(subject, Machine) else None
+    return Case("machine", jeffcott_of(subject).parameters, machine, Zones())

@@ -32,12 +32,15 @@ class System(Result):
         Coordinates per amplitude.
     inverse : ndarray of complex, shape (N, 2n), optional
         Amplitudes per coordinate, then per rate of a coordinate; computed from ``shapes`` by default.
+    translation : ndarray of complex, shape (n,), optional
+        Change of the coordinates when the rotor as a whole is displaced by one; ones by default.
     """
 
     arrays: np.record
     rest: np.ndarray
     shapes: np.ndarray
     inverse: np.ndarray | None = None
+    translation: np.ndarray | None = None
 
     @cached_property
     def table(self) -> np.record:
@@ -93,6 +96,27 @@ class System(Result):
             return position, np.einsum("...k,k->...", amplitudes, self.rates[0])
         position = np.einsum("...k,nk->...n", amplitudes, self.shapes) + self.rest
         return position, np.einsum("...k,nk->...n", amplitudes, self.rates)
+
+    def kicked(self, push: complex | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates and their rates, both (..., n), just after the levitating rotor gets velocities (...) as a whole."""
+        moves = np.ones(len(self.rest)) if self.translation is None else self.translation
+        velocities = np.multiply.outer(push, moves)
+        return np.broadcast_to(self.rest, velocities.shape), velocities
+
+    @cached_property
+    def is_planar(self) -> bool:
+        """Whether it is a :func:`second_order_system`: lanes and the closing of orbits are made for these."""
+        arrays = self.arrays
+        return (
+            arrays.columns.tolist() == [[1.0], [0.0]]
+            and arrays.rows.tolist() == [[0.0, 1.0]]
+            and bool(arrays.driven[1])
+        )
+
+    def at_planes(self, amplitudes: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement of a contact plane of its own and its rate for each of the mode amplitudes (m, N), shape (m,)."""
+        position = np.einsum("mk,mk->m", amplitudes, self.arrays.rows[planes]) + self.arrays.offsets[planes]
+        return position, np.einsum("mk,mk->m", amplitudes, self.arrays.rate_rows[planes])
 
     def at_plane(self, amplitudes: np.ndarray, plane: int) -> tuple[np.ndarray, np.ndarray]:
         """Displacement of a contact plane and its rate for mode amplitudes of shape (..., N), each of shape (...)."""

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from carom.models import Jeffcott
 from carom.outcome import Phase
 from carom.parameters import UNITS
 from carom.results import Result
@@ -16,6 +15,7 @@ from carom.results import Result
 if TYPE_CHECKING:
     import xarray
 
+    from carom.models import Model
     from carom.parameters import Scales
 
 __all__ = ["ContactHistory", "ContactLog", "LastingContact", "Table", "phase_flags", "polar"]
@@ -75,12 +75,15 @@ class ContactLog(Table):
     """Impacts of a motion, one entry per impact, in chronological order.
 
     All arrays have shape (n,).  Lengths are in ``c_r``, times in ``1/Ω``, impulses in ``m c_r Ω``, energies in
-    ``m c_r² Ω²``, in the co-rotating frame.
+    ``m c_r² Ω²``, in the co-rotating frame.  Here ``m`` is the mass that an impulse at the contact plane moves, and
+    ``c_r`` the clearance there.
 
     Attributes
     ----------
     time, angle : ndarray
         Time and angle ``θ`` of the impact.
+    plane : ndarray of int
+        Contact plane of the impact.
     radial_speed, angular_speed : ndarray
         ``ṙ`` and ``θ̇`` just before it.
     radial_speed_after, angular_speed_after : ndarray
@@ -98,6 +101,7 @@ class ContactLog(Table):
     """
 
     time: np.ndarray
+    plane: np.ndarray
     angle: np.ndarray
     radial_speed: np.ndarray
     angular_speed: np.ndarray
@@ -115,6 +119,7 @@ class ContactLog(Table):
     dimension: ClassVar[str] = "impact"
     columns: ClassVar[dict[str, tuple[str, str, str]]] = {
         "time": ("time", "s", "time of impact"),
+        "plane": ("", "1", "contact plane"),
         "angle": ("", "rad", "angle of impact in the co-rotating frame"),
         "radial_speed": ("velocity", "m/s", "radial speed before impact"),
         "angular_speed": ("speed", "rad/s", "angular speed before impact, co-rotating frame"),
@@ -132,21 +137,24 @@ class ContactLog(Table):
     @classmethod
     def from_states(
         cls,
-        rotor: Jeffcott,
+        rotor: Model,
         times: np.ndarray,
+        planes: np.ndarray,
         before: tuple[np.ndarray, np.ndarray],
         after: tuple[np.ndarray, np.ndarray],
     ) -> ContactLog:
-        """Log of impacts from positions and velocities just before and just after, each of shape (n,)."""
+        """Log of impacts at given planes from their positions and velocities just before and just after, shape (n,)."""
         angle, radial, angular = polar(*before)
         _, radial_after, angular_after = polar(*after)
-        drive = float(rotor.system.arrays.drive[0])
+        arrays = rotor.system.arrays
+        drive = arrays.drive[planes]
         normal = radial - radial_after
         tangential = angular_after - angular
         slip, slip_after = drive + angular, drive + angular_after
         normal_work = -0.5 * normal * (radial + radial_after)
         return cls(
             time=times,
+            plane=planes,
             angle=angle,
             radial_speed=radial,
             angular_speed=angular,
@@ -156,7 +164,7 @@ class ContactLog(Table):
             tangential_impulse=tangential,
             slip_before=slip,
             slip_after=slip_after,
-            sticks=rotor.system.arrays.friction[0] * normal >= np.abs(slip),
+            sticks=arrays.friction[planes] * normal >= np.abs(slip),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-(drive - 1.0) * tangential,
             scales=rotor.scales,
@@ -218,15 +226,16 @@ class ContactHistory(Table):
     @classmethod
     def from_states(
         cls,
-        rotor: Jeffcott,
+        rotor: Model,
+        plane: int,
         times: np.ndarray,
         phases: np.ndarray,
         state: tuple[np.ndarray, np.ndarray],
         forces: tuple[np.ndarray, np.ndarray],
     ) -> ContactHistory:
-        """History from positions and velocities, and normal and friction forces, each of shape (n,)."""
+        """History at a plane from positions and velocities, and normal and friction forces, each of shape (n,)."""
         position, velocity = state
-        drive = float(rotor.system.arrays.drive[0])
+        drive = float(rotor.system.arrays.drive[plane])
         normal, friction = forces
         slip = np.where(phases == Phase.FLIGHT, 0.0, drive + (position.conj() * velocity).imag)
         return cls(

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.models import jeffcott_of
 from carom.motions.contacts import Table
 from carom.motions.trajectories import Trajectory
 from carom.outcome import Phase
@@ -98,8 +99,13 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     Returns
     -------
     EnergyLedger
+
+    Raises
+    ------
+    InputError
+        The motion is that of another model than the planar rotor.
     """
-    parameters = trajectory.rotor.parameters
+    parameters = jeffcott_of(trajectory.rotor).parameters
     edges, counts = _pieces(trajectory)
     half = 0.5 * np.diff(edges)
     times = (edges[:-1] + half)[:, None] + half[:, None] * _NODES
@@ -143,7 +149,7 @@ def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     bounds = np.append(trajectory.segment_starts, trajectory.time)
     lengths = np.diff(bounds)
     fastest = np.abs(trajectory.rotor.system.exponents).max()
-    flying = trajectory.segment_phases == Phase.FLIGHT
+    flying = trajectory.segment_phases[:, 0] == Phase.FLIGHT
     counts = np.where(flying, np.ceil(lengths * fastest / LONGEST_PIECE), 1).astype(int)
     counts = np.maximum(counts, 1)
     owner = np.repeat(np.arange(len(counts)), counts)
@@ -156,5 +162,5 @@ def _stored(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     position, velocity = trajectory.rotor.system.state(trajectory.segment_amplitudes)
     position = np.append(position, trajectory.final.position)
     velocity = np.append(velocity, trajectory.final.velocity)
-    omega = trajectory.rotor.parameters.omega
+    omega = jeffcott_of(trajectory.rotor).parameters.omega
     return 0.5 * np.abs(velocity + 1j * position) ** 2, 0.5 * omega**2 * np.abs(position) ** 2

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from carom.core.advance import INSIDE_ALL
+from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.impact import set_on_wall
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.outcome import InputError
 from carom.parameters import Scales, read_size
 
@@ -27,12 +28,17 @@ class State:
 
     Attributes
     ----------
-    position, velocity : complex
-        ``U`` in clearances and ``U̇`` in clearances times ``Ω``.
+    position, velocity : complex, or ndarray of complex, shape (n,)
+        ``U`` in clearances and ``U̇`` in clearances times ``Ω``; arrays for a rotor of ``n > 1`` coordinates.
     """
 
-    position: complex
-    velocity: complex = 0j
+    position: Any
+    velocity: Any = 0j
+
+    @classmethod
+    def of(cls, position: np.ndarray, velocity: np.ndarray) -> State:
+        """State of plain numbers, or of arrays if there are several coordinates."""
+        return cls(position, velocity) if np.ndim(position) else cls(complex(position), complex(velocity))
 
 
 @dataclass(frozen=True)
@@ -50,8 +56,8 @@ class Kick:
     speed: float | str
     angle: float | str = 0.0
 
-    def state(self, rotor: Jeffcott) -> State:
-        """Return the state just after the kick.
+    def state(self, rotor: Model) -> State:
+        """Return the state just after the kick, which moves the rotor as a whole.
 
         Raises
         ------
@@ -59,7 +65,8 @@ class Kick:
             The text is no speed or no angle, or its unit needs scales that the rotor does not have.
         """
         speed = own_size("kick speed", self.speed, "velocity", rotor.scales)
-        return State(rotor.equilibrium, cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales)))
+        push = cmath.rect(speed, own_size("kick angle", self.angle, "angle", rotor.scales))
+        return State.of(*(values if len(values) > 1 else values[0] for values in rotor.system.kicked(push)))
 
 
 def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
@@ -80,18 +87,28 @@ def own_size(name: str, given: float | str, kind: str, scales: Scales | None) ->
     return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given
 
 
-def amplitudes_of(rotor: Jeffcott, state: State) -> tuple[np.ndarray, int]:
-    """Amplitudes of a start, and the plane it touches or INSIDE_ALL."""
+def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes of a start, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
+    system = rotor.system
     for name in ("position", "velocity"):
-        if not cmath.isfinite(getattr(state, name)):
-            raise InputError(f"start {name}", getattr(state, name), "finite numbers")
-    if abs(state.velocity) > LARGEST_SPEED:
+        given = getattr(state, name)
+        if np.shape(given) != (() if len(system.rest) == 1 else system.rest.shape):
+            raise InputError(f"start {name}", given, f"{len(system.rest)} coordinate(s)")
+        if not np.isfinite(given).all():
+            raise InputError(f"start {name}", given, "finite numbers")
+    if np.max(np.abs(state.velocity)) > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
-    radius = abs(state.position)
-    if radius > 1.0 + WALL_TOLERANCE:
-        raise InputError("start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g})")
-    amplitudes = rotor.system.amplitudes(state.position, state.velocity)
-    if radius < 1.0 - WALL_TOLERANCE:
-        return amplitudes, INSIDE_ALL
-    set_on_wall(rotor.system.arrays, 0, amplitudes)
-    return amplitudes, 0
+    amplitudes = system.amplitudes(state.position, state.velocity)
+    contact = np.full(len(system.arrays.rows), AWAY)
+    for plane in range(len(contact)):
+        # A rotor with one coordinate is at its own position, free of the rounding of the amplitudes.
+        radius = abs(state.position if len(system.rest) == 1 else system.at_plane(amplitudes, plane)[0])
+        if radius > 1.0 + WALL_TOLERANCE:
+            where = "" if len(contact) == 1 else f" at plane {plane}"
+            raise InputError(
+                "start position", state.position, f"inside the wall, |U| <= 1 (here |U| = {radius:.12g}{where})"
+            )
+        if radius >= 1.0 - WALL_TOLERANCE:
+            set_on_wall(system.arrays, plane, amplitudes)
+            contact[plane] = FLIGHT
+    return amplitudes, contact

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.files import netcdf
-from carom.models import Jeffcott
+from carom.models import model_from
 from carom.motions.contacts import phase_flags
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Outcome, Phase
-from carom.parameters import Parameters
 
 if TYPE_CHECKING:
     import xarray
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["load_trajectory", "save_trajectory", "trajectory_dataset"]
 
 COMPLEX = ("segment_amplitudes", "arrivals")
-SEGMENTS = ("segment_starts", "segment_phases", *COMPLEX)
+SEGMENTS = ("segment_starts", "segment_phases", "event_planes", *COMPLEX)
 
 
 def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> xarray.Dataset:
@@ -38,12 +37,12 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
     Returns
     -------
     xarray.Dataset
-        In SI units where the scales are known, in the co-rotating frame.
+        In SI units where the scales are known, in the co-rotating frame; of several contact planes, the first.
     """
     times = motion.sample() if times is None else np.asarray(times, float)
     scales = motion.rotor.scales
     dataset = motion.history(times).to_dataset()
-    position, velocity = motion.at(times)
+    position, velocity = motion.at_plane(times)
     for name, values, scale, units in (
         ("x", position.real, "length", ("c_r", "m")),
         ("y", position.imag, "length", ("c_r", "m")),
@@ -68,7 +67,8 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
 
     columns: dict[str, Any] = {
         "segment_starts": ("segment", motion.segment_starts, {"units": "1/Omega"}),
-        "segment_phases": ("segment", motion.segment_phases, phase_flags(Phase)),
+        "segment_phases": (("segment", "plane"), motion.segment_phases, phase_flags(Phase)),
+        "event_planes": ("event", motion.event_planes),
         "segment_amplitudes": (("segment", "mode", "part"), _parts(motion.segment_amplitudes)),
         "arrivals": (("event", "mode", "part"), _parts(motion.arrivals)),
     }
@@ -77,6 +77,7 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
         "final": json.dumps(_numbers(motion.final)),
         "end_time": motion.time,
         "multiplicity": motion.multiplicity,
+        "plane": motion.plane,
     }
     netcdf.save(xarray.Dataset(columns, attrs=attributes), path)
 
@@ -92,14 +93,14 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
     dataset = netcdf.load(path, SEGMENTS)
     attributes = dataset.attrs
     try:
-        parameters = Parameters.from_attributes(attributes)
+        rotor = model_from(attributes)
         start, final = (_state(json.loads(attributes[name])) for name in ("start", "final"))
         outcome = Outcome[attributes["outcome"]]
     except (KeyError, TypeError, ValueError) as problem:
         raise InputError("file", str(path), f"must hold a motion that carom has written ({problem})") from None
-    complexes = {name: dataset[name].values[..., 0] + 1j * dataset[name].values[..., 1] for name in COMPLEX}
+    amplitudes, arrivals = (dataset[name].values[..., 0] + 1j * dataset[name].values[..., 1] for name in COMPLEX)
     return Trajectory(
-        rotor=Jeffcott(parameters),
+        rotor=rotor,
         start=start,
         outcome=outcome,
         time=float(attributes["end_time"]),
@@ -107,7 +108,10 @@ def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
         multiplicity=int(attributes["multiplicity"]),
         segment_starts=dataset["segment_starts"].values,
         segment_phases=dataset["segment_phases"].values,
-        **complexes,
+        event_planes=dataset["event_planes"].values,
+        segment_amplitudes=amplitudes,
+        arrivals=arrivals,
+        plane=int(attributes["plane"]),
     )
 
 
@@ -118,7 +122,7 @@ def _provenance(motion: Trajectory) -> dict[str, Any]:
         "source": f"carom {version('carom')}",
         "outcome": motion.outcome.name,
         "comment": motion.outcome.meaning,
-        **motion.rotor.parameters.attributes(),
+        **motion.rotor.attributes(),
     }
 
 
@@ -127,10 +131,9 @@ def _parts(values: np.ndarray) -> np.ndarray:
     return np.stack([values.real, values.imag], axis=-1)
 
 
-def _numbers(state: State) -> list[float]:
-    return [state.position.real, state.position.imag, state.velocity.real, state.velocity.imag]
+def _numbers(state: State) -> list[Any]:
+    return [[np.real(part).tolist(), np.imag(part).tolist()] for part in (state.position, state.velocity)]
 
 
-def _state(numbers: list[float]) -> State:
-    x, y, speed_x, speed_y = numbers
-    return State(complex(x, y), complex(speed_x, speed_y))
+def _state(numbers: list[Any]) -> State:
+    return State.of(*(np.array(real) + 1j * np.array(imaginary) for real, imaginary in numbers))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,13 +12,11 @@ from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple
 import numpy as np
 
 from carom.core.advance import advance
-from carom.core.closing import PASSES
-from carom.core.fate import doubt
 from carom.core.layout import rub_workspace, workspace
-from carom.core.rub import fly_or_rub_all
-from carom.models import Jeffcott, Subject, model_of
+from carom.core.rub import fly_or_rub_all, forces_all
+from carom.models import Model, Subject, model_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
-from carom.motions.settling import PATIENCE, fresh_memory, longest_time, multiplicity_of
+from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
 from carom.motions.starts import Kick, State, amplitudes_of, own_size
 from carom.outcome import InputError, Outcome, Phase
 from carom.progress import Reporter, Wish, shows_progress
@@ -50,10 +49,26 @@ class EventLog(NamedTuple):
     after: np.ndarray
 
     @classmethod
-    def empty(cls, size: int, modes: int) -> EventLog:
+    def empty(cls, size: int, modes: int, planes: int = 1) -> EventLog:
         """Allocate a log for this many events."""
-        whole = np.empty((2, size), np.int64)
-        return cls(np.empty(size), whole[0], whole[1], *np.empty((2, size, modes), complex))
+        phases, places = np.empty((size, planes), np.int64), np.empty(size, np.int64)
+        return cls(np.empty(size), phases, places, *np.empty((2, size, modes), complex))
+
+    def first(self, count: int) -> EventLog:
+        """The first events."""
+        return EventLog(*(part[:count] for part in self))
+
+    def impacts(self, phases: np.ndarray) -> np.ndarray:
+        """Which events are impacts, from the phase of each plane, shape (P,), before the first one."""
+        flying = _flying(np.concatenate([phases[None], self.phases]), self.planes)
+        struck: np.ndarray = flying.all(axis=0) & (self.before != self.after).any(axis=1)
+        return struck
+
+
+def _flying(phases: np.ndarray, planes: np.ndarray) -> np.ndarray:
+    """Whether the plane of each event flies before and after it, bool (2, n), for phases (n + 1, P) and planes (n,)."""
+    places = np.arange(len(planes))
+    return np.array([phases[places, planes], phases[places + 1, planes]]) == Phase.FLIGHT
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -62,7 +77,7 @@ class Trajectory(Result):
 
     Attributes
     ----------
-    rotor : Jeffcott
+    rotor : Model
     start : State
     outcome : Outcome
         Where it settled, or why it was stopped.
@@ -74,11 +89,16 @@ class Trajectory(Result):
         Impacts per period if it settled to periodic bouncing; zero otherwise (bouncing with zero is aperiodic).
     segment_starts : ndarray, shape (n + 1,)
         Start time of each segment.  A long contact consists of several.
-    segment_phases : ndarray of :class:`~carom.outcome.Phase`, shape (n + 1,)
+    segment_phases : ndarray of :class:`~carom.outcome.Phase`, shape (n + 1, P)
+        Phase of each contact plane.
+    event_planes : ndarray of int, shape (n,)
+        Contact plane of the event that ends each segment but the last.
     segment_amplitudes : ndarray of complex, shape (n + 1, N)
         Mode amplitudes at the start of each segment.
     arrivals : ndarray of complex, shape (n, N)
         Mode amplitudes at the end of each segment except the last.
+    plane : int
+        Contact plane that positions, contacts and forces refer to; :meth:`seen_at` gives the motion at another.
     """
 
     figure: ClassVar[str] = "motion"
@@ -93,7 +113,7 @@ class Trajectory(Result):
         "lasting_contacts",
     )
 
-    rotor: Jeffcott
+    rotor: Model
     start: State
     outcome: Outcome
     time: float
@@ -101,44 +121,64 @@ class Trajectory(Result):
     multiplicity: int
     segment_starts: np.ndarray
     segment_phases: np.ndarray
+    event_planes: np.ndarray
     segment_amplitudes: np.ndarray
     arrivals: np.ndarray
+    plane: int = 0
+
+    def seen_at(self, plane: int) -> Trajectory:
+        """Return the same motion with the positions, contacts and forces of another contact plane.
+
+        Raises
+        ------
+        InputError
+            There is no such plane.
+        """
+        planes = self.segment_phases.shape[1]
+        if not 0 <= plane < planes:
+            raise InputError("plane", plane, f"a whole number from 0 to {planes - 1}")
+        return dataclasses.replace(self, plane=plane)
 
     @cached_property
     def is_impact(self) -> np.ndarray:
         """Which of the ``n`` events are impacts, bool, shape (n,)."""
-        flying = self.segment_phases == Phase.FLIGHT
-        struck = (self.arrivals != self.segment_amplitudes[1:]).any(axis=1)
-        return flying[:-1] & flying[1:] & struck
+        followed = self.segment_starts[1:], self.segment_phases[1:], self.event_planes
+        log = EventLog(*followed, self.arrivals, self.segment_amplitudes[1:])
+        return log.impacts(self.segment_phases[0])
 
     @cached_property
     def is_landing(self) -> np.ndarray:
         """Which of the ``n`` events complete a chatter (its remaining impulses in one), bool, shape (n,)."""
-        flying = self.segment_phases == Phase.FLIGHT
-        return flying[:-1] & ~flying[1:]
+        before, after = _flying(self.segment_phases, self.event_planes)
+        return before & ~after
 
     @cached_property
     def contacts(self) -> ContactLog:
-        """Log of the impacts."""
-        return self.log_of(self.is_impact)
+        """Log of the impacts at the contact plane."""
+        return self.log_of(self.is_impact & (self.event_planes == self.plane))
 
     def log_of(self, events: np.ndarray) -> ContactLog:
         """Log of chosen events, bool, shape (n,)."""
-        before = self.rotor.system.state(self.arrivals[events])
-        after = self.rotor.system.state(self.segment_amplitudes[1:][events])
-        return ContactLog.from_states(self.rotor, self.segment_starts[1:][events], before, after)
+        planes = self.event_planes[events]
+        before = self.rotor.system.at_planes(self.arrivals[events], planes)
+        after = self.rotor.system.at_planes(self.segment_amplitudes[1:][events], planes)
+        return ContactLog.from_states(self.rotor, self.segment_starts[1:][events], planes, before, after)
 
     @cached_property
     def lasting_contacts(self) -> tuple[LastingContact, ...]:
-        """Stretches of sliding and rolling in chronological order."""
-        changes = np.flatnonzero(np.diff(self.segment_phases)) + 1
-        bounds = [0, *changes, len(self.segment_phases)]
+        """Stretches of sliding and rolling at the contact plane, in chronological order."""
         ends = np.append(self.segment_starts, self.time)
+        phases = self.segment_phases[:, self.plane]
         return tuple(
-            LastingContact(Phase(int(self.segment_phases[first])), float(ends[first]), float(ends[last]))
-            for first, last in pairwise(bounds)
-            if self.segment_phases[first] != Phase.FLIGHT
+            LastingContact(Phase(int(phases[first])), float(ends[first]), float(ends[last]))
+            for first, last in self.stretches()
+            if phases[first] != Phase.FLIGHT
         )
+
+    def stretches(self) -> list[tuple[int, int]]:
+        """Segments over which the phase of the contact plane stays the same, each as first and one past the last."""
+        changes = np.flatnonzero(np.diff(self.segment_phases[:, self.plane])) + 1
+        return list(pairwise([0, *changes, len(self.segment_phases)]))
 
     def at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """State at given times, exact to rounding; at an impact, the state just after it.
@@ -151,10 +191,16 @@ class Trajectory(Result):
         Returns
         -------
         position, velocity : ndarray of complex
-            ``U`` and ``U̇`` in the co-rotating frame, of the shape of ``times``.
+            ``U`` and ``U̇`` in the co-rotating frame, of the shape of ``times``; for a rotor of ``n > 1`` coordinates with a
+            last axis of that length.
         """
         amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
         return self.rotor.system.state(amplitudes)
+
+    def at_plane(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement of the contact plane and its rate at given times, in its clearances; see :meth:`at`."""
+        amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
+        return self.rotor.system.at_plane(amplitudes, self.plane)
 
     def _amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mode amplitudes and phases at given times."""
@@ -163,16 +209,20 @@ class Trajectory(Result):
         phases = self.segment_phases[segment]
         moved = fly_or_rub_all(
             self.rotor.system.arrays,
-            0,
             self.segment_amplitudes[segment],
             phases,
             flat - self.segment_starts[segment],
-            rub_workspace(self.segment_amplitudes.shape[1]),
+            self._workspace(),
         )
-        return moved.reshape(*times.shape, moved.shape[1]), phases.reshape(times.shape)
+        return moved.reshape(*times.shape, moved.shape[1]), phases.reshape(*times.shape, phases.shape[1])
+
+    def _workspace(self) -> np.record:
+        return rub_workspace(self.segment_amplitudes.shape[1], self.segment_phases.shape[1])
 
     def forces(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Normal and friction force of lasting contact at given times, in ``m c_r Ω²``; zero in flight.
+        """Normal and friction force of lasting contact at the plane at given times, in ``m c_r Ω²``; zero in flight.
+
+        ``m`` is the mass that an impulse at the plane moves, and ``c_r`` the clearance there.
 
         Returns
         -------
@@ -180,20 +230,16 @@ class Trajectory(Result):
             The normal force presses the rotor inward; friction is positive along growing angle.
         """
         amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
-        arrays = self.rotor.system.arrays
-        position, velocity = self.rotor.system.state(amplitudes)
-        local = position.conj() * np.einsum("...k,k->...", amplitudes, arrays.acceleration_rows[0])
-        push = local.real + np.abs(velocity) ** 2
-        slip_sign = np.where(phases == Phase.FORWARD_SLIP, 1.0, -1.0)
-        grip = np.where(phases == Phase.ROLLING, -local.imag, -slip_sign * arrays.friction[0] * push)
-        touching = phases != Phase.FLIGHT
-        return np.where(touching, push, 0.0), np.where(touching, grip, 0.0)
+        flat, shape = amplitudes.reshape(-1, amplitudes.shape[-1]), amplitudes.shape[:-1]
+        found = forces_all(self.rotor.system.arrays, flat, phases.reshape(len(flat), -1), self._workspace())
+        return found[:, self.plane, 0].reshape(shape), found[:, self.plane, 1].reshape(shape)
 
     def history(self, times: np.ndarray | None = None) -> ContactHistory:
         """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
         times = self.sample() if times is None else np.asarray(times, float)
         _, phases = self._amplitudes_at(times)
-        return ContactHistory.from_states(self.rotor, times, phases, self.at(times), self.forces(times))
+        state, forces = self.at_plane(times), self.forces(times)
+        return ContactHistory.from_states(self.rotor, self.plane, times, phases[..., self.plane], state, forces)
 
     def to_dataset(self, times: np.ndarray | None = None) -> xarray.Dataset:
         """Course of the motion at given times; see :func:`~carom.motions.storage.trajectory_dataset`."""
@@ -221,7 +267,7 @@ class Trajectory(Result):
         return np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
 
     def position(self, times: np.ndarray, frame: Literal["rotating", "fixed"] = "rotating") -> np.ndarray:
-        """Position in clearances, ``U`` in the co-rotating or ``Z = U e^{it}`` in the fixed frame.
+        """Position of the contact plane in its clearances, ``U`` in the co-rotating or ``Z = U e^{it}`` in the fixed frame.
 
         Raises
         ------
@@ -230,12 +276,12 @@ class Trajectory(Result):
         """
         if frame not in ("rotating", "fixed"):
             raise InputError("frame", repr(frame), "must be 'rotating' or 'fixed'")
-        rotating, _ = self.at(times)
+        rotating, _ = self.at_plane(times)
         return rotating if frame == "rotating" else rotating * np.exp(1j * np.asarray(times))
 
     def radius(self, times: np.ndarray) -> np.ndarray:
-        """Distance from the bearing centre in clearances."""
-        radius: np.ndarray = np.abs(self.at(times)[0])
+        """Distance of the contact plane from its bearing centre, in its clearances."""
+        radius: np.ndarray = np.abs(self.at_plane(times)[0])
         return radius
 
 
@@ -283,7 +329,7 @@ def simulate(
     """
     rotor = model_of(machine)
     state = start.state(rotor) if isinstance(start, Kick) else start
-    amplitudes, plane = amplitudes_of(rotor, state)
+    amplitudes, contact = amplitudes_of(rotor, state)
     if until is None and settle:
         until = longest_time(rotor)
     until = None if until is None else own_size("until", until, "time", rotor.scales)
@@ -291,59 +337,42 @@ def simulate(
         raise InputError("until", until, "a finite time above 0, in 1/Omega")
     if max_events < 1:
         raise InputError("max_events", max_events, "a whole number of at least 1")
-    modes = len(amplitudes)
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter)
     first = amplitudes.copy()
     logs: list[EventLog] = []
-    reached, events, outcome, phase = 0.0, 0, Outcome.EVENT_LIMIT, int(Phase.FLIGHT)
+    reached, events, outcome = 0.0, 0, Outcome.EVENT_LIMIT
     multiplicity, tell = 0, Reporter.of(progress, "simulating")
     while outcome is Outcome.EVENT_LIMIT and events < max_events:
-        log = EventLog.empty(min(CHUNK, max_events - events), modes)
-        outcome, time, count, phase, plane = follow(rotor, amplitudes, until - reached, phase, plane, log, recollection)
-        logs.append(EventLog(reached + log.times[:count], *(part[:count] for part in log[1:])))
+        log = EventLog.empty(min(CHUNK, max_events - events), len(amplitudes), len(contact))
+        outcome, time, count = follow(rotor, amplitudes, until - reached, contact, log, recollection)
+        logs.append(log.first(count)._replace(times=reached + log.times[:count]))
         reached, events = reached + time, events + count
         tell(reached / until)
-        if outcome in REPEATING:
-            multiplicity = multiplicity_of(rotor, amplitudes, int(recollection.period))
-            if multiplicity == PASSES:
-                doubt(recollection)
-                outcome, multiplicity = Outcome.EVENT_LIMIT, 0
+        outcome, multiplicity = settled(rotor, amplitudes, contact, outcome, recollection)
     position, velocity = rotor.system.state(amplitudes)
     return Trajectory(
         rotor=rotor,
         start=state,
         outcome=outcome,
         time=until if outcome is Outcome.TIME_REACHED else reached,
-        final=State(complex(position), complex(velocity)),
+        final=State.of(position, velocity),
         multiplicity=multiplicity,
         segment_starts=np.concatenate([np.zeros(1), *(log.times for log in logs)]),
-        segment_phases=np.concatenate([np.zeros(1, np.int64), *(log.phases for log in logs)]),
+        segment_phases=np.concatenate([np.zeros((1, len(contact)), np.int64), *(log.phases for log in logs)]),
+        event_planes=np.concatenate([log.planes for log in logs]),
         segment_amplitudes=np.concatenate([first[None], *(log.after for log in logs)]),
         arrivals=np.concatenate([log.before for log in logs]),
     )
 
 
 def follow(
-    rotor: Jeffcott,
-    amplitudes: np.ndarray,
-    until: float,
-    phase: int,
-    plane: int,
-    log: EventLog,
-    recollection: np.record,
-) -> tuple[Outcome, float, int, int, int]:
-    """Advance amplitudes in place until the log is full or the motion ends; see :func:`carom.core.advance.advance`."""
-    modes = len(amplitudes)
-    code, *rest = advance(
-        rotor.system.arrays,
-        rotor.system.table,
-        amplitudes,
-        until,
-        phase,
-        plane,
-        *log,
-        recollection,
-        workspace(modes),
-        rub_workspace(modes),
-    )
+    rotor: Model, amplitudes: np.ndarray, until: float, contact: np.ndarray, log: EventLog, recollection: np.record
+) -> tuple[Outcome, float, int]:
+    """Advance amplitudes and contacts in place until the log is full or the motion ends.
+
+    See :func:`carom.core.advance.advance`.
+    """
+    modes, system = len(amplitudes), rotor.system
+    work, rub = workspace(modes), rub_workspace(modes, len(contact))
+    code, *rest = advance(system.arrays, system.table, amplitudes, until, contact, *log, recollection, work, rub)
     return Outcome(code), *rest

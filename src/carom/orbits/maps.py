@@ -112,7 +112,8 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
     amplitudes = rotor.system.amplitudes(state.position, state.velocity)
     log = EventLog.empty(2, len(amplitudes))
     bounces = memory(len(amplitudes), stop_at_landing=True)
-    outcome, time, count, *_ = follow(rotor, amplitudes, longest_flight, Phase.FLIGHT, 0, log, bounces)
+    contact = np.array([Phase.FLIGHT])
+    outcome, time, count = follow(rotor, amplitudes, longest_flight, contact, log, bounces)
     if count < 2:
         return ImpactMap(Outcome.CLEAR if outcome is Outcome.TIME_REACHED else outcome, None, time, None)
     position, velocity = rotor.system.state(log.before[1])

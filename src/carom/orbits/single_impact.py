@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.admissibility import departure, slip_speed, slip_stays_forward, why_virtual
@@ -213,7 +213,7 @@ class OrbitSet(Result, Sequence[Orbit]):
 
 def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
     """``F₁(T) = 1 + Re(q a₂₂(T))``, whose roots are the periods of single-impact orbits (source paper (4.4))."""
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     return PeriodCondition(rotor.system).value(np.asarray(periods, float))
 
 
@@ -243,7 +243,7 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
     InputError
         Without damping there are infinitely many; give ``longest_period``.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     condition = PeriodCondition(rotor.system)
     roots = condition.roots(longest_period)
     orbits = _orbits_at(rotor, condition, roots, 1)
@@ -269,7 +269,7 @@ def orbits_within_reach(machine: Subject) -> OrbitSet:
     OrbitSet
         Its ``complete`` and ``argument`` tell whether the list was cut.
     """
-    rotor = model_of(machine)
+    rotor = jeffcott_of(machine)
     return find_orbits(rotor, longest_within_reach(rotor))
 
 

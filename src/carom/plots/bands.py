@@ -65,7 +65,7 @@ def bands_on_the_circle(axes: Axes, trajectory: Trajectory, frame: Frame, since:
 
 def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: float) -> Complex:
     start = max(span.start, since)
-    position, velocity = trajectory.at(np.linspace(start, span.end, 16))
+    position, velocity = trajectory.at_plane(np.linspace(start, span.end, 16))
     # On the wall (radius 1) the angular speed equals the tangential speed; the fixed frame adds the shaft speed, 1.
     fastest = float(np.abs((position.conj() * velocity).imag + (frame == "fixed")).max())
     points = int(np.ceil((span.end - start) * fastest / _STEP)) + 2

@@ -275,7 +275,7 @@ def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
         for cells_drawn in axes.collections:  # those cut by the wall
             cells_drawn.set_clip_path(Circle((0.0, 0.0), 1.0, transform=axes.transData))
         label_frame(axes, "rotating", basin.scales)
-        point(axes, basin.rotor.equilibrium, "contact-free", label="", colour="#ffffff")
+        point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="", colour="#ffffff")
         velocity = complex(dataset["start_vx"].values.flat[0], dataset["start_vy"].values.flat[0])
         said = "at rest in the co-rotating frame" if velocity == 0 else rf"$\dot U$ = {velocity:.3g} $c_r\Omega$"
         axes.set_title(f"starts {said}")
@@ -297,8 +297,8 @@ def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, t
 
 
 def _outward(basin: Basin) -> complex:
-    rest = basin.rotor.equilibrium
-    return rest / abs(rest) if rest else complex(np.exp(1j * basin.parameters.phi))
+    rest = complex(basin.rotor.system.arrays.offsets[0])
+    return rest / abs(rest) if rest else complex(np.exp(1j * basin.rotor.unbalance_phase))
 
 
 def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
@@ -315,7 +315,7 @@ def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
     _paint(axes, edges, np.array(_RING), np.repeat(cells, parts)[:, None], motions, bend)
     clearance_circle(axes, reach=1.05)
     label_frame(axes, "rotating", basin.scales)
-    point(axes, basin.rotor.equilibrium, "contact-free", label="")
+    point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="")
     motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}
     said = motion.get(str(basin.plan.model.describe()["motion"]), "rolling without slip")
     axes.set_title(f"released from the wall, {said}")

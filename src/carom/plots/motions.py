@@ -161,7 +161,7 @@ def motion(
             impacts(drawn, trajectory.position(contacts.time[shown], frame), contacts.angular_speed[shown])
         point(drawn, complex(line[0]), "start", size=3.5)
         point(drawn, complex(line[-1]), "end", size=5.5, label=f"end: {ending(trajectory.outcome)}")
-    _levitation(frames[0], trajectory.rotor.equilibrium)
+    _levitation(frames[0], complex(trajectory.rotor.system.arrays.offsets[trajectory.plane]))
     if axes is None:
         figure.suptitle(title or _motion_title(trajectory))
         key(figure, frames, columns=4)

@@ -76,11 +76,9 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.2 * TWO_COLUMNS))
     ends = np.append(trajectory.segment_starts, trajectory.time)
-    changes = np.flatnonzero(np.diff(trajectory.segment_phases)) + 1
-    bounds = [0, *changes, len(trajectory.segment_phases)]
     shown = {}
-    for first, last in itertools.pairwise(bounds):
-        regime = REGIMES[int(trajectory.segment_phases[first])]
+    for first, last in trajectory.stretches():
+        regime = REGIMES[int(trajectory.segment_phases[first, trajectory.plane])]
         _ribbon(drawn, ends[first], ends[last], 1.05, regime.colour)
         shown[regime.words] = regime.colour
     for start, end, forward in _whirl(trajectory):
@@ -106,7 +104,7 @@ def _ribbon(axes: Axes, start: float, end: float, bottom: float, colour: str) ->
 def _whirl(trajectory: Trajectory) -> list[tuple[float, float, bool]]:
     """Return the intervals of forward and backward whirl in the fixed frame: start, end, whether forward."""
     times = trajectory.sample(_SAMPLES)
-    position, velocity = trajectory.at(times)
+    position, velocity = trajectory.at_plane(times)
     forward = (position.conj() * (velocity + 1j * position)).imag > 0.0
     edges = [0, *(np.flatnonzero(np.diff(forward)) + 1), len(times) - 1]
     return [

@@ -19,7 +19,7 @@ from carom.bifurcations.boundary import BoundaryEquilibrium
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott
+from carom.models import Jeffcott, jeffcott_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.single_impact import Orbit, OrbitSet
@@ -71,7 +71,7 @@ def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
     impacts = zip(log.time, log.angle, log.radial_speed, log.angular_speed, log.normal_impulse, strict=True)
     keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
     document: dict[str, Any] = {
-        "parameters": trajectory.rotor.parameters.as_dict(),
+        "parameters": jeffcott_of(trajectory.rotor).parameters.as_dict(),
         "start": _state(trajectory.start),
         "outcome": trajectory.outcome.label,
         "meaning": trajectory.outcome.meaning,

@@ -12,7 +12,7 @@ from carom.attractors.names import SYNCHRONOUS_RUB
 from carom.closed_forms.thresholds import rub_limit
 from carom.closed_forms.whirl import rolling
 from carom.disturbances import FASTEST
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
@@ -92,7 +92,7 @@ def least_safe_damping(
     InputError
         ``highest`` is not above the lowest damping searched, or ``count`` is below 1.
     """
-    parameters = model_of(machine).parameters
+    parameters = jeffcott_of(machine).parameters
     tell = Reporter.of(progress, "disturbances at other dampings")
     unit = max(1.0, parameters.omega)
     lowest = LOWEST * unit

@@ -1,0 +1,63 @@
+"""What is known exactly about where motions of a model end: asked for here, so that general code need not ask which it is.
+
+Of a model for which nothing is registered nothing is known, and motions are followed until they have settled.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache, singledispatch
+
+import numpy as np
+
+from carom.closed_forms.absorbing import GIVEN_UP, RubNeighbourhood, neighbourhood_of
+from carom.closed_forms.equilibria import Equilibrium, find_equilibria
+from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.models import Jeffcott, Model
+
+__all__ = ["Known", "known_of"]
+
+ROTORS = 64
+"""Size of the cache, one entry per rotor: there are many motions of few rotors."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """What is known of a model.
+
+    Attributes
+    ----------
+    rubs : bool
+        Whether its synchronous rubs are known.
+    rub : Equilibrium or None
+        The synchronous rub that attracts sliding, also for ``d = 1``, where it does not attract bouncing.
+    around : RubNeighbourhood or None
+        A neighbourhood of that rub which sliding never leaves.
+    runaway : float
+        Speed of backward whirl beyond which sliding certainly goes over to lasting rolling; infinite if there is none.
+    """
+
+    rubs: bool = False
+    rub: Equilibrium | None = None
+    around: RubNeighbourhood | None = None
+    runaway: float = np.inf
+
+
+@singledispatch
+def known_of(model: Model) -> Known:
+    """What is known of a model."""
+    return Known()
+
+
+@known_of.register
+@lru_cache(maxsize=ROTORS)
+def _of_planar_rotor(model: Jeffcott) -> Known:
+    rub = next((rub for rub in find_equilibria(model) if rub.attracts_sliding), None)
+    whirl = runaway_speed(model)
+    rolls = whirl.reaches_rolling and rolling(model).holds
+    return Known(
+        rubs=True,
+        rub=rub,
+        around=neighbourhood_of(model, rub) if rub else None,
+        runaway=whirl.certain * (1.0 + GIVEN_UP) if rolls else np.inf,
+    )

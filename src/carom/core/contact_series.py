@@ -1,0 +1,180 @@
+"""Lasting contact as Taylor series: the law of sliding and rolling on the walls, for any number of modes and planes.
+
+With ``|y| = 1`` and ``Re(ȳẏ) = 0`` a contact force ``f`` (per unit of the mass felt at the plane) acts as
+``ċ = Mc + Bf``.  Writing ``a`` for the free acceleration ``WM²c``, staying on the wall needs the normal force
+
+    N = Re(ȳ a) + |ẏ|²,
+
+and the force is ``f = −(1 + iμ sgn v) N y`` while the contact point slips with ``v = drive + Im(ȳẏ)``, and
+``f = −drive² y − a`` while it rolls (``ẏ = −i drive y``).  Products of series are all this needs, so the coefficients
+follow from a recurrence and a step costs the same for any rotor.  For the planar rotor it is
+``θ̈ = −γ(1 + θ̇) − ρ sin(θ − φ) − μN sgn v`` with ``N = ρ cos(θ − φ) + (1 + θ̇)² − ω²``.
+
+In contact at several planes, a force ``f_q = (−N_q + iF_q) y_q`` at one plane accelerates another by ``G_pq f_q``, with the
+mobility ``G = WMB``.  Staying on all walls then needs, at each plane ``p`` in contact,
+
+    Σ_q Re(ȳ_p G_pq (N_q − iF_q) y_q) = Re(ȳ_p a_p) + |ẏ_p|²,
+
+and the second equation of a plane is ``F_p = −μ N_p sgn v_p`` where it slips and
+``Im(ȳ_p a_p) + Σ_q Im(ȳ_p G_pq (−N_q + iF_q) y_q) = 0`` where it rolls: linear equations for each coefficient in turn.
+"""
+
+from __future__ import annotations
+
+from carom.core.layout import ORDER, kernel, part
+from carom.outcome import Phase
+
+__all__ = ["AWAY", "BACKWARD_SLIP", "FLIGHT", "FORWARD_SLIP", "ROLLING", "rub_series"]
+
+FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
+    int(Phase.FLIGHT),
+    int(Phase.FORWARD_SLIP),
+    int(Phase.BACKWARD_SLIP),
+    int(Phase.ROLLING),
+)
+AWAY = -1
+"""State of contact of a plane that is not on its wall; on the wall it is a :class:`~carom.outcome.Phase`."""
+
+
+@kernel
+def rub_series(rotor, contact, amplitudes, work):
+    """Fill the Taylor coefficients of a motion that starts with these amplitudes, while its contacts stay the same.
+
+    ``work.series`` (ORDER + 1, N) receives those of the amplitudes.  Of each plane, ``work.push`` receives those of the
+    normal force, ``work.grip`` those of the friction force along growing angle and ``work.slip`` those of the slip
+    velocity, all of shape (P, ORDER + 1).  Where there is no lasting contact, ``work.push`` is ``Re(ȳÿ) + |ẏ|²``.
+    """
+    modes, planes = rotor.columns.shape
+    for m in range(modes):
+        work.series[0, m] = amplitudes[m]
+    for k in range(ORDER + 1):
+        for plane in range(planes):
+            _free_motion(rotor, plane, k, work)
+        if planes == 1:
+            _force(rotor, contact[0], k, work)
+        else:
+            _coupled_forces(rotor, contact, k, work)
+        if k < ORDER:
+            for m in range(modes):
+                rate = rotor.exponents[m] * work.series[k, m] + rotor.columns[m, 0] * work.force[0, k]
+                for plane in range(1, planes):
+                    rate += rotor.columns[m, plane] * work.force[plane, k]
+                if rotor.driven[m]:
+                    rate += work.series[k, m - 1]
+                work.series[k + 1, m] = rate / (k + 1)
+
+
+@part
+def _free_motion(rotor, plane, k, work):
+    """Coefficients ``k`` of position and speed, and of acceleration, push and slip without contact forces."""
+    position, speed, free = 0j, 0j, 0j
+    for m in range(rotor.rows.shape[1]):
+        position += rotor.rows[plane, m] * work.series[k, m]
+        speed += rotor.rate_rows[plane, m] * work.series[k, m]
+        free += rotor.acceleration_rows[plane, m] * work.series[k, m]
+    work.position[plane, k] = position + rotor.offsets[plane] if k == 0 else position
+    work.speed[plane, k] = speed
+    work.free[plane, k] = free
+    slip = rotor.drive[plane] if k == 0 else 0.0
+    for j in range(k + 1):
+        slip += (work.position[plane, j].conjugate() * work.speed[plane, k - j]).imag
+    work.slip[plane, k] = slip
+    work.push[plane, k] = _push(plane, k, work)
+
+
+@part
+def _push(plane, k, work):
+    """Coefficient ``k`` of ``Re(ȳÿ) + |ẏ|²`` for the acceleration in ``work.free``."""
+    push = 0.0
+    for j in range(k + 1):
+        y, v = work.position[plane, j], work.speed[plane, j]
+        push += (y.conjugate() * work.free[plane, k - j]).real + (v.conjugate() * work.speed[plane, k - j]).real
+    return push
+
+
+@part
+def _force(rotor, phase, k, work):
+    """Coefficient ``k`` of the contact force of a rotor with one plane, and of its part along growing angle."""
+    force, grip = 0j, 0.0
+    if phase == ROLLING:
+        force = -rotor.drive[0] * rotor.drive[0] * work.position[0, k] - work.free[0, k]
+    elif phase > FLIGHT:
+        for j in range(k + 1):
+            force -= work.push[0, j] * work.position[0, k - j]
+        force *= complex(1.0, rotor.friction[0] if phase == FORWARD_SLIP else -rotor.friction[0])
+    work.force[0, k] = force
+    for j in range(k + 1):
+        grip += (work.position[0, j].conjugate() * work.force[0, k - j]).imag
+    work.grip[0, k] = grip
+
+
+@kernel
+def _coupled_forces(rotor, contact, k, work):
+    """Coefficient ``k`` of the contact forces at all planes; those without lasting contact get their push as well."""
+    planes = rotor.rows.shape[0]
+    work.matrix[:] = 0.0
+    for p in range(planes):
+        work.matrix[2 * p, 2 * p], work.matrix[2 * p + 1, 2 * p + 1] = 1.0, 1.0
+        if contact[p] > FLIGHT:
+            _balance(rotor, contact, p, k, work)
+    _eliminate(work.matrix)
+    for p in range(planes):
+        work.force[p, k], work.grip[p, k] = 0j, 0.0
+        if contact[p] > FLIGHT:
+            work.push[p, k], work.grip[p, k] = work.matrix[2 * p, 2 * planes], work.matrix[2 * p + 1, 2 * planes]
+            for j in range(k + 1):
+                work.force[p, k] += complex(-work.push[p, j], work.grip[p, j]) * work.position[p, k - j]
+    for p in range(planes):
+        if contact[p] <= FLIGHT:
+            for q in range(planes):
+                work.free[p, k] += rotor.mobility[p, q] * work.force[q, k]
+            work.push[p, k] = _push(p, k, work)
+
+
+@part
+def _balance(rotor, contact, p, k, work):
+    """The two equations of a plane in contact for its coefficients ``k`` of normal and friction force."""
+    last = work.matrix.shape[1] - 1
+    normal, along = work.push[p, k], 0.0
+    rolls = contact[p] == ROLLING
+    if rolls:
+        for j in range(k + 1):
+            along -= (work.position[p, j].conjugate() * work.free[p, k - j]).imag
+    else:
+        work.matrix[2 * p + 1, 2 * p] = rotor.friction[p] if contact[p] == FORWARD_SLIP else -rotor.friction[p]
+    for q in range(contact.shape[0]):
+        if q == p or contact[q] <= FLIGHT:
+            continue
+        link = 0j
+        for j in range(k + 1):
+            link += work.position[p, j].conjugate() * work.position[q, k - j]
+        work.links[p, q, k] = rotor.mobility[p, q] * link
+        first = work.links[p, q, 0]
+        work.matrix[2 * p, 2 * q], work.matrix[2 * p, 2 * q + 1] = first.real, first.imag
+        if rolls:
+            work.matrix[2 * p + 1, 2 * q], work.matrix[2 * p + 1, 2 * q + 1] = -first.imag, first.real
+        for j in range(1, k + 1):
+            share = work.links[p, q, j] * complex(work.push[q, k - j], -work.grip[q, k - j])
+            normal -= share.real
+            along += share.imag if rolls else 0.0
+    work.matrix[2 * p, last], work.matrix[2 * p + 1, last] = normal, along
+
+
+@kernel
+def _eliminate(matrix):
+    """Solve linear equations in place; the last column holds the right sides, and then the solution."""
+    size = matrix.shape[0]
+    for column in range(size):
+        largest = column
+        for row in range(column + 1, size):
+            if abs(matrix[row, column]) > abs(matrix[largest, column]):
+                largest = row
+        for k in range(size + 1):
+            matrix[column, k], matrix[largest, k] = matrix[largest, k], matrix[column, k]
+        for row in range(size):
+            share = matrix[row, column] / matrix[column, column]
+            if row != column and share != 0.0:
+                for k in range(column, size + 1):
+                    matrix[row, k] -= share * matrix[column, k]
+    for row in range(size):
+        matrix[row, size] /= matrix[row, row]

@@ -1,0 +1,120 @@
+"""One step of lasting contact: up to the first change of contact at a plane, or until the rub has settled."""
+
+from __future__ import annotations
+
+import math
+
+from carom.core.contact_series import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, rub_series
+from carom.core.fate import NEAR, absorbed, approaches_turn, at_rest, forget_rub, near_rub, same_state
+from carom.core.impact import set_on_wall, unit
+from carom.core.layout import kernel, part
+from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
+from carom.core.taylor import series_step, sum_series
+from carom.outcome import Outcome
+
+__all__ = ["NOWHERE", "leading_plane", "rub_step"]
+
+CONTACT, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.TIME_REACHED)
+FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (
+    int(Outcome.FORWARD_RUB),
+    int(Outcome.BACKWARD_WHIRL),
+    int(Outcome.ROLLING),
+)
+NOWHERE = -1
+"""Instead of a plane: none of them."""
+
+
+@kernel
+def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
+    """Follow the Taylor series of a motion up to the first change of contact, in place.
+
+    Returns the outcome (CONTACT: the motion continues), the duration, and the plane that has changed, or the first plane
+    in lasting contact.
+    """
+    rub_series(rotor, contact, amplitudes, rub)
+    step = min(series_step(rub), horizon)
+    duration, changed, following, slip_stops = _first_change(rotor, contact, step, rub)
+    leading = leading_plane(rotor, contact)
+    turned, speed = False, 0.0
+    if memory.patience > 0 and leading != NOWHERE:
+        position = unit(rub.position[leading, 0])
+        speed = (position.conjugate() * rub.speed[leading, 0]).imag
+        end = _known_end(contact[leading] == FORWARD_SLIP, position, speed, memory, rub)
+        if end != CONTACT:
+            return end, 0.0, leading
+        if approaches_turn(memory, position, amplitudes, speed):
+            turn = turn_ahead(leading, memory.turn_position, math.copysign(1.0, speed), duration, rub)
+            if turn < duration:
+                duration, changed, turned = turn, NOWHERE, True
+    sum_series(rub, duration, amplitudes)
+    memory.turn_time += duration
+    for plane in range(rotor.rows.shape[0]):
+        if contact[plane] > FLIGHT:
+            rest_on_wall(rotor, plane, amplitudes, contact[plane] == ROLLING or (plane == changed and slip_stops))
+            if contact[plane] != ROLLING:
+                memory.turn_slipped = 1
+        elif duration > 0.0:
+            contact[plane] = AWAY
+    if changed != NOWHERE:
+        _change_contact(rotor, contact, changed, following, slip_stops, amplitudes, memory, rub)
+    if turned:
+        if same_state(memory.turn_state, amplitudes, NEAR * min(1.0, memory.turn_time)):
+            backward = speed < 0.0 and memory.turn_time < 2.0 * math.pi
+            rub_outcome = BACKWARD_WHIRL if backward else FORWARD_RUB
+            return (rub_outcome if memory.turn_slipped > 0 else ROLLS_ON), duration, leading
+        forget_rub(memory)
+    return (TIME_REACHED if duration >= horizon else CONTACT), duration, leading if changed == NOWHERE else changed
+
+
+@part
+def _known_end(slips, position, speed, memory, rub):
+    """What lasting contact settles to, if that is known from its state; otherwise CONTACT."""
+    if near_rub(memory, position, speed) or (slips and absorbed(memory, position, speed)):
+        return FORWARD_RUB
+    if memory.resting != 0:
+        rests = at_rest(rub)
+        if rests and memory.resting > 0:
+            return FORWARD_RUB
+        memory.resting = -1 if rests else 1
+    return ROLLS_ON if slips and -(1.0 + speed) > memory.runaway else CONTACT
+
+
+@part
+def _first_change(rotor, contact, step, rub):
+    """First change of contact within a step: its time, plane and following phase, and whether a slip stops."""
+    duration, changed, following, slip_stops = step, NOWHERE, int(FLIGHT), False
+    for plane in range(rotor.rows.shape[0]):
+        after, stops = int(FLIGHT), False
+        if contact[plane] > FLIGHT:
+            time, after, stops = first_transition(rotor, plane, contact[plane], duration, rub)
+        elif rotor.rows.shape[0] > 1:
+            time = first_contact(rotor, plane, contact[plane] == FLIGHT, duration, rub)
+        else:
+            time = duration
+        if time < duration:
+            duration, changed, following, slip_stops = time, plane, after, stops
+    return duration, changed, following, slip_stops
+
+
+@part
+def leading_plane(rotor, contact):
+    """First plane in lasting contact, whose turns are watched; NOWHERE if there is none."""
+    for plane in range(rotor.rows.shape[0]):
+        if contact[plane] > FLIGHT:
+            return plane
+    return NOWHERE
+
+
+@part
+def _change_contact(rotor, contact, plane, following, slip_stops, amplitudes, memory, rub):
+    """Change the contact of a plane: it lifts off, slips, rolls, or has come to the wall."""
+    if slip_stops:
+        following = next_phase(rotor, contact, plane, amplitudes, rub)
+    lasted = contact[plane] > FLIGHT
+    if not lasted:
+        set_on_wall(rotor, plane, amplitudes)
+    elif following == FLIGHT:
+        memory.lifting = plane + 1
+    if rotor.rows.shape[0] > 1 and not (lasted and following > FLIGHT):
+        forget_rub(memory)
+    contact[plane] = following

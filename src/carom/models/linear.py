@@ -1,0 +1,184 @@
+"""Any linear isotropic rotor, from its matrices."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from carom.core.layout import rotor_record
+from carom.models.modes import modes_of
+from carom.models.system import System, second_order_system
+from carom.outcome import InputError
+from carom.parameters import Scales
+from carom.results import Result
+
+__all__ = ["LinearRotor"]
+
+_COMPLEX = ("mass", "damping", "stiffness", "forcing", "planes", "translation")
+_REAL = ("friction", "restitution", "drive")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LinearRotor(Result):
+    """Rotor with ``M Ü + D U̇ + K U = F`` in the co-rotating frame and ``P`` contact planes.
+
+    The coordinates are complex: displacements, or tilts, in two directions at a right angle.  All numbers are
+    dimensionless: times in ``1/Ω``, the displacement at each plane in the clearance there.
+
+    Attributes
+    ----------
+    mass, damping, stiffness : array_like of complex, shape (n, n)
+        ``M``, ``D`` and ``K``, with the terms of the turning frame (see :meth:`in_fixed_frame`).
+    forcing : array_like of complex, shape (n,)
+        ``F``, constant: unbalance.
+    planes : array_like of complex, shape (P, n)
+        Displacement at each contact plane per coordinate.
+    friction, restitution : array_like, shape (P,)
+        Coulomb friction coefficient and coefficient of restitution of each plane.
+    drive : array_like, shape (P,)
+        Slip velocity at rest in this frame, ``s + 1`` with the rotor radius ``s`` at the plane in clearances.
+    translation : array_like of complex, shape (n,), optional
+        Coordinates when the rotor as a whole is displaced by one: the direction of kicks.  Ones by default.
+    scales : Scales, optional
+        Mass, clearance and speed that convert results to SI units.
+
+    Raises
+    ------
+    InputError
+        A shape is wrong, a number is not finite or out of range, a matrix is singular, or an impulse at a plane does not
+        move it.
+    """
+
+    mass: np.ndarray
+    damping: np.ndarray
+    stiffness: np.ndarray
+    forcing: np.ndarray
+    planes: np.ndarray
+    friction: np.ndarray
+    restitution: np.ndarray
+    drive: np.ndarray
+    translation: np.ndarray | None = None
+    scales: Scales | None = None
+
+    def __post_init__(self) -> None:
+        if self.translation is None:
+            object.__setattr__(self, "translation", np.ones(np.shape(self.forcing)))
+        for names, kind in ((_COMPLEX, complex), (_REAL, float)):
+            for name in names:
+                values = np.array(getattr(self, name), kind)
+                values.flags.writeable = False
+                object.__setattr__(self, name, values)
+        n, p = self.forcing.size, len(np.atleast_1d(self.friction))
+        shapes: dict[str, tuple[int, ...]] = dict.fromkeys(("mass", "damping", "stiffness"), (n, n))
+        shapes |= {"planes": (p, n)} | dict.fromkeys(("forcing", "translation"), (n,)) | dict.fromkeys(_REAL, (p,))
+        for name, shape in shapes.items():
+            values = getattr(self, name)
+            if values.shape != shape or not values.size or not np.isfinite(values).all():
+                raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
+        for name, low, high in (("friction", 0.0, np.inf), ("restitution", 0.0, 1.0)):
+            wrong = (getattr(self, name) < low) | (getattr(self, name) > high)
+            if wrong.any():
+                raise InputError(name, getattr(self, name).tolist(), f"numbers from {low:g} to {high:g}")
+
+    @classmethod
+    def in_fixed_frame(
+        cls, *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = 0.0, forcing: Any, **others: Any
+    ) -> LinearRotor:
+        """Rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
+
+        With ``Z = U e^{it}`` the matrices of the co-rotating frame are ``M``, ``D − iG + 2iM`` and
+        ``K − M + i(D − iG)``.
+
+        Parameters
+        ----------
+        mass, damping, stiffness, gyroscopic : array_like, shape (n, n)
+            ``M``, ``D``, ``K`` and the gyroscopic matrix ``G`` (polar moments of inertia), with ``Ω = 1``.
+        forcing : array_like of complex, shape (n,)
+            Unbalance ``F``.
+        **others
+            Further attributes of :class:`LinearRotor`.
+        """
+        mass, spin = np.asarray(mass, complex), np.asarray(damping, complex) - 1j * np.asarray(gyroscopic)
+        return cls(mass, spin + 2j * mass, np.asarray(stiffness) - mass + 1j * spin, forcing, **others)
+
+    @cached_property
+    def system(self) -> System:
+        """Modes, contact planes and contact law."""
+        n = len(self.mass)
+        try:
+            accelerations = np.linalg.solve(self.mass, np.concatenate([self.stiffness, self.damping], axis=1))
+            rest = np.linalg.solve(self.stiffness, self.forcing)
+            moved = np.linalg.solve(self.mass, self.planes.conj().T)
+        except np.linalg.LinAlgError:
+            raise InputError("mass, stiffness", "singular", "matrices that can be inverted") from None
+        generator = np.concatenate([np.eye(n, 2 * n, n), -accelerations])
+        found = modes_of(generator)
+        felt = np.einsum("pn,np->p", self.planes, moved)
+        if not (felt.real > 0.0).all() or (np.abs(felt.imag) > 1e-9 * np.abs(felt)).any():
+            raise InputError(
+                "mass, planes", felt.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
+            )
+        if n == 1 and self.planes.tolist() == [[1.0]]:
+            return self._one_coordinate(found.exponents, complex(rest[0]))
+        inverse = np.linalg.inv(found.basis)
+        arrays = rotor_record(
+            exponents=found.exponents,
+            driven=found.driven,
+            offsets=self.planes @ rest,
+            rows=self.planes @ found.basis[:n],
+            columns=inverse[:, n:] @ (moved / felt),
+            friction=self.friction,
+            restitution=self.restitution,
+            drive=self.drive,
+        )
+        return System(arrays, rest, found.basis[:n], inverse, self.translation)
+
+    def _one_coordinate(self, exponents: np.ndarray, equilibrium: complex) -> System:
+        """System of a rotor with one coordinate, which is its displacement at the only plane."""
+        slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
+        friction, restitution, drive = (float(getattr(self, name)[0]) for name in _REAL)
+        return second_order_system(
+            exponents=(fast, slow), equilibrium=equilibrium, friction=friction, restitution=restitution, drive=drive
+        )
+
+    @property
+    def unbalance_phase(self) -> float:
+        """Angle of the unbalance in the co-rotating frame, in rad: that of its force on the rotor as a whole."""
+        return float(np.angle(np.vdot(self.translation, self.forcing)))
+
+    def replace(self, **changes: Any) -> LinearRotor:
+        """Return the rotor with other attributes."""
+        unknown = sorted(set(changes) - {field.name for field in dataclasses.fields(self)})
+        if unknown:
+            raise InputError("parameter", unknown[0], f"one of: {', '.join(f.name for f in dataclasses.fields(self))}")
+        return dataclasses.replace(self, **changes)
+
+    def attributes(self) -> dict[str, str]:
+        """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""
+        numbers = {name: [getattr(self, name).real.tolist(), getattr(self, name).imag.tolist()] for name in _COMPLEX}
+        numbers |= {name: getattr(self, name).tolist() for name in _REAL}
+        scales = dataclasses.asdict(self.scales) if self.scales else None
+        return {"linear_rotor": json.dumps(numbers), "scales": json.dumps(scales)}
+
+    @classmethod
+    def from_attributes(cls, attributes: Mapping[str, str]) -> LinearRotor:
+        """Read the attributes of a dataset that :meth:`attributes` has given.
+
+        Raises
+        ------
+        InputError
+            A value is not allowed.
+        KeyError, TypeError, ValueError
+            An attribute is missing, or is not such text.
+        """
+        numbers, scales = (json.loads(attributes[name]) for name in ("linear_rotor", "scales"))
+        for name in _COMPLEX:
+            real, imaginary = numbers[name]
+            numbers[name] = np.array(real) + 1j * np.array(imaginary)
+        return cls(**numbers, scales=Scales(**scales) if scales else None)

@@ -1,0 +1,38 @@
+"""What every description of a rotor must offer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
+
+if TYPE_CHECKING:
+    from carom.models.system import System
+    from carom.parameters import Scales
+
+__all__ = ["Model"]
+
+
+@runtime_checkable
+class Model(Protocol):
+    """A rotor: a value with named parameters that makes a :class:`~carom.models.system.System`.
+
+    General code takes a model and never asks which.  What is proven for one kind of model is asked for in
+    :func:`carom.closed_forms.known.known_of`.
+    """
+
+    @property
+    def system(self) -> System:
+        """Modes, contact planes and contact law."""
+
+    @property
+    def scales(self) -> Scales | None:
+        """Mass, clearance and speed that convert results to SI units, if known."""
+
+    @property
+    def unbalance_phase(self) -> float:
+        """Angle of the unbalance in the co-rotating frame, in rad."""
+
+    def replace(self, **changes: Any) -> Self:
+        """Return the rotor with other values of named parameters."""
+
+    def attributes(self) -> dict[str, Any]:
+        """Numbers and texts from which :func:`~carom.models.subjects.model_from` makes the same model again."""
