@@ -74,7 +74,7 @@ def test_rotor_faster_than_rolling_slows_to_it_where_rolling_holds(parameters, a
     motion = simulate(rotor, on_wall(angle, -1.3 * parameters.radius_ratio), 1e4, settle=True)
 
     assert motion.outcome is Outcome.ROLLING
-    assert motion.segment_phases[1] == Phase.BACKWARD_SLIP
+    assert motion.segment_phases[1, 0] == Phase.BACKWARD_SLIP
 
 
 def test_bound_is_reached_at_the_worst_angle():

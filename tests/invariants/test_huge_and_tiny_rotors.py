@@ -76,5 +76,5 @@ def test_a_tiny_rotor_rolls_until_it_slips_or_leaves(ratio, mu):
     x = -(1.0 + ratio) * times
     assert np.abs(normal - (drop + rho * np.cos(x))).max() < 1e-13
     assert np.abs(friction - (rho * np.sin(x) - parameters.gamma * ratio)).max() < 1e-13
-    following = motion.segment_phases[np.flatnonzero(motion.segment_phases != Phase.ROLLING)[-1]]
+    following = motion.segment_phases[np.flatnonzero(motion.segment_phases[:, 0] != Phase.ROLLING)[-1], 0]
     assert following != Phase.ROLLING

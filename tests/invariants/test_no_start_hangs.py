@@ -82,7 +82,7 @@ class Work:
 
 def work(rotor: Jeffcott, motion: Trajectory) -> Work:
     """Count the events of a motion."""
-    phases = motion.segment_phases
+    phases = motion.segment_phases[:, 0]
     position = rotor.system.state(motion.segment_amplitudes)[0]
     rubbing = phases[:-1] != Phase.FLIGHT
     angles = np.abs(np.angle(position[1:] / position[:-1]))[rubbing].sum()

@@ -93,7 +93,7 @@ def _periodic(
     rotor: Model, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
 ) -> list[tuple[np.ndarray, MotionName]]:
     """Kinds of periodic bouncing: the starts that belong to each, and its name."""
-    ends = Endings(**{name: values[places] for name, values in vars(endings.reshaped(-1)).items()})
+    ends = Endings(**{name: values[places] for name, values in vars(endings.reshaped(endings.outcomes.size)).items()})
     positions, velocities, codes, counts = ends.positions, ends.velocities, ends.outcomes, ends.multiplicities
     radial = positions.real * velocities.real + positions.imag * velocities.imag
     along = positions.real * velocities.imag - positions.imag * velocities.real

@@ -146,7 +146,7 @@ def measure_survival(
     """
     random = np.random.default_rng(SEED)
     places = np.resize(random.permutation(len(positions)), MOTIONS)
-    change = APART * np.exp(2j * np.pi * random.random(MOTIONS)).reshape(-1, *np.ones(velocities.ndim - 1, int))
+    change = APART * np.exp(2j * np.pi * random.random(MOTIONS))
     change = change.reshape(-1, *np.ones(velocities.ndim - 1, int))
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
     looks, left = [], []

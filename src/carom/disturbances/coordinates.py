@@ -114,7 +114,8 @@ class Starts(NamedTuple):
     @classmethod
     def joined(cls, parts: Sequence[Starts]) -> Starts:
         """All starts of several sets, one-dimensional."""
-        return cls(*(np.concatenate([values.ravel() for values in alike]) for alike in zip(*parts, strict=True)))
+        flat = [part.some(np.ones(part.exists.shape, bool)) for part in parts]
+        return cls(*(np.concatenate(alike) for alike in zip(*flat, strict=True)))
 
     def some(self, chosen: np.ndarray) -> Starts:
         """Some of the starts, one-dimensional: those where ``chosen`` is true."""

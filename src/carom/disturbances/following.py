@@ -82,7 +82,7 @@ def _together(machines: list[tuple[Model, Starts]], limits: dict[str, Any]) -> I
     found = follow(rotors, Starts.joined(sets), which=np.repeat(np.arange(len(sets)), sizes), **limits)
     for starts, end, size in zip(sets, np.cumsum(sizes), sizes, strict=True):
         shape = starts.exists.shape
-        yield Endings(**{name: values[end - size : end].reshape(shape) for name, values in vars(found).items()})
+        yield Endings(**{name: values[end - size : end] for name, values in vars(found).items()}).reshaped(*shape)
 
 
 def require_start(rotor: Model, starts: Starts) -> None:

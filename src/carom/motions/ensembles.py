@@ -162,7 +162,8 @@ def settle(
         if number is not None and not (isinstance(number, Integral) and number >= least):
             raise InputError(name, number, f"a whole number of at least {least}")
     order = slice(None) if len(rotors) == 1 else np.argsort(which, kind="stable")
-    motions = _motions(positions.reshape(-1, *coordinates)[order], velocities.reshape(-1, *coordinates)[order])
+    positions, velocities = (values.reshape(len(which), *coordinates)[order] for values in (positions, velocities))
+    motions = _motions(positions, velocities)
     limits = _Limits(until, patience, max_events)
     threads = threads or available_cores()
     parts = []
@@ -231,10 +232,8 @@ def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
     kind = np.dtype([(name, MOTION[name], axes.get(name, ())) for name in MOTION.names or ()])
     motions = np.recarray(positions.shape[:1], kind)
     motions.position, motions.velocity = positions, velocities
-    # Of use for rotors of one coordinate only, whose position is that of their contact plane.
-    motions.contact = np.where(
-        np.abs(positions).reshape(len(motions), -1).max(axis=1, initial=0.0) >= 1.0 - WALL_TOLERANCE, FLIGHT, AWAY
-    )
+    if positions.ndim == 1:
+        motions.contact = np.where(np.abs(positions) >= 1.0 - WALL_TOLERANCE, FLIGHT, AWAY)
     return motions
 
 

@@ -132,7 +132,9 @@ def _parts(values: np.ndarray) -> np.ndarray:
 
 
 def _numbers(state: State) -> list[Any]:
-    return [[np.real(part).tolist(), np.imag(part).tolist()] for part in (state.position, state.velocity)]
+    return [
+        [np.asarray(part).real.tolist(), np.asarray(part).imag.tolist()] for part in (state.position, state.velocity)
+    ]
 
 
 def _state(numbers: list[Any]) -> State:

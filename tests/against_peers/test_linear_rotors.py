@@ -1,0 +1,132 @@
+"""Rotors of several coordinates and contact planes against a general integrator in the fixed frame."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from compilation import sized
+from linear_rotors import bending, single, tilting, to_fixed
+
+from carom.motions.starts import kick
+from carom.motions.trajectories import simulate
+from carom.outcome import Phase
+
+pytestmark = pytest.mark.jit_only
+
+GROWN = 1e-7
+"""Errors up to which bounces are compared; their growth is then a matter of first derivatives."""
+CLOSE = 1e-9
+SIGNS = {Phase.FORWARD_SLIP: 1, Phase.BACKWARD_SLIP: -1, Phase.ROLLING: 0}
+ROTORS = {
+    "2 modes, 2 planes": single(),
+    "4 modes, 2 planes": tilting(),
+    "8 modes, 1 plane": bending(1),
+}
+MORE = {"4 modes, 1 plane": tilting(1), "8 modes, 2 planes": bending()}
+CASES = [*ROTORS, *(pytest.param(name, marks=pytest.mark.deep) for name in MORE)]
+
+
+@pytest.fixture(params=CASES, scope="module")
+def rotor(request):
+    return {**ROTORS, **MORE}[request.param]
+
+
+def motions(rotor, until, count):
+    """Motions after kicks in several directions."""
+    return [simulate(rotor.model, kick(0.8 + 0.6 * k, 0.3 + 1.7 * k), until) for k in range(count)]
+
+
+def test_bounces_are_those_of_a_general_integrator(rotor):
+    compared, planes = 0, set()
+    for motion in motions(rotor, 30.0, sized(3, 1, 12)):
+        hits = np.flatnonzero(motion.is_impact)
+        flights = (motion.segment_phases[hits] == Phase.FLIGHT).all(axis=1).cumprod().sum()
+        start = to_fixed(0.0, np.atleast_1d(motion.start.position), np.atleast_1d(motion.start.velocity))
+        found = rotor.bounces(*start, 30.0, min(12, flights))
+        times = motion.segment_starts[1:][hits]
+        states = (np.reshape(part, (len(hits), -1)) for part in motion.rotor.system.state(motion.arrivals[hits]))
+        own = to_fixed(times, *states)
+        for k, (time, plane, position, velocity) in enumerate(found):
+            apart = np.abs(own[0][k] - position).max() + np.abs(own[1][k] - velocity).max()
+            if apart > GROWN:
+                break
+            assert apart < CLOSE * (k + 1)
+            assert abs(times[k] - time) < CLOSE
+            assert motion.event_planes[hits[k]] == plane
+            compared += 1
+            planes.add(plane)
+    assert compared >= sized(15, 5, 60)
+    assert len(planes) == (2 if rotor.model.system.arrays.rows.shape == (2, 4) else len(planes))
+
+
+def test_lasting_contact_is_that_of_a_general_integrator(rotor):
+    """Each stretch of sliding or rolling, also at two planes at once: its end, and its normal forces and slip."""
+    seen: set[tuple[int, ...]] = set()
+    for motion in motions(rotor, 60.0, sized(4, 2, 16)):
+        ends, system = np.append(motion.segment_starts, motion.time), motion.rotor.system
+        lasting = np.flatnonzero((motion.segment_phases[:-1] != Phase.FLIGHT).any(axis=1) & (np.diff(ends[:-1]) > 1e-6))
+        for place in lasting[: sized(60, 10, 400)]:
+            phases = motion.segment_phases[place]
+            slips = {plane: SIGNS[Phase(phase)] for plane, phase in enumerate(phases) if phase != Phase.FLIGHT}
+            begin, end = ends[place], ends[place + 1]
+            first = to_fixed(begin, *(np.atleast_1d(part) for part in system.state(motion.segment_amplitudes[place])))
+            last = to_fixed(end, *(np.atleast_1d(part) for part in system.state(motion.arrivals[place])))
+            found = rotor.follow(begin, end, *first, slips)
+            assert sum(np.abs(one - other).max() for one, other in zip(found, last, strict=True)) < CLOSE
+            middle = 0.5 * (begin + end)
+            state = to_fixed(middle, *(np.atleast_1d(part) for part in motion.at(np.array(middle))))
+            _, forces = rotor.rubbing(middle, *state, slips)
+            for (plane, sign), (normal, along) in zip(slips.items(), forces, strict=True):
+                own = motion.seen_at(plane).forces(np.array(middle))
+                assert np.allclose(np.array(own) * rotor.felt[plane], (normal, along), rtol=0, atol=CLOSE)
+                assert normal > -CLOSE
+                place_of, speed_of = (rotor.planes[plane] @ part for part in state)
+                slip = rotor.radius_ratio + (np.conj(place_of) * speed_of).imag
+                assert (
+                    sign * slip > -CLOSE
+                    if sign
+                    else abs(slip) < CLOSE and abs(along) <= rotor.friction * normal + CLOSE
+                )
+            seen.add(tuple(phases.tolist()))
+    if rotor.model.system.arrays.rows.shape == (2, 4):
+        assert {(1, 1), (1, 0), (0, 1)} <= seen
+
+
+def test_no_plane_leaves_its_clearance(rotor):
+    for motion in motions(rotor, 60.0, 3):
+        times = motion.sample(4000)
+        for plane in range(len(rotor.planes)):
+            assert motion.seen_at(plane).radius(times).max() < 1.0 + 1e-11
+
+
+def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
+    """Flights and impacts, in the fixed frame; a flight by quadrature of its powers."""
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    for motion in motions(rotor, 20.0, 2):
+        system, ends = motion.rotor.system, np.append(motion.segment_starts, motion.time)
+        flying = np.flatnonzero((motion.segment_phases == Phase.FLIGHT).all(axis=1))[:40]
+        for place in flying[flying < len(motion.arrivals)]:
+            half = 0.5 * (ends[place + 1] - ends[place])
+            if not half or half > 2.0:
+                continue
+            times = ends[place] + half * (1.0 + nodes)
+            position, velocity = (np.reshape(part, (24, -1)) for part in motion.at(times))
+            _, speed = to_fixed(times, position, velocity)
+            force = np.exp(1j * times)[:, None] * rotor.forcing - speed @ rotor.damping.T
+            gained = half * weights @ (speed.conj() * force).real.sum(axis=1)
+            around = [motion.segment_amplitudes[place], motion.arrivals[place]]
+            states = [
+                to_fixed(t, *(np.atleast_1d(p) for p in system.state(c)))
+                for t, c in zip(ends[place:], around, strict=False)
+            ]
+            before, after = (rotor.energy(*state) for state in states)
+            assert after - before == pytest.approx(gained, abs=1e-10)
+        for plane in range(len(rotor.planes)):
+            chosen = motion.is_impact & (motion.event_planes == plane)
+            log = motion.log_of(chosen)
+            times, work = log.time, rotor.felt[plane] * (log.contact_work + log.drive_work)
+            energies = [
+                rotor.energy(*to_fixed(times, *(np.reshape(p, (len(times), -1)) for p in system.state(states[chosen]))))
+                for states in (motion.arrivals, motion.segment_amplitudes[1:])
+            ]
+            assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-11)

@@ -1,0 +1,144 @@
+"""Any linear rotor: its modes, and that it is the planar rotor where it has the same matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from compilation import sized
+from linear_rotors import bending, single, tilting
+from machines import PAPER, random_parameters
+from scipy.linalg import expm
+
+from carom.models import Jeffcott, LinearRotor, model_from, model_of
+from carom.models.modes import modes_of
+from carom.motions.ensembles import settle
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
+from carom.outcome import InputError
+
+
+def planar(parameters, beside=None):
+    """The planar rotor by its matrices, with another coordinate that it does not feel if ``beside`` is a stiffness."""
+    n = 1 if beside is None else 2
+    return LinearRotor.in_fixed_frame(
+        mass=np.eye(n),
+        damping=parameters.gamma * np.eye(n),
+        stiffness=np.diag([parameters.omega**2, beside][:n]),
+        forcing=np.array([parameters.rho * np.exp(1j * parameters.phi), 0.3][:n]),
+        planes=np.eye(1, n),
+        friction=[parameters.mu],
+        restitution=[parameters.d],
+        drive=[parameters.radius_ratio + 1.0],
+        translation=np.eye(1, n)[0],
+    )
+
+
+@pytest.mark.parametrize("rotor", [single(), tilting(), bending()], ids=["single", "tilting", "bending"])
+def test_flights_are_those_of_the_matrices(rotor):
+    model = rotor.model
+    n = len(model.mass)
+    companion = np.block(
+        [
+            [np.zeros((n, n)), np.eye(n)],
+            [-np.linalg.solve(model.mass, model.stiffness), -np.linalg.solve(model.mass, model.damping)],
+        ]
+    )
+    rest = np.linalg.solve(model.stiffness, model.forcing)
+    random = np.random.default_rng(0)
+    state = random.normal(size=2 * n) + 1j * random.normal(size=2 * n)
+    position, velocity = (part if n > 1 else part[0] for part in (state[:n], state[n:]))
+    flown = model.system.fly(model.system.amplitudes(position, velocity), np.array(1.7))
+    expected = expm(1.7 * companion) @ (state - np.append(rest, np.zeros(n))) + np.append(rest, np.zeros(n))
+    assert np.allclose(np.ravel(model.system.state(flown)), expected, rtol=0, atol=1e-11)
+    shown = np.array([model.system.at_plane(flown, plane)[0] for plane in range(len(model.planes))])
+    assert np.allclose(shown, model.planes @ expected[:n], rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("split", [0.0, 1e-14, 1e-9, 1e-5, 1e-2, 1.0])
+def test_modes_stay_accurate_where_two_coincide(split):
+    """A critically damped oscillator, or nearly so, beside another one."""
+    random = np.random.default_rng(1)
+    turn = np.linalg.qr(random.normal(size=(4, 4)) + 1j * random.normal(size=(4, 4)))[0]
+    critical = np.array([[-0.6, 1.0], [0.0, -0.6 - split]])
+    matrix = turn @ np.block([[critical, np.zeros((2, 2))], [np.zeros((2, 2)), np.diag([-0.2 + 1j, -0.1 - 2j])]])
+    matrix = matrix @ turn.conj().T
+    found = modes_of(matrix)
+    generator = np.diag(found.exponents) + np.diag(found.driven[1:].astype(complex), -1)
+    assert np.allclose(matrix @ found.basis, found.basis @ generator, rtol=0, atol=1e-13)
+    assert np.linalg.cond(found.basis) < 1e5
+    assert (found.exponents.real[1:] >= found.exponents.real[:-1])[found.driven[1:]].all()
+    assert found.driven.any() == (split < 1e-3)
+
+
+def test_three_modes_in_one_are_refused():
+    with pytest.raises(InputError, match="at most two modes"):
+        modes_of(np.diag(np.ones(2), 1) - 0.3 * np.eye(3))
+
+
+def test_one_coordinate_takes_the_fast_route():
+    assert planar(PAPER).system.is_planar
+    assert not planar(PAPER, beside=0.7).system.is_planar
+    assert Jeffcott(PAPER).system.is_planar
+    assert not single(1).model.system.is_planar
+
+
+@pytest.mark.jit_only
+def test_it_moves_as_the_planar_rotor_does_beside_a_coordinate_that_it_does_not_feel():
+    random = np.random.default_rng(3)
+    for number in range(sized(6, 2, 40)):
+        parameters = PAPER if number == 0 else random_parameters(random)
+        # Critically damped, too.
+        parameters = parameters.replace(gamma=2.0 * parameters.omega) if number == 1 else parameters
+        position, velocity = 0.3 + 0.1j, 0.9 - 0.4j
+        one = simulate(parameters, State(position, velocity), 20.0, max_events=400)
+        two = simulate(
+            planar(parameters, 0.7), State(np.array([position, 0.1]), np.array([velocity, 0.0])), 20.0, max_events=400
+        )
+        count = min(len(one.contacts), len(two.contacts), 6)
+        assert np.allclose(one.contacts.time[:count], two.contacts.time[:count], rtol=0, atol=1e-8)
+        assert np.allclose(one.contacts.normal_impulse[:count], two.contacts.normal_impulse[:count], rtol=0, atol=1e-7)
+
+
+@pytest.mark.jit_only
+def test_it_settles_as_the_planar_rotor_does():
+    """One motion after another, without what is known of the planar rotor, ends where lanes and proofs say."""
+    random = np.random.default_rng(5)
+    for parameters in (PAPER, PAPER.replace(gamma=0.2), PAPER.replace(rho=0.9, gamma=0.5), PAPER.replace(d=0.4)):
+        count = sized(25, 4, 400)
+        positions = 0.9 * np.sqrt(random.random(count)) * np.exp(2j * np.pi * random.random(count))
+        velocities = 1.5 * random.random(count) * np.exp(2j * np.pi * random.random(count))
+        fast = settle(parameters, positions, velocities)
+        general = settle(
+            planar(parameters, 0.7),
+            np.stack([positions, 0 * positions], -1),
+            np.stack([velocities, 0 * velocities], -1),
+        )
+        assert general.positions.shape == (count, 2)
+        differ = np.flatnonzero(fast.outcomes != general.outcomes)
+        # Motions that are irregular for long may end either way.
+        assert len(differ) <= 0.1 * count, (fast.outcomes[differ], general.outcomes[differ])
+
+
+def test_attributes_make_the_same_rotor_again():
+    model = tilting().model
+    again = model_from(model.attributes())
+    assert again.attributes() == model.attributes()
+    assert isinstance(model_from(Jeffcott(PAPER).attributes()), Jeffcott)
+    assert model_of(model) is model
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"mass": np.zeros((2, 2))}, "mass, stiffness"),
+        ({"friction": [0.1]}, "planes"),
+        ({"friction": [-0.1, 0.1]}, "friction"),
+        ({"restitution": [0.5, 1.2]}, "restitution"),
+        ({"forcing": [np.nan, 0.0]}, "forcing"),
+        ({"planes": np.zeros((2, 2))}, "mass, planes"),
+        ({"stiffnes": np.eye(2)}, "parameter"),
+    ],
+)
+def test_bad_matrices_are_refused(changes, named):
+    with pytest.raises(InputError, match=named):
+        assert tilting().model.replace(**changes).system
