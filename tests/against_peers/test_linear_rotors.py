@@ -33,7 +33,8 @@ def rotor(request):
 
 def motions(rotor, until, count):
     """Motions after kicks in several directions."""
-    return [simulate(rotor.model, kick(0.8 + 0.6 * k, 0.3 + 1.7 * k), until) for k in range(count)]
+    kicks = [(2.0, 1.3), (1.2, 0.3), (0.7, 2.5), *((1.0 + 0.2 * k, 1.7 * k) for k in range(count))]
+    return [simulate(rotor.model, kick(*push), until) for push in kicks[:count]]
 
 
 def test_bounces_are_those_of_a_general_integrator(rotor):
@@ -44,7 +45,9 @@ def test_bounces_are_those_of_a_general_integrator(rotor):
         start = to_fixed(0.0, np.atleast_1d(motion.start.position), np.atleast_1d(motion.start.velocity))
         found = rotor.bounces(*start, 30.0, min(12, flights))
         times = motion.segment_starts[1:][hits]
-        states = (np.reshape(part, (len(hits), -1)) for part in motion.rotor.system.state(motion.arrivals[hits]))
+        states = (
+            np.reshape(part, (len(hits), len(rotor.mass))) for part in motion.rotor.system.state(motion.arrivals[hits])
+        )
         own = to_fixed(times, *states)
         for k, (time, plane, position, velocity) in enumerate(found):
             apart = np.abs(own[0][k] - position).max() + np.abs(own[1][k] - velocity).max()
@@ -55,7 +58,7 @@ def test_bounces_are_those_of_a_general_integrator(rotor):
             assert motion.event_planes[hits[k]] == plane
             compared += 1
             planes.add(plane)
-    assert compared >= sized(15, 5, 60)
+    assert compared >= sized(10, 4, 50)
     assert len(planes) == (2 if rotor.model.system.arrays.rows.shape == (2, 4) else len(planes))
 
 
@@ -65,7 +68,8 @@ def test_lasting_contact_is_that_of_a_general_integrator(rotor):
     for motion in motions(rotor, 60.0, sized(4, 2, 16)):
         ends, system = np.append(motion.segment_starts, motion.time), motion.rotor.system
         lasting = np.flatnonzero((motion.segment_phases[:-1] != Phase.FLIGHT).any(axis=1) & (np.diff(ends[:-1]) > 1e-6))
-        for place in lasting[: sized(60, 10, 400)]:
+        kinds = {tuple(motion.segment_phases[place].tolist()): place for place in lasting[::-1]}
+        for place in {*kinds.values(), *lasting[: sized(40, 5, 400)].tolist()}:
             phases = motion.segment_phases[place]
             slips = {plane: SIGNS[Phase(phase)] for plane, phase in enumerate(phases) if phase != Phase.FLIGHT}
             begin, end = ends[place], ends[place + 1]
@@ -126,7 +130,11 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
             log = motion.log_of(chosen)
             times, work = log.time, rotor.felt[plane] * (log.contact_work + log.drive_work)
             energies = [
-                rotor.energy(*to_fixed(times, *(np.reshape(p, (len(times), -1)) for p in system.state(states[chosen]))))
+                rotor.energy(
+                    *to_fixed(
+                        times, *(np.reshape(p, (len(times), len(rotor.mass))) for p in system.state(states[chosen]))
+                    )
+                )
                 for states in (motion.arrivals, motion.segment_amplitudes[1:])
             ]
             assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-11)

@@ -58,7 +58,7 @@ class Basin(Mapped):
 
     figure: ClassVar[str] = "basin"
     shown: ClassVar[tuple[str, ...]] = (
-        "parameters",
+        "rotor",
         "coordinates",
         "starts",
         "fractions",

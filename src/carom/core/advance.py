@@ -10,7 +10,17 @@ from carom.core.fate import forget_rub, levitates, recurs, stays_inside
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
 from carom.core.layout import kernel, part, passage
-from carom.core.rub import RESTING, lift_off, next_phase, press, push_rounding, rest_on_wall, speed_rounding, wall_push
+from carom.core.rub import (
+    RESTING,
+    lift_off,
+    meets_wall,
+    next_phase,
+    press,
+    push_rounding,
+    rest_on_wall,
+    speed_rounding,
+    wall_push,
+)
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
 from carom.outcome import Outcome
 
@@ -178,8 +188,10 @@ def _touch(rotor, contact, plane, reaction, memory, work, rub):
 
 @kernel
 def _loosen(rotor, contact, struck, amplitudes, rub):
-    """Adapt the other planes in lasting contact to an impulse at one plane, which changes their velocities too."""
+    """Adapt the other planes on their walls to an impulse at one plane, which changes their velocities too."""
     for plane in range(rotor.rows.shape[0]):
+        if contact[plane] == AWAY and meets_wall(rotor, plane, amplitudes):
+            contact[plane] = FLIGHT
         if plane != struck and contact[plane] > FLIGHT:
             if not _rests(rotor, plane, amplitudes):
                 contact[plane] = FLIGHT

@@ -24,6 +24,7 @@ __all__ = [
     "fly_or_rub_all",
     "forces_all",
     "lift_off",
+    "meets_wall",
     "next_phase",
     "press",
     "push_rounding",
@@ -205,6 +206,13 @@ def push_rounding(rotor, plane, amplitudes):
         row = rotor.acceleration_rows[plane, m]
         force += _size(row * amplitudes[m]) + _size(row * rotor.rows[plane, m]) / rotor.weights[plane]
     return ROUNDING * _spread(rotor, plane, amplitudes) * force
+
+
+@kernel
+def meets_wall(rotor, plane, amplitudes):
+    """Whether a plane is at its wall, to rounding."""
+    gap = 1.0 - squared_modulus(displacement(rotor, plane, amplitudes))
+    return gap <= RESTING * ROUNDING * _spread(rotor, plane, amplitudes) ** 2
 
 
 @part
