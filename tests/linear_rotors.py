@@ -171,9 +171,9 @@ def _arrival(row):
     return gap
 
 
-def tilting(planes=2, **changes):
+def tilting(planes=2, arms=(0.8, -0.7), **changes):
     """Rigid rotor on two bearings: translation and tilt, with gyroscopic moments; four modes."""
-    ends = np.array([[1.0, 0.8], [1.0, -0.7]])
+    ends = np.array([[1.0, arm] for arm in arms])
     numbers = {
         "mass": np.diag([1.0, 0.4]),
         "damping": 0.05 * ends.T @ ends,

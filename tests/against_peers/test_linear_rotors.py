@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from compilation import sized
 from linear_rotors import bending, single, tilting, to_fixed
 
-from carom.motions.starts import kick
+from carom.basins import map_basins
+from carom.closed_forms.rub_stability import sliding_rates
+from carom.disturbances import Grid, KickPlane
+from carom.motions.starts import State, kick
 from carom.motions.trajectories import simulate
-from carom.outcome import Phase
+from carom.outcome import Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
 
@@ -20,7 +25,8 @@ SIGNS = {Phase.FORWARD_SLIP: 1, Phase.BACKWARD_SLIP: -1, Phase.ROLLING: 0}
 ROTORS = {
     "2 modes, 2 planes": single(),
     "4 modes, 2 planes": tilting(),
-    "8 modes, 1 plane": bending(1),
+    "pressed, 4 modes, 2 planes": tilting(forcing=np.array([0.88 + 0.18j, 0.05])),
+    "8 modes, 1 plane": bending(1, restitution=0.6),
 }
 MORE = {"4 modes, 1 plane": tilting(1), "8 modes, 2 planes": bending()}
 CASES = [*ROTORS, *(pytest.param(name, marks=pytest.mark.deep) for name in MORE)]
@@ -32,7 +38,10 @@ def rotor(request):
 
 
 def motions(rotor, until, count):
-    """Motions after kicks in several directions."""
+    """Motions after kicks in several directions, or from the centre if it cannot levitate."""
+    if (np.abs(rotor.model.system.arrays.offsets) >= 1.0).any():
+        none = np.zeros(len(rotor.mass), complex)
+        return [simulate(rotor.model, State(none, none + 0.3 * k), until) for k in range(count)]
     kicks = [(2.0, 1.3), (1.2, 0.3), (0.7, 2.5), *((1.0 + 0.2 * k, 1.7 * k) for k in range(count))]
     return [simulate(rotor.model, kick(*push), until) for push in kicks[:count]]
 
@@ -59,7 +68,7 @@ def test_bounces_are_those_of_a_general_integrator(rotor):
             compared += 1
             planes.add(plane)
     assert compared >= sized(10, 4, 50)
-    assert len(planes) == (2 if rotor.model.system.arrays.rows.shape == (2, 4) else len(planes))
+    assert len(planes) == (2 if rotor in (ROTORS["4 modes, 2 planes"], MORE["8 modes, 2 planes"]) else len(planes))
 
 
 def test_lasting_contact_is_that_of_a_general_integrator(rotor):
@@ -92,7 +101,8 @@ def test_lasting_contact_is_that_of_a_general_integrator(rotor):
                     else abs(slip) < CLOSE and abs(along) <= rotor.friction * normal + CLOSE
                 )
             seen.add(tuple(phases.tolist()))
-    if rotor.model.system.arrays.rows.shape == (2, 4):
+    assert seen
+    if rotor is ROTORS["pressed, 4 modes, 2 planes"]:
         assert {(1, 1), (1, 0), (0, 1)} <= seen
 
 
@@ -138,3 +148,53 @@ def test_energy_is_lost_to_damping_and_gained_from_unbalance_and_contact(rotor):
                 for states in (motion.arrivals, motion.segment_amplitudes[1:])
             ]
             assert np.allclose(energies[1] - energies[0], work, rtol=0, atol=1e-11)
+
+
+def test_a_synchronous_rub_at_two_planes_attracts_as_its_exponents_say():
+    rotor = ROTORS["pressed, 4 modes, 2 planes"]
+    system = rotor.model.system
+    found = simulate(rotor.model, State(np.zeros(2, complex), np.zeros(2, complex)), settle=True)
+    assert found.outcome is Outcome.FORWARD_RUB
+    assert found.segment_phases[-1].tolist() == [Phase.FORWARD_SLIP] * 2
+    position, velocity = found.final.position, found.final.velocity
+    assert np.abs(velocity).max() < 1e-8
+    rates = sliding_rates(system, found.segment_amplitudes[-1], found.segment_phases[-1])
+    assert len(rates) == 4
+    assert rates.real.max() < 0.0
+    # Slides along both walls from nearby; the slowest exponent remains.
+    slips, times = {0: 1, 1: 1}, np.array([0.0, 60.0, 90.0])
+    angles = np.angle(rotor.planes @ position) + np.array([1e-3, 2e-3])
+    moved = np.linalg.solve(rotor.planes, np.exp(1j * angles))
+    states = [to_fixed(0.0, moved, np.zeros(2, complex))]
+    for before, after in itertools.pairwise(times):
+        states.append(rotor.follow(before, after, *states[-1], slips))
+    apart = [np.abs(state[0] * np.exp(-1j * time) - position).max() for time, state in zip(times, states, strict=True)]
+    slowest = rates[rates.real.argmax()]
+    assert apart[1] < 1e-6
+    if abs(slowest.imag) < 1e-9:
+        assert np.log(apart[2] / apart[1]) / 30.0 == pytest.approx(slowest.real, abs=0.01)
+
+
+def test_planes_that_meet_their_walls_together():
+    """A symmetric rotor without tilt: both ends strike at once, and are struck one after the other."""
+    rotor = tilting(arms=(0.7, -0.7), gyroscopic=np.zeros((2, 2)), forcing=np.array([0.25 * np.exp(0.2j), 0.0]))
+    outcomes = []
+    for k in range(sized(8, 2, 100)):
+        motion = simulate(rotor.model, kick(0.5 + 0.25 * k, 0.7 * k), 2000.0, settle=True)
+        outcomes.append(motion.outcome)
+        times = motion.sample(1000)
+        assert max(motion.seen_at(plane).radius(times).max() for plane in (0, 1)) < 1.0 + 1e-11
+    assert Outcome.GRAZING not in outcomes
+
+
+def test_basins_and_settling_of_a_rotor_with_two_planes():
+    """Each start ends as its motion does alone; the map is saved, read and drawn like any other."""
+    model = tilting().model
+    plan = Grid(KickPlane(2.0), (4, 3))
+    basin = map_basins(model, plan)
+    starts = plan.starts(model)
+    for place in np.ndindex(basin.outcomes.shape):
+        alone = simulate(model, State(starts.positions[place], starts.velocities[place]), settle=True)
+        assert basin.outcomes[place] == alone.outcome
+        assert basin.dataset["time"].values[place] == pytest.approx(alone.time, rel=1e-12)
+    assert basin.unresolved == 0

@@ -112,7 +112,7 @@ def settle(
     (:func:`~carom.closed_forms.whirl.runaway_speed`).  ``simulate`` follows it until it has reached the rub or rolls.
 
     The result does not depend on the number of threads, to the last bit: motions do not influence each other.  Those of
-    rotors with one contact plane and one pair of modes are followed side by side, a hundred times as fast as others.
+    rotors with one contact plane and one pair of modes are followed side by side, which is much faster.
 
     Parameters
     ----------
