@@ -346,7 +346,7 @@ def test_lift_off_ends_at_its_horizon_with_the_state_of_the_flight():
     work = rub_workspace(2)
     # Scratch arrays carry nothing from one call to the next.
     work.first_margin[:] = -1e9
-    time, returned = rub.lift_off(arrays, 0, amplitudes, 1e-3, work)
+    time, returned = rub.lift_off(arrays, np.array([FLIGHT]), amplitudes, 1e-3, work)
     assert (time, returned) == (1e-3, False)
     assert amplitudes == pytest.approx(expected, abs=1e-14)
 
@@ -366,7 +366,7 @@ def test_a_rotor_leaves_the_wall_where_it_is_pressed_on_by_less_than_the_roundin
             if change > -0.1:
                 continue
             assert push == pytest.approx(share * rounding, rel=0.1)
-            time, returned = rub.lift_off(rotor.system.arrays, 0, amplitudes, 1e-3, rub_workspace(2))
+            time, returned = rub.lift_off(rotor.system.arrays, np.array([FLIGHT]), amplitudes, 1e-3, rub_workspace(2))
             assert (time, returned) == ((1e-3, False) if leaves else (0.0, True))
             tried += 1
     assert tried >= 6
@@ -381,7 +381,7 @@ def test_what_an_earlier_call_left_behind_does_not_change_a_lift_off():
         amplitudes = np.array(Jeffcott(parameters).system.amplitudes(1.0 + 0j, 0j))
         work = rub_workspace(2)
         work.first_margin[:] = left
-        found.append((*rub.lift_off(arrays, 0, amplitudes, 10.0, work), amplitudes))
+        found.append((*rub.lift_off(arrays, np.array([FLIGHT]), amplitudes, 10.0, work), amplitudes))
     assert found[0][0] > 0.01
     assert found[0][:2] == found[1][:2]
     assert np.array_equal(found[0][2], found[1][2])

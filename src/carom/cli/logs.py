@@ -19,7 +19,6 @@ from carom.outcome import InputError, Phase
 if TYPE_CHECKING:
     import xarray
 
-    from carom.models import jeffcott_of
     from carom.motions.trajectories import Trajectory
 
 __all__ = ["check_file", "write_csv", "write_netcdf"]
@@ -90,6 +89,7 @@ def _columns(motion: Trajectory) -> dict[str, tuple[np.ndarray, str]]:
 
 
 def _dataset(motion: Trajectory) -> xarray.Dataset:
+    from carom.models import jeffcott_of
     from carom.motions.contacts import phase_flags
 
     scales = motion.rotor.scales

@@ -68,7 +68,14 @@ def forces_all(rotor, amplitudes, phases, work):
         rub_series(rotor, phases[i], amplitudes[i], work)
         for plane in range(phases.shape[1]):
             if phases[i, plane] > FLIGHT:
-                forces[i, plane, 0], forces[i, plane, 1] = work.push[plane, 0], work.grip[plane, 0]
+                push, grip = work.push[plane, 0], work.grip[plane, 0]
+                if phases[i, plane] != ROLLING:
+                    grip = (
+                        -rotor.friction[plane] * push
+                        if phases[i, plane] == FORWARD_SLIP
+                        else rotor.friction[plane] * push
+                    )
+                forces[i, plane, 0], forces[i, plane, 1] = push, grip
     return forces
 
 

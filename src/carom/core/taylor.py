@@ -1,6 +1,6 @@
 """Taylor series in time: the length of a step, sums, and the first zero of a polynomial.
 
-Nothing here knows what moves: :mod:`carom.core.rub` writes the coefficients.
+Nothing here knows what moves: :mod:`carom.core.contact_series` writes the coefficients.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from carom.models import Jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section
 from carom.orbits.names import Slip
-from carom.outcome import Outcome
+from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 
 __all__ = ["departure", "slip_speed", "slip_stays_forward", "why_virtual"]
@@ -96,7 +96,7 @@ def _first_return(rotor: Jeffcott, start: np.ndarray, horizon: float) -> tuple[i
         return outcome, time
     # Without rebound the radial speed is zero at first: the distance from the wall grows with the square of time.
     amplitudes = start.copy()
-    aloft, returned = lift_off(arrays, 0, amplitudes, horizon, rub_workspace(len(start)))
+    aloft, returned = lift_off(arrays, np.array([Phase.FLIGHT]), amplitudes, horizon, rub_workspace(len(start)))
     if aloft == 0.0:
         return int(Outcome.GRAZING), 0.0
     if returned:

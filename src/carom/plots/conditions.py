@@ -11,7 +11,6 @@ from matplotlib.ticker import NullLocator
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import ArrayLike
 
-from carom.orbits.names import combined
 from carom.plots.placement import spread
 from carom.plots.plane import Floats, key, legend_below, one_axes
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
@@ -175,4 +174,6 @@ def _belongs(orbit: Orbit, root: float) -> bool:
 
 def _name(found: list[Orbit]) -> str:
     """Return one name for both orbits of a root, ``B1,a/c``."""
+    from carom.orbits.names import combined
+
     return orbit_symbol(combined(orbit.name for orbit in found))
