@@ -26,7 +26,7 @@ ROTORS = {
     "2 modes, 2 planes": single(),
     "4 modes, 2 planes": tilting(),
     "pressed, 4 modes, 2 planes": tilting(forcing=np.array([0.88 + 0.18j, 0.05])),
-    "8 modes, 1 plane": bending(1, restitution=0.6),
+    "8 modes, 1 plane": bending(1, restitution=0.6, forcing=np.array([0.6, 0.3, 0.1, 0.0])),
 }
 MORE = {"4 modes, 1 plane": tilting(1), "8 modes, 2 planes": bending()}
 CASES = [*ROTORS, *(pytest.param(name, marks=pytest.mark.deep) for name in MORE)]

@@ -418,8 +418,8 @@ def test_a_turn_is_passed_in_its_direction_only():
         for reference in (1.0, 1j, np.exp(0.2j)):
             turned = work.position * 1.0
             ahead = complex(np.exp(0.5j * direction))
-            assert rub.turn_ahead(ahead, direction, 0.9, work) == pytest.approx(0.5, abs=1e-14)
-            assert rub.turn_ahead(ahead, direction, 0.4, work) == 0.4
+            assert rub.turn_ahead(0, ahead, direction, 0.9, work) == pytest.approx(0.5, abs=1e-14)
+            assert rub.turn_ahead(0, ahead, direction, 0.4, work) == 0.4
             work.position[:] = turned * reference
-            assert rub.turn_ahead(ahead * reference, direction, 0.9, work) == pytest.approx(0.5, abs=1e-14)
+            assert rub.turn_ahead(0, ahead * reference, direction, 0.9, work) == pytest.approx(0.5, abs=1e-14)
             work.position[:] = turned
