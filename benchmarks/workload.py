@@ -6,14 +6,13 @@ import numba
 import numpy as np
 
 import carom
-from carom.core.advance import INSIDE_ALL, advance
+from carom.core.advance import advance
+from carom.core.contact_series import AWAY
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.motions.trajectories import EventLog
-from carom.outcome import Phase
 
 UNTIL, MOST_IMPACTS = 200.0, 100
-FLYING = int(Phase.FLIGHT)
 
 
 def source_paper_machine(gamma: float, **changes: float) -> carom.models.Jeffcott:
@@ -52,11 +51,12 @@ class Bounces:
 
 @numba.njit
 def _all_bounces(rotor, table, starts, until, times, phases, planes, before, after, recollection, work, rub):
-    impacts = 0
+    impacts, contact = 0, np.empty(1, np.int64)
     amplitudes = np.empty_like(starts[0])
     log = times, phases, planes, before, after
     for i in range(starts.shape[0]):
         amplitudes[:] = starts[i]
-        outcome = advance(rotor, table, amplitudes, until, FLYING, INSIDE_ALL, *log, recollection, work, rub)
+        contact[0] = AWAY
+        outcome = advance(rotor, table, amplitudes, until, contact, *log, recollection, work, rub)
         impacts += outcome[2]
     return impacts
