@@ -137,8 +137,30 @@ def test_attributes_make_the_same_rotor_again():
         ({"forcing": [np.nan, 0.0]}, "forcing"),
         ({"planes": np.zeros((2, 2))}, "mass, planes"),
         ({"stiffnes": np.eye(2)}, "parameter"),
+        ({"mass": "heavy"}, "mass"),
+        ({"drive": [[1.0, 2.0], [3.0]]}, "drive"),
+        ({"forcing": [[1.0, 2.0], [3.0]]}, "forcing"),
     ],
 )
 def test_bad_matrices_are_refused(changes, named):
     with pytest.raises(InputError, match=named):
         assert tilting().model.replace(**changes).system
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"stiffness": 3.0}, "stiffness"),
+        ({"damping": 0.1}, "damping"),
+        ({"gyroscopic": 0.3}, "gyroscopic"),
+        ({"gyroscopic": np.eye(3)}, "gyroscopic"),
+        ({"mass": [1.0, 2.0]}, "mass"),
+        ({"stiffness": None}, "stiffness"),
+        ({"gyroscopic": "fast"}, "gyroscopic"),
+    ],
+)
+def test_matrices_of_the_fixed_frame_are_not_stretched_to_shape(changes, named):
+    numbers = {"mass": np.eye(2), "damping": 0.1 * np.eye(2), "stiffness": np.eye(2), "forcing": [0.2, 0.0]}
+    plane = {"planes": [[1.0, 0.5]], "friction": [0.1], "restitution": [0.9], "drive": [10.0]}
+    with pytest.raises(InputError, match=f"^{named} = "):
+        LinearRotor.in_fixed_frame(**numbers | plane | changes)

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from linear_rotors import single, tilting
 from machines import PAPER
 
 from carom.models import Jeffcott
@@ -38,6 +39,19 @@ class TestStarts:
         with pytest.raises(InputError, match=r"^start position = .*inside the wall, \|U\| <= 1") as caught:
             simulate(rotor, State(radius * cmath.exp(1j)), 1.0)
         assert caught.value.field == "start position"
+
+    def test_one_coordinate_is_measured_at_its_planes(self):
+        """Planes that move more or less than the coordinate meet their walls at other positions than one."""
+        model = single(1).model
+        with pytest.raises(InputError, match=r"inside the wall, \|U\| <= 1 \(here \|U\| = 1.125\)"):
+            simulate(model, State(0.9 + 0j), 1.0)
+        wide = simulate(model.replace(planes=[[0.5]]), State(1.5 + 0j), 0.1)
+        assert wide.radius(np.zeros(1)) == pytest.approx(0.75, abs=1e-14)
+
+    @pytest.mark.parametrize("position", [np.array(["a", "b"]), np.array([None, 1.0]), "ab"])
+    def test_no_numbers(self, position):
+        with pytest.raises(InputError, match="start position"):
+            simulate(tilting().model, State(position, np.zeros(2)), 1.0)
 
     def test_a_kick_from_an_equilibrium_outside_the_wall(self):
         with pytest.raises(InputError, match="start position"):

@@ -68,10 +68,10 @@ class LinearRotor(Result):
 
     def __post_init__(self) -> None:
         if self.translation is None:
-            object.__setattr__(self, "translation", np.ones(np.shape(self.forcing)))
+            object.__setattr__(self, "translation", np.ones(_numbers("forcing", self.forcing, complex).shape))
         for names, kind in ((_COMPLEX, complex), (_REAL, float)):
             for name in names:
-                values = np.array(getattr(self, name), kind)
+                values = _numbers(name, getattr(self, name), kind)
                 values.flags.writeable = False
                 object.__setattr__(self, name, values)
         n, p = self.forcing.size, len(np.atleast_1d(self.friction))
@@ -88,7 +88,7 @@ class LinearRotor(Result):
 
     @classmethod
     def in_fixed_frame(
-        cls, *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = 0.0, forcing: Any, **others: Any
+        cls, *, mass: Any, damping: Any, stiffness: Any, gyroscopic: Any = None, forcing: Any, **others: Any
     ) -> LinearRotor:
         """Rotor from its matrices in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
 
@@ -98,14 +98,28 @@ class LinearRotor(Result):
         Parameters
         ----------
         mass, damping, stiffness, gyroscopic : array_like, shape (n, n)
-            ``M``, ``D``, ``K`` and the gyroscopic matrix ``G`` (polar moments of inertia), with ``Ω = 1``.
+            ``M``, ``D``, ``K`` and the gyroscopic matrix ``G`` (polar moments of inertia; zero by default), with ``Ω = 1``.
         forcing : array_like of complex, shape (n,)
             Unbalance ``F``.
         **others
             Further attributes of :class:`LinearRotor`.
+
+        Raises
+        ------
+        InputError
+            A matrix is not of the shape of ``M``, or see :class:`LinearRotor`.
         """
-        mass, spin = np.asarray(mass, complex), np.asarray(damping, complex) - 1j * np.asarray(gyroscopic)
-        return cls(mass, spin + 2j * mass, np.asarray(stiffness) - mass + 1j * spin, forcing, **others)
+        mass = _numbers("mass", mass, complex)
+        if gyroscopic is None:
+            gyroscopic = np.zeros_like(mass)
+        given = {"mass": mass, "damping": damping, "stiffness": stiffness, "gyroscopic": gyroscopic}
+        matrices = {name: _numbers(name, values, complex) for name, values in given.items()}
+        for name, values in matrices.items():
+            if values.ndim != 2 or values.shape != mass.shape:
+                shape = mass.shape if mass.ndim == 2 else "(n, n)"
+                raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
+        spin = matrices["damping"] - 1j * matrices["gyroscopic"]
+        return cls(mass, spin + 2j * mass, matrices["stiffness"] - mass + 1j * spin, forcing, **others)
 
     @cached_property
     def system(self) -> System:
@@ -182,3 +196,11 @@ class LinearRotor(Result):
             real, imaginary = numbers[name]
             numbers[name] = np.array(real) + 1j * np.array(imaginary)
         return cls(**numbers, scales=Scales(**scales) if scales else None)
+
+
+def _numbers(name: str, values: Any, kind: type) -> np.ndarray:
+    """Array of the given numbers, a copy."""
+    try:
+        return np.array(values, kind)
+    except (TypeError, ValueError):
+        raise InputError(name, values, "an array of numbers") from None

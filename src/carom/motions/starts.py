@@ -94,15 +94,15 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
         given = getattr(state, name)
         if np.shape(given) != (() if len(system.rest) == 1 else system.rest.shape):
             raise InputError(f"start {name}", given, f"{len(system.rest)} coordinate(s)")
-        if not np.isfinite(given).all():
+        if not (np.asarray(given).dtype.kind in "iufc" and np.isfinite(given).all()):
             raise InputError(f"start {name}", given, "finite numbers")
     if np.max(np.abs(state.velocity)) > LARGEST_SPEED:
         raise InputError("start velocity", state.velocity, f"a speed up to {LARGEST_SPEED:g}")
     amplitudes = system.amplitudes(state.position, state.velocity)
     contact = np.full(len(system.arrays.rows), AWAY)
     for plane in range(len(contact)):
-        # A rotor with one coordinate is at its own position, free of the rounding of the amplitudes.
-        radius = abs(state.position if len(system.rest) == 1 else system.at_plane(amplitudes, plane)[0])
+        # The planar rotor is at its own position, free of the rounding of the amplitudes.
+        radius = abs(state.position if system.is_planar else system.at_plane(amplitudes, plane)[0])
         if radius > 1.0 + WALL_TOLERANCE:
             where = "" if len(contact) == 1 else f" at plane {plane}"
             raise InputError(
