@@ -80,38 +80,32 @@ class Basin(Mapped):
     @property
     def outcomes(self) -> np.ndarray:
         """Codes of :class:`~carom.outcome.Outcome`, −1 where there is no start."""
-        outcomes: np.ndarray = self.dataset["outcome"].values
-        return outcomes
+        return self.dataset["outcome"].values
 
     @property
     def exists(self) -> np.ndarray:
         """Which points of the plan are starts."""
-        exists: np.ndarray = self.outcomes != NO_START
-        return exists
+        return self.outcomes != NO_START
 
     @property
     def recovered(self) -> np.ndarray:
         """Which starts return to levitation and stay there."""
-        recovered: np.ndarray = self.outcomes == Outcome.LEVITATED
-        return recovered
+        return self.outcomes == Outcome.LEVITATED
 
     @property
     def touched(self) -> np.ndarray:
         """Starts after which, or at which, the rotor met the wall."""
-        touched: np.ndarray = self.dataset["touched"].values > 0
-        return touched
+        return self.dataset["touched"].values > 0
 
     @property
     def resolved(self) -> np.ndarray:
         """Which starts have a known end."""
-        resolved: np.ndarray = self.outcomes >= Outcome.LEVITATED
-        return resolved
+        return self.outcomes >= Outcome.LEVITATED
 
     @property
     def irregular(self) -> dict[str, Any] | None:
         """How long irregular bouncing lasts, as in JSON; ``None`` if none of the starts led to any."""
-        found: dict[str, Any] | None = json.loads(self.dataset.attrs["irregular"])
-        return found
+        return json.loads(self.dataset.attrs["irregular"])
 
     @property
     def starts(self) -> int:

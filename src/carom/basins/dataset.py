@@ -165,8 +165,7 @@ def dataset_of(
 def _touched(starts: Starts, endings: Endings) -> np.ndarray:
     """Motions in which the rotor met the wall; one that settles there without an impact slides or rolls."""
     stays = endings.outcomes > Outcome.LEVITATED
-    touched: np.ndarray = starts.exists & (starts.touched | (endings.impacts > 0) | stays)
-    return touched
+    return starts.exists & (starts.touched | (endings.impacts > 0) | stays)
 
 
 def _axes(rotor: Model, plan: Plan) -> tuple[dict[str, Any], tuple[str, ...]]:

@@ -92,15 +92,13 @@ def profile_at(numbers: Numbers, period: float, speed: float) -> RadialProfile:
 def grazing_equations(numbers: Numbers, period: float, speed: float, time: float) -> tuple[float, float]:
     """``Re(Ū U̇)`` and ``r² − 1`` at a time after the impact; both vanish where the orbit grazes the wall."""
     gamma, omega, _, _, mu, d, *_ = numbers
-    course: tuple[float, float] = planar.radial_course(gamma, omega, mu, d, period, speed, time)
-    return course
+    return planar.radial_course(gamma, omega, mu, d, period, speed, time)
 
 
 def jacobian_at(numbers: Numbers, period: float, speed: float) -> np.ndarray:
     """Derivative of the impact map with respect to ``(θ, ṙ, θ̇)``, shape (3, 3)."""
     gamma, omega, _, _, mu, d, *_ = numbers
-    jacobian: np.ndarray = planar.impact_jacobian(gamma, omega, mu, d, period, speed)
-    return jacobian
+    return planar.impact_jacobian(gamma, omega, mu, d, period, speed)
 
 
 def spectral_radius(numbers: Numbers, period: float, speed: float) -> float:

@@ -72,8 +72,7 @@ def _arc(trajectory: Trajectory, span: LastingContact, frame: Frame, since: floa
     end = span.end
     if points > _MOST_POINTS:
         points, end = _MOST_POINTS, start + _MOST_POINTS * _STEP / fastest
-    arc: Complex = trajectory.position(np.linspace(start, end, points), frame)
-    return arc
+    return trajectory.position(np.linspace(start, end, points), frame)
 
 
 def _band(axes: Axes, kind: str, x: Floats, y: Floats) -> None:

@@ -75,8 +75,7 @@ def _values(parameters: Parameters, gain: Gain) -> list[float] | None:
     if lowest >= highest or not all(_can_search(end) for end in ends):
         return None
     steps = math.ceil(math.log(highest / lowest) / math.log1p(FINEST_STEP[gain]))
-    values: list[float] = np.geomspace(lowest, highest, steps + 1).tolist()
-    return values
+    return np.geomspace(lowest, highest, steps + 1).tolist()
 
 
 def _can_search(parameters: Parameters) -> bool:

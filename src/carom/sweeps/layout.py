@@ -76,8 +76,7 @@ def attributes_of(path: Path, option: str) -> dict[str, Any]:
             path,
             f"its file {name} is damaged or missing, and its numbers cannot be interpreted without it; {remedy}",
         )
-    attributes: dict[str, Any] = json.loads((path / ROOT).read_bytes())["attributes"]
-    return attributes
+    return json.loads((path / ROOT).read_bytes())["attributes"]
 
 
 def check_same(path: Path, plan: SweepPlan) -> None:

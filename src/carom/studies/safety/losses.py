@@ -227,5 +227,4 @@ class Losses:
 def _within(points: np.ndarray, radius: float) -> np.ndarray:
     """Move points outside a disc radially onto its edge."""
     sizes = np.abs(points) / radius
-    drawn: np.ndarray = points / np.maximum(sizes * (1.0 + 1e-15), 1.0)
-    return drawn
+    return points / np.maximum(sizes * (1.0 + 1e-15), 1.0)
