@@ -22,12 +22,11 @@ def letter(axes: Axes, panel: str, words: str = "") -> None:
     axes.set_title(rf"$\mathbf{{({panel})}}$" + (f"  {words}" if words else ""), loc="left")
 
 
-def branch_key(looks: Iterable[str], points: Iterable[str] = ()) -> list[Line2D]:
-    """Return legend entries for orbits of these looks and special points of these kinds."""
-    words = {"stable": "stable orbit", "unstable": "unstable orbit", "virtual": "virtual orbit"}
+def branch_key(points: Iterable[str]) -> list[Line2D]:
+    """Return legend entries for orbits and for special points of these kinds."""
     lines = [
-        Line2D([], [], color=LOOKS[look].colour, ls=LOOKS[look].line, lw=LOOKS[look].width, label=words[look])
-        for look in looks
+        Line2D([], [], color=LOOKS[look].colour, ls=LOOKS[look].line, lw=LOOKS[look].width, label=f"{look} orbit")
+        for look in ("stable", "unstable", "virtual")
     ]
     return lines + [point_key(POINTS[kind]) for kind in points]
 

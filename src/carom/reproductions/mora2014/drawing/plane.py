@@ -47,7 +47,7 @@ def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
     stability, map_axes = left.subplots(), right.subplots()
     _multipliers(stability, pair)
     _plane(map_axes, plane)
-    left.legend(handles=branch_key(("stable", "unstable", "virtual"), MARKED), loc="outside lower center", ncols=2)
+    left.legend(handles=branch_key(MARKED), loc="outside lower center", ncols=2)
     right.legend(handles=_curve_key(plane), loc="outside lower center", ncols=2)
     words = [Line2D([], [], ls="none", label=text) for text in _region_words(plane)]
     below.legend(handles=words, loc="center", ncols=2, handlelength=0.0, handletextpad=0.0, fontsize=6.5)

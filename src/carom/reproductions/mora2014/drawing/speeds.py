@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, branch_key, letter, name_branch
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Bifurcation, OrbitBranch
+    from carom.bifurcations import OrbitBranch
     from carom.reproductions.mora2014.branches import FirstPair
     from carom.reproductions.mora2014.extrema import ExtremumLine, RadiusDiagram
 
@@ -39,9 +40,8 @@ def figure_4(pair: FirstPair) -> Figure:
     """
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS))
     grid = figure.subplots(2, 2)
-    for axes, birth, speed, at in zip(
-        grid[:, 0], grid[:, 1], (_radial, _angular), (_radial_at, _angular_at), strict=True
-    ):
+    speeds = (("radial_speed", "radial_speed"), ("angular_speed", "orbit.angular_speed"))
+    for (axes, birth), (speed, at) in zip(grid, (map(attrgetter, names) for names in speeds), strict=True):
         for drawn in (axes, birth):
             drawn.axhline(0.0, color=INK, lw=0.5)
             for branch in pair.branches:
@@ -70,26 +70,10 @@ def figure_4(pair: FirstPair) -> Figure:
             if panel in "ab"
             else r"$\dot{\theta}$ before the impact ($\Omega$)"
         )
-    entries = branch_key(("stable", "unstable", "virtual"), MARKED)
+    entries = branch_key(MARKED)
     entries.insert(3, Line2D([], [], color=LOCAL.colour, ls=LOCAL.line, lw=LOCAL.width, label=LOCAL.words))
     figure.legend(handles=entries, loc="outside lower center", ncols=4)
     return figure
-
-
-def _radial(branch: OrbitBranch) -> np.ndarray:
-    return branch.radial_speed
-
-
-def _angular(branch: OrbitBranch) -> np.ndarray:
-    return branch.angular_speed
-
-
-def _radial_at(point: Bifurcation) -> float:
-    return point.radial_speed
-
-
-def _angular_at(point: Bifurcation) -> float:
-    return point.orbit.angular_speed
 
 
 def _local_lines(axes: Axes, pair: FirstPair, slopes: list[float]) -> None:
@@ -152,7 +136,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
         for name in names:
             name_branch(axes, *name)
     kinds = ("fold", "non-smooth-hopf", "radius-extremum", "grazing", "period-doubling")
-    entries = branch_key(("stable", "unstable", "virtual"), kinds)
+    entries = branch_key(kinds)
     entries.insert(3, Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free equilibrium"))
     figure.legend(handles=entries, loc="outside lower center", ncols=5)
     return figure
