@@ -69,7 +69,7 @@ def integrity(basin: Basin) -> Integrity:
     if isinstance(model, KickPlane | StateSlice) and isinstance(plan, Grid):
         rest = complex(basin.rotor.system.arrays.offsets[0])
         centre = (0.0, 0.0) if isinstance(model, KickPlane) else (rest.real, rest.imag)
-        return _in_plane(basin, plan, lost, centre)
+        return _in_plane(basin, plan, centre)
     if isinstance(model, KickPlane | StateSlice):
         return _in_sample(basin, lost)
     raise InputError("basin", model.kind, "disturbances with a size that is zero in levitation: kick, shock or slice")
@@ -84,7 +84,7 @@ def safe_size(size: Coordinate, lost: np.ndarray) -> float:
     return float(size.middles(len(lost))[first - 1]) if first else 0.0
 
 
-def _in_plane(basin: Basin, plan: Grid, lost: np.ndarray, centre: tuple[float, float]) -> Integrity:
+def _in_plane(basin: Basin, plan: Grid, centre: tuple[float, float]) -> Integrity:
     x, y = plan.values()
     first, second = plan.model.coordinates
     whole = min(first.high - first.low, second.high - second.low) / 2.0

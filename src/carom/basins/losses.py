@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_step
 from carom.disturbances import (
     FASTEST,
@@ -43,7 +44,6 @@ DRAWN, ROUND = 2000, 720
 """Fresh starts below the smallest loss, and directions over a full turn at the upper end of these sizes."""
 MOST_CHECKS = 8
 """Number of times that fresh starts may reduce the smallest loss."""
-CONFIDENCE = 0.95
 TURN = 2.0 * math.pi
 
 
@@ -234,8 +234,7 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
 
 def _all_round(family: _Family, directions: int) -> np.ndarray:
     """Evenly spaced directions over all turns of a family."""
-    angles: np.ndarray = TURN * np.arange(family.turns * directions) / directions
-    return angles
+    return TURN * np.arange(family.turns * directions) / directions
 
 
 class _Search:

@@ -41,7 +41,7 @@ def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -
         Numbers, period and radial speed along the curve.
     """
     last = max(len(points) - 1, 1)
-    pairs = [_pair(*points[i]) for i in np.linspace(0, len(points) - 1, PLACES).round().astype(int)]
+    pairs = [_pair(*points[i][:2]) for i in np.linspace(0, len(points) - 1, PLACES).round().astype(int)]
     names: set[OrbitName] = set()
     for i, (numbers, period, speed) in enumerate(points):
         pair = pairs[round(i / last * (PLACES - 1))]
@@ -49,7 +49,7 @@ def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -
     return in_order(names)
 
 
-def _pair(numbers: Numbers, period: float, speed: float) -> int:
+def _pair(numbers: Numbers, period: float) -> int:
     """Number of the pair of periods, counted by the shorter roots of ``F₁``."""
     shorter = PeriodCondition(Jeffcott(numbers.parameters).system).roots((1.0 - BELOW) * period)
     return (len(shorter.periods) + int(shorter.starts_below)) // 2 + 1

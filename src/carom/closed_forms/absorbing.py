@@ -54,8 +54,8 @@ class RubNeighbourhood:
         Rounding error of ``V``, by which the level has been lowered.
     limit : {"saddle", "lift-off", "slip"}
         The condition that limits the level.
-    friction, decline, strength, phase : float
-        ``μ``, ``γ + 2μ``, ``p`` and ``y₀``.
+    friction, strength, phase : float
+        ``μ``, ``p`` and ``y₀``.
     """
 
     angle: float
@@ -63,7 +63,6 @@ class RubNeighbourhood:
     rounding: float
     limit: str
     friction: float
-    decline: float
     strength: float
     phase: float
 
@@ -76,13 +75,11 @@ class RubNeighbourhood:
         ahead = np.mod(np.asarray(angles, float) - self.angle - low, 2.0 * math.pi) + low
         weight = np.exp(2.0 * self.friction * ahead)
         potential = rub_potentials(np.ravel(ahead), self.friction, self.strength, self.phase).reshape(ahead.shape)
-        value: np.ndarray = 0.5 * np.asarray(rates, float) ** 2 * weight + potential
-        return value
+        return 0.5 * np.asarray(rates, float) ** 2 * weight + potential
 
     def contains(self, angles: np.ndarray, rates: np.ndarray) -> np.ndarray:
         """Whether sliding states (on the wall, without radial speed) belong to it."""
-        inside: np.ndarray = self.value(angles, rates) < self.level
-        return inside
+        return self.value(angles, rates) < self.level
 
 
 def rub_neighbourhood(machine: Subject) -> RubNeighbourhood | None:
@@ -128,4 +125,4 @@ def neighbourhood_of(rotor: Jeffcott, rub: Equilibrium) -> RubNeighbourhood | No
     rounding = GIVEN_UP * levels[limit] + ROUNDING * strength
     if levels[limit] <= 2.0 * rounding:
         return None
-    return RubNeighbourhood(rub.angle, levels[limit] - rounding, rounding, limit, mu, gamma + 2.0 * mu, strength, phase)
+    return RubNeighbourhood(rub.angle, levels[limit] - rounding, rounding, limit, mu, strength, phase)

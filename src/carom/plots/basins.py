@@ -135,12 +135,9 @@ def _ink(colour: str) -> str:
     return "#ffffff" if dark else to_hex((0.72 * red, 0.72 * green, 0.72 * blue))
 
 
-def _flat(x: Floats, y: Floats) -> tuple[Floats, Floats]:
-    """Return coordinates unchanged: those of the cells are those of the axes."""
-    return x, y
-
-
-def _paint(axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown], bend: Bend = _flat) -> None:
+def _paint(
+    axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown], bend: Bend = lambda x, y: (x, y)
+) -> None:
     """Paint cells, given by their edges, in the colours of the motions; `bend` maps their corners to the axes."""
     order = {entry.index: place for place, entry in enumerate(motions)}
     places = np.full(index.shape, np.nan)

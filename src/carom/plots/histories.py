@@ -88,7 +88,7 @@ def draw_radius(axes: Axes, motion: Trajectory | Orbit, zones: Zones | None = No
     history = _of_orbit(cast("Orbit", motion), periods) if hasattr(motion, "path") else _of_trajectory(motion)
     scales = motion.rotor.scales
     _set_range(axes, history, zones)
-    _wall_line(axes)
+    axes.axhline(1.0, **LOOKS["wall"].stroke, label="wall (touchdown bearing)", gid="wall")
     _curve(axes, history)
     if history.trajectory is not None:
         bands_over_time(axes, history.trajectory)
@@ -142,10 +142,6 @@ def _set_range(axes: Axes, history: _History, zones: Zones | None) -> None:
     axes.set_ylim(bottom, highest + 0.06 * (highest - bottom))
     # The strip at the right shows the letters of the zones.
     axes.set_xlim(0.0, (float(history.times[-1]) or 1.0) * (1.0 if zones is None else 1.025))
-
-
-def _wall_line(axes: Axes) -> None:
-    axes.axhline(1.0, **LOOKS["wall"].stroke, label="wall (touchdown bearing)", gid="wall")
 
 
 def _curve(axes: Axes, history: _History) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -61,7 +62,7 @@ def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
         _logarithmic_plane(drawn, largest)
     else:
         _linear_plane(drawn, largest)
-    for orbit, shape in zip(shown, _endless(_SHAPES, len(shown)), strict=True):
+    for orbit, shape in zip(shown, cycle(_SHAPES), strict=False):
         values = np.asarray(orbit.multipliers.values)
         _markers(drawn, _compress(values) if compressed else values, orbit, shape)
     if grouped:
@@ -74,10 +75,6 @@ def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
     else:
         drawn.legend(loc="upper left", bbox_to_anchor=(1.03, 1.0))
     return figure
-
-
-def _endless(shapes: Sequence[str], count: int) -> list[str]:
-    return [shapes[i % len(shapes)] for i in range(count)]
 
 
 def _compress(values: Complex) -> Complex:

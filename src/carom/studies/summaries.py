@@ -133,16 +133,9 @@ def dimensionless_rows(case: Case) -> list[ValueRow]:
     ]
 
 
-def motion_rows(study: Study, most_virtual: int = 8) -> list[MotionRow]:
-    """Return the rows of all motions: steady ones, orbits, and other motions in which disturbances ended.
-
-    Parameters
-    ----------
-    study : Study
-    most_virtual : int
-        If more orbits than this are not possible, they are left out.
-    """
-    rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors, most_virtual)
+def motion_rows(study: Study) -> list[MotionRow]:
+    """Return the rows of all motions: steady ones, orbits, and other motions in which disturbances ended."""
+    rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors)
     simple = {LEVITATION, SYNCHRONOUS_RUB, *(orbit.name for orbit in study.orbits)}
     others = [member for member in study.attractors if member.name not in simple]
     return rows + [_seen(study.wording, member, study.attractors, study.rotor.parameters) for member in others]
@@ -155,7 +148,10 @@ def simple_motion_rows(
     found: AttractorSet | None = None,
     most_virtual: int = 8,
 ) -> list[MotionRow]:
-    """Return the rows of equilibria and orbits, with the number of disturbances that ended there, if simulated."""
+    """Return the rows of equilibria and orbits, with the number of disturbances that ended there, if simulated.
+
+    Orbits that are not possible are left out if there are more than ``most_virtual``.
+    """
     rows = []
     for entry in equilibria:
         name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB if entry.stable else ""
