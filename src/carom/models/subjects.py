@@ -25,10 +25,13 @@ def model_of(subject: Subject) -> Model:
     InputError
         It is none of these.
     """
-    if isinstance(subject, Machine | Case):
-        return Jeffcott(subject.parameters)
+    # Classes first: whether an object follows the protocol takes much longer to find out.
+    if isinstance(subject, Jeffcott):
+        return subject
     if isinstance(subject, Parameters):
         return Jeffcott(subject)
+    if isinstance(subject, Machine | Case):
+        return Jeffcott(subject.parameters)
     if isinstance(subject, Model):
         return subject
     raise InputError("machine", shown(subject), _ALLOWED)

@@ -90,9 +90,10 @@ def own_size(name: str, given: float | str, kind: str, scales: Scales | None) ->
 def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
     """Amplitudes of a start, and its state of contact at each plane (see :func:`carom.core.advance.advance`)."""
     system = rotor.system
+    coordinates = () if len(system.rest) == 1 else system.rest.shape
     for name in ("position", "velocity"):
         given = getattr(state, name)
-        if np.shape(given) != (() if len(system.rest) == 1 else system.rest.shape):
+        if np.shape(given) != coordinates:
             raise InputError(f"start {name}", given, f"{len(system.rest)} coordinate(s)")
         if not (np.asarray(given).dtype.kind in "iufc" and np.isfinite(given).all()):
             raise InputError(f"start {name}", given, "finite numbers")
