@@ -22,6 +22,7 @@ from carom.closed_forms.thresholds import harmless_shock, harmless_step
 from carom.disturbances import BaseShock, Sample, UnbalanceStep
 from carom.models import jeffcott_of
 from carom.outcome import InputError
+from carom.results import fields_of
 
 __all__ = ["basin_document"]
 
@@ -127,7 +128,7 @@ def _integrity(basin: Basin) -> dict[str, Any] | None:
         found = integrity(basin)
     except InputError:
         return None
-    return {"local": found.local, "largest": found.largest, "whole": found.whole}
+    return fields_of(found, "local", "largest", "whole")
 
 
 def _entropy(basin: Basin) -> dict[str, Any] | None:
@@ -135,7 +136,7 @@ def _entropy(basin: Basin) -> dict[str, Any] | None:
         found = basin_entropy(basin)
     except InputError:
         return None
-    return {"whole": found.whole, "boundary": found.boundary, "side": found.side, "fractal": found.fractal}
+    return fields_of(found, "whole", "boundary", "side", "fractal")
 
 
 def _gains(gains: GainMap, change: GainChange | None, wanted: float) -> dict[str, Any]:
@@ -153,12 +154,7 @@ def _gains(gains: GainMap, change: GainChange | None, wanted: float) -> dict[str
         "wanted": wanted,
         "machines_reaching": int((gains.dataset["recovered"].values >= wanted).sum()),
         "machines_sure": int((gains.dataset["recovered_low"].values >= wanted).sum()),
-        "least_change": None
-        if change is None
-        else {
-            "wanted": change.wanted,
-            "values": list(change.values),
-            "changes": list(change.changes),
-            "recovered": _share(change.share),
-        },
+        "least_change": fields_of(change, "wanted", "values", "changes") | {"recovered": _share(change.share)}
+        if change is not None
+        else None,
     }

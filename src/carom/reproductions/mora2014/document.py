@@ -8,6 +8,7 @@ from typing import Any
 from carom.reproductions.mora2014.pictures import Picture
 from carom.reproductions.mora2014.reproduction import Reproduction
 from carom.reproductions.mora2014.source import CITATION, machine_at
+from carom.results import fields_of
 
 __all__ = ["TextTable", "given_words", "markdown", "paper_document", "tables"]
 
@@ -52,26 +53,16 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
         "source": CITATION,
         "parameters": {name: value for name, value in machine_at(0.1).as_dict().items() if name != "gamma"},
         "numbers": [
-            {"where": row.place, **_fields(row, "quantity", "kind", "printed", *value, "unit", "agrees", "note")}
+            {"where": row.place, **fields_of(row, "quantity", "kind", "printed", *value, "unit", "agrees", "note")}
             for row in found.numbers
         ],
         "misprints": [
-            {"where": row.place, **_fields(row, "printed", "right", "quantity", *value)} for row in found.misprints
+            {"where": row.place, **fields_of(row, "printed", "right", "quantity", *value)} for row in found.misprints
         ],
-        "claims": [{"where": claim.place, **_fields(claim, "statement", "holds", "found")} for claim in found.claims],
-        "curves": [
-            {
-                "kind": curve.kind,
-                "points": curve.points.tolist(),
-                "admissible": curve.admissible.tolist(),
-                "ends": list(curve.stops),
-            }
-            for curve in found.plane.curves
-        ],
+        "claims": [{"where": claim.place, **fields_of(claim, "statement", "holds", "found")} for claim in found.claims],
+        "curves": [fields_of(curve, "kind", "points", "admissible", ends="stops") for curve in found.plane.curves],
         "codim2": [
-            {"kind": point.kind, "value": list(point.value), "period": point.period}
-            for curve in found.plane.curves
-            for point in curve.codimension2
+            fields_of(point, "kind", "value", "period") for curve in found.plane.curves for point in curve.codimension2
         ],
         "regions": [
             {
@@ -79,7 +70,7 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
                 "part": region.part,
                 "point": list(region.point),
                 "motions": region.motions.words,
-                **_fields(region.motions, "contact_free", "orbits", "stable_orbits", "rub", "rolling"),
+                **fields_of(region.motions, "contact_free", "orbits", "stable_orbits", "rub", "rolling"),
                 "note": region.words,
             }
             for region in found.plane.regions
@@ -88,10 +79,6 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
             {"name": picture.name, "panels": list(picture.panels), "caption": picture.caption} for picture in pictures
         ],
     }
-
-
-def _fields(entry: object, *names: str) -> dict[str, Any]:
-    return {name: getattr(entry, name) for name in names}
 
 
 def tables(found: Reproduction) -> tuple[TextTable, ...]:
