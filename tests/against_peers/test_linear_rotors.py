@@ -12,6 +12,7 @@ from linear_rotors import bending, single, tilting, to_fixed
 from carom.basins import map_basins
 from carom.closed_forms.rub_stability import sliding_rates
 from carom.disturbances import Grid, KickPlane
+from carom.motions.ensembles import settle
 from carom.motions.starts import State, kick
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome, Phase
@@ -198,3 +199,39 @@ def test_basins_and_settling_of_a_rotor_with_two_planes():
         assert basin.outcomes[place] == alone.outcome
         assert basin.dataset["time"].values[place] == pytest.approx(alone.time, rel=1e-12)
     assert basin.unresolved == 0
+
+
+@pytest.mark.parametrize(("inertia", "restitution"), [(0.1, 0.3), (0.06, 0.0), (0.1, 0.9)])
+def test_impacts_that_alternate_in_one_instant_are_no_orbit(inertia, restitution):
+    """Both ends start on their walls, coupled so that each impact drives the other end outward."""
+    rotor = tilting(
+        arms=(1.0, -1.0),
+        mass=np.diag([1.0, inertia]),
+        gyroscopic=np.zeros((2, 2)),
+        damping=0.1 * np.diag([2.0, 2.0]),
+        stiffness=0.3 * np.diag([2.0, 2.0]),
+        forcing=np.array([0.2, 0.0]),
+        friction=0.05,
+        restitution=restitution,
+    )
+    start = State(np.array([1.0, 0.0]), np.array([1.0, 0.1]))
+    alone = simulate(rotor.model, start, 400.0, settle=True)
+    together = settle(rotor.model, start.position, start.velocity, until=400.0)
+    assert alone.outcome is Outcome.LEVITATED
+    assert together.outcomes == alone.outcome
+    assert together.times == pytest.approx(alone.time, rel=1e-12)
+
+
+def test_strong_coupling_keeps_planes_inside():
+    random = np.random.default_rng(7)
+    for _ in range(sized(4, 1, 60)):
+        rotor = tilting(
+            arms=(1.0, random.uniform(0.5, 1.2)),
+            mass=np.diag([1.0, random.uniform(0.3, 3.0)]),
+            friction=random.uniform(0.0, 0.5),
+            restitution=random.uniform(0.0, 0.9),
+        )
+        start = State(np.zeros(2, complex), random.uniform(0.5, 3.0, 2) * np.exp(2j * np.pi * random.random(2)))
+        motion = simulate(rotor.model, start, 30.0, max_events=3000)
+        times = motion.sample(2000)
+        assert max(motion.seen_at(plane).radius(times).max() for plane in (0, 1)) < 1.0 + 1e-11

@@ -34,9 +34,13 @@ LEVITATED, BOUNCING, MIXED = int(Outcome.LEVITATED), int(Outcome.BOUNCING), int(
 CHATTER_HEIGHT = 1e-13
 """Height of a bounce, in clearances, below which a chatter counts as complete; penetration is allowed to 1e-12."""
 STALLED = 64
-"""Events in a row without progress in time after which double precision cannot decide what follows.
+"""Events in a row without progress in time after which double precision cannot decide what follows."""
+STALLED_TOGETHER = 16_384
+"""The same for several planes, between which impacts may alternate at one instant, the slower the closer the coupling."""
+SHORTEST_LAP = 1e-6
+"""Time within which impacts at several planes count as one when a motion is tested for recurrence.
 
-With several planes, impacts may alternate between them at one instant: there it is the number per plane squared.
+Where planes strike in turn at one instant their speeds fall by a factor each time: the state recurs, but is no orbit.
 """
 SHORTEST = 1e-15
 """Duration that counts as no progress."""
@@ -77,7 +81,9 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
     state = work.current
     copy(amplitudes, state)
     time = 0.0
-    events, stalled = 0, 0
+    events, most_stalled = 0, STALLED_TOGETHER
+    if rotor.rows.shape[0] == 1:
+        memory.stalled, most_stalled = 0, STALLED
     outcome = CONTACT
     while outcome == CONTACT and events < times.shape[0]:
         if _slides(rotor, contact, state):
@@ -85,6 +91,7 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
         else:
             outcome, duration, plane = _fly(rotor, table, until - time, contact, memory, work, rub)
         time = until if outcome == TIME_REACHED else time + duration
+        memory.lap += duration
         if outcome == CONTACT:
             times[events], planes[events] = time, plane
             for p in range(rotor.rows.shape[0]):
@@ -93,8 +100,8 @@ def advance(rotor, table, amplitudes, until, contact, times, phases, planes, bef
                 before[events, k] = work.arrival[k]
                 after[events, k] = state[k]
             events += 1
-            stalled = stalled + 1 if duration <= SHORTEST else 0
-            if stalled == STALLED * rotor.rows.shape[0] ** 2:
+            memory.stalled = memory.stalled + 1 if duration <= SHORTEST else 0
+            if memory.stalled >= most_stalled:
                 outcome = GRAZING
     copy(state, amplitudes)
     return (EVENT_LIMIT if outcome == CONTACT else outcome), time, events
@@ -247,7 +254,7 @@ def _meet(rotor, contact, plane, memory, work):
     for other in range(rotor.rows.shape[0]):
         if contact[other] > FLIGHT:
             memory.rubbed = 1
-    if memory.patience > 0 and recurs(memory, work.arrival):
+    if memory.patience > 0 and (rotor.rows.shape[0] == 1 or _time_has_passed(memory)) and recurs(memory, work.arrival):
         copy(work.arrival, work.current)
         return MIXED if memory.rubbed > 0 else BOUNCING
     local = normal.conjugate() * speed
@@ -256,6 +263,15 @@ def _meet(rotor, contact, plane, memory, work):
     for k in range(work.current.shape[0]):
         work.current[k] = work.arrival[k] + rotor.columns[k, plane] * change
     return CONTACT
+
+
+@part
+def _time_has_passed(memory):
+    """Whether time has passed since the last impact that was tested for recurrence."""
+    passed = memory.lap > SHORTEST_LAP
+    if passed:
+        memory.lap = 0.0
+    return passed
 
 
 @kernel

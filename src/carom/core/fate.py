@@ -106,6 +106,8 @@ def memory(
         patience=np.asarray(patience, np.int64),
         recheck=np.asarray(recheck),
         stop_at_landing=np.asarray(stop_at_landing, np.int64),
+        stalled=np.asarray(0, np.int64),
+        lap=np.asarray(np.inf),
         events=np.asarray(0, np.int64),
         renewal=np.asarray(1, np.int64),
         since=np.asarray(0, np.int64),
@@ -341,6 +343,7 @@ def forget(memory):
     memory.events, memory.renewal, memory.since = 0, 1, 0
     memory.candidate, memory.period, memory.rubbed, memory.lifting = 0, 0, 0, 0
     memory.turning = NO_TURN
+    memory.stalled, memory.lap = 0, math.inf
 
 
 @kernel

@@ -142,7 +142,7 @@ def first_contact(rotor, plane, on_wall, step, work):
     work.first_margin[0], work.first_margin[1] = 0.0 if on_wall else 1.0 - squared_modulus(position), rise
     for k in range(ORDER - 1):
         work.first_margin[k + 2] = -2.0 * work.push[plane, k] / ((k + 1) * (k + 2))
-    return first_fall(work.first_margin, step, ROUNDING * _spread(rotor, plane, state) ** 2)
+    return first_fall(work.first_margin, step, 2.0 * ROUNDING * _spread(rotor, plane, state))
 
 
 @part
@@ -219,7 +219,7 @@ def push_rounding(rotor, plane, amplitudes):
 def meets_wall(rotor, plane, amplitudes):
     """Whether a plane is at its wall, to rounding."""
     gap = 1.0 - squared_modulus(displacement(rotor, plane, amplitudes))
-    return gap <= RESTING * ROUNDING * _spread(rotor, plane, amplitudes) ** 2
+    return gap <= 2.0 * RESTING * ROUNDING * _spread(rotor, plane, amplitudes)
 
 
 @part

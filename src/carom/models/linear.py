@@ -81,7 +81,7 @@ class LinearRotor(Result):
             values = getattr(self, name)
             if values.shape != shape or not values.size or not np.isfinite(values).all():
                 raise InputError(name, values.tolist(), f"finite numbers of shape {shape}")
-        for name, low, high in (("friction", 0.0, np.inf), ("restitution", 0.0, 1.0)):
+        for name, low, high in (("friction", 0.0, np.inf), ("restitution", 0.0, 1.0), ("drive", 1.0, np.inf)):
             wrong = (getattr(self, name) < low) | (getattr(self, name) > high)
             if wrong.any():
                 raise InputError(name, getattr(self, name).tolist(), f"numbers from {low:g} to {high:g}")

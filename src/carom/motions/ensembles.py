@@ -22,7 +22,7 @@ from carom.models import Model, Subject, model_of
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, amplitudes_of
 from carom.motions.trajectories import EventLog, follow
-from carom.outcome import InputError, Outcome, Phase
+from carom.outcome import InputError, Outcome, Phase, shown
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result
 
@@ -149,10 +149,12 @@ def settle(
     """
     rotors, which = _machines(machine, which)
     coordinates = _coordinates(rotors)
-    positions, velocities = (_broadcast(values, coordinates) for values in (positions, velocities))
-    shape = np.broadcast_shapes(
-        *(values.shape[: values.ndim - len(coordinates)] for values in (positions, velocities)), which.shape
-    )
+    positions, velocities = _read("positions", positions, coordinates), _read("velocities", velocities, coordinates)
+    shapes = [values.shape[: values.ndim - len(coordinates)] for values in (positions, velocities)] + [which.shape]
+    try:
+        shape = np.broadcast_shapes(*shapes)
+    except ValueError:
+        raise InputError("start positions, velocities, which", shapes, "arrays of shapes that fit together") from None
     positions, velocities = (np.broadcast_to(values, shape + coordinates) for values in (positions, velocities))
     which = np.broadcast_to(which, shape).ravel()
     _check_starts(positions, velocities, all(rotor.system.is_planar for rotor in rotors))
@@ -186,9 +188,15 @@ def _coordinates(rotors: Sequence[Model]) -> tuple[int, ...]:
     return () if count == 1 else (count,)
 
 
-def _broadcast(values: np.ndarray, coordinates: tuple[int, ...]) -> np.ndarray:
-    values = np.asarray(values, complex)
-    return values if values.ndim >= len(coordinates) else values.reshape(1)
+def _read(name: str, given: np.ndarray, coordinates: tuple[int, ...]) -> np.ndarray:
+    """Complex numbers with a last axis of the coordinates."""
+    try:
+        values = np.asarray(given, complex)
+    except (TypeError, ValueError):
+        raise InputError(f"start {name}", shown(given), "complex numbers") from None
+    if values.shape[values.ndim - len(coordinates) :] != coordinates:
+        raise InputError(f"start {name}", values.shape, f"an array with a last axis of {coordinates[0]} coordinates")
+    return values
 
 
 @dataclass(frozen=True)

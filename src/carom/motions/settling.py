@@ -96,7 +96,8 @@ def settled(
         ``EVENT_LIMIT`` if it only passes by.
     multiplicity : int
         See :func:`carom.core.closing.least_period`.  For rotors with other than one plane and one pair of modes: the number
-        of impacts after which the motion has recurred, which may be a multiple.
+        of impacts after which the motion has recurred, which may be a multiple; impacts at several planes in one instant count
+        as one.
     """
     if outcome is Outcome.FORWARD_RUB and recollection.resting:
         if rub_attracts(rotor.system, amplitudes, contact):
