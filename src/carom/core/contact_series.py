@@ -75,11 +75,12 @@ def _free_motion(rotor, plane, k, work):
     work.position[plane, k] = position + rotor.offsets[plane] if k == 0 else position
     work.speed[plane, k] = speed
     work.free[plane, k] = free
-    slip = rotor.drive[plane] if k == 0 else 0.0
+    push, slip = 0.0, rotor.drive[plane] if k == 0 else 0.0
     for j in range(k + 1):
-        slip += (work.position[plane, j].conjugate() * work.speed[plane, k - j]).imag
-    work.slip[plane, k] = slip
-    work.push[plane, k] = _push(plane, k, work)
+        y, v = work.position[plane, j], work.speed[plane, j]
+        push += (y.conjugate() * work.free[plane, k - j]).real + (v.conjugate() * work.speed[plane, k - j]).real
+        slip += (y.conjugate() * work.speed[plane, k - j]).imag
+    work.push[plane, k], work.slip[plane, k] = push, slip
 
 
 @part
