@@ -12,7 +12,7 @@ from scipy.linalg import expm
 from carom.models import Jeffcott, LinearRotor, model_from, model_of
 from carom.models.modes import modes_of
 from carom.motions.ensembles import settle
-from carom.motions.starts import State
+from carom.motions.starts import State, kick
 from carom.motions.trajectories import simulate
 from carom.outcome import InputError
 
@@ -164,3 +164,9 @@ def test_matrices_of_the_fixed_frame_are_not_stretched_to_shape(changes, named):
     plane = {"planes": [[1.0, 0.5]], "friction": [0.1], "restitution": [0.9], "drive": [10.0]}
     with pytest.raises(InputError, match=f"^{named} = "):
         LinearRotor.in_fixed_frame(**numbers | plane | changes)
+
+
+def test_a_kick_moves_one_coordinate_as_its_translation_says():
+    rotor = planar(PAPER).replace(translation=[2.0])
+    assert rotor.system.is_planar
+    assert kick(0.3).state(rotor).velocity == pytest.approx(0.6)

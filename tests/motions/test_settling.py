@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from linear_rotors import tilting
 from machines import PAPER
 from sliding_motions import ahead_of, assert_slides_to_the_rub
 
@@ -15,10 +16,10 @@ from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.fate import absorbed
 from carom.motions.ensembles import settle
-from carom.motions.settling import fresh_memory
+from carom.motions.settling import fresh_memory, settled
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
-from carom.outcome import Outcome
+from carom.outcome import Outcome, Phase
 
 pytestmark = pytest.mark.jit_only
 
@@ -141,3 +142,15 @@ def test_no_runaway_where_rolling_does_not_hold():
     assert fresh_memory(carom.models.Jeffcott(PAPER), 1, absorb=True).runaway == pytest.approx(
         runaway_speed(carom.models.Jeffcott(PAPER)).certain, rel=1e-8
     )
+
+
+def test_a_rub_that_runs_round_the_wall_is_not_judged_as_one_at_rest():
+    """Of a rotor whose rubs are not known; a full turn has shown that it is steady."""
+    rotor = tilting(forcing=np.array([2.0, 0.05])).model
+    contact = np.array([int(Phase.FORWARD_SLIP), -1])
+    for angle in np.linspace(0.0, 6.0, 13):
+        recollection, place = fresh_memory(rotor, 100), np.exp(1j * angle)
+        amplitudes = rotor.system.amplitudes(np.array([0.9, 0.125]) * place, np.array([0.3j, 0.04j]) * place)
+        assert recollection.resting
+        assert settled(rotor, amplitudes, contact, Outcome.FORWARD_RUB, recollection) == (Outcome.FORWARD_RUB, 0)
+        assert recollection.resting == 1

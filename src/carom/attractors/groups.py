@@ -10,8 +10,9 @@ from carom.attractors.following import FIRST_PATIENCE, Ending
 from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
+from carom.motions.settling import REPEATING
 from carom.motions.starts import State
-from carom.motions.trajectories import REPEATING, Trajectory, simulate
+from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import Outcome
 from carom.results import Result
 

@@ -12,8 +12,9 @@ from carom.attractors.names import MotionName
 from carom.closed_forms.known import known_of
 from carom.models import Model
 from carom.motions.ensembles import Endings
+from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.starts import State
-from carom.motions.trajectories import REPEATING, simulate
+from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
 
@@ -23,7 +24,6 @@ ALIKE = 4
 """Decimals to which the speeds at an impact must agree for motions to count as one kind."""
 LOOKED_AT = 400
 """Most kinds of periodic bouncing that are compared; further ones are named by their number of impacts alone."""
-AT_REST = 1e-6
 
 
 def name_motions(
@@ -93,7 +93,7 @@ def _periodic(
     rotor: Model, endings: Endings, places: np.ndarray, orbits: Sequence[Orbit]
 ) -> list[tuple[np.ndarray, MotionName]]:
     """Kinds of periodic bouncing: the starts that belong to each, and its name."""
-    ends = Endings(**{name: values[places] for name, values in vars(endings.reshaped(endings.outcomes.size)).items()})
+    ends = endings.reshaped(endings.outcomes.size)[places]
     positions, velocities, codes, counts = ends.positions, ends.velocities, ends.outcomes, ends.multiplicities
     radial = positions.real * velocities.real + positions.imag * velocities.imag
     along = positions.real * velocities.imag - positions.imag * velocities.real

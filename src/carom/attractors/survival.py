@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.models import Model
 from carom.motions.ensembles import Endings, settle
-from carom.motions.trajectories import REPEATING
+from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
 
 __all__ = ["Survival", "document_of", "follow_further", "follow_out", "measure_survival", "still_irregular"]

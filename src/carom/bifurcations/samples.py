@@ -10,7 +10,8 @@ from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, 
 from carom.bifurcations.axes import vary
 from carom.disturbances import Plan
 from carom.models import Jeffcott
-from carom.motions.trajectories import REPEATING, simulate
+from carom.motions.settling import REPEATING
+from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.progress import Reporter, Wish

@@ -81,8 +81,7 @@ def _together(machines: list[tuple[Model, Starts]], limits: dict[str, Any]) -> I
     sizes = [starts.exists.size for starts in sets]
     found = follow(rotors, Starts.joined(sets), which=np.repeat(np.arange(len(sets)), sizes), **limits)
     for starts, end, size in zip(sets, np.cumsum(sizes), sizes, strict=True):
-        shape = starts.exists.shape
-        yield Endings(**{name: values[end - size : end] for name, values in vars(found).items()}).reshaped(*shape)
+        yield found[end - size : end].reshaped(*starts.exists.shape)
 
 
 def require_start(rotor: Model, starts: Starts) -> None:

@@ -157,9 +157,10 @@ class LinearRotor(Result):
         """System of a rotor with one coordinate, which is its displacement at the only plane."""
         slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
         friction, restitution, drive = (float(getattr(self, name)[0]) for name in _REAL)
-        return second_order_system(
+        system = second_order_system(
             exponents=(fast, slow), equilibrium=equilibrium, friction=friction, restitution=restitution, drive=drive
         )
+        return dataclasses.replace(system, translation=self.translation)
 
     @property
     def unbalance_phase(self) -> float:

@@ -15,7 +15,7 @@ from carom.models import Model
 from carom.outcome import Outcome
 from carom.results import Result
 
-__all__ = ["PATIENCE", "ClosedOrbit", "closed_orbit", "fresh_memory", "longest_time", "settled"]
+__all__ = ["AT_REST", "PATIENCE", "REPEATING", "ClosedOrbit", "closed_orbit", "fresh_memory", "longest_time", "settled"]
 
 PATIENCE = 20_000
 """Default number of impacts without recurrence after which bouncing counts as irregular.
@@ -27,6 +27,9 @@ LONG_FLIGHT = 3e4
 TIME_CONSTANTS = 40.0
 SHORTEST_LIMIT, LONGEST_LIMIT = 2e5, 2e7
 """Smallest and largest time, in ``1/Ω``, that a motion is given to settle: seconds of computing."""
+AT_REST = 1e-6
+"""Largest velocity of a rub that counts as synchronous, far above the rate at which it was recognised."""
+REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 MODES = 2
 """Modes of the rotors whose orbits are closed here."""
 
@@ -99,12 +102,12 @@ def settled(
         of impacts after which the motion has recurred, which may be a multiple; impacts at several planes in one instant count
         as one.
     """
-    if outcome is Outcome.FORWARD_RUB and recollection.resting:
+    if outcome is Outcome.FORWARD_RUB and recollection.resting and _is_at_rest(rotor, amplitudes):
         if rub_attracts(rotor.system, amplitudes, contact):
             return outcome, 0
         recollection.resting = -1
         return Outcome.EVENT_LIMIT, 0
-    if outcome not in (Outcome.BOUNCING, Outcome.MIXED):
+    if outcome not in REPEATING:
         return outcome, 0
     recurred = int(recollection.period)
     if not rotor.system.is_planar:
@@ -114,6 +117,12 @@ def settled(
         return outcome, count
     doubt(recollection)
     return Outcome.EVENT_LIMIT, 0
+
+
+def _is_at_rest(rotor: Model, amplitudes: np.ndarray) -> bool:
+    """Whether a rub is synchronous; one that runs round the wall has been recognised by a full turn."""
+    _, velocity = rotor.system.state(amplitudes)
+    return bool(np.max(np.abs(velocity)) < AT_REST)
 
 
 def closed_orbit(rotor: Model, position: complex, velocity: complex, impacts: int) -> ClosedOrbit | None:

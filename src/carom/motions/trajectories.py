@@ -26,14 +26,12 @@ if TYPE_CHECKING:
     import xarray
 
 __all__ = [
-    "REPEATING",
     "EventLog",
     "Trajectory",
     "follow",
     "simulate",
 ]
 
-REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 """Outcomes of motions that keep hitting the wall: periodic, or irregular."""
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""
