@@ -52,7 +52,9 @@ autosummary_filename_map = {
     "carom.closed_forms.Rolling": "carom.closed_forms.Rolling-class",
     "carom.bifurcations.Axis": "carom.bifurcations.Axis-class",
 }
-autodoc_typehints = "none"
+# Types stand in the signatures; a docstring repeats only those that say more than the signature, such as shapes.
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 # Attributes stand in the docstrings; properties and methods are listed by the template.

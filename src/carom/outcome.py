@@ -10,19 +10,6 @@ from collections.abc import Callable, Sequence
 from enum import IntEnum
 from typing import Any, ParamSpec, TypeVar
 
-__all__ = [
-    "CaromError",
-    "CaromWarning",
-    "InputError",
-    "MultipleInputError",
-    "Outcome",
-    "Phase",
-    "Problems",
-    "printable",
-    "shown",
-    "together",
-]
-
 _LONGEST_VALUE, _LONGEST_WORDS = 160, 600
 _MOST_LINES = 20
 _Given = ParamSpec("_Given")
@@ -138,10 +125,6 @@ class MultipleInputError(InputError):
     """Several inputs that cannot be used, reported together: one line each; of very many, only the first ones.
 
     ``field``, ``value`` and ``allowed`` are those of the first error.
-
-    Parameters
-    ----------
-    errors : sequence of InputError
     """
 
     def __init__(self, errors: Sequence[InputError]) -> None:

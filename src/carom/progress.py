@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     import rich.progress
     from rich.console import Console
 
-__all__ = ["Progress", "Reporter", "Wish", "bar", "shows_progress"]
-
 Arguments = ParamSpec("Arguments")
 Value = TypeVar("Value")
 

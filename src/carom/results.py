@@ -14,8 +14,6 @@ import numpy as np
 
 from carom.outcome import InputError
 
-__all__ = ["Result", "fields_of", "in_a_line"]
-
 WIDEST = 120
 """Largest number of characters of a line, without the name before it."""
 FEW = 4
@@ -35,10 +33,6 @@ class Result:
 
     def plot(self, *args: Any, **options: Any) -> Any:
         """Draw this result: ``result.plot(...)`` is ``carom.plots.<figure>(result, ...)``.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
 
         Raises
         ------

@@ -17,8 +17,6 @@ from carom.orbits.single_impact import Orbit
 from carom.outcome import Outcome, Phase
 from carom.results import Result
 
-__all__ = ["Cycle", "Whirl", "cycle_of", "forces_on", "orbit_of", "same_cycle", "whirl_of"]
-
 Whirl = Literal["forward", "backward", "none"]
 
 SAME = 1e-6

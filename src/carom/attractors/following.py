@@ -18,8 +18,6 @@ from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.progress import Reporter
 
-__all__ = ["Ending", "follow_in_stages"]
-
 FIRST_PATIENCE = 1000
 """Impacts for which a motion is followed at first."""
 

@@ -16,8 +16,6 @@ from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import Outcome
 from carom.results import Result
 
-__all__ = ["Attractor", "attractor_of"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Attractor(Result):

@@ -9,8 +9,6 @@ from typing import Any
 from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 
-__all__ = ["LEVITATION", "SYNCHRONOUS_RUB", "MotionName"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MotionName(str):

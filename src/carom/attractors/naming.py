@@ -18,8 +18,6 @@ from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.outcome import CaromError, Outcome
 
-__all__ = ["name_motions"]
-
 ALIKE = 4
 """Decimals to which the speeds at an impact must agree for motions to count as one kind."""
 LOOKED_AT = 400

@@ -21,8 +21,6 @@ from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line
 
-__all__ = ["AttractorSet", "find_attractors"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AttractorSet(Result):

@@ -19,8 +19,6 @@ from carom.motions.starts import Kick, State
 from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
 
-__all__ = ["DISTURBANCES", "DisturbanceSet", "Kind", "Start", "disturbances_of", "known_starts", "starts_at"]
-
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]
 
 DISTURBANCES = 200

@@ -13,8 +13,6 @@ from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
 
-__all__ = ["Survival", "document_of", "follow_further", "follow_out", "measure_survival", "still_irregular"]
-
 MOTIONS = 200
 """Number of irregular motions that are followed."""
 LOOK = 1000
@@ -139,10 +137,6 @@ def measure_survival(
         Number of impacts for which to follow each of them.
     threads : int, optional
         By default the number of available cores; the result does not depend on it.
-
-    Returns
-    -------
-    Survival
     """
     random = np.random.default_rng(SEED)
     places = np.resize(random.permutation(len(positions)), MOTIONS)

@@ -13,8 +13,6 @@ from carom.disturbances import Sample
 from carom.outcome import InputError
 from carom.progress import Reporter, Wish, shows_progress
 
-__all__ = ["GainChange", "least_gain_change"]
-
 HALVINGS = 8
 CANDIDATES = 8
 """Number of nodes of the map towards which the least change is searched."""

@@ -24,8 +24,6 @@ from carom.outcome import InputError, Outcome
 from carom.parameters import Scales
 from carom.progress import Wish, shows_progress
 
-__all__ = ["Basin", "map_basins"]
-
 CRITERIA = (
     "levitated: the moduli of the modes leave no later flight room to reach the wall (proof). "
     "forward_rub: slides in a neighbourhood of the synchronous rub where all sliding goes over to that rub (proof), or "

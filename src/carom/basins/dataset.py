@@ -25,8 +25,6 @@ from carom.results import Result
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Mapped", "dataset_of", "plan_of", "provenance"]
-
 
 def plan_of(document: Mapping[str, Any]) -> Plan:
     """Plan from its description in the attributes of a dataset.

@@ -24,8 +24,6 @@ from carom.models import jeffcott_of
 from carom.outcome import InputError
 from carom.results import fields_of
 
-__all__ = ["basin_document"]
-
 
 def basin_document(
     basin: Basin,

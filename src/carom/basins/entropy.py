@@ -15,8 +15,6 @@ from carom.basins.classification import Basin
 from carom.disturbances import Grid
 from carom.outcome import InputError
 
-__all__ = ["BasinEntropy", "basin_entropy", "entropies"]
-
 IN_A_BOX = 25
 """Approximate number of starts in a box, as the authors recommend."""
 

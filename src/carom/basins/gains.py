@@ -28,8 +28,6 @@ from carom.progress import Reporter, Wish, shows_progress
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["GainMap", "map_gains", "measured"]
-
 AROUND = (0.5, 2.0)
 """Default range of a parameter, in multiples of its present value."""
 CHUNK = 50_000

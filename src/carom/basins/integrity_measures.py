@@ -15,8 +15,6 @@ from carom.basins.classification import Basin
 from carom.disturbances import BaseShock, Coordinate, Grid, KickPlane, StateSlice, VelocityKick
 from carom.outcome import InputError
 
-__all__ = ["Integrity", "integrity", "safe_size"]
-
 BLOCK = 64
 """Columns of a grid whose distances are computed at a time."""
 

@@ -30,8 +30,6 @@ from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, Wish, shows_progress
 
-__all__ = ["SmallestLoss", "has_sizes", "smallest_loss"]
-
 DIRECTIONS, SIZES = 96, 96
 TOLERANCE = 1e-3
 NARROWED = 4

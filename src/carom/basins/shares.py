@@ -6,8 +6,6 @@ import math
 from dataclasses import dataclass
 from statistics import NormalDist
 
-__all__ = ["Share", "starts_enough"]
-
 CONFIDENCE = 0.95
 
 

@@ -18,8 +18,6 @@ from carom.parameters import (
     unknown_name,
 )
 
-__all__ = ["Axis", "Ends", "Numbers", "axis", "interval_around", "read_interval", "value_in", "value_of", "vary"]
-
 Ends = tuple[float | str, float | str]
 """Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
 _FIELDS = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}

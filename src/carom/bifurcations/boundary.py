@@ -37,8 +37,6 @@ from carom.orbits.single_impact import Orbit, orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.results import Result
 
-__all__ = ["BoundaryEquilibrium", "SmallOrbit", "boundary_equilibria"]
-
 SMALL_GAP = 1e-5
 """Gap at which small orbits are computed: higher-order terms are of this order, rounding errors of ``1e-16/1e-5``."""
 

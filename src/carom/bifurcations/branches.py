@@ -30,8 +30,6 @@ from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit
 from carom.results import Result
 
-__all__ = ["OrbitBranch", "continue_orbit"]
-
 STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
 NOTHING = 1e-8
 """Radial speed that counts as zero because of rounding."""
@@ -146,10 +144,6 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
     interval : tuple of float or str
         Range of the parameter; it must contain the orbit's own value.  ``("300 N s/m", "2000 N s/m")`` has units.
     steps : Steps, optional
-
-    Returns
-    -------
-    OrbitBranch
 
     Raises
     ------

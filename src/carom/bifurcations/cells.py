@@ -14,8 +14,6 @@ from carom.bifurcations.planes import Plane
 from carom.parameters import Parameters
 from carom.results import Result
 
-__all__ = ["Region", "regions_between"]
-
 THIN = 0.05
 """Fraction of the plane below which the point of a region is refined between the points of the grid."""
 LOOK_AROUND, FINER = 6, 5

@@ -14,8 +14,6 @@ from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.parameters import Parameters
 
-__all__ = ["Stand", "UnexplainedChange", "accounts_for", "causes_between", "change_between"]
-
 NARROW = 1e-9
 """Width of the bracket around a change, in widths of the plane."""
 ALIKE = 1e-3

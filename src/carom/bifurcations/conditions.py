@@ -19,27 +19,6 @@ from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit, orbit_at
 from carom.orbits.stability import multipliers
 
-__all__ = [
-    "BOUNDLESS",
-    "FASTEST",
-    "RESONANCES",
-    "SHORTEST",
-    "TESTS",
-    "OrbitConditions",
-    "RadialProfile",
-    "conditions_at",
-    "corrected",
-    "grazing_equations",
-    "is_admissible",
-    "jacobian_at",
-    "margins_of",
-    "name_of",
-    "orbit_of",
-    "pressed_on",
-    "profile_at",
-    "spectral_radius",
-]
-
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, beyond which orbits are not followed: it grows without bound where ``a₁₂`` vanishes."""
 

@@ -32,8 +32,6 @@ from carom.orbits.names import OrbitName, combined
 from carom.outcome import InputError
 from carom.results import Result
 
-__all__ = ["KINDS", "Codimension2Point", "Curve", "can_be_followed", "continue_curve"]
-
 Function = Callable[[np.ndarray, float], np.ndarray]
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 BEND = 5e-5
@@ -182,10 +180,6 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         bouncing with rub ``"contact-onset"`` or ``"permanent-contact"``.
     plane : Plane
     steps : Steps, optional
-
-    Returns
-    -------
-    Curve
 
     Raises
     ------

@@ -28,8 +28,6 @@ from carom.bifurcations.conditions import jacobian_at
 from carom.core.periods import returns
 from carom.core.planar import planar_exponents
 
-__all__ = ["Direction", "OrbitChange", "OrbitValues", "analytic_rates", "orbit_jacobian"]
-
 STEP = 1e-30
 """Imaginary step: its square is far below the rounding error of any parameter."""
 _SERIES = [n / math.factorial(2 * n + 1) for n in range(1, 11)]
@@ -160,13 +158,7 @@ class OrbitValues:
 
 
 class OrbitChange:
-    """First-order change of a single-impact orbit, and of its equations and test functions, in one direction.
-
-    Parameters
-    ----------
-    values : OrbitValues
-    direction : Direction
-    """
+    """First-order change of a single-impact orbit, and of its equations and test functions, in one direction."""
 
     def __init__(self, values: OrbitValues, direction: Direction) -> None:
         numbers = values.numbers

@@ -29,8 +29,6 @@ from carom.parameters import Parameters
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line
 
-__all__ = ["Diagram", "find_bifurcations"]
-
 SAMPLES = 13
 """Number of values of the parameter at which all orbits are searched."""
 SAME = 1e-6
@@ -127,10 +125,6 @@ def find_bifurcations(
         Seed of these disturbances.
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    Diagram
 
     Raises
     ------

@@ -12,8 +12,6 @@ from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
 from carom.results import fields_of
 
-__all__ = ["diagram_document", "regions_document"]
-
 
 def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]:
     """Special points and branches along a parameter.

@@ -19,21 +19,6 @@ from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, Phase
 
-__all__ = [
-    "DIFFERENCE",
-    "LONGEST",
-    "TOLERANCE",
-    "LiftOff",
-    "Whirl",
-    "end_of_branch",
-    "end_of_motions",
-    "known",
-    "lift_off_state",
-    "next_lift_off",
-    "shift_of",
-    "slope",
-]
-
 Whirl = Literal[1, -1]
 
 LONGEST = 8.0 * math.pi
@@ -84,10 +69,6 @@ def lift_off_state(rotor: Jeffcott, whirl: Whirl, angle: float) -> State | None:
         Sign of ``1 + θ̇``.
     angle : float
         ``x = θ − φ`` in rad.
-
-    Returns
-    -------
-    State or None
     """
     gamma, omega, rho = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.rho
     square = omega * omega - rho * math.cos(angle)
@@ -192,10 +173,6 @@ def end_of_motions(
         Derivative of the residual with respect to the angle.
     finest : float
         Step of the value at which the search stops.
-
-    Returns
-    -------
-    tuple of float
     """
     angle, value = start
     passed = False

@@ -14,8 +14,6 @@ from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName, combined, in_order
 from carom.parameters import Parameters
 
-__all__ = ["Motions", "forward_orbits", "motions_at"]
-
 
 @dataclass(frozen=True)
 class Motions:

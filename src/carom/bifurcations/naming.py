@@ -13,8 +13,6 @@ from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.orbits.names import OrbitName, in_order
 
-__all__ = ["meeting_at", "orbits_on_curve"]
-
 BELOW = 1e-4
 """Relative distance from a period within which a root counts as that period."""
 PLACES = 5

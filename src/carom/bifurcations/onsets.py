@@ -16,8 +16,6 @@ from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
 
-__all__ = ["ONSETS", "follow_onset"]
-
 ONSETS = ("contact-onset", "permanent-contact")
 """Kinds of ends of branches with lasting contact that can be followed as curves."""
 NEARBY = 0.05

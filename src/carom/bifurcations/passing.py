@@ -9,8 +9,6 @@ import numpy as np
 from carom.bifurcations.curves import KINDS, Curve
 from carom.bifurcations.points import Bifurcation
 
-__all__ = ["crossings", "passes", "with_curve"]
-
 CLOSE = 5e-4
 """Distance from a curve, in widths of the plane, within which a point lies on it: ten times that from its chords."""
 SAME_PERIOD, SAME_SPEED = 0.02, 0.02

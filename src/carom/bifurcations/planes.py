@@ -10,8 +10,6 @@ from carom.bifurcations.axes import Axis, Ends, Numbers, axis, read_interval, va
 from carom.outcome import InputError
 from carom.parameters import Parameters
 
-__all__ = ["Plane"]
-
 EDGE = "edge of the plane"
 """Why curves end that leave the plane."""
 ROUNDING = 1e-9

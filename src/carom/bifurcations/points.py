@@ -15,8 +15,6 @@ from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
 from carom.results import Result
 
-__all__ = ["Bifurcation", "MotionKind"]
-
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
 _STEADY: dict[str, MotionKind] = {
     "boundary-equilibrium": "contact-free",

@@ -23,8 +23,6 @@ from carom.outcome import CaromError
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result
 
-__all__ = ["RegionMap", "map_regions"]
-
 SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
 """Distance in widths of the plane, and relative difference of periods, below which codimension-2 points are the same."""
 
@@ -167,10 +165,6 @@ def map_regions(
         Follow the onsets of lasting and of permanent contact too (a few seconds).
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    RegionMap
 
     Raises
     ------

@@ -12,8 +12,6 @@ from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.parameters import Parameters
 
-__all__ = ["TURNS", "beside_resonance"]
-
 TURNS = {"resonance-1:1": 1.0, "resonance-1:2": -1.0}
 """Value of the double multiplier at each resonance."""
 ASIDE = 1e-5

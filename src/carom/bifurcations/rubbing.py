@@ -46,14 +46,6 @@ from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 from carom.results import Result
 
-__all__ = [
-    "RubbingBranch",
-    "RubbingOrbit",
-    "RubbingPoint",
-    "continue_rubbing",
-    "rubbing_orbits",
-]
-
 SAMPLES = 48
 HALVINGS = 10
 """Bisections between an angle that has a next lift-off and a neighbouring one that has none."""
@@ -182,10 +174,6 @@ def rubbing_orbits(
         Longest period, in ``1/Ω``.
     samples : int
         Number of angles tried in each direction of whirl.
-
-    Returns
-    -------
-    tuple of RubbingOrbit
     """
     rotor = Jeffcott(parameters)
     angles = np.linspace(-math.pi, math.pi, samples + 1).tolist()
@@ -224,10 +212,6 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: Ends) -> Rub
         Dimensionless or physical name.
     interval : tuple of float or str
         Range of the parameter; text has a unit.
-
-    Returns
-    -------
-    RubbingBranch
 
     Raises
     ------

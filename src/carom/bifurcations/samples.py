@@ -17,8 +17,6 @@ from carom.parameters import Parameters
 from carom.progress import Reporter, Wish
 from carom.results import Result
 
-__all__ = ["VALUES", "AttractorSample", "sample_attractors"]
-
 VALUES = 31
 """Values of the parameter at which disturbances are followed."""
 SHOWN_IMPACTS = 60

@@ -11,8 +11,6 @@ from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_of_roots
 
-__all__ = ["Solution", "orbit_solutions"]
-
 
 class Solution(NamedTuple):
     """A solution, without multipliers and without certified admissibility.

@@ -18,14 +18,6 @@ from carom.models import Jeffcott
 from carom.parameters import Parameters
 from carom.results import Result
 
-__all__ = [
-    "EquilibriumBranch",
-    "RollingBranch",
-    "equilibrium_branches",
-    "rolling_branch",
-    "steady_points",
-]
-
 SAMPLES = 201
 
 

@@ -18,8 +18,6 @@ from carom.outcome import CaromError
 from carom.parameters import Parameters
 from carom.progress import Reporter
 
-__all__ = ["Survey"]
-
 INSET = 1e-3
 """Distance of the outermost points from the edges, in widths of the plane."""
 BESIDE = 0.01

@@ -33,8 +33,6 @@ from carom.outcome import CaromError
 from carom.parameters import Parameters
 from carom.progress import Reporter, Wish
 
-__all__ = ["OrbitWindows", "Window", "WindowEnd", "orbit_windows"]
-
 SAME = 1e-6
 """Relative difference of period and radial speed below which two solutions are the same."""
 MERGED = 1e-9
@@ -134,10 +132,6 @@ def orbit_windows(
         is admissible, or nearly so, at one of them.
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    OrbitWindows
     """
     tell = Reporter.of(progress, "following orbits")
     columns: list[list[_Member]] = []

@@ -25,8 +25,6 @@ from carom.cli.sweep import sweep
 from carom.cli.terminal import InterruptionError
 from carom.outcome import CaromError, CaromWarning, InputError, printable
 
-__all__ = ["app", "main"]
-
 FAILURE, BAD_INPUT, INTERRUPTED = 1, 2, 130
 AGAIN = 0.01
 """Seconds after which a lost interrupt is raised again."""

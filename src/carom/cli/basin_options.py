@@ -15,28 +15,6 @@ if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Plan
     from carom.parameters import Parameters
 
-__all__ = [
-    "Before",
-    "Cells",
-    "Duration",
-    "Fastest",
-    "FirstRange",
-    "Gains",
-    "GainsWanted",
-    "Kind",
-    "Out",
-    "Peak",
-    "Plane",
-    "Release",
-    "SecondRange",
-    "Seed",
-    "Starts",
-    "Threads",
-    "Wanted",
-    "read_gains",
-    "read_plan",
-]
-
 CELLS = 60
 RELEASES = 360
 STARTS = 10_000

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
-__all__ = ["print_basin", "print_gains"]
-
 _UNITS = {"velocity": "c_r Ω", "length": "c_r", "acceleration": "c_r Ω²", "time": "/Ω"}
 _SHOWN = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
 _NAMES = {

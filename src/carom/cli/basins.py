@@ -37,8 +37,6 @@ if TYPE_CHECKING:
     from carom.parameters import Case
     from carom.progress import Reporter
 
-__all__ = ["basins"]
-
 
 def basins(
     machine: MachineFile,

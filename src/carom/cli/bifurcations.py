@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from carom.bifurcations import Axis, Diagram, RegionMap
     from carom.parameters import Parameters
 
-__all__ = ["bifurcations", "regions"]
-
 Out = Annotated[
     str | None, typer.Option(metavar="DIR", help="Write the figure and the JSON document to this directory.")
 ]

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Column
 
-__all__ = ["fitted", "plain_table"]
-
 _PADDINGS = ((0, 1, 0, 0), (0, 0))
 """Paddings between columns, from wide to narrow; the box adds one to each."""
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
     from carom.motions.trajectories import Trajectory
 
-__all__ = ["check_file", "write_csv", "write_netcdf"]
-
 
 def check_file(option: str, path: str) -> None:
     """Refuse early a path that cannot become a file.

@@ -8,8 +8,6 @@ import typer
 
 from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
 
-__all__ = ["orbits"]
-
 
 def orbits(
     machine: MachineFile,

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
     from carom.reproductions.mora2014 import Reproduction
 
-__all__ = ["paper"]
-
 
 def paper(
     out: Annotated[

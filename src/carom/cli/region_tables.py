@@ -12,8 +12,6 @@ from carom.cli.fitting import plain_table
 if TYPE_CHECKING:
     from carom.bifurcations import RegionMap
 
-__all__ = ["curve_table", "meeting_table", "present_words", "region_table", "unexplained_table"]
-
 Names = tuple[str, str]
 """Names of both parameters with their units."""
 

@@ -10,8 +10,6 @@ from rich.segment import Segment
 
 from carom.outcome import printable
 
-__all__ = ["Screen"]
-
 
 class Screen(Console):
     """A console that shows control characters in texts as escapes; its own colours and cursor control still work.

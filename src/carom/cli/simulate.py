@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from carom.parameters import Case
     from carom.progress import Reporter
 
-__all__ = ["simulate"]
-
 LONGEST = 20_000.0
 """Time in ``1/Ω`` at which the simulation of a motion that has not settled stops."""
 MOST_EVENTS = 1_000_000

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from carom.bifurcations import Axis
     from carom.motions.starts import Kick, State
 
-__all__ = ["read_kick", "read_positive", "read_range", "read_start", "read_time", "read_value"]
-
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
 _KICK = "must be SPEED or SPEED,ANGLE such as 0.4,0.2 or '50 mm/s,30 deg'"
 
@@ -27,10 +25,6 @@ def read_start(text: str, scales: Scales | None) -> State:
         Each value has a unit of length or velocity, or is a number in ``c_r`` or ``c_r Ω``.
     scales : Scales or None
         Needed for values with units.
-
-    Returns
-    -------
-    State
 
     Raises
     ------

@@ -11,8 +11,6 @@ from carom.cli.terminal import AsJson, InterruptionError, Settings, console, pri
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
 
-__all__ = ["sweep"]
-
 _SHOWN = 5
 
 

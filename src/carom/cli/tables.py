@@ -33,8 +33,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import Orbit, OrbitSet
     from carom.parameters import Case
 
-__all__ = ["print_motion", "print_orbits", "print_study"]
-
 FIRST_EVENTS, LAST_EVENTS = 20, 8
 """Numbers of contacts shown at the beginning and at the end of a long log."""
 MOST_NUMBERS = 40

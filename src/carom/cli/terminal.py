@@ -14,8 +14,6 @@ from carom.progress import Reporter, bar
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["AsJson", "InterruptionError", "MachineFile", "Settings", "console", "print_document", "progress"]
-
 MachineFile = Annotated[str, typer.Argument(metavar="MACHINE.toml", help="The machine file.")]
 Settings = Annotated[
     list[str] | None,

@@ -30,8 +30,6 @@ from carom.closed_forms.thresholds import largest_pull
 from carom.core.fate import rub_potentials
 from carom.models import Jeffcott, Subject, jeffcott_of
 
-__all__ = ["GIVEN_UP", "RubNeighbourhood", "neighbourhood_of", "rub_neighbourhood"]
-
 INTERVALS = 4000
 """Ten times as many would raise the level by two or three thousandths at nearly ten times the cost."""
 GIVEN_UP = 1e-9
@@ -83,12 +81,7 @@ class RubNeighbourhood:
 
 
 def rub_neighbourhood(machine: Subject) -> RubNeighbourhood | None:
-    """Largest proven neighbourhood of the synchronous rub that attracts sliding; ``None`` if there is no such rub.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-    """
+    """Largest proven neighbourhood of the synchronous rub that attracts sliding; ``None`` if there is no such rub."""
     rotor = jeffcott_of(machine)
     rub = next((entry for entry in find_equilibria(rotor) if entry.attracts_sliding), None)
     return neighbourhood_of(rotor, rub) if rub else None

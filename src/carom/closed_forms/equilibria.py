@@ -10,8 +10,6 @@ import numpy as np
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.results import Result
 
-__all__ = ["Equilibrium", "find_equilibria"]
-
 Kind = Literal["contact-free", "rub"]
 Status = Literal["admissible", "boundary", "virtual"]
 
@@ -76,14 +74,6 @@ def find_equilibria(machine: Subject) -> tuple[Equilibrium, ...]:
 
     For a balanced rotor (``ρ = 0``) no rub is listed, because no angle is distinguished: if ``γ + μ(1 − ω²) = 0``, as
     without damping and friction, it may rub at every angle, otherwise at none.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-
-    Returns
-    -------
-    tuple of Equilibrium
     """
     rotor = jeffcott_of(machine)
     return (_contact_free(rotor), *_rubs(rotor))

@@ -15,8 +15,6 @@ from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import Jeffcott, Model
 
-__all__ = ["Known", "known_of"]
-
 ROTORS = 64
 """Size of the cache, one entry per rotor: there are many motions of few rotors."""
 

@@ -31,8 +31,6 @@ from carom.models import System, second_order_system
 from carom.outcome import InputError
 from carom.parameters import Parameters
 
-__all__ = ["ContactSystem", "LocalCycle", "NonSmoothHopf", "cycle_determinant", "non_smooth_hopf"]
-
 ON_WALL = 1e-9
 """Distance from the wall, in clearances, at which the equilibrium counts as on it."""
 
@@ -149,10 +147,6 @@ def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoo
         The system at the bifurcation: ``|K| = σ`` to within 1e-9.
     equilibrium_rate : complex
         ``dK/dε = (Γ₁ − β₁K)/β``.
-
-    Returns
-    -------
-    NonSmoothHopf
 
     Raises
     ------

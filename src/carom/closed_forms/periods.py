@@ -11,8 +11,6 @@ from carom.models import System
 from carom.outcome import CaromError, InputError
 from carom.results import Result
 
-__all__ = ["PeriodCondition", "PeriodRoots"]
-
 FIRST_WIDTH = 0.25
 """Width of the intervals at which the search begins, in ``1/Ω``."""
 MOST_INTERVALS = 1_000_000

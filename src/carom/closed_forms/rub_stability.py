@@ -16,8 +16,6 @@ import numpy as np
 from carom.models import System
 from carom.outcome import Phase
 
-__all__ = ["rub_attracts", "sliding_rates"]
-
 
 def rub_attracts(system: System, amplitudes: np.ndarray, contact: np.ndarray) -> bool:
     """Whether sliding next to a synchronous rub approaches it."""

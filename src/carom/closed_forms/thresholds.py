@@ -36,33 +36,6 @@ import numpy as np
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.outcome import InputError
 
-__all__ = [
-    "BoundaryKind",
-    "End",
-    "Gain",
-    "Steady",
-    "Values",
-    "boundary_balance",
-    "boundary_kind",
-    "happens_to_rubs",
-    "harmless_kick",
-    "harmless_shock",
-    "harmless_step",
-    "has_stable_rub",
-    "largest_pull",
-    "mean_rolling_force",
-    "ranges_of",
-    "rolling_condition",
-    "rolling_damping",
-    "rolling_friction",
-    "rolling_stiffness",
-    "rub_fold_condition",
-    "rub_limit",
-    "sustaining_speed",
-    "wall_condition",
-    "whirl_damping",
-]
-
 Gain = Literal["gamma", "omega"]
 Steady = Literal["contact-free", "rub", "rolling"]
 BoundaryKind = Literal["persistence", "non-smooth fold", "degenerate"]
@@ -186,10 +159,6 @@ def rub_limit(machine: Subject) -> float:
     It ends in a fold, ``γ = p − μκ``, if it is pressed on the wall there; otherwise its force vanishes on the circle
     ``κ² + γ² = ρ²`` (derived in :mod:`carom.closed_forms.thresholds`).  Above the limit there is no stable rub; for
     positive damping below it there always is one, unless the restitution is one.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
 
     Returns
     -------
@@ -362,10 +331,6 @@ def harmless_step(machine: Subject) -> float:
     A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame.  This is the
     deviation at the step; its velocity in the fixed frame is ``iu₀``.  There the deviation obeys ``ü + γu̇ + ω²u = 0``,
     whose energy ``|u̇|² + ω²|u|²`` does not grow, so it stays below ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
 
     Returns
     -------

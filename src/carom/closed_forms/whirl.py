@@ -60,8 +60,6 @@ from carom.closed_forms.thresholds import (
 )
 from carom.models import Subject, jeffcott_of
 
-__all__ = ["Rolling", "Runaway", "rolling", "runaway_speed"]
-
 
 @dataclass(frozen=True)
 class Runaway:
@@ -136,14 +134,6 @@ def runaway_speed(machine: Subject) -> Runaway:
 
     ``w_c = (γ + √(γ² + 4μ(μω² + ρ√(1 + μ²))))/(2μ)``, the larger root of ``μ(w² − ω²) − γw − ρ√(1 + μ²)``; derived in
     :mod:`carom.closed_forms.whirl`.  With negative damping ``N > 0`` may need a higher speed, ``w² > ω² + ρ``.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-
-    Returns
-    -------
-    Runaway
     """
     at = jeffcott_of(machine).parameters
     certain = max(sustaining_speed(at, largest_pull(at)), math.hypot(at.omega, math.sqrt(at.rho)))
@@ -155,14 +145,6 @@ def rolling(machine: Subject) -> Rolling:
 
     From ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)`` (see :mod:`carom.closed_forms.whirl`), solved for each parameter in
     :mod:`carom.closed_forms.thresholds`.
-
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-
-    Returns
-    -------
-    Rolling
     """
     at = jeffcott_of(machine).parameters
     force = mean_rolling_force(at)

@@ -9,8 +9,6 @@ import numpy as np
 
 from carom.results import Result
 
-__all__ = ["Branch", "SpecialPoint", "Steps", "Watch"]
-
 
 @dataclass(frozen=True)
 class Steps:

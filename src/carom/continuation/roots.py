@@ -9,8 +9,6 @@ import numpy as np
 
 from carom.outcome import CaromError
 
-__all__ = ["bracketed_root", "sign_change"]
-
 HALVINGS = 30
 """Default number of halvings."""
 
@@ -24,10 +22,6 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     low, high : float
     tolerance : float
         Width of the bracket at which to stop, in addition to rounding.
-
-    Returns
-    -------
-    float
 
     Raises
     ------
@@ -71,11 +65,6 @@ def sign_change(
 
     If a function is ``nan`` at one end, the point is approached at which it begins to be defined: a new maximum of the
     radius, for example, may be born close to the wall.
-
-    Parameters
-    ----------
-    function : callable
-    low, high : float
 
     Returns
     -------

@@ -22,8 +22,6 @@ from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.outcome import CaromError, InputError
 
-__all__ = ["continue_branch", "refined_points"]
-
 Function = Callable[[np.ndarray, float], np.ndarray]
 
 DIFFERENCE = 6e-6
@@ -72,10 +70,6 @@ def continue_branch(
         Typical sizes of the unknowns and the parameter, in which arclength is measured; ones by default.
     folds : str
         Kind under which turning points of the parameter are listed; branch points are listed as ``"branch point"``.
-
-    Returns
-    -------
-    Branch
 
     Raises
     ------

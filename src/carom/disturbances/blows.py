@@ -17,8 +17,6 @@ from carom.parameters import Scales
 if TYPE_CHECKING:
     from carom.models import Model
 
-__all__ = ["GRAVITY", "BaseShock", "KickPlane", "VelocityKick", "outward_from"]
-
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
 LONGEST_SHOCK = 1e4

@@ -12,8 +12,6 @@ import numpy as np
 from carom.outcome import InputError
 from carom.parameters import UNITS, Scales
 
-__all__ = ["Coordinate", "Starts", "angle_coordinate", "complex_of", "inside", "length_coordinate", "speed_coordinate"]
-
 TURN = 2.0 * math.pi
 ON_WALL = 1e-12
 """Distance from the wall, in clearances, within which a start counts as on it."""

@@ -12,8 +12,6 @@ from carom.models import Model
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
 
-__all__ = ["NO_START", "follow", "follow_machines", "require_start"]
-
 NO_START = -1
 """Outcome of a disturbance without a start: it lies outside the wall, or the rotor could not levitate before."""
 

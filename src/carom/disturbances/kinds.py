@@ -6,8 +6,6 @@ from carom.disturbances.blows import BaseShock, KickPlane, VelocityKick
 from carom.disturbances.model import Disturbance
 from carom.disturbances.states import AnyState, ContactRelease, StateSlice, UnbalanceStep
 
-__all__ = ["MODELS"]
-
 MODELS: dict[str, type[Disturbance]] = {
     model.kind: model
     for model in (VelocityKick, KickPlane, BaseShock, UnbalanceStep, ContactRelease, StateSlice, AnyState)

@@ -16,8 +16,6 @@ from carom.parameters import Scales
 if TYPE_CHECKING:
     from carom.models import Model
 
-__all__ = ["FASTEST", "Disturbance"]
-
 FASTEST = 2.0
 """Default largest speed in ``c_r Ω``: twice that of a whirl that fills the clearance."""
 _SIZES = ("fastest", "peak", "duration", "largest")

@@ -16,8 +16,6 @@ from carom.parameters import Scales
 if TYPE_CHECKING:
     from carom.models import Model
 
-__all__ = ["Grid", "Plan", "Sample"]
-
 
 @dataclass(frozen=True)
 class _Plan:

@@ -30,8 +30,6 @@ from carom.models import Jeffcott, System
 from carom.motions.trajectories import EventLog
 from carom.outcome import InputError, Outcome
 
-__all__ = ["shaken", "states_after_shocks"]
-
 MODES = 4
 EVENT_LIMIT, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.TIME_REACHED)
 LOGGED = 256

@@ -23,8 +23,6 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     from carom.models import Model
 
-__all__ = ["AnyState", "ContactRelease", "StateSlice", "UnbalanceStep"]
-
 Release = Literal["fixed", "rotating", "rolling"]
 
 

@@ -20,8 +20,6 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["load", "save"]
-
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 MARK = b"\ncarom sha256 "
 LENGTH = len(MARK) + 65

@@ -7,8 +7,6 @@ import secrets
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["sync_directory", "try_place", "write_whole"]
-
 
 def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
     """Write a file atomically: under a temporary name until all of it is on the disk.

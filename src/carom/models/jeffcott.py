@@ -12,8 +12,6 @@ from carom.models.system import System, second_order_system
 from carom.outcome import InputError, shown
 from carom.parameters import Parameters, Scales
 
-__all__ = ["Jeffcott"]
-
 
 @dataclass(frozen=True)
 class Jeffcott:

@@ -18,8 +18,6 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 from carom.results import Result
 
-__all__ = ["LinearRotor"]
-
 _COMPLEX = ("mass", "damping", "stiffness", "forcing", "planes", "translation")
 _REAL = ("friction", "restitution", "drive")
 

@@ -8,8 +8,6 @@ if TYPE_CHECKING:
     from carom.models.system import System
     from carom.parameters import Scales
 
-__all__ = ["Model"]
-
 
 @runtime_checkable
 class Model(Protocol):

@@ -8,8 +8,6 @@ import numpy as np
 
 from carom.outcome import InputError
 
-__all__ = ["Modes", "modes_of"]
-
 PARALLEL = 1e-3
 """Sine of the angle between two eigenvectors below which their modes become a pair: each digit lost is one of sixteen."""
 INDEPENDENT = 1e-9

@@ -10,8 +10,6 @@ from carom.models.model import Model
 from carom.outcome import InputError, shown
 from carom.parameters import Case, Machine, Parameters, Zones
 
-__all__ = ["Subject", "case_of", "jeffcott_of", "model_from", "model_of"]
-
 Subject = Model | Parameters | Machine | Case
 """Any description of a rotor."""
 _ALLOWED = "a Machine, a Case (as carom.load reads it from a file), Parameters or a model"

@@ -12,8 +12,6 @@ from carom.core.layout import rotor_record
 from carom.core.table import flight_table
 from carom.results import Result
 
-__all__ = ["System", "second_order_system"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class System(Result):

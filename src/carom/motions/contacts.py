@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from carom.models import Model
     from carom.parameters import Scales
 
-__all__ = ["ContactHistory", "ContactLog", "LastingContact", "Table", "phase_flags", "polar"]
-
 
 @dataclass(frozen=True)
 class LastingContact:

@@ -26,8 +26,6 @@ from carom.outcome import InputError, Outcome, Phase, shown
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result
 
-__all__ = ["Endings", "settle"]
-
 MOST_EVENTS = 1_000_000
 PORTION = 16_384
 """Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
@@ -136,10 +134,6 @@ def settle(
         By default the number of available cores.
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    Endings
 
     Raises
     ------

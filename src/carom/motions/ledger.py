@@ -13,8 +13,6 @@ from carom.motions.trajectories import Trajectory
 from carom.outcome import Phase
 from carom.parameters import Scales
 
-__all__ = ["EnergyLedger", "energy_ledger"]
-
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 LONGEST_PIECE = 1.5
 """Longest stretch, in ``1/max|λ|``, over which one Gauss rule is used; its error is below rounding."""
@@ -91,14 +89,6 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     ``(|w|² + ω²|U|²)/2`` changes by the power ``Re(w̄ρe^{iφ})`` of the unbalance, ``−γ|w|²`` of the damping and that of
     the contact force.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
     ``v = s + 1 + θ̇``, and the rest ``−F s`` comes from the drive.
-
-    Parameters
-    ----------
-    trajectory : Trajectory
-
-    Returns
-    -------
-    EnergyLedger
 
     Raises
     ------

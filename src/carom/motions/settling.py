@@ -15,8 +15,6 @@ from carom.models import Model
 from carom.outcome import Outcome
 from carom.results import Result
 
-__all__ = ["AT_REST", "PATIENCE", "REPEATING", "ClosedOrbit", "closed_orbit", "fresh_memory", "longest_time", "settled"]
-
 PATIENCE = 20_000
 """Default number of impacts without recurrence after which bouncing counts as irregular.
 

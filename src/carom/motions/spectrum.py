@@ -11,8 +11,6 @@ from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError
 from carom.results import Result
 
-__all__ = ["FullSpectrum", "full_spectrum"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FullSpectrum(Result):
@@ -51,10 +49,6 @@ def full_spectrum(
         Largest ``|ν|`` to return.
     samples_per_turn : int
         At least twice the highest order.  Corners of the path (impacts) cause aliasing that falls with its square.
-
-    Returns
-    -------
-    FullSpectrum
 
     Raises
     ------

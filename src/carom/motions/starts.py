@@ -14,8 +14,6 @@ from carom.models import Model
 from carom.outcome import InputError
 from carom.parameters import Scales, read_size
 
-__all__ = ["LARGEST_SPEED", "WALL_TOLERANCE", "Kick", "State", "amplitudes_of", "kick", "own_size"]
-
 LARGEST_SPEED = 1e100
 """Largest speed of a start: for far larger ones the bounds that prove a flight contact-free overflow."""
 WALL_TOLERANCE = 1e-12

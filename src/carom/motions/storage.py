@@ -19,8 +19,6 @@ from carom.outcome import InputError, Outcome, Phase
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["load_trajectory", "save_trajectory", "trajectory_dataset"]
-
 COMPLEX = ("segment_amplitudes", "arrivals")
 SEGMENTS = ("segment_starts", "segment_phases", "event_planes", *COMPLEX)
 

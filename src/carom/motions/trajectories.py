@@ -25,13 +25,6 @@ from carom.results import Result
 if TYPE_CHECKING:
     import xarray
 
-__all__ = [
-    "EventLog",
-    "Trajectory",
-    "follow",
-    "simulate",
-]
-
 """Outcomes of motions that keep hitting the wall: periodic, or irregular."""
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""
@@ -315,10 +308,6 @@ def simulate(
         Impacts and steps of lasting contact after which to give up.
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    Trajectory
 
     Raises
     ------

@@ -14,8 +14,6 @@ from carom.orbits.names import Slip
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 
-__all__ = ["departure", "slip_speed", "slip_stays_forward", "why_virtual"]
-
 ARRIVAL_TOLERANCE = 1e-7
 """Relative difference below which the certified first return and the period count as the same event."""
 

@@ -15,8 +15,6 @@ from carom.motions.trajectories import EventLog, Trajectory, follow, simulate
 from carom.outcome import InputError, Outcome, Phase
 from carom.results import Result
 
-__all__ = ["ImpactMap", "Section", "StroboscopicMap", "impact_map", "stroboscopic_map"]
-
 
 @dataclass(frozen=True)
 class Section:
@@ -95,10 +93,6 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
         State just before an impact; ``radial_speed`` above zero.
     longest_flight : float
         Time in ``1/Ω`` after which the rotor counts as not returning to the wall.
-
-    Returns
-    -------
-    ImpactMap
 
     Raises
     ------

@@ -22,17 +22,6 @@ from carom.orbits.stability import Multipliers, multipliers
 from carom.outcome import InputError
 from carom.results import Result, in_a_line
 
-__all__ = [
-    "Orbit",
-    "OrbitSet",
-    "find_orbits",
-    "longest_within_reach",
-    "orbit_at",
-    "orbits_of_roots",
-    "orbits_within_reach",
-    "period_condition",
-]
-
 MOST_RADIANS = 1500.0
 """Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""
 
@@ -260,10 +249,6 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
 def orbits_within_reach(machine: Subject) -> OrbitSet:
     """All single-impact orbits; where little or no damping makes them too many, only those of shorter period.
 
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-
     Returns
     -------
     OrbitSet
@@ -319,10 +304,6 @@ def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, 
     section : Section
         State just before the impact, to which the flight returns after the period.
     nontrivial : Multipliers
-
-    Returns
-    -------
-    Orbit
     """
     return Orbit(rotor, name, period, section, nontrivial, why_virtual(rotor, period, section, name.slip))
 

@@ -8,8 +8,6 @@ import numpy as np
 
 from carom.results import Result
 
-__all__ = ["Multipliers", "multipliers"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Multipliers(Result):
@@ -50,10 +48,6 @@ def multipliers(jacobian: np.ndarray) -> Multipliers:
     Parameters
     ----------
     jacobian : ndarray, shape (n, n)
-
-    Returns
-    -------
-    Multipliers
     """
     # Conjugates are exact, so that their moduli are equal.
     values = np.linalg.eigvals(jacobian).astype(complex).tolist()

@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from decimal import Decimal
 
-__all__ = ["COMMON_UNITS", "Roots"]
-
 Roots = frozenset[tuple[str, Decimal]]
 """Root units of pint, each with its exponent; radians are distinguished from pure numbers."""
 

@@ -12,16 +12,6 @@ from dataclasses import dataclass
 
 from carom.outcome import InputError, shown
 
-__all__ = [
-    "DIMENSIONLESS_FIELDS",
-    "MACHINE_FIELDS",
-    "PHYSICAL_PARTNER",
-    "Field",
-    "name_errors",
-    "nearest_name",
-    "unknown_name",
-]
-
 _LONGEST_NAME = 60
 _MOST_SUGGESTIONS = 100
 

@@ -18,8 +18,6 @@ import math
 
 from carom.parameters.scaling import Parameters, Scales
 
-__all__ = ["LARGEST", "STEEL", "gives_way", "indentation_of_force", "indentation_of_hit"]
-
 STEEL = 2.1e11
 """Young's modulus of steel, Pa."""
 LARGEST = 0.1

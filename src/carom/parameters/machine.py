@@ -17,8 +17,6 @@ from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters, Scales
 from carom.parameters.toml_reader import read_machine_tables
 
-__all__ = ["Machine", "check_names"]
-
 
 class Machine(pydantic.BaseModel):
     """A rotor, its levitation and its touchdown bearing, in SI units.

@@ -23,8 +23,6 @@ from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
 
-__all__ = ["Case", "Zones", "load"]
-
 _SETTING = "--set"
 
 

@@ -14,8 +14,6 @@ from typing import Any
 from carom.parameters.common_units import COMMON_UNITS, Roots
 from carom.parameters.fields import Field
 
-__all__ = ["read_quantity"]
-
 _TEXT = re.compile(
     r"(?P<number>[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity)\b))\s*(?P<unit>.*)",
     re.DOTALL,

@@ -13,8 +13,6 @@ from carom.outcome import InputError, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, unknown_name
 from carom.parameters.quantities import read_quantity
 
-__all__ = ["UNITS", "Parameters", "Scales"]
-
 UNITS = {
     "mass": ("m", "kg"),
     "length": ("c_r", "m"),

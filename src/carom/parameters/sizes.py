@@ -12,8 +12,6 @@ from carom.parameters.fields import Field
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Scales
 
-__all__ = ["Size", "read_size"]
-
 _HUGE = 1e12
 
 

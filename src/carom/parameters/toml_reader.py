@@ -13,8 +13,6 @@ from typing import Any
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknown_name
 
-__all__ = ["MachineTables", "read_machine_tables", "read_toml"]
-
 _WHAT = "machine file"
 _TABLES = {"machine": None, "dimensionless": None, "zones": None}
 _LARGEST_BYTES = 1_000_000

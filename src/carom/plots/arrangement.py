@@ -17,8 +17,6 @@ from matplotlib.transforms import Bbox
 
 from carom.plots.figure import POINTS, gauge
 
-__all__ = ["arrange", "write_plain_ticks"]
-
 
 def arrange(figure: Figure) -> None:
     """Lay out axes, legends, titles and ticks, and fix this layout.

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from carom.motions.contacts import LastingContact
     from carom.motions.trajectories import Trajectory
 
-__all__ = ["bands_on_the_circle", "bands_over_time", "drawing_times", "flying"]
-
 _KINDS = ("slide", "roll")
 _STEP = 0.03
 """Angle [rad] between points of a band: its chords deviate from the circle by less than the width of a line."""

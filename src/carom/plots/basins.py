@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
-__all__ = ["basin"]
-
 Bend = Callable[[Floats, Floats], tuple[Floats, Floats]]
 """Maps coordinates of cells to those of the axes."""
 

@@ -9,8 +9,6 @@ import numpy as np
 
 from carom.plots.plane import Complex
 
-__all__ = ["Closeup", "closeups"]
-
 _SMALL = 0.15
 """Distance [c_r] within which a small path stays from its first point, and within which points join its close-up."""
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 Interval = tuple[float, float]
 
-__all__ = ["ROWS", "coexistence", "row_of_point", "rows_of"]
-
 ROWS = ("levitation", "forward rub", "bouncing", "bouncing with rub", "irregular bouncing", "backward whirl")
 """From top to bottom."""
 _OF_OUTCOME = {

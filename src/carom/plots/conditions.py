@@ -19,8 +19,6 @@ from carom.plots.words import number, orbit_symbol, time_in_words
 if TYPE_CHECKING:
     from carom.orbits.single_impact import Orbit, OrbitSet
 
-__all__ = ["period_condition"]
-
 _INK = LOOKS["path"].colour
 _SAME_PERIOD = 1e-6
 """Relative difference below which an orbit belongs to a root: far above rounding, far below the spacing of roots."""

@@ -21,18 +21,6 @@ from carom.plots.words import parameter_label, parameter_unit
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
 
-__all__ = [
-    "BOUNDARIES",
-    "CURVES",
-    "FAINT",
-    "POINTS",
-    "bifurcation_diagram",
-    "branch_line",
-    "curve_line",
-    "mark_point",
-    "point_key",
-]
-
 POINTS = MappingProxyType(
     {
         "fold": Look("#1a1a1a", "fold of two orbits", marker=">"),
@@ -89,10 +77,6 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 @styled
 def bifurcation_diagram(diagram: Diagram) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points.
-
-    Parameters
-    ----------
-    diagram : carom.bifurcations.Diagram
 
     Returns
     -------

@@ -20,8 +20,6 @@ from matplotlib.transforms import Bbox
 
 from carom.plots.sheet import applied, drawing
 
-__all__ = ["POINTS", "StyledFigure", "gauge"]
-
 POINTS = 72.0
 """Dots per inch of an SVG file: its unit is the point."""
 

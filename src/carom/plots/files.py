@@ -13,8 +13,6 @@ from carom.files import write_whole
 from carom.outcome import InputError
 from carom.plots.sheet import drawing
 
-__all__ = ["save"]
-
 # Without these settings a file would contain the date of its creation.
 _UNDATED: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},

@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from carom.basins import GainChange, GainMap
     from carom.bifurcations import Axis
 
-__all__ = ["gain_map"]
-
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their line styles."""
 _MEASURES = {

@@ -32,8 +32,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import Orbit
     from carom.parameters import Scales, Zones
 
-__all__ = ["draw_radius", "radius"]
-
 _PERIODS = 3
 _Conversion = Callable[[ArrayLike], ArrayLike]
 

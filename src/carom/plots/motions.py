@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
     from carom.orbits.single_impact import Orbit
 
-__all__ = ["motion", "orbit"]
-
 
 @styled
 def orbit(orbit: Orbit, periods: int | None = None, *, axes: Sequence[Axes] | None = None) -> Figure:

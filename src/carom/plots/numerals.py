@@ -13,8 +13,6 @@ from carom.plots.plane import Floats
 if TYPE_CHECKING:
     from carom.bifurcations import RegionMap
 
-__all__ = ["number_regions"]
-
 _SIZE = 8.0
 """Height of a numeral [pt]."""
 _HALF_DIGIT, _HALF_HEIGHT = 2.0, 2.8

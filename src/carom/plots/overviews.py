@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import Orbit, OrbitSet
     from carom.studies import Study
 
-__all__ = ["equilibria_and_orbits", "overview"]
-
 _ORDER = {"virtual": 0, "unstable": 1, "stable": 2}
 _STATUS = {"admissible": "admissible", "boundary": "on the wall"}
 _MOST_VIRTUAL = 8
@@ -115,11 +113,6 @@ def equilibria_and_orbits(
 
 def overview(study: Study, title: str | None = None) -> Figure:
     """Draw the equilibria and orbits of a study; virtual orbits are left out if there are very many.
-
-    Parameters
-    ----------
-    study : carom.studies.Study
-    title : str, optional
 
     Returns
     -------

@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["spread", "spread_angles"]
-
 
 def spread(wanted: ArrayLike, gap: float, low: float = -np.inf, high: float = np.inf) -> NDArray[np.float64]:
     """Return positions at least `gap` apart, in the order of the wanted ones and nearest in the least-squares sense.

@@ -24,28 +24,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import Orbit
     from carom.parameters import Scales
 
-__all__ = [
-    "MANY_MARKERS",
-    "MANY_POINTS",
-    "Complex",
-    "Floats",
-    "Frame",
-    "clearance_circle",
-    "direction_arrow",
-    "faded_path",
-    "impacts",
-    "key",
-    "label_frame",
-    "legend_below",
-    "look_closer",
-    "magnifier",
-    "marker_size",
-    "one_axes",
-    "orbit_path",
-    "path",
-    "point",
-]
-
 Complex = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 

@@ -20,8 +20,6 @@ from carom.plots.words import parameter_label, parameter_unit
 if TYPE_CHECKING:
     from carom.bifurcations import Region, RegionMap
 
-__all__ = ["region_map"]
-
 _BLACK, _MACHINE, _UNEXPLAINED = "#1a1a1a", "#f0e442", "#cc0000"
 _LONGEST_HALF = 92
 """Number of characters of a region's description that fit in half of the width."""
@@ -32,10 +30,6 @@ _LINE, _ROOM = 0.135, 9
 @styled
 def region_map(found: RegionMap) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
-
-    Parameters
-    ----------
-    found : carom.bifurcations.RegionMap
 
     Returns
     -------

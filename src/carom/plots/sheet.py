@@ -9,8 +9,6 @@ from contextvars import ContextVar
 
 import matplotlib.style
 
-__all__ = ["applied", "drawing"]
-
 _SHEET = "carom.plots.carom"
 _in_use = ContextVar("_in_use", default=False)
 

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from carom.motions.spectrum import FullSpectrum
     from carom.orbits.single_impact import Orbit
 
-__all__ = ["multipliers", "spectrum"]
-
 _SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p", "<", ">", "h", "*")
 _LINEAR_UP_TO = 2.0
 

@@ -38,18 +38,6 @@ from matplotlib.figure import Figure
 from carom.plots.arrangement import arrange, write_plain_ticks
 from carom.plots.sheet import drawing
 
-__all__ = [
-    "LOOKS",
-    "ONE_COLUMN",
-    "OUTCOMES",
-    "REGIMES",
-    "TWO_COLUMNS",
-    "WORKS",
-    "ZONE_SHADES",
-    "Look",
-    "styled",
-]
-
 Arguments = ParamSpec("Arguments")
 
 ONE_COLUMN = 88 / 25.4

@@ -27,8 +27,6 @@ from carom.plots.words import parameter_label, parameter_unit
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["BLANKS", "blank_cells", "cell_edges", "colour_bar", "shaded_cells", "sweep_map"]
-
 BLANKS = MappingProxyType(
     {
         "no-levitation": Look("#e6e6e6", "no levitation without contact", hatch=r"\\"),

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Scales
 
-__all__ = ["energies", "forces", "regimes", "touchdown"]
-
 _SAMPLES = 4000
 _WIDE_RANGE = 50.0
 """Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
@@ -69,10 +67,6 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     trajectory : carom.motions.trajectories.Trajectory
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.2 * TWO_COLUMNS))
     ends = np.append(trajectory.segment_starts, trajectory.time)
@@ -196,10 +190,6 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     ledger : carom.motions.ledger.EnergyLedger
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales

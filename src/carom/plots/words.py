@@ -13,23 +13,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import Orbit
     from carom.parameters import Scales
 
-__all__ = [
-    "axis_length",
-    "axis_time",
-    "counted",
-    "ending",
-    "number",
-    "orbit_look",
-    "orbit_symbol",
-    "orbit_title",
-    "orbit_words",
-    "parameter_label",
-    "parameter_unit",
-    "time_in_words",
-    "times_larger",
-    "turns",
-]
-
 
 def orbit_symbol(name: str) -> str:
     """Return an orbit name as mathematical text: ``"B1,d"`` becomes B with the subscript 1,d."""

@@ -12,8 +12,6 @@ from pathlib import Path
 
 from carom.outcome import InputError
 
-__all__ = ["check_directory", "filled_at_once"]
-
 FIGURES = "figures"
 MANIFEST = "study.json"
 
@@ -29,10 +27,6 @@ def check_directory(path: str, option: str) -> Path:
     path : str
     option : str
         Name of the input, for the error.
-
-    Returns
-    -------
-    Path
 
     Raises
     ------

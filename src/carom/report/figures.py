@@ -17,8 +17,6 @@ from carom.parameters import Zones
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example
 
-__all__ = ["Picture", "pictures"]
-
 MOST_ORBITS = 6
 """Largest number of orbits with figures of their own."""
 MOST_ENDINGS = 5
@@ -55,16 +53,7 @@ class Picture:
 
 
 def pictures(study: Study) -> list[Picture]:
-    """Return all figures of a study in the order of the report.
-
-    Parameters
-    ----------
-    study : Study
-
-    Returns
-    -------
-    list of Picture
-    """
+    """Return all figures of a study in the order of the report."""
     possible = sorted((orbit for orbit in study.orbits if orbit.admissible), key=lambda orbit: not orbit.stable)
     figures = [_overview(study)]
     for orbit in possible[:MOST_ORBITS]:

@@ -27,8 +27,6 @@ from carom.studies.summaries import (
     threshold_rows,
 )
 
-__all__ = ["report_page", "write_report"]
-
 REPORT = "report.html"
 FORMATS = ("svg",)
 SCREEN_SCALE = 1.3
@@ -84,11 +82,6 @@ def write_report(study: Study, directory: str, *, progress: Wish = None) -> Path
 
 def report_page(study: Study, figures: list[InlineFigure]) -> str:
     """Return the page as text.
-
-    Parameters
-    ----------
-    study : Study
-    figures : list of InlineFigure
 
     Returns
     -------

@@ -8,14 +8,13 @@ from dataclasses import dataclass
 
 from carom.attractors import DisturbanceSet
 from carom.basins import Share
+from carom.closed_forms.thresholds import Gain
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott
 from carom.parameters import Parameters
 from carom.studies.alone import LevitationAlone
-from carom.studies.ranges import Gain, MotionRange, Span
+from carom.studies.ranges import MotionRange, Span
 from carom.studies.safety import try_disturbances
-
-__all__ = ["WANTED", "Advice", "advise"]
 
 MARGINS = (0.05, 0.1, 0.2, 0.4)
 """Relative distances of the advised damping or stiffness from the end of a range, tried until a check passes."""

@@ -18,14 +18,13 @@ import numpy as np
 
 from carom.attractors import DisturbanceSet, MotionName
 from carom.attractors.naming import name_motions
+from carom.closed_forms.thresholds import Gain
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.studies.ranges import Edge, Gain, MotionRange, Span, free_spans, outside
-
-__all__ = ["LevitationAlone", "Met", "levitation_alone"]
+from carom.studies.ranges import Edge, MotionRange, Span, free_spans, outside
 
 SEED = 1
 """Seed of the disturbances, different from that of the study's own sample."""

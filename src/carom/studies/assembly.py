@@ -10,7 +10,7 @@ from typing import Any, ClassVar, get_args
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
-from carom.closed_forms.thresholds import Steady
+from carom.closed_forms.thresholds import Gain, Steady
 from carom.disturbances import Disturbance, Plan
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
@@ -21,12 +21,10 @@ from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document
 from carom.studies.orbit_ranges import single_impact_ranges
-from carom.studies.ranges import Gain, Motion, MotionRange, Threshold, steady_range
+from carom.studies.ranges import Motion, MotionRange, Threshold, steady_range
 from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
-
-__all__ = ["Study", "study"]
 
 Progress = Callable[[float, str], None]
 
@@ -150,10 +148,6 @@ def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, p
         :func:`~carom.attractors.find_attractors`.  At other values the standard kinds are tried.
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    Study
 
     Raises
     ------

@@ -37,8 +37,6 @@ from carom.studies.wording import Wording
 if TYPE_CHECKING:
     from carom.studies.assembly import Study
 
-__all__ = ["as_json", "orbits_document", "study_document", "trajectory_document"]
-
 
 def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
     """Return a document as the text of one JSON object; values that are not finite become ``null``.

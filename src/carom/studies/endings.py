@@ -9,18 +9,6 @@ from dataclasses import dataclass
 from carom.attractors import Attractor, AttractorSet, Ending, MotionName
 from carom.outcome import Outcome
 
-__all__ = [
-    "KickSize",
-    "came_back",
-    "ending_phrase",
-    "ending_words",
-    "hardest_impulse",
-    "kick_sizes",
-    "largest_all_back",
-    "shown_example",
-    "touching",
-]
-
 _WORDS = {
     Outcome.LEVITATED: "contact-free levitation",
     Outcome.ROLLING: "rolling backward whirl",

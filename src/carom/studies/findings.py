@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 from carom.attractors.names import LEVITATION
 from carom.basins.shares import CONFIDENCE
+from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import KickSize, came_back, ending_phrase, hardest_impulse, kick_sizes, touching
-from carom.studies.ranges import Gain, Motion
+from carom.studies.ranges import Motion
 from carom.studies.remedies import advice_lines, alone_sentences
 from carom.studies.safety.limits import share_words
 from carom.studies.wording import counted, listed, no_rigid_wall, number
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium
     from carom.orbits.single_impact import Orbit
     from carom.studies.assembly import Study
-
-__all__ = ["FINDINGS", "names_of", "stable_rub"]
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""

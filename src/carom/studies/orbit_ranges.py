@@ -7,13 +7,12 @@ import math
 import numpy as np
 
 from carom.bifurcations import Window, WindowEnd, orbit_windows, vary
+from carom.closed_forms.thresholds import Gain
 from carom.models import Jeffcott
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.progress import Wish
-from carom.studies.ranges import Edge, Gain, MotionRange, Span
-
-__all__ = ["single_impact_ranges"]
+from carom.studies.ranges import Edge, MotionRange, Span
 
 FINEST_STEP = {"gamma": 0.1, "omega": 0.05}
 """Relative step between the values at which all orbits are computed."""

@@ -13,19 +13,6 @@ from carom.attractors import MotionName
 from carom.closed_forms.thresholds import Gain, Steady, ranges_of
 from carom.parameters import Parameters
 
-__all__ = [
-    "Edge",
-    "Gain",
-    "Motion",
-    "MotionRange",
-    "Span",
-    "Threshold",
-    "common",
-    "free_spans",
-    "outside",
-    "steady_range",
-]
-
 Motion = Steady | Literal["single-impact", "stable-single-impact"]
 
 
@@ -152,11 +139,6 @@ def _value(edge: Edge) -> float:
 
 def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
     """Return where along one gain the contact-free motion exists, but neither a rub nor a single-impact orbit.
-
-    Parameters
-    ----------
-    ranges : tuple of MotionRange
-    gain : {"gamma", "omega"}
 
     Returns
     -------

@@ -10,12 +10,10 @@ from carom.studies.endings import ending_words
 from carom.studies.wording import counted, listed, number
 
 if TYPE_CHECKING:
+    from carom.closed_forms.thresholds import Gain
     from carom.studies.advice import Advice
     from carom.studies.alone import LevitationAlone
     from carom.studies.assembly import Study
-    from carom.studies.ranges import Gain
-
-__all__ = ["advice_lines", "alone_sentences", "check_words"]
 
 
 def alone_sentences(study: Study, gain: Gain) -> list[str]:

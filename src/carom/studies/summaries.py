@@ -19,20 +19,6 @@ if TYPE_CHECKING:
     from carom.attractors import Attractor, AttractorSet
     from carom.studies.assembly import Study
 
-__all__ = [
-    "MotionRow",
-    "State",
-    "ThresholdRow",
-    "ValueRow",
-    "dimensionless_rows",
-    "kick_rows",
-    "machine_rows",
-    "motion_rows",
-    "range_rows",
-    "simple_motion_rows",
-    "threshold_rows",
-]
-
 
 @dataclass(frozen=True)
 class ValueRow:

@@ -17,8 +17,6 @@ from carom.studies.wording import listed
 if TYPE_CHECKING:
     from carom.studies.assembly import Study
 
-__all__ = ["NOT_COVERED", "Finding", "Level", "Verdict", "verdict"]
-
 Level = Literal["no-contact-free-motion", "may-not-come-back", "all-tried-came-back"]
 
 NOT_COVERED = (

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from carom.closed_forms.thresholds import Gain
 from carom.parameters import Scales
 from carom.parameters.indentation import gives_way
-from carom.studies.ranges import Gain, Span
-
-__all__ = ["Wording", "counted", "listed", "no_rigid_wall", "number"]
+from carom.studies.ranges import Span
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 _GAIN_WORDS: dict[Gain, str] = {"gamma": "damping", "omega": "stiffness"}

@@ -13,8 +13,6 @@ import numpy as np
 from carom.outcome import InputError, Problems, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, read_quantity, unknown_name
 
-__all__ = ["LONGEST_AXIS", "PARAMETERS", "GridAxis", "Spacing"]
-
 LONGEST_AXIS = 1_000_000
 PARAMETERS = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
 """All parameters that an axis can vary."""

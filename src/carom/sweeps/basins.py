@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from carom.models import Jeffcott
     from carom.parameters import Case, Scales
 
-__all__ = ["BasinsTask"]
-
 ENDINGS = (
     *(outcome for outcome in Outcome if outcome.settled),
     *(Outcome.TIME_REACHED, Outcome.EVENT_LIMIT, Outcome.GRAZING),

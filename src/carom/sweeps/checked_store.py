@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from zarr.abc.store import ByteRequest
     from zarr.core.buffer import BufferPrototype
 
-__all__ = ["CheckedStore"]
-
 
 class CheckedStore(WrapperStore[LocalStore]):
     """A read-only store whose metadata have been checked before; each chunk is checked when it is read."""

@@ -13,8 +13,6 @@ from carom.results import Result
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import Status
 
-__all__ = ["Chunk", "Failure", "compute_chunk", "failed_chunk"]
-
 _LONGEST_MESSAGE = 500
 
 

@@ -20,8 +20,6 @@ from carom.sweeps.versions import other_version, versions
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-__all__ = ["SLURM", "connect", "on_cluster"]
-
 OPTION = "--scheduler"
 SLURM = "slurm"
 _PATIENCE = "20s"
@@ -97,10 +95,6 @@ def connect(scheduler: str, workers: int | None) -> Iterator[Client]:
         which the configuration of dask-jobqueue describes.
     workers : int, optional
         Number of workers to ask for, with ``"slurm"``.
-
-    Yields
-    ------
-    distributed.Client
 
     Raises
     ------

@@ -14,8 +14,6 @@ from typing import Any
 
 from google_crc32c import value as crc32c
 
-__all__ = ["SUMS", "DamagedError", "damaged_metadata", "is_whole", "read_record", "record", "seal", "sums", "unseal"]
-
 SUMS = "checksums.json"
 _SEAL = 4
 

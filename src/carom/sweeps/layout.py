@@ -21,19 +21,6 @@ from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import flag_attributes
 from carom.sweeps.versions import other_version, versions
 
-__all__ = [
-    "FAILURES",
-    "OPTION",
-    "PARTS",
-    "ROOT",
-    "attributes_of",
-    "check_same",
-    "coordinates_of",
-    "create",
-    "description_of",
-    "is_new",
-]
-
 OPTION, ROOT = "--out", "zarr.json"
 """Name of the directory in errors, and of the file that describes what a store holds."""
 FAILURES, PARTS = "failures", ".parts"

@@ -21,8 +21,6 @@ from carom.outcome import CaromError
 from carom.sweeps.chunk import Chunk, compute_chunk, failed_chunk
 from carom.sweeps.plan import SweepPlan
 
-__all__ = ["AHEAD", "on_processes", "on_threads"]
-
 AHEAD = 2
 """Chunks assigned to a worker at a time: one to compute, and one more so that it need not wait."""
 TRIES = 2

@@ -16,16 +16,9 @@ from carom.sweeps.plan import SweepPlan
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["SweepMemory"]
-
 
 class SweepMemory(nullcontext[None]):
-    """The results of a plan, with the methods of :class:`~carom.sweeps.store.SweepStore`.
-
-    Parameters
-    ----------
-    plan : SweepPlan
-    """
+    """The results of a plan, with the methods of :class:`~carom.sweeps.store.SweepStore`."""
 
     path = None
     damaged = ()

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from carom.models import Subject
     from carom.sweeps.variables import Dimension, PointStatus, Variable
 
-__all__ = ["MOST_CHUNKS", "SweepPlan", "Task", "check_varied", "cut", "plan_sweep"]
-
 MOST_CHUNKS = 1_000_000
 """Largest number of chunks of a sweep: each chunk is several files."""
 SECONDS_A_CHUNK = 4.0
@@ -244,10 +242,6 @@ def plan_sweep(
         By default that of the sample; otherwise 0.
     chunk : int, optional
         Points that are computed and stored together, by default as many as take some seconds.
-
-    Returns
-    -------
-    SweepPlan
 
     Raises
     ------

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     import xarray
     from distributed import Client
 
-__all__ = ["Tally", "run_sweep"]
-
 
 @dataclass(frozen=True)
 class Tally:

@@ -35,8 +35,6 @@ from carom.sweeps.versions import PROCESSORS, differences, processors_of
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["SweepStore", "open_sweep"]
-
 _LOCK = ".lock"
 _WRITERS = 8
 """Files that are synchronized to the disk at the same time; the system combines these writes."""
@@ -259,10 +257,6 @@ class SweepStore:
 
 def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     """Open the store of a sweep, finished or not.
-
-    Parameters
-    ----------
-    path : path
 
     Returns
     -------

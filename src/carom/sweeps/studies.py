@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case
 
-__all__ = ["StudyTask"]
-
 _SIMPLE = (
     Variable("levitates", "whether levitation without contact exists and is stable", "flag", flags=("no", "yes")),
     Variable("levitation_radius", "radius of the contact-free whirl", scale="length"),

@@ -29,8 +29,6 @@ from carom.sweeps.basins import BasinsTask
 from carom.sweeps.plan import SweepPlan, Task, check_varied, cut
 from carom.sweeps.studies import StudyTask
 
-__all__ = ["load_sweep"]
-
 _WHAT = "sweep file"
 _REMEDY = 'must hold machine = "...", a table [axes.NAME] for each axis, and a [study] or a [basins] table'
 _MOST_STARTS = 10**12
@@ -100,10 +98,6 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
         TOML file; see ``examples/sweep-gains.toml``.
     settings : iterable of str
         Texts ``"name=value"`` as in ``--set``, applied in addition to those of the file.
-
-    Returns
-    -------
-    SweepPlan
 
     Raises
     ------

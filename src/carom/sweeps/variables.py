@@ -10,8 +10,6 @@ import numpy as np
 
 from carom.parameters import UNITS
 
-__all__ = ["STATUS", "Dimension", "PointStatus", "Status", "Variable", "flag_attributes", "with_si"]
-
 Kind = Literal["number", "count", "flag"]
 _DTYPES: dict[Kind, str] = {"number": "<f8", "count": "<i8", "flag": "|i1"}
 

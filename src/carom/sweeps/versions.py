@@ -9,8 +9,6 @@ from pathlib import Path
 from carom.outcome import InputError
 from carom.sweeps.integrity import DamagedError, read_record
 
-__all__ = ["PROCESSORS", "differences", "other_version", "processors_of", "versions"]
-
 PROCESSORS = "processors.json"
 """File of a store with the kinds of processors that computed its chunks, in the order of their first use."""
 

@@ -12,8 +12,6 @@ from carom.reproductions.mora2014.propositions import HopfSide, hopf_side
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
-__all__ = ["FirstPair", "first_pair"]
-
 DAMPINGS = (0.002, 0.2)
 """Range of the damping; without damping there are infinitely many orbits."""
 NEGATIVE = -0.52
@@ -57,12 +55,7 @@ class FirstPair(Result):
 
 
 def first_pair() -> FirstPair:
-    """Follow the first pair of orbits from ``γ = 0.1`` in both directions, and at negative damping.
-
-    Returns
-    -------
-    FirstPair
-    """
+    """Follow the first pair of orbits from ``γ = 0.1`` in both directions, and at negative damping."""
     orbits = find_orbits(Jeffcott(machine_at(0.1)))
     # Without positive damping the search for all orbits would not end; these two have short periods.
     undamped = find_orbits(Jeffcott(machine_at(-0.3)), 1.0)

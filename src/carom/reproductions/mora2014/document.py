@@ -10,8 +10,6 @@ from carom.reproductions.mora2014.reproduction import Reproduction
 from carom.reproductions.mora2014.source import CITATION, machine_at
 from carom.results import fields_of
 
-__all__ = ["TextTable", "given_words", "markdown", "paper_document", "tables"]
-
 
 @dataclass(frozen=True)
 class TextTable:
@@ -43,10 +41,6 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
     found : Reproduction
     pictures : tuple of Picture
         Figures that have been written.
-
-    Returns
-    -------
-    dict
     """
     value = ("printed_value", "value", "difference")
     return {
@@ -147,16 +141,7 @@ def given_words(found: Reproduction) -> str:
 
 
 def markdown(found: Reproduction) -> str:
-    """Return the tables and the numbers used as given in Markdown.
-
-    Parameters
-    ----------
-    found : Reproduction
-
-    Returns
-    -------
-    str
-    """
+    """Return the tables and the numbers used as given in Markdown."""
     parts = ["# Printed and computed", f"Source: {CITATION}.", given_words(found)]
     for table in tables(found):
         cells = [[cell.replace("|", "\\|") for cell in row] for row in table.rows]

@@ -16,8 +16,6 @@ from carom.reproductions.mora2014.branches import DAMPINGS, FirstPair
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
-__all__ = ["Extremum", "ExtremumLine", "RadiusDiagram", "extremum_lines", "radius_diagram", "radius_extrema"]
-
 SAMPLES = 96
 """Number of subintervals of the period in which extrema are searched."""
 SAME_TIME = 1e-3
@@ -81,16 +79,7 @@ class RadiusDiagram(Result):
 
 
 def radius_diagram(pair: FirstPair) -> RadiusDiagram:
-    """Compute figure 5 along the branches of the first pair of orbits.
-
-    Parameters
-    ----------
-    pair : FirstPair
-
-    Returns
-    -------
-    RadiusDiagram
-    """
+    """Compute figure 5 along the branches of the first pair of orbits."""
     gammas = np.sort(np.append(np.linspace(*DAMPINGS, 200), pair.hopf.gamma))
     levitation = np.array([abs(Jeffcott(machine_at(gamma)).equilibrium) for gamma in gammas.tolist()])
     return RadiusDiagram(extremum_lines(pair.slow), extremum_lines(pair.fast), gammas, levitation)
@@ -104,10 +93,6 @@ def radius_extrema(numbers: Numbers, period: float, speed: float) -> list[Extrem
     numbers : Numbers
     period, speed : float
         ``T`` and ``ṙ`` of the orbit.
-
-    Returns
-    -------
-    list of Extremum
     """
 
     def outward(time: float) -> float:
@@ -127,14 +112,6 @@ def extremum_lines(branch: OrbitBranch) -> tuple[ExtremumLine, ...]:
 
     A segment ends where two extrema are born or vanish (``"radius-extremum"`` of
     :class:`~carom.bifurcations.Bifurcation`); its lines extend to that point.
-
-    Parameters
-    ----------
-    branch : OrbitBranch
-
-    Returns
-    -------
-    tuple of ExtremumLine
     """
     each = list(zip(branch.numbers, branch.period.tolist(), branch.radial_speed.tolist(), strict=True))
     extrema = [radius_extrema(*orbit) for orbit in each]

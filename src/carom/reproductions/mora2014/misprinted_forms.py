@@ -23,8 +23,6 @@ from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_st
 from carom.reproductions.mora2014.propositions import fixed_points
 from carom.reproductions.mora2014.source import SCALES, machine_at
 
-__all__ = ["Misprint", "misprints", "printed_matrix", "printed_second_form"]
-
 LONG = 200.0
 """Period, in ``1/Ω``, at which the leading term of ``F₁`` is accurate to four digits at ``γ = 0.1``."""
 SMALL = 1e-6
@@ -70,10 +68,6 @@ def misprints(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None
         The branches of the first pair of orbits; computed here by default.
     plane : DampingStiffnessPlane, optional
         The plane of figure 6b; computed here by default.
-
-    Returns
-    -------
-    tuple of Misprint
     """
     branches = pair or first_pair()
     drawn = plane or damping_stiffness_plane(branches)

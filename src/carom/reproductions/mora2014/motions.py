@@ -11,8 +11,6 @@ from carom.orbits.single_impact import Orbit, find_orbits
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
-__all__ = ["ShownMotion", "shown_motions"]
-
 TURNS = 2.0
 """Turns of the shaft over which levitation is drawn."""
 

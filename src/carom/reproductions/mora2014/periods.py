@@ -17,8 +17,6 @@ from carom.reproductions.mora2014.propositions import hopf_side
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
-__all__ = ["Birth", "PeriodFunction", "PeriodPair", "birth", "period_functions", "period_pairs"]
-
 LONGEST = 30.0
 """Longest period drawn, in ``1/Ω``."""
 DAMPINGS = (0.005, 0.2)

@@ -13,8 +13,6 @@ from carom.results import Result
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Picture", "figures"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Picture(Result):
@@ -47,10 +45,6 @@ def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
     ----------
     found : Reproduction, optional
         Computed here by default.
-
-    Returns
-    -------
-    tuple of Picture
     """
     results = found or reproduce()
     birth = results.pair.hopf.gamma

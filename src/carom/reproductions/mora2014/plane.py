@@ -11,8 +11,6 @@ from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
-__all__ = ["DampingStiffnessPlane", "NamedRegion", "damping_stiffness_plane", "four_curves"]
-
 PLANE = Plane("gamma", "omega", (0.02, 0.42), (0.68, 0.9))
 STEPS = Steps(first=0.01, largest=0.05, sharpest_turn=0.15)
 REGIONS = (
@@ -92,10 +90,6 @@ def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
     ----------
     pair : FirstPair, optional
         The branches on which the curves start; computed here by default.
-
-    Returns
-    -------
-    tuple of Curve
     """
     branches = pair or first_pair()
     fold, grazing, doubling = (branches.special(kind, "d") for kind in ("fold", "grazing", "period-doubling"))
@@ -104,16 +98,7 @@ def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
 
 
 def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPlane:
-    """Compute figure 6b: the four curves, the fold of the rubs, and the motions in each region.
-
-    Parameters
-    ----------
-    pair : FirstPair, optional
-
-    Returns
-    -------
-    DampingStiffnessPlane
-    """
+    """Compute figure 6b: the four curves, the fold of the rubs, and the motions in each region."""
     rub_fold = continue_curve(Bifurcation.near("rub-fold", machine_at(rub_limit(machine_at(0.1)))), PLANE, STEPS)
     regions = []
     for place, (source, point, words) in enumerate(REGIONS):

@@ -15,8 +15,6 @@ from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_st
 from carom.reproductions.mora2014.propositions import fixed_points
 from carom.reproductions.mora2014.source import GIVEN, machine_at
 
-__all__ = ["PrintedNumber", "numbers"]
-
 
 @dataclass(frozen=True)
 class PrintedNumber:
@@ -71,10 +69,6 @@ def numbers(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None =
         The branches of the first pair of orbits; computed here by default.
     plane : DampingStiffnessPlane, optional
         The plane of figure 6b; computed here by default.
-
-    Returns
-    -------
-    tuple of PrintedNumber
     """
     branches = pair or first_pair()
     drawn = plane or damping_stiffness_plane(branches)

@@ -17,8 +17,6 @@ from carom.orbits.single_impact import find_orbits
 from carom.outcome import CaromError, InputError
 from carom.parameters import Parameters
 
-__all__ = ["FixedPoints", "HopfSide", "SimultaneousFolds", "fixed_points", "hopf_side", "simultaneous_folds"]
-
 
 @dataclass(frozen=True)
 class FixedPoints:

@@ -22,8 +22,6 @@ from carom.reproductions.mora2014.printed_numbers import PrintedNumber, numbers
 from carom.reproductions.mora2014.statements import Claim, claims
 from carom.results import Result
 
-__all__ = ["Periods", "Reproduction", "reproduce"]
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Periods(Result):
@@ -80,10 +78,6 @@ def reproduce(*, progress: Wish = None) -> Reproduction:
     ----------
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
-
-    Returns
-    -------
-    Reproduction
     """
     tell = Reporter.of(progress, "reproducing the paper")
     tell(0.0, "finding the motions of figure 2 (the kernels are compiled on first use)")

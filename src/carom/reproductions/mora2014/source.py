@@ -6,8 +6,6 @@ from types import MappingProxyType
 
 from carom.parameters import Parameters, Scales
 
-__all__ = ["CITATION", "GIVEN", "SCALES", "machine_at"]
-
 CITATION = (
     "K. Mora, C. Budd, P. Glendinning and P. Keogh, Non-smooth Hopf-type bifurcations arising from impact-friction "
     "contact events in rotating machinery, Proc. R. Soc. A 470, 20130490 (2014), doi:10.1098/rspa.2013.0490"
@@ -33,16 +31,7 @@ SCALES = Scales(mass=GIVEN["mass"], clearance=GIVEN["clearance"], speed=GIVEN["s
 
 
 def machine_at(gamma: float, omega: float = 0.76) -> Parameters:
-    """Return the parameters of the figures, all others as given; the default ``ω = 0.76`` is rounded as in the paper.
-
-    Parameters
-    ----------
-    gamma, omega : float
-
-    Returns
-    -------
-    carom.parameters.Parameters
-    """
+    """Return the parameters of the figures, all others as given; the default ``ω = 0.76`` is rounded as in the paper."""
     return Parameters(
         gamma=gamma,
         omega=omega,

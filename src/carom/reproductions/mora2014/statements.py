@@ -14,8 +14,6 @@ from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_st
 from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds
 from carom.reproductions.mora2014.source import machine_at
 
-__all__ = ["Claim", "claims"]
-
 SAME_FOLD = 1e-9
 """Distance in damping below which two folds count as simultaneous; rounding errors are about 1e-13."""
 WEAKEST = 0.005
@@ -54,10 +52,6 @@ def claims(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None = 
         The branches of the first pair of orbits; computed here by default.
     plane : DampingStiffnessPlane, optional
         The plane of figure 6b; computed here by default.
-
-    Returns
-    -------
-    tuple of Claim
     """
     branches = pair or first_pair()
     drawn = plane or damping_stiffness_plane(branches)

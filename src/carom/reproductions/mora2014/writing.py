@@ -9,8 +9,6 @@ from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.pictures import figures
 from carom.reproductions.mora2014.reproduction import Reproduction
 
-__all__ = ["write_paper"]
-
 
 @shows_progress
 def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -> list[Path]:

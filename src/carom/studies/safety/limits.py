@@ -18,8 +18,6 @@ from carom.studies.endings import ending_phrase, ending_words
 from carom.studies.safety.losses import DampingCheck
 from carom.studies.wording import Wording
 
-__all__ = ["MOST_CHECKS", "DampingLimit", "SafeDamping", "share_words"]
-
 MOST_CHECKS = 120
 """Largest number of fresh samples of a search; the confidence holds for all of them together."""
 

@@ -23,8 +23,6 @@ from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.results import Result
 
-__all__ = ["DampingCheck", "Loss", "Losses", "try_disturbances"]
-
 FIRST_LOOK = 256
 """Number of disturbances of a sample that are followed first; the others follow only if none of these is lost."""
 VARIANTS = 768

@@ -21,8 +21,6 @@ from carom.progress import Reporter, Wish, shows_progress
 from carom.studies.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping
 from carom.studies.safety.losses import DampingCheck, Loss, Losses
 
-__all__ = ["FRESH", "least_safe_damping"]
-
 FRESH = 10_000
 """Number of fresh disturbances at each damping that is checked."""
 SCANNED = 0.1

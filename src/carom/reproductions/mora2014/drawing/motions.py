@@ -27,8 +27,6 @@ if TYPE_CHECKING:
     from carom.orbits.single_impact import Orbit
     from carom.reproductions.mora2014.motions import ShownMotion
 
-__all__ = ["figure_2"]
-
 SHOWN_PERIODS = 3
 """Number of periods for which the radius is drawn."""
 
@@ -36,10 +34,6 @@ SHOWN_PERIODS = 3
 @styled
 def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
     """Draw each motion in the fixed frame, in the co-rotating one, and its radius.
-
-    Parameters
-    ----------
-    motions : tuple of carom.reproductions.mora2014.ShownMotion
 
     Returns
     -------

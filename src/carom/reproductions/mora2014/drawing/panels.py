@@ -11,8 +11,6 @@ from carom.plots.diagrams import POINTS, point_key
 from carom.plots.style import LOOKS
 from carom.plots.words import orbit_symbol
 
-__all__ = ["DAMPING", "INK", "branch_key", "letter", "name_branch"]
-
 DAMPING = r"damping $\gamma$"
 INK = "#1a1a1a"
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from carom.reproductions.mora2014.periods import Birth, PeriodFunction, PeriodPair
     from carom.reproductions.mora2014.reproduction import Periods
 
-__all__ = ["figure_3"]
-
 LONGEST_CONDITION = 30.0
 SLATE = "#3d4f66"
 MILLI = 1e-3
@@ -39,10 +37,6 @@ def figure_3(periods: Periods, birth: float) -> Figure:
     periods : carom.reproductions.mora2014.Periods
     birth : float
         Damping of the non-smooth Hopf bifurcation.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
     """
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.86 * TWO_COLUMNS))
     axes = figure.subplot_mosaic("aaabbb;ccddee", height_ratios=(1.25, 1.0))

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from carom.reproductions.mora2014.branches import FirstPair
     from carom.reproductions.mora2014.plane import DampingStiffnessPlane
 
-__all__ = ["figure_6"]
-
 MARKED = ("fold", "period-doubling", "grazing", "non-smooth-hopf")
 
 ASIDE = {"R1.2": (0.13, 0.885), "R4.2": (0.135, 0.692)}
@@ -30,17 +28,7 @@ ASIDE = {"R1.2": (0.13, 0.885), "R4.2": (0.135, 0.692)}
 
 @styled
 def figure_6(pair: FirstPair, plane: DampingStiffnessPlane) -> Figure:
-    """Draw the largest multipliers of the first four orbits, and the curves and regions of the plane.
-
-    Parameters
-    ----------
-    pair : carom.reproductions.mora2014.FirstPair
-    plane : carom.reproductions.mora2014.DampingStiffnessPlane
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw the largest multipliers of the first four orbits, and the curves and regions of the plane."""
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.74 * TWO_COLUMNS))
     grid = figure.add_gridspec(2, 2, width_ratios=(0.8, 1.0), height_ratios=(1.0, 0.17))
     left, right, below = (figure.add_subfigure(cell) for cell in (grid[0, 0], grid[0, 1], grid[1, :]))

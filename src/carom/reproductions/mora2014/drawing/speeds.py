@@ -20,24 +20,13 @@ if TYPE_CHECKING:
     from carom.reproductions.mora2014.branches import FirstPair
     from carom.reproductions.mora2014.extrema import ExtremumLine, RadiusDiagram
 
-__all__ = ["figure_4", "figure_5"]
-
 MARKED = ("fold", "speed-fold", "period-doubling", "neimark-sacker", "grazing", "non-smooth-hopf")
 LOCAL = Look(INK, "local theory", line=(0.0, (1.0, 1.4)), width=1.3)
 
 
 @styled
 def figure_4(pair: FirstPair) -> Figure:
-    """Draw radial and angular speed of the first four orbits, and the local theory near their birth.
-
-    Parameters
-    ----------
-    pair : carom.reproductions.mora2014.FirstPair
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw radial and angular speed of the first four orbits, and the local theory near their birth."""
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.8 * TWO_COLUMNS))
     grid = figure.subplots(2, 2)
     speeds = (("radial_speed", "radial_speed"), ("angular_speed", "orbit.angular_speed"))
@@ -102,17 +91,7 @@ def _name_figure_4(grid: np.ndarray) -> None:
 
 @styled
 def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
-    """Draw the local extrema of the radius between impacts.
-
-    Parameters
-    ----------
-    pair : carom.reproductions.mora2014.FirstPair
-    radii : carom.reproductions.mora2014.RadiusDiagram
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-    """
+    """Draw the local extrema of the radius between impacts."""
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.46 * TWO_COLUMNS))
     left, right = figure.subplots(1, 2)
     for axes, branch, lines in ((left, pair.slow, radii.slow), (right, pair.fast, radii.fast)):
