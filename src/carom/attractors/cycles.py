@@ -32,7 +32,6 @@ class Cycle(Result):
 
     Attributes
     ----------
-    outcome : Outcome
     synchronous : bool
         Whether it is at rest in the co-rotating frame.
     period : float or None

@@ -34,8 +34,6 @@ class Ending:
 
     Attributes
     ----------
-    rotor : Jeffcott
-    start : Start
     attractor : MotionName
         Name of the :class:`Attractor`.
     time : float
@@ -83,14 +81,12 @@ def follow_in_stages(
 
     Parameters
     ----------
-    rotor : Jeffcott
     starts : Starts
         One-dimensional.
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
     threads : int or None
         By default the number of available cores; the result does not depend on it.
-    tell : Reporter
 
     Returns
     -------

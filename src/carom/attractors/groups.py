@@ -86,7 +86,6 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
 
     Parameters
     ----------
-    name : MotionName
     endings : sequence of Ending
         Those that end on it and, for the shares, all others.
     state : State

@@ -16,7 +16,6 @@ class MotionName(str):
 
     Parameters
     ----------
-    outcome : Outcome
     multiplicity : int
         Impacts per period of bouncing; 0 if it is irregular, and for all other motions.
     drifting : bool

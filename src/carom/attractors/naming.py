@@ -35,7 +35,6 @@ def name_motions(
 
     Parameters
     ----------
-    rotor : Model
     endings : Endings
         Outcomes are negative where there is no start.
     orbits : sequence of Orbit, optional

@@ -42,7 +42,6 @@ class Start:
     kind : {"kick", "start", "orbit", "rub", "whirl"}
         A velocity kick out of contact-free levitation; the start after any other disturbance; a start next to an orbit
         or a synchronous rub that is known in closed form; a start in backward whirl along the wall.
-    state : State
     words : str
         Description of a start next to a known motion.
     """
@@ -115,7 +114,6 @@ class DisturbanceSet:
 
         Parameters
         ----------
-        rotor : Jeffcott
         speed : callable, optional
             Formats a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in m/s.
         """
@@ -183,7 +181,6 @@ def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
 
     Parameters
     ----------
-    rotor : Jeffcott
     orbits : sequence of Orbit
         Virtual ones are left out.
 

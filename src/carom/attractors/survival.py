@@ -129,7 +129,6 @@ def measure_survival(
 
     Parameters
     ----------
-    rotor : Model
     positions, velocities : ndarray of complex, shape (M,)
         States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a random part is
         taken; fewer are extended to 200 by small changes of their velocity.
@@ -181,8 +180,6 @@ def follow_out(
 
     Parameters
     ----------
-    rotor : Model
-    endings : Endings
     impacts : int
         Number of impacts for which irregular motions are followed to measure how long they last.
     threads : int, optional

@@ -31,7 +31,6 @@ class GainChange:
         Changes relative to the present values.
     share : Share
         Share that comes back with the new values.
-    wanted : float
     """
 
     values: tuple[float, float]
@@ -62,10 +61,8 @@ def least_gain_change(
 
     Parameters
     ----------
-    found : GainMap
     wanted : float
         Share, 0 to 1.
-    threads : int, optional
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 

@@ -37,13 +37,11 @@ def basin_document(
 
     Parameters
     ----------
-    basin : Basin
     smallest : SmallestLoss or None
         Smallest loss of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
         return to.
     harmless : float
         Speed up to which kicks provably never reach the wall.
-    gains : GainMap, optional
     change : GainChange, optional
         Least change of the two parameters that reaches the wanted share.
     wanted : float

@@ -52,7 +52,6 @@ def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
 
     Parameters
     ----------
-    basin : Basin
     side : int, optional
         Starts along the side of a box; by default chosen so that a box has about 25.
 

@@ -15,7 +15,6 @@ class Share:
 
     Attributes
     ----------
-    count, total : int
     low, high : float
         For a random sample, Wilson's interval (1927) at 95 % confidence; for a grid, both equal the share.
     drawn : bool

@@ -138,12 +138,10 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
 
     Parameters
     ----------
-    orbit : Orbit
     parameter : str
         Dimensionless (``"gamma"``) or physical (``"speed"``, SI units; needs scales).
     interval : tuple of float or str
         Range of the parameter; it must contain the orbit's own value.  ``("300 N s/m", "2000 N s/m")`` has units.
-    steps : Steps, optional
 
     Raises
     ------

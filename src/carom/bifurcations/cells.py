@@ -52,8 +52,6 @@ def regions_between(
 
     Parameters
     ----------
-    parameters : Parameters
-    plane : Plane
     cells : sequence of sequence of Stand
         The middle of each cell, by first and second parameter.
     seen : dict

@@ -92,7 +92,6 @@ def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float
     ----------
     numbers : Numbers
         A negative ``mu`` means backward slip.
-    period, speed : float
 
     Returns
     -------

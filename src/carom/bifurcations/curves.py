@@ -178,8 +178,6 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     bifurcation : Bifurcation
         A special point of a branch or of a diagram, or :meth:`Bifurcation.near`; its kind is one of :data:`KINDS`, or for
         bouncing with rub ``"contact-onset"`` or ``"permanent-contact"``.
-    plane : Plane
-    steps : Steps, optional
 
     Raises
     ------

@@ -64,7 +64,6 @@ def lift_off_state(rotor: Jeffcott, whirl: Whirl, angle: float) -> State | None:
 
     Parameters
     ----------
-    rotor : Jeffcott
     whirl : {1, -1}
         Sign of ``1 + θ̇``.
     angle : float

@@ -36,7 +36,6 @@ def follow_onset(point: RubbingPoint, plane: Plane) -> tuple[np.ndarray, tuple[s
     ----------
     point : RubbingPoint
         ``"contact-onset"`` or ``"permanent-contact"`` at the end of a branch along one of the two parameters.
-    plane : Plane
 
     Returns
     -------

@@ -156,7 +156,6 @@ def map_regions(
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-    plane : Plane
     grid : int
         Number of grid points per side at which motions are counted.
     virtual : bool

@@ -64,7 +64,6 @@ class RubbingOrbit(Result):
 
     Attributes
     ----------
-    parameters : Parameters
     whirl : {1, -1}
     angle : float
         ``x = θ − φ`` at the lift-off, rad.
@@ -128,11 +127,9 @@ class RubbingBranch(Result):
 
     Attributes
     ----------
-    axis : Axis
     whirl : {1, -1}
     values, angle, period, contact_time, landing_force, multiplier : ndarray, shape (m,)
     impacts : ndarray of int, shape (m,)
-    special : tuple of RubbingPoint
     stops : tuple of two str
         ``"contact-onset"`` (chatter stops being completed), ``"permanent-contact"`` (it stops lifting off),
         ``"parameter limit"``, ``"longest period"``, ``"other contacts"`` (the sequence of contacts changes: another impact
@@ -169,7 +166,6 @@ def rubbing_orbits(
 
     Parameters
     ----------
-    parameters : Parameters
     longest : float
         Longest period, in ``1/Ω``.
     samples : int
@@ -207,7 +203,6 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: Ends) -> Rub
 
     Parameters
     ----------
-    orbit : RubbingOrbit
     parameter : str
         Dimensionless or physical name.
     interval : tuple of float or str

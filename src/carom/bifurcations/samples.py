@@ -90,13 +90,9 @@ def sample_attractors(
 
     Parameters
     ----------
-    parameters : Parameters
-    parameter : str
-    interval : tuple of float
     disturbances : DisturbanceSet, Grid or Sample
         Disturbances followed at each value.  Starts next to every known motion are followed too, but do not count for
         the shares.
-    values : int
     progress : callable or bool, optional
         Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 

@@ -17,7 +17,6 @@ class Solution(NamedTuple):
 
     Attributes
     ----------
-    name : OrbitName
     numbers : Numbers
         Parameters; with negative ``mu`` for backward slip.
     period, radial_speed : float

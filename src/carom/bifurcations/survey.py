@@ -32,11 +32,8 @@ class Survey:
 
     Attributes
     ----------
-    parameters : Parameters
-    plane : Plane
     curves : list of Curve
         Curves known before; curves that are found are added.
-    unexplained : list of UnexplainedChange
     seen : dict
         A point for each set of motions found at or between the points of the grid.
     """

@@ -31,7 +31,6 @@ def fitted(screen: Console, table: Table) -> Table:
 
     Parameters
     ----------
-    screen : rich.console.Console
     table : rich.table.Table
         A table of plain text, with all its rows.  Columns that do not wrap keep their cells in one line; their headings
         wrap.

@@ -184,8 +184,6 @@ def cycle_determinant(system: System, period: float, direction: complex = 1.0) -
 
     Parameters
     ----------
-    system : System
-    period : float
     direction : complex
         Unit normal of the wall at the equilibrium.  The determinant does not depend on it.
 

@@ -43,7 +43,6 @@ class PeriodCondition:
 
     Parameters
     ----------
-    system : System
     slip : {1, -1}
         Direction of the slip during impacts.
 

@@ -27,7 +27,6 @@ def sliding_rates(system: System, amplitudes: np.ndarray, contact: np.ndarray) -
 
     Parameters
     ----------
-    system : System
     amplitudes : ndarray of complex, shape (N,)
         The rub: at rest in the co-rotating frame.
     contact : ndarray of int, shape (P,)

@@ -199,7 +199,6 @@ def sustaining_speed(at: Values, pull: float = 0.0) -> float:
 
     Parameters
     ----------
-    at : Values
     pull : float
         :func:`largest_pull` for the speed that suffices at every angle; zero for the average over a turn.
     """
@@ -264,7 +263,6 @@ def ranges_of(motion: Steady, at: Values, gain: Gain) -> Ranges:
     ----------
     motion : {"contact-free", "rub", "rolling"}
         Levitation inside the wall, a synchronous rub that is pressed on the wall, rolling that holds at every angle.
-    at : Values
     gain : {"gamma", "omega"}
         The gain that is varied, from zero on.
 

@@ -19,7 +19,6 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     Parameters
     ----------
     function : callable
-    low, high : float
     tolerance : float
         Width of the bracket at which to stop, in addition to rounding.
 

@@ -65,7 +65,6 @@ def continue_branch(
         central differences are taken.
     watches : sequence of Watch
         Functions whose zeros are located.
-    steps : Steps, optional
     scales : ndarray, shape (n + 1,), optional
         Typical sizes of the unknowns and the parameter, in which arclength is measured; ones by default.
     folds : str
@@ -107,7 +106,6 @@ def refined_points(
     ----------
     residual : callable
         As for :func:`continue_branch`, and ``jacobian`` too.
-    branch : Branch
     scales : ndarray, shape (n + 1,)
         Typical sizes of the unknowns and the parameter.
     widths : ndarray, shape (n + 1,)

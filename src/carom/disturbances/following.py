@@ -24,7 +24,6 @@ def follow(
     Parameters
     ----------
     machine : Model or sequence of Model
-    starts : Starts
     which : ndarray of int, optional
         With a sequence: the index of the machine of each start, of their shape.
     **limits

@@ -67,7 +67,6 @@ class Disturbance:
 
         Parameters
         ----------
-        rotor : Model
         *values : ndarray
             One array for each coordinate, broadcast against each other.
         """

@@ -49,7 +49,6 @@ def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
 
     Parameters
     ----------
-    path : path
     needed : sequence of str
         Variables that the dataset must contain.
 

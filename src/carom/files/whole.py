@@ -15,7 +15,6 @@ def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
     ----------
     target : Path
         Replaced if it exists.
-    data : bytes
     parts : Path, optional
         Directory on the same file system for the unfinished file; by default that of the target.
 

@@ -81,7 +81,6 @@ def settled(
 
     Parameters
     ----------
-    rotor : Model
     amplitudes : ndarray of complex, shape (N,)
         State at the end; of bouncing, just before an impact.
     contact : ndarray of int, shape (P,)

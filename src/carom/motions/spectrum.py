@@ -42,7 +42,6 @@ def full_spectrum(
 
     Parameters
     ----------
-    trajectory : Trajectory
     since : float
         Earliest time to include, in ``1/Ω``.
     highest_order : float

@@ -28,7 +28,6 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
 
     Parameters
     ----------
-    motion : Trajectory
     times : array_like, shape (n,), optional
         In ``1/Ω``; by default those of :meth:`Trajectory.sample`.
 

@@ -55,7 +55,6 @@ def why_virtual(rotor: Jeffcott, period: float, section: Section, slip: Slip) ->
 
     Parameters
     ----------
-    rotor : Jeffcott
     period : float
         In ``1/Ω``.
     section : Section

@@ -122,7 +122,6 @@ def stroboscopic_map(rotor: Jeffcott, state: State, period: float) -> Stroboscop
 
     Parameters
     ----------
-    rotor : Jeffcott
     state : State
         Start inside the wall.
     period : float

@@ -296,14 +296,12 @@ def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, 
 
     Parameters
     ----------
-    rotor : Jeffcott
     name : OrbitName
         With the direction of the slip in the impact.
     period : float
         In ``1/Ω``.
     section : Section
         State just before the impact, to which the flight returns after the period.
-    nontrivial : Multipliers
     """
     return Orbit(rotor, name, period, section, nontrivial, why_virtual(rotor, period, section, name.slip))
 

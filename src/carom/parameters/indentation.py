@@ -29,7 +29,6 @@ def indentation_of_force(parameters: Parameters, force: float) -> float:
 
     Parameters
     ----------
-    parameters : Parameters
     force : float
         In ``m c_r Ω²``.
 

@@ -39,7 +39,6 @@ class Size(NamedTuple):
 
     Attributes
     ----------
-    value : float
     in_si : bool
         Whether it is in the SI unit; otherwise it is in units of the equations.
     kind : str

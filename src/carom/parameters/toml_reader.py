@@ -90,7 +90,6 @@ def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str
 
     Parameters
     ----------
-    path : path
     what : str
         What the file is called in errors, such as ``"machine file"``.
     remedy : str

@@ -77,10 +77,8 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
 
     Parameters
     ----------
-    basin : carom.basins.Basin
     smallest : carom.basins.SmallestLoss, optional
         Smallest kick or shock found that is lost, to be marked in a picture of kicks or shocks.
-    title : str, optional
 
     Returns
     -------

@@ -60,8 +60,6 @@ def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
-    diagram : carom.bifurcations.Diagram
     unit : float
         Divisor of the parameter.
     """

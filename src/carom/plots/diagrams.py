@@ -160,8 +160,6 @@ def branch_line(
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
-    branch : carom.bifurcations.OrbitBranch
     places : ndarray, shape (n,)
         Places on the branch at which the quantity is known, ascending; see :class:`~carom.bifurcations.Bifurcation`.
     values, heights : ndarray, shape (n,)

@@ -60,10 +60,8 @@ def gain_map(
 
     Parameters
     ----------
-    found : carom.basins.GainMap
     change : carom.basins.GainChange, optional
         Least change that reaches a wanted share, to be drawn as an arrow.
-    title : str, optional
     measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy", "smallest_unrecovered_kick"}
         The measure that the shades show; contours always show the share that comes back.
     axes : matplotlib.axes.Axes, optional

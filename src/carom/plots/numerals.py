@@ -33,7 +33,6 @@ def number_regions(axes: Axes, found: RegionMap, units: Floats) -> None:
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
     found : carom.bifurcations.RegionMap
         Numerals keep clear of its curves and marked points.
     units : numpy.ndarray, shape (2,)

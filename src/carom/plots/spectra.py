@@ -163,7 +163,6 @@ def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
 
     Parameters
     ----------
-    full : carom.motions.spectrum.FullSpectrum
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
 

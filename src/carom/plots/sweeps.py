@@ -77,7 +77,6 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
         From :func:`carom.open_sweep`.  If it has more than two axes, select values first: ``data.sel(friction=0.15)``.
     name : str
         The variable.
-    title : str, optional
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 126 mm wide.
 
@@ -207,7 +206,6 @@ def shaded_cells(axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedA
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
     edges : tuple of numpy.ndarray, shapes (n + 1,) and (m + 1,)
     values : numpy.ma.MaskedArray, shape (n, m)
     **look
@@ -231,7 +229,6 @@ def blank_cells(
 
     Parameters
     ----------
-    axes : matplotlib.axes.Axes
     edges : tuple of numpy.ndarray, shapes (n + 1,) and (m + 1,)
     reasons : mapping of str to numpy.ndarray of bool, shape (n, m)
         Cells by the key of :data:`BLANKS`.

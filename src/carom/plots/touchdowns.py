@@ -31,10 +31,8 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
 
     Parameters
     ----------
-    trajectory : carom.motions.trajectories.Trajectory
     ledger : carom.motions.ledger.EnergyLedger
         Energies of the motion.
-    title : str, optional
 
     Returns
     -------
@@ -64,7 +62,6 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 
     Parameters
     ----------
-    trajectory : carom.motions.trajectories.Trajectory
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
     """
@@ -112,7 +109,6 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 
     Parameters
     ----------
-    trajectory : carom.motions.trajectories.Trajectory
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
 
@@ -187,7 +183,6 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
 
     Parameters
     ----------
-    ledger : carom.motions.ledger.EnergyLedger
     axes : matplotlib.axes.Axes, optional
         Axes to draw into.  Default: a new figure, 180 mm wide.
     """

@@ -24,7 +24,6 @@ def check_directory(path: str, option: str) -> Path:
 
     Parameters
     ----------
-    path : str
     option : str
         Name of the input, for the error.
 

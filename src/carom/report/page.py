@@ -48,7 +48,6 @@ def write_report(study: Study, directory: str, *, progress: Wish = None) -> Path
 
     Parameters
     ----------
-    study : Study
     directory : str
         Target directory, created if it does not exist.  Files of an earlier study are replaced; other files stay.
     progress : callable or bool, optional

@@ -37,7 +37,6 @@ class Advice:
     Attributes
     ----------
     gain : {"gamma", "omega"}
-    value : float
     change : float
         Ratio of the advised damping or stiffness to that of the machine; infinite if the machine has none.
     alone : bool
@@ -72,8 +71,6 @@ def advise(
 
     Parameters
     ----------
-    parameters : Parameters
-    alone : tuple of LevitationAlone
     ranges : tuple of MotionRange
         Ranges of the contact-free motion and of orbits.  They say where to search if no value leaves only levitation.
     lost_up_to : float

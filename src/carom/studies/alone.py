@@ -52,7 +52,6 @@ class Met:
 
     Attributes
     ----------
-    motion : MotionName
     value : float
         Value of the gain.
     position, velocity : complex
@@ -112,7 +111,6 @@ def levitation_alone(
 
     Parameters
     ----------
-    parameters : Parameters
     gain : {"gamma", "omega"}
     ranges : tuple of MotionRange
         Ranges of the contact-free motion, of rubs and of orbits along this gain.

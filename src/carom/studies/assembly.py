@@ -35,8 +35,6 @@ class Study(Result):
 
     Attributes
     ----------
-    case : Case
-    rotor : Jeffcott
     equilibria : tuple of Equilibrium
         The contact-free one, then the synchronous rubs.
     orbits : OrbitSet

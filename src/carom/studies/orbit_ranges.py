@@ -28,7 +28,6 @@ def single_impact_ranges(parameters: Parameters, gain: Gain, progress: Wish = No
 
     Parameters
     ----------
-    parameters : Parameters
     gain : {"gamma", "omega"}
         The gain that is varied.
     progress : callable or bool, optional

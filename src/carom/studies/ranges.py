@@ -62,7 +62,6 @@ class Threshold:
     ----------
     motion : {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
     gain : {"gamma", "omega"}
-    edge : Edge
     exists : {"above", "below"}
         On which side of the value the motion exists.
     """

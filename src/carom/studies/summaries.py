@@ -38,11 +38,9 @@ class MotionRow:
 
     Attributes
     ----------
-    name : str
     state : {"stable", "unstable", "not possible", "seen", "transient", "undecided"}
         Seen: disturbances ended there, its stability was not computed; transient: it ends; undecided: its end was not
         found.
-    period : str
     size : str
         Radius of a steady motion, or radial speed of impacts.
     impulse : str
@@ -51,7 +49,6 @@ class MotionRow:
         Force of lasting contact, or mean force of impacts.
     trials : str
         Number of disturbances that ended there.
-    remark : str
     """
 
     name: str

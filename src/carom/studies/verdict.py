@@ -47,8 +47,6 @@ class Verdict:
     ----------
     level : {"no-contact-free-motion", "may-not-come-back", "all-tried-came-back"}
         The verdict as a code for programs.
-    headline : str
-    findings : tuple of Finding
     """
 
     level: Level

@@ -47,10 +47,8 @@ class GridAxis:
 
         Parameters
         ----------
-        name : str
         low, high : float or str
             First and last value: numbers, in SI units if the parameter is physical, or texts with a unit.
-        count : int
         spacing : {"linear", "log"}
 
         Raises

@@ -104,7 +104,6 @@ class BasinsTask:
 
         Parameters
         ----------
-        case : Case
         seed : SeedSequence
             Seed of this point.
         """

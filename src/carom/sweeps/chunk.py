@@ -41,10 +41,8 @@ class Chunk(Result):
 
     Attributes
     ----------
-    number : int
     arrays : dict of ndarray
         One for each variable, and ``status``.  Shape: that of the chunk, followed by the variable's own dimension.
-    failures : tuple of Failure
     processor : str
         Kind of the processor that computed the chunk; empty if it was not computed.
     """
@@ -60,7 +58,6 @@ def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
 
     Parameters
     ----------
-    plan : SweepPlan
     number : int
         From 0 to ``plan.chunks - 1``.
 

@@ -35,10 +35,8 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
 
     Parameters
     ----------
-    plan : SweepPlan
     numbers : iterator of int
         Numbers of the chunks.  Only as many are taken as the present workers can work on.
-    client : distributed.Client
 
     Raises
     ------

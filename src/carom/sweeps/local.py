@@ -37,10 +37,8 @@ def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generat
 
     Parameters
     ----------
-    plan : SweepPlan
     numbers : iterator of int
         Numbers of the chunks.  Only as many are taken as the workers can work on.
-    workers : int
     """
     pool = ThreadPoolExecutor(workers, thread_name_prefix="carom-sweep")
     pending: set[Future[Chunk]] = set()
@@ -63,10 +61,8 @@ def on_processes(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Gener
 
     Parameters
     ----------
-    plan : SweepPlan
     numbers : iterator of int
         Numbers of the chunks.  Only as many are taken as the workers can work on.
-    workers : int
 
     Raises
     ------

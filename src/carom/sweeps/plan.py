@@ -184,7 +184,6 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
     ----------
     shape : tuple of int
         Shape of the grid.
-    task : Task
     chunk : int, optional
         Largest number of points of a chunk.  By default a chunk takes some seconds, and there are fewer chunks than
         allowed.

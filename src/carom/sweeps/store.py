@@ -47,7 +47,6 @@ class SweepStore:
     ----------
     path : path
         Directory; created if it does not exist.
-    plan : SweepPlan
 
     Attributes
     ----------

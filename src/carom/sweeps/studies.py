@@ -114,7 +114,6 @@ class StudyTask:
 
         Parameters
         ----------
-        case : Case
         seed : SeedSequence
             Seed of this point.
         """

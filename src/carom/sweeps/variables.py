@@ -26,10 +26,8 @@ class Dimension:
 
     Attributes
     ----------
-    name : str
     values : tuple of int
         Its coordinate.
-    words : str
     flags : tuple of str
         Meaning of each value.
     """
@@ -46,18 +44,14 @@ class Variable:
 
     Attributes
     ----------
-    name : str
-    words : str
     kind : {"number", "count", "flag"}
         Stored as double, as 64-bit or as 8-bit integer; a missing value is stored as NaN or -1.
-    unit : str
     scale : str
         The property of :class:`~carom.parameters.Scales` that converts it to SI units; empty for a pure number.
     si_of : str
         The variable that it is in SI units; empty for others.
     flags : tuple of str
         Meanings of 0, 1, 2, ...
-    along : Dimension, optional
     """
 
     name: str

@@ -17,9 +17,6 @@ class TextTable:
 
     Attributes
     ----------
-    title : str
-    headings : tuple of str
-    rows : tuple of tuple of str
     agrees : tuple of bool
         Of each row: whether the source agrees with what was computed.
     numbers : tuple of str
@@ -38,7 +35,6 @@ def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> d
 
     Parameters
     ----------
-    found : Reproduction
     pictures : tuple of Picture
         Figures that have been written.
     """

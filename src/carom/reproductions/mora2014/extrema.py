@@ -90,7 +90,6 @@ def radius_extrema(numbers: Numbers, period: float, speed: float) -> list[Extrem
 
     Parameters
     ----------
-    numbers : Numbers
     period, speed : float
         ``T`` and ``ṙ`` of the orbit.
     """

@@ -22,10 +22,8 @@ class ShownMotion(Result):
     Attributes
     ----------
     panel : {"a", "b", "c"}
-    gamma : float
     words : str
         Description of the motion.
-    rotor : Jeffcott
     orbit : Orbit or None
         ``None`` for contact-free levitation, which is a point of the co-rotating frame.
     highest : float

@@ -31,7 +31,6 @@ class PeriodFunction(Result):
 
     Attributes
     ----------
-    gamma : float
     periods, values : ndarray, shape (n,)
     roots : ndarray
         All roots, also beyond the periods drawn.
@@ -71,10 +70,8 @@ class Birth(Result):
 
     Attributes
     ----------
-    gamma : float
     side : {"below", "at", "above"}
         Side of ``γ*``.
-    rotor : Jeffcott
     orbits : tuple of Orbit
         ``B1,a`` and ``B1,b``; none at ``γ*``, where they are a point.
     """

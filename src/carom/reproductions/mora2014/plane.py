@@ -41,7 +41,6 @@ class NamedRegion:
         Damping and stiffness of a point inside.
     motions : Motions
         Motions counted at this point.
-    words : str
     """
 
     source: str
@@ -57,11 +56,9 @@ class DampingStiffnessPlane(Result):
 
     Attributes
     ----------
-    plane : Plane
     curves : tuple of Curve
         Fold of the first pair, boundary equilibrium with its part that is a non-smooth Hopf bifurcation, grazing and
         period doubling of ``B1,d``, and the fold of the rubs.
-    regions : tuple of NamedRegion
     """
 
     plane: Plane

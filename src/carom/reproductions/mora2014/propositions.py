@@ -116,7 +116,6 @@ def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFol
     ----------
     parameters : Parameters
         With a damping at which the pair exists.
-    pair : int
 
     Raises
     ------

@@ -25,14 +25,7 @@ from carom.results import Result
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Periods(Result):
-    """The data of figure 3.
-
-    Attributes
-    ----------
-    functions : tuple of PeriodFunction
-    pairs : tuple of PeriodPair
-    births : tuple of Birth
-    """
+    """The data of figure 3."""
 
     functions: tuple[PeriodFunction, ...]
     pairs: tuple[PeriodPair, ...]

@@ -30,9 +30,6 @@ class Claim:
 
     Attributes
     ----------
-    place : str
-    statement : str
-    holds : bool
     found : str
         The result computed, in words.
     """

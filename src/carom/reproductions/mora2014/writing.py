@@ -16,7 +16,6 @@ def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -
 
     Parameters
     ----------
-    found : Reproduction
     directory : str
         Target directory, created if it does not exist; files of the same name are replaced.
     progress : callable or bool, optional

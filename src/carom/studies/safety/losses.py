@@ -86,7 +86,6 @@ class Loss(Result):
         Which starts are kicks of the levitating rotor.
     positions, velocities : ndarray of complex, shape (n,)
         The starts, co-rotating frame.
-    endings : Endings
     """
 
     rotor: Jeffcott
@@ -135,12 +134,10 @@ class Losses:
 
     Parameters
     ----------
-    parameters : Parameters
     sample : DisturbanceSet
         Number of disturbances at each damping, seed of all random numbers, and largest speed.
     rub_limit : float
         Damping up to which a synchronous rub is known to exist; 0 if none is known.
-    threads : int, optional
     """
 
     def __init__(self, parameters: Parameters, sample: DisturbanceSet, rub_limit: float, threads: int | None) -> None:

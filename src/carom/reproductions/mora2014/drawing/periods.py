@@ -34,7 +34,6 @@ def figure_3(periods: Periods, birth: float) -> Figure:
 
     Parameters
     ----------
-    periods : carom.reproductions.mora2014.Periods
     birth : float
         Damping of the non-smooth Hopf bifurcation.
     """
