@@ -9,6 +9,7 @@ from carom import orbits as orbits
 from carom import outcome as outcome
 from carom import parameters as parameters
 from carom import plots as plots
+from carom import proofs as proofs
 from carom import report as report
 from carom import reproductions as reproductions
 from carom import studies as studies

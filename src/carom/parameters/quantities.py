@@ -81,14 +81,20 @@ def _from_text(field: Field, text: str) -> float:
     if not unit:
         return number
     with decimal.localcontext(_DIGITS):
-        factor = _factor(field, unit, text)
+        factor = unit_factor(field, unit, text)
         if number == 0 or not math.isfinite(number):  # also decimals too long for Decimal, such as 1e-999999999999
             return number
         return float(Decimal(match["number"]) * factor)
 
 
-def _factor(field: Field, unit: str, text: str) -> Decimal:
-    """Size of one `unit` in SI units of the field."""
+def unit_factor(field: Field, unit: str, text: str) -> Decimal:
+    """Size of one `unit` in SI units of the field, to the digits of the context; `text` is shown in errors.
+
+    Raises
+    ------
+    InputError
+        It is not a unit, or one of another kind of quantity.
+    """
     try:
         if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
             raise ValueError(unit)

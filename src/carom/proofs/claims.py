@@ -1,0 +1,141 @@
+"""Claims and proofs: what is proven, refuted or undecided, from which hypotheses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, overload
+
+from carom.outcome import InputError
+from carom.proofs.balls import Enclosure
+from carom.proofs.hypotheses import Hypotheses
+from carom.results import Result
+
+Status = Literal["proven", "refuted", "undecided"]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One statement about every machine that fulfils the hypotheses.
+
+    Attributes
+    ----------
+    about : str
+        The motion, such as ``"B1,d"``, or the subject.
+    kind : str
+        What is stated of it in one or two words, such as ``"stable"``.
+    statement : str
+        The statement in full.
+    status : {"proven", "refuted", "undecided"}
+        Refuted: the contrary is proven.
+    reason : str
+        Why it is undecided, or what refutes it.
+    enclosures : mapping of str to Enclosure
+        Numbers that belong to it.
+    limited_by_precision : bool
+        Whether it is undecided only because of the number of bits computed with.
+    """
+
+    about: str
+    kind: str
+    statement: str
+    status: Status
+    reason: str = ""
+    enclosures: Mapping[str, Enclosure] = field(default_factory=dict)
+    limited_by_precision: bool = False
+
+    @property
+    def name(self) -> str:
+        """The subject and what is stated: ``"B1,d stable"``."""
+        return f"{self.about} {self.kind}"
+
+    def document(self) -> dict[str, Any]:
+        """As plain data for JSON."""
+        ends = {name: [entry.low, entry.high] for name, entry in self.enclosures.items()}
+        words = {"about": self.about, "kind": self.kind, "statement": self.statement, "status": self.status}
+        return {**words, "reason": self.reason, "enclosures": ends}
+
+
+def claim_of(
+    about: str,
+    kind: str,
+    statement: str,
+    sign: int,
+    *,
+    reason: str = "",
+    enclosures: Mapping[str, Enclosure] | None = None,
+    limited: bool = True,
+) -> Claim:
+    """Claim that is proven, refuted or undecided where a sign is 1, −1 or 0.
+
+    Parameters
+    ----------
+    about, kind, statement : str
+    sign : {1, 0, -1}
+    reason : str
+        Told unless the claim is proven.
+    enclosures : mapping, optional
+    limited : bool
+        Whether more bits may decide it if it is undecided.
+    """
+    status: Status = "proven" if sign > 0 else "refuted" if sign < 0 else "undecided"
+    told = "" if sign > 0 else reason
+    return Claim(about, kind, statement, status, told, enclosures or {}, limited and sign == 0)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Proof(Result, Sequence[Claim]):
+    """Claims about a machine with the evidence that decides them.
+
+    Look a claim up by index or by name, ``proof["B1,d stable"]``.
+
+    Attributes
+    ----------
+    theorem : str
+        Which claims were looked at, such as ``"single-impact orbits"``.
+    hypotheses : Hypotheses
+    options : mapping
+        Limits of the theorem.
+    claims : tuple of Claim
+    bits : int
+        Precision of the ball arithmetic.
+    not_claimed : tuple of str
+        What a reader may expect and is not claimed.
+    evidence : mapping
+        Plain data from which :func:`~carom.proofs.check` decides the claims again without any search.
+    """
+
+    theorem: str
+    hypotheses: Hypotheses
+    options: Mapping[str, Any]
+    claims: tuple[Claim, ...]
+    bits: int
+    not_claimed: tuple[str, ...]
+    evidence: Mapping[str, Any]
+
+    def with_status(self, status: Status) -> tuple[Claim, ...]:
+        """Claims of one status."""
+        return tuple(claim for claim in self.claims if claim.status == status)
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Each claim with its status, and the reason where it is not proven."""
+        told = [(claim.name, ": ".join(filter(None, (claim.status, claim.reason)))) for claim in self.claims]
+        return [*told, ("precision", f"{self.bits} bits")]
+
+    def __len__(self) -> int:
+        return len(self.claims)
+
+    def __iter__(self) -> Iterator[Claim]:
+        return iter(self.claims)
+
+    @overload
+    def __getitem__(self, key: int | str) -> Claim: ...
+    @overload
+    def __getitem__(self, key: slice) -> tuple[Claim, ...]: ...
+    def __getitem__(self, key: int | str | slice) -> Claim | tuple[Claim, ...]:
+        if not isinstance(key, str):
+            return self.claims[key]
+        for claim in self.claims:
+            if claim.name == key:
+                return claim
+        raise InputError("claim", key, f"one of: {', '.join(claim.name for claim in self.claims) or 'none'}")

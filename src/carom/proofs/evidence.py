@@ -1,0 +1,57 @@
+"""Evidence: what a search has found, written down so that a check need not search."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+from carom.outcome import CaromError
+
+_Found = TypeVar("_Found")
+
+
+class NotShownError(CaromError):
+    """The evidence does not show what it should: a certificate that was changed, or is not complete."""
+
+
+class Evidence:
+    """Plain data by name: found by searches and recorded, or recorded before and only read.
+
+    A theorem asks for what it needs with :meth:`take` and then verifies it, whether it was just found or read.  So a check
+    runs the same inequalities and none of the searches.
+
+    Parameters
+    ----------
+    recorded : mapping, optional
+        What an earlier proof has recorded; without it searches are made.
+    """
+
+    def __init__(self, recorded: Mapping[str, Any] | None = None) -> None:
+        self._recorded = None if recorded is None else dict(recorded)
+        self._used: dict[str, Any] = {}
+
+    @property
+    def reading(self) -> bool:
+        """Whether it is read, not searched for."""
+        return self._recorded is not None
+
+    def take(self, name: str, search: Callable[[], _Found]) -> _Found:
+        """What is known under a name: strings, numbers, ``None``, and lists of such.
+
+        Raises
+        ------
+        NotShownError
+            It is read, and nothing is recorded under this name.
+        """
+        if self._recorded is None:
+            found = search()
+        elif name in self._recorded:
+            found = self._recorded[name]
+        else:
+            raise NotShownError(f"the certificate lacks its evidence: {name}")
+        self._used[name] = found
+        return found
+
+    def document(self) -> dict[str, Any]:
+        """All that was taken, as plain data for JSON."""
+        return dict(self._used)

@@ -1,0 +1,180 @@
+"""Hypotheses of a proof: the numbers of a machine exactly as they are given, and the dimensionless ones that follow.
+
+The equations hold only ``ω²``, never ``ω``.  So all numbers of the equations are rational functions of those of a machine,
+and with them rational too, but for a power of π where an angular speed is counted in turns.
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal, cast
+
+from carom.models import Subject, jeffcott_of
+from carom.outcome import InputError, shown, together
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, load
+from carom.parameters.exact import ExactNumber, read_exact
+from carom.parameters.fields import name_errors, unknown_name
+
+Given = str | int | float | Fraction | Decimal | tuple[Any, Any]
+"""A number as it may be given: a float stands for itself, a tuple for an interval."""
+NUMBERS = ("gamma", "omega_squared", "rho", "mu", "d", "radius_ratio")
+"""The numbers that the equations hold.  The phase ``φ`` of the unbalance only turns motions."""
+
+
+@dataclass(frozen=True)
+class Hypotheses:
+    """What a proof assumes: a machine, or a box of machines, by exact numbers.
+
+    Attributes
+    ----------
+    table : {"machine", "dimensionless"}
+        Which names the values have.
+    values : mapping of str to str
+        Each number of the table as it was given: ``"0.76"``, ``"3/7"``, ``"50 kg"``, ``"double 0.1"`` or ``"[0.1, 0.2]"``.
+    settings : mapping of str to str
+        Dimensionless numbers that replace what follows from a machine.
+
+    Raises
+    ------
+    InputError
+        A name is unknown or missing, or a number not allowed.
+    """
+
+    table: Literal["machine", "dimensionless"]
+    values: Mapping[str, str]
+    settings: Mapping[str, str]
+
+    def __post_init__(self) -> None:
+        fields = MACHINE_FIELDS if self.table == "machine" else DIMENSIONLESS_FIELDS
+        errors = name_errors(self.values, fields, f"[{self.table}]")
+        errors += [
+            unknown_name(name, text, DIMENSIONLESS_FIELDS, "the settings")
+            for name, text in self.settings.items()
+            if name not in DIMENSIONLESS_FIELDS
+        ]
+        if errors:
+            raise together(errors)
+        self.numbers  # noqa: B018  (raises if a value is not allowed)
+
+    @cached_property
+    def numbers(self) -> Mapping[str, ExactNumber]:
+        """The numbers of :data:`NUMBERS` and ``phi``, exactly."""
+        found = self._of_machine() if self.table == "machine" else {}
+        given = self.settings if self.table == "machine" else {**self.values, **self.settings}
+        for name, text in given.items():
+            number = read_exact(DIMENSIONLESS_FIELDS[name], text)
+            if name == "omega":
+                name, number = "omega_squared", number * number
+            found[name] = number
+        return found
+
+    def _of_machine(self) -> dict[str, ExactNumber]:
+        given = {name: read_exact(MACHINE_FIELDS[name], text) for name, text in self.values.items()}
+        speed = given["speed"]
+        return {
+            "gamma": given["damping"] / (given["mass"] * speed),
+            "omega_squared": given["stiffness"] / (given["mass"] * speed * speed),
+            "rho": given["eccentricity"] / given["clearance"],
+            "phi": given["unbalance_phase"],
+            "mu": given["friction"],
+            "d": given["restitution"],
+            "radius_ratio": given["rotor_radius"] / given["clearance"],
+        }
+
+    @property
+    def exact(self) -> bool:
+        """Whether it is one machine, not a box of them."""
+        return all(self.numbers[name].low == self.numbers[name].high for name in NUMBERS)
+
+    def rational(self, *names: str) -> tuple[Fraction, ...] | None:
+        """These numbers, if each is a single rational number."""
+        found = [self.numbers[name].rational for name in names]
+        return None if any(number is None for number in found) else cast("tuple[Fraction, ...]", tuple(found))
+
+    def replace(self, **changes: Given) -> Hypotheses:
+        """The same with other numbers, by the names of the table or of dimensionless numbers."""
+        written = {name: written_exactly(value) for name, value in changes.items()}
+        values = {**self.values, **{name: text for name, text in written.items() if name in self.values}}
+        rest = {name: text for name, text in written.items() if name not in self.values}
+        return Hypotheses(self.table, values, {**self.settings, **rest})
+
+    def document(self) -> dict[str, Any]:
+        """As plain data for JSON; ``exact`` holds what follows, for the reader."""
+        exact = {name: str(self.numbers[name]) for name in NUMBERS}
+        return {"table": self.table, "values": dict(self.values), "settings": dict(self.settings), "exact": exact}
+
+    @classmethod
+    def from_document(cls, document: Mapping[str, Any]) -> Hypotheses:
+        """Read what :meth:`document` gives.
+
+        Raises
+        ------
+        InputError
+            It is not such data, or the numbers do not follow from those given.
+        """
+        try:
+            tables = [document["values"], document["settings"]]
+            if document["table"] not in ("machine", "dimensionless"):
+                raise KeyError("table")
+            if not all(isinstance(text, str) for table in tables for text in table.values()):
+                raise TypeError("text")
+            read = cls(document["table"], *tables)
+        except (AttributeError, KeyError, TypeError) as problem:
+            raise InputError("hypotheses", shown(problem), "must be those of a certificate") from None
+        if read.document() != dict(document):
+            raise InputError(
+                "hypotheses", shown(document.get("exact")), "the exact numbers do not follow from those given"
+            )
+        return read
+
+
+def hypotheses_of(
+    machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given], settings: Iterable[str] = ()
+) -> Hypotheses:
+    """Hypotheses of any description of a rotor.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters, model, path, mapping or Hypotheses
+        Of a path the text of the file counts.  A mapping holds dimensionless numbers by name.  Of all others, and of
+        floats, the doubles count.
+    settings : iterable of str
+        Texts ``"name=value"`` that change the numbers of a file.
+
+    Raises
+    ------
+    InputError
+        It is none of these, or a number is not allowed.
+    """
+    if isinstance(machine, Hypotheses):
+        return machine
+    if isinstance(machine, str | os.PathLike):
+        return _from_file(machine, list(settings))
+    if isinstance(machine, Mapping):
+        return Hypotheses("dimensionless", {name: written_exactly(value) for name, value in machine.items()}, {})
+    numbers = jeffcott_of(machine).parameters.as_dict()
+    return Hypotheses("dimensionless", {name: written_exactly(value) for name, value in numbers.items()}, {})
+
+
+def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
+    # The usual reader first: its messages name what is wrong.
+    load(path, settings)
+    content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
+    table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
+    read = Hypotheses(table, {name: written_exactly(value) for name, value in content[table].items()}, {})
+    pairs = (setting.partition("=") for setting in settings)
+    return read.replace(**{name.strip(): text.strip() for name, _, text in pairs})
+
+
+def written_exactly(value: Given) -> str:
+    """A number as text that :func:`~carom.parameters.exact.read_exact` reads back exactly."""
+    if isinstance(value, tuple):
+        return f"[{', '.join(written_exactly(end) for end in value)}]"
+    return f"double {float(value)!r}" if isinstance(value, float) else str(value)

@@ -1,0 +1,264 @@
+"""Closed forms of the planar rotor in ball arithmetic.
+
+The phase ``φ`` only turns motions, so every frame here is turned such that the impact of an orbit is at ``U = 1``.
+
+In the fixed frame a deviation from the levitation whirl obeys ``v̈ + γv̇ + ω²v = 0``, which is real.  Its response to an
+impulse, ``h``, with ``h(0) = 0`` and ``h'(0) = 1``, is
+
+    h(t) = e^{−γt/2} S(t),      S(t) = sinh(t√Δ/2)/(√Δ/2),      Δ = γ² − 4ω²,
+
+an entire function of ``Δ``: nothing happens at critical damping.  In the co-rotating frame ``f(t) = e^{−it}h(t)`` obeys
+``f̈ + (γ + 2i)ḟ + χf = 0`` with ``χ = ω² − 1 + iγ``, whence all Taylor coefficients by a recurrence.  With
+
+    δ(T) = e^{−(γ+2i)T},      D(T) = det(1 − flow over T) = 1 − 2f'(T) − (γ + 2i)f(T) + δ(T),
+
+the levers of the source paper's (4.1) are ``a₁₂ = f/D`` and ``a₂₂ = (f' − δ)/D``, and with ``q = (1 + d)(1 + iμ)``
+
+    F₁ = 1 + Re(q a₂₂),      P = |D|²F₁ = Re((D + q(f' − δ)) D̄).
+
+``P`` is entire and has the zeros of ``F₁`` where ``D`` is not zero, that is everywhere for ``γ > 0``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from flint import acb, acb_series, arb, arb_series
+
+from carom.proofs.balls import ball_of
+from carom.proofs.hypotheses import NUMBERS, Hypotheses
+
+_I = acb(0, 1)
+
+
+@dataclass(frozen=True)
+class Invariants:
+    """Trace, sum of the principal minors and determinant of the derivative of the impact map on an orbit."""
+
+    trace: Any
+    minors: Any
+    determinant: Any
+
+    @property
+    def at_one(self) -> Any:
+        """Characteristic polynomial at 1: zero at a fold."""
+        return 1 - self.trace + self.minors - self.determinant
+
+    @property
+    def at_minus_one(self) -> Any:
+        """``det(J + 1)``: zero at a period doubling."""
+        return 1 + self.trace + self.minors + self.determinant
+
+    @property
+    def of_pairs(self) -> Any:
+        """Product of ``1 − λⱼλₖ`` over the pairs of multipliers: zero at a Neimark–Sacker bifurcation."""
+        return 1 - self.minors + self.determinant * (self.trace - self.determinant)
+
+
+@dataclass(frozen=True)
+class Impact:
+    """Impact of an orbit with one impact a period, at ``U = 1``.
+
+    Attributes
+    ----------
+    period, speed : arb
+        ``T`` and ``ṙ`` before the impact.
+    lever, turn : acb
+        ``q a₁₂`` and ``q a₂₂`` at ``T``.
+    """
+
+    period: Any
+    speed: Any
+    lever: Any
+    turn: Any
+
+    @property
+    def angular_speed(self) -> Any:
+        """``θ̇`` before the impact."""
+        return -self.turn.imag * self.speed
+
+
+class Rotor:
+    """Planar rotor whose numbers are balls at the precision at hand.
+
+    Parameters
+    ----------
+    hypotheses : Hypotheses
+
+    Attributes
+    ----------
+    gamma, omega_squared, rho, mu, d, radius_ratio : arb
+    split : arb
+        ``Δ = γ² − 4ω²``.
+    chi, drag, q : acb
+        ``χ = ω² − 1 + iγ``, ``γ + 2i`` and ``(1 + d)(1 + iμ)``.
+    """
+
+    def __init__(self, hypotheses: Hypotheses) -> None:
+        self.hypotheses = hypotheses
+        self.gamma, self.omega_squared, self.rho, self.mu, self.d, self.radius_ratio = (
+            ball_of(hypotheses.numbers[name]) for name in NUMBERS
+        )
+        self.split = self.gamma**2 - 4 * self.omega_squared
+        self.chi, self.drag = acb(self.omega_squared - 1, self.gamma), acb(self.gamma, 2)
+        self.q = (1 + self.d) * acb(1, self.mu)
+
+    @cached_property
+    def levitation_squared(self) -> Any:
+        """``|U*|²``."""
+        return self.rho**2 / ((self.omega_squared - 1) ** 2 + self.gamma**2)
+
+    @cached_property
+    def slowest_decay(self) -> Any:
+        """Rate at which the slower mode of free motion decays."""
+        if self.split > 0:
+            return 2 * self.omega_squared / (self.gamma + self.split.sqrt())
+        if self.split < 0:
+            return self.gamma / 2
+        return self.gamma / 2 - self.split.nonnegative_part().sqrt() / 2
+
+    @cached_property
+    def fastest(self) -> float:
+        """Modulus of the faster exponent of the co-rotating frame, about."""
+        gamma, split = float(self.gamma), float(self.split)
+        return abs(gamma) / 2 + abs(complex(split) ** 0.5) / 2 + 1.0
+
+    # ------------------------------------------------------------------------------------------- flight
+
+    def response(self, time: Any) -> tuple[Any, Any]:
+        """``h`` and ``h'`` at a time, real."""
+        return response_of(self.gamma, self.split, time)
+
+    def turned_response(self, time: Any) -> tuple[Any, Any]:
+        """``f`` and ``f'`` at a time."""
+        value, slope = self.response(time)
+        sine, cosine = time.sin_cos()
+        turn = acb(cosine, -sine)
+        return turn * value, turn * acb(slope, -value)
+
+    def continued(self, value: Any, slope: Any, length: int) -> list[Any]:
+        """Taylor coefficients of a solution of ``ÿ + (γ + 2i)ẏ + χy = 0`` from its value and slope."""
+        terms = [value, slope]
+        for k in range(length - 2):
+            terms.append(-(self.drag * terms[-1] / (k + 2) + self.chi * terms[-2] / ((k + 1) * (k + 2))))
+        return terms
+
+    # ------------------------------------------------------------------------------------------- return of the flight
+
+    def return_series(self, time: Any, length: int) -> tuple[Any, Any, Any]:
+        """Taylor series of ``f``, ``f' − δ`` and ``D`` about a time."""
+        f = self.continued(*self.turned_response(time), length + 1)
+        shrink = (-self.drag * time).exp()
+        delta = [shrink]
+        for k in range(1, length):
+            delta.append(-self.drag * delta[-1] / k)
+        slopes = [(k + 1) * f[k + 1] for k in range(length)]
+        numerator = [slopes[k] - delta[k] for k in range(length)]
+        determinant = [delta[k] - 2 * slopes[k] - self.drag * f[k] for k in range(length)]
+        determinant[0] = determinant[0] + 1
+        return f[:length], numerator, determinant
+
+    def closing_series(self, time: Any, length: int) -> list[Any]:
+        """Taylor coefficients of ``P = |D|²F₁`` about a time."""
+        _, numerator, determinant = self.return_series(time, length)
+        return real_of_product([d + self.q * n for d, n in zip(determinant, numerator, strict=True)], determinant)
+
+    def condition_series(self, time: Any, length: int) -> tuple[list[Any], list[Any]]:
+        """Taylor coefficients of ``q a₁₂`` and of ``q a₂₂`` about a time at which ``D`` is not zero."""
+        f, numerator, determinant = (acb_series(terms, length) for terms in self.return_series(time, length))
+        lever, turn = f / determinant, numerator / determinant
+        return [self.q * lever[k] for k in range(length)], [self.q * turn[k] for k in range(length)]
+
+    def levers(self, period: Any) -> tuple[Any, Any]:
+        """``q a₁₂`` and ``q a₂₂``."""
+        f, numerator, determinant = self.return_series(period, 2)
+        return self.q * f[0] / determinant[0], self.q * numerator[0] / determinant[0]
+
+    def discriminant(self, lever: Any) -> Any:
+        """``Re(q a₁₂)² − |q a₁₂|²(1 − |U*|²)``: a quarter of the discriminant of the equation of the radial speeds."""
+        return lever.real**2 - squared(lever) * (1 - self.levitation_squared)
+
+    # ------------------------------------------------------------------------------------------- orbits
+
+    def departure(self, impact: Impact) -> tuple[Any, Any]:
+        """Deviation from the contact-free equilibrium just after the impact, and its rate, in the co-rotating frame."""
+        return -impact.lever * impact.speed, impact.speed * (acb(1, -impact.turn.imag) - self.q)
+
+    def radius_series(self, impact: Impact, time: Any, length: int) -> list[Any]:
+        """Taylor coefficients of ``|U|² − 1`` about a time after the impact."""
+        place, rate = self.departure(impact)
+        f, slope = self.turned_response(time)
+        # The solution with the value 1 and no slope at first is f' + (γ + 2i) f.
+        steady = slope + self.drag * f
+        value = place * steady + rate * f
+        terms = self.continued(value, -self.chi * place * f + rate * slope, length)
+        terms[0] = terms[0] + 1 - place
+        excess = real_of_product(terms, terms)
+        excess[0] = excess[0] - 1
+        return excess
+
+    def jacobian(self, impact: Impact) -> list[list[Any]]:
+        """Derivative of the impact map over ``(θ, ṙ, θ̇)``, as in :mod:`carom.core.planar`; rows of arb."""
+        velocity = acb(1, -impact.turn.imag)
+        force = self.chi * impact.lever - self.drag * velocity
+        f, slope = self.turned_response(impact.period)
+        steady = slope + self.drag * f
+        starts = (
+            (_I, _I * impact.speed * (velocity - self.q)),
+            (acb(0), 1 - self.q),
+            (acb(0), _I),
+        )
+        columns = []
+        for place, rate in starts:
+            moved = place * steady + rate * f
+            change = -self.chi * place * f + rate * slope
+            late = -moved.real
+            turned = (moved + velocity * late).imag
+            change = change + force * late
+            spin = turned * impact.speed
+            columns.append((turned, change.real + spin * velocity.imag, change.imag - spin))
+        return [[columns[j][i] for j in range(3)] for i in range(3)]
+
+    def invariants(self, impact: Impact) -> Invariants:
+        """Invariants of the derivative of the impact map; its determinant is ``d² e^{−2γT}``."""
+        j = self.jacobian(impact)
+        minors = arb(0)
+        for a, b in ((0, 1), (0, 2), (1, 2)):
+            minors += j[a][a] * j[b][b] - j[a][b] * j[b][a]
+        determinant = self.d**2 * (-2 * self.gamma * impact.period).exp()
+        return Invariants(j[0][0] + j[1][1] + j[2][2], minors, determinant)
+
+
+def response_of(gamma: Any, split: Any, time: Any) -> tuple[Any, Any]:
+    """``h`` and ``h'`` of ``ḧ + γḣ + ω²h = 0`` with ``h(0) = 0``, ``h'(0) = 1`` and ``split`` = ``γ² − 4ω²``."""
+    half = gamma * time / 2
+    squared_phase = split * time**2 / 4
+    if split < 0:
+        phase = (-squared_phase).sqrt()
+        decay = (-half).exp()
+        cosine, response = phase.cos(), time * phase.sinc()
+    elif split > 0 and squared_phase > 1:
+        # No growing exponential: the slower rate is a quotient, not a difference.
+        rate = split.sqrt() / 2
+        slow, fast = (-(half - rate * time)).exp(), (-(half + rate * time)).exp()
+        return (slow - fast) / (2 * rate), (slow + fast) / 2 - gamma * (slow - fast) / (4 * rate)
+    else:
+        decay = (-half).exp()
+        cosine = (squared_phase / 4).hypgeom_0f1(arb(1) / 2)
+        response = time * (squared_phase / 4).hypgeom_0f1(arb(3) / 2)
+    return decay * response, decay * (cosine - gamma * response / 2)
+
+
+def real_of_product(one: list[Any], other: list[Any]) -> list[Any]:
+    """Taylor coefficients of ``Re(x ȳ)`` from those of ``x`` and ``y``."""
+    length = len(one)
+    product = arb_series([z.real for z in one], length) * arb_series([z.real for z in other], length)
+    product += arb_series([z.imag for z in one], length) * arb_series([z.imag for z in other], length)
+    return [product[k] for k in range(length)]
+
+
+def squared(number: Any) -> Any:
+    """``|z|²``."""
+    return number.real**2 + number.imag**2
