@@ -2,6 +2,10 @@
 
 Every function returns a :class:`matplotlib.figure.Figure` drawn with carom's own style sheet.  It shows nothing and
 does not change the user's settings or backend.  :mod:`carom.plots.style` explains what the colours mean.
+
+Where a function has the argument `axes`, it draws into these axes of the user; by default it makes a new figure.  A new
+figure is 180 mm wide (two columns of a page) unless its function says otherwise.  Lengths are in units of the clearance
+and times in units of ``1/Ω``, in SI units too if the machine is known.
 """
 
 from __future__ import annotations

@@ -52,15 +52,11 @@ class _Shown:
     share: float
 
     @property
-    def hatch(self) -> str:
-        return self.look.hatch
-
-    @property
     def patch(self) -> Patch:
         percent = f"{100.0 * self.share:.3g} %"
         return Patch(
             facecolor=self.colour,
-            hatch=self.hatch,
+            hatch=self.look.hatch,
             edgecolor=_ink(self.colour),
             lw=0.4,
             label=f"{self.words}, {percent}",
@@ -73,17 +69,8 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
 
     By size and direction: a polar picture, and beside it the shares at each size.  By two other coordinates, such as the
     components of a kick: a plane.  Releases from the wall: a ring.  Samples: a bar for each motion with its confidence
-    interval.
-
-    Parameters
-    ----------
-    smallest : carom.basins.SmallestLoss, optional
-        Smallest kick or shock found that is lost, to be marked in a picture of kicks or shocks.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        180 mm wide, or 88 mm for one plane.  In SI units if the machine is known.
+    interval.  The figure is 180 mm wide, 88 mm for a ring.  `smallest` is the smallest kick or shock found that is lost;
+    it is marked in a picture of kicks or shocks.
     """
     motions = _shown(basin)
     kind, grid = basin.plan.model.kind, basin.dataset["outcome"].dims != ("start",)
@@ -164,8 +151,8 @@ def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions:
     """Hatch the areas of motions, so that they can be distinguished in greyscale too."""
     for entry in motions:
         inside = (index == entry.index).astype(float)
-        if entry.hatch and inside.any():
-            area = axes.contourf(*nodes, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.hatch])
+        if entry.look.hatch and inside.any():
+            area = axes.contourf(*nodes, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.look.hatch])
             area.set_edgecolor(_ink(entry.colour))
             area.set_linewidth(0.0)
             area.set_rasterized(True)
@@ -225,7 +212,7 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[_Shown]) -> None:
             fill=True,
             facecolor=entry.colour,
             edgecolor=_ink(entry.colour),
-            hatch=entry.hatch,
+            hatch=entry.look.hatch,
             lw=0.0,
         )
         below = below + share
@@ -329,7 +316,7 @@ def _bars(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
             0.62,
             facecolor=entry.colour,
             edgecolor=_ink(entry.colour),
-            hatch=entry.hatch,
+            hatch=entry.look.hatch,
             lw=0.3,
         )
         axes.plot([100.0 * share.low, 100.0 * share.high], [row, row], "|-", color="#1a1a1a", lw=0.8, ms=5.0)

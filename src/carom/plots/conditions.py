@@ -12,7 +12,7 @@ from matplotlib.transforms import blended_transform_factory
 from numpy.typing import ArrayLike
 
 from carom.plots.placement import spread
-from carom.plots.plane import Floats, key, legend_below, one_axes
+from carom.plots.plane import Floats, finish, one_axes
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import number, orbit_symbol, time_in_words
 
@@ -40,13 +40,6 @@ def period_condition(orbits: OrbitSet, periods: ArrayLike, values: ArrayLike, *,
         Periods at which F1 is drawn [1/Omega], ascending.
     values : array_like, shape (n,)
         F1 at those periods (no unit).
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        F1 over the period in units of 1/Omega.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.42 * TWO_COLUMNS))
     times, condition = np.asarray(periods, dtype=float), np.asarray(values, dtype=float)
@@ -60,11 +53,7 @@ def period_condition(orbits: OrbitSet, periods: ArrayLike, values: ArrayLike, *,
     unit = "" if scales is None else f" = {number(1e3 * scales.time, 3)} ms"
     drawn.set_xlabel(rf"period $T$ (units of $1/\Omega${unit})")
     drawn.set_ylabel(_ordinate(drawn, condition))
-    if axes is None:
-        key(figure, [drawn], columns=2)
-    else:
-        legend_below(drawn)
-    return figure
+    return finish(figure, drawn, axes)
 
 
 def _ordinate(axes: Axes, condition: Floats) -> str:

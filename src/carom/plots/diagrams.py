@@ -76,15 +76,11 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 
 @styled
 def bifurcation_diagram(diagram: Diagram) -> Figure:
-    """Draw all equilibria and single-impact orbits along a parameter, with their special points.
+    """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        180 mm wide, with three panels.  Upper: the radial speed of the orbits at the impact.  Middle: the gap of
-        contact-free levitation and the normal force of the rubs, which must be positive.  Lower: which motions exist,
-        with broad bars where they are stable, and the motions to which simulated disturbances settled.  The shaft speed
-        is in rpm.
+    Upper: the radial speed of the orbits at the impact.  Middle: the gap of contact-free levitation and the normal force
+    of the rubs, which must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
+    motions to which simulated disturbances settled.  The shaft speed is in rpm.
     """
     rows = len(rows_of(diagram))
     strip = 0.18 * rows
@@ -92,8 +88,11 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
     unit = parameter_unit(diagram.axis)
     for branch in diagram.orbits:
-        _orbit_branch(upper, branch, unit)
-    _attractor_speeds(upper, diagram, unit)
+        heights = np.array([point.radial_speed for point in branch.special])
+        branch_line(upper, branch, np.arange(len(branch)), branch.values / unit, branch.radial_speed, heights, unit)
+    for sample in diagram.attractors:
+        values = np.full(len(sample.radial_speeds), sample.value / unit)
+        upper.plot(values, sample.radial_speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
     upper.axhline(0.0, color="#1a1a1a", lw=0.5)
     for equilibrium in diagram.equilibria:
         _equilibrium_branch(lower, equilibrium, unit)
@@ -118,7 +117,7 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
     heights = dict(zip(rows, below.get_yticks()[: len(rows)], strict=True))
     seen = set()
     for point in diagram.points:
-        row, look = row_of_point(point), _look_of(point)
+        row, look = row_of_point(point), BOUNDARIES.get(point.detail, POINTS[point.kind])
         axes, height = (upper, point.radial_speed) if row is None else (below, heights.get(row))
         if height is not None and np.isnan(height):
             axes, height = lower, _height(diagram, point)
@@ -129,22 +128,6 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
         if low <= height <= high:
             seen.add(look.words)
     return [look for look in (*POINTS.values(), *BOUNDARIES.values()) if look.words in seen]
-
-
-def _attractor_speeds(axes: Axes, diagram: Diagram, unit: float) -> None:
-    """Draw the impacts of simulated attractors."""
-    for sample in diagram.attractors:
-        values = np.full(len(sample.radial_speeds), sample.value / unit)
-        axes.plot(values, sample.radial_speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
-
-
-def _look_of(point: Bifurcation) -> Look:
-    return BOUNDARIES.get(point.detail, POINTS[point.kind])
-
-
-def _orbit_branch(axes: Axes, branch: OrbitBranch, unit: float) -> None:
-    heights = np.array([point.radial_speed for point in branch.special])
-    branch_line(axes, branch, np.arange(len(branch)), branch.values / unit, branch.radial_speed, heights, unit)
 
 
 def branch_line(
@@ -255,7 +238,7 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
     entries = []
     if diagram.orbits:
         for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
-            entries.append(Line2D([], [], **LOOKS[look].stroke, label=words))
+            entries.append(LOOKS[look].entry(words))
     entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free levitation: gap"))
     admissible = {branch.kind for branch in diagram.equilibria if branch.admissible.any()}
     for line, kind in (("-", "stable rub"), ("--", "saddle rub")):
@@ -263,7 +246,7 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
             continue
         words = f"{kind}: normal force"
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
-    return entries + _attractor_key(diagram) + [point_key(look) for look in marked]
+    return entries + _attractor_key(diagram) + [look.entry() for look in marked]
 
 
 def _attractor_key(diagram: Diagram) -> list[Line2D]:
@@ -280,17 +263,9 @@ def _attractor_key(diagram: Diagram) -> list[Line2D]:
     if any(not sample.met for sample in diagram.attractors):
         entries.append(Line2D([], [], mfc="none", ms=2.0, **ring, label="met by none, only from a start next to it"))
     if any(sample.transient for sample in diagram.attractors):
-        entries.append(
-            Line2D(
-                [], [], ls="none", marker="x", ms=4.0, color="#1a1a1a", mew=0.8, label="irregular bouncing that ends"
-            )
-        )
+        words = "irregular bouncing that ends"
+        entries.append(Line2D([], [], ls="none", marker="x", ms=4.0, color="#1a1a1a", mew=0.8, label=words))
     return entries
-
-
-def point_key(look: Look) -> Line2D:
-    """Return the legend entry of a special point."""
-    return Line2D([], [], ls="none", marker=look.marker, ms=5.0, color=look.colour, label=look.words)
 
 
 def curve_line(axes: Axes, curve: Curve, units: np.ndarray) -> None:

@@ -58,19 +58,14 @@ def gain_map(
 ) -> Figure:
     """Draw the share of disturbances that comes back, with contours, the present machine and the least change.
 
+    A new figure is 126 mm wide.
+
     Parameters
     ----------
     change : carom.basins.GainChange, optional
         Least change that reaches a wanted share, to be drawn as an arrow.
     measure : {"recovered", "integrity", "basin_entropy", "boundary_basin_entropy", "smallest_unrecovered_kick"}
         The measure that the shades show; contours always show the share that comes back.
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 126 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Axes in SI units if the parameters are physical.
 
     Raises
     ------

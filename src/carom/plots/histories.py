@@ -17,8 +17,7 @@ from carom.plots.bands import bands_over_time, drawing_times
 from carom.plots.plane import (
     MANY_POINTS,
     Floats,
-    key,
-    legend_below,
+    finish,
     marker_size,
     one_axes,
     orbit_path,
@@ -47,38 +46,23 @@ def radius(
 ) -> Figure:
     """Draw the distance of the rotor centre from the bearing centre over time, with the wall and the impacts.
 
+    If the machine is known, a second pair of axes shows mm and ms.
+
     Parameters
     ----------
-    motion : carom.motions.trajectories.Trajectory or carom.orbits.Orbit
-        Motion to draw.
     zones : carom.parameters.Zones, optional
         Vibration zones A to D, drawn as bands behind the curve.
     periods : int
         Number of periods drawn of an orbit.
     title : str, optional
-        Title.  Default: for an orbit its name and stability in words.
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Radius in units of the clearance over time in units of 1/Omega.  If the machine is known, a second pair of
-        axes shows mm and ms.
+        Default: for an orbit its name and stability in words.
     """
     if hasattr(motion, "path"):
         title = title or orbit_title(cast("Orbit", motion))
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
     draw_radius(drawn, motion, zones, periods)
     _second_axes(drawn, motion.rotor.scales)
-    if axes is not None:
-        drawn.set_title(title or "")
-        legend_below(drawn)
-        return figure
-    if title:
-        figure.suptitle(title)
-    key(figure, [drawn], columns=5)
-    return figure
+    return finish(figure, drawn, axes, title, columns=5)
 
 
 def draw_radius(axes: Axes, motion: Trajectory | Orbit, zones: Zones | None = None, periods: int = _PERIODS) -> None:

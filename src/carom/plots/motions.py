@@ -50,12 +50,7 @@ def orbit(orbit: Orbit, periods: int | None = None, *, axes: Sequence[Axes] | No
         Number of periods in the fixed frame.  Default: 5 to 16 (fewer for a long period), the number after which the
         pattern comes nearest to closing.
     axes : sequence of two matplotlib.axes.Axes, optional
-        Axes to draw into, for the co-rotating and the fixed frame.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, with positions in units of the clearance.
+        For the co-rotating and the fixed frame.
     """
     count = _pattern_length(orbit.period) if periods is None else periods
     figure, (left, right) = _two_frames(axes)
@@ -117,21 +112,14 @@ def motion(
 
     Parameters
     ----------
-    trajectory : carom.motions.trajectories.Trajectory
-        Motion to draw.
     since : float
         Draw only what happens from this time on [1/Omega], to leave out a transient.
     fade : bool
         Draw the beginning pale, to emphasize the motion that it settles to.
     title : str, optional
-        Title of the figure.  Default: number of impacts and outcome in words.
+        Default: number of impacts and outcome in words.
     axes : sequence of two matplotlib.axes.Axes, optional
-        Axes to draw into, for the co-rotating and the fixed frame.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The figure, with positions in units of the clearance.
+        For the co-rotating and the fixed frame.
 
     Raises
     ------

@@ -18,9 +18,8 @@ from carom.plots.plane import (
     Complex,
     clearance_circle,
     direction_arrow,
-    key,
+    finish,
     label_frame,
-    legend_below,
     look_closer,
     one_axes,
     orbit_path,
@@ -64,23 +63,8 @@ def equilibria_and_orbits(
     """Draw all equilibria and periodic orbits of a machine in the co-rotating frame.
 
     The contact-free point is levitation; the rub points lie on the circle; each orbit touches the circle at its
-    impact.  Orbits too small to be seen are enlarged in panels of their own.  Virtual orbits are drawn pale.
-
-    Parameters
-    ----------
-    orbits : carom.orbits.OrbitSet
-        Periodic orbits of the rotor.
-    equilibria : sequence of carom.closed_forms.equilibria.Equilibrium, optional
-        Contact-free and rub equilibria.
-    title : str, optional
-        Title of the figure.
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw the whole circle into, without enlarged panels.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Positions in units of the clearance.
+    impact.  In a new figure, orbits too small to be seen are enlarged in panels of their own.  Virtual orbits are drawn
+    pale.
     """
     shown = sorted(
         (_Drawn(orbit, orbit_path(orbit, 1)[1]) for orbit in orbits), key=lambda drawn: _ORDER[drawn.meaning]
@@ -101,24 +85,11 @@ def equilibria_and_orbits(
         _name(panel, [physical[i] for i in closeup.members], 1.0 + 0.33 * closeup.half, gap=0.24 * closeup.half)
     if panels:
         whole.set_title("(a) co-rotating frame")
-    if axes is None:
-        if title:
-            figure.suptitle(title)
-        key(figure, [whole], columns=3 if panels else 2)
-    else:
-        whole.set_title(title or "")
-        legend_below(whole)
-    return figure
+    return finish(figure, whole, axes, title, columns=3 if panels else 2)
 
 
 def overview(study: Study, title: str | None = None) -> Figure:
-    """Draw the equilibria and orbits of a study; virtual orbits are left out if there are very many.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        As :func:`equilibria_and_orbits` draws it.
-    """
+    """Draw :func:`equilibria_and_orbits` of a study; virtual orbits are left out if there are very many."""
     orbits = study.orbits
     possible = tuple(orbit for orbit in orbits if orbit.admissible)
     if len(orbits) - len(possible) > _MOST_IN_OVERVIEW:

@@ -256,6 +256,19 @@ def one_axes(axes: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes
     return owner, axes
 
 
+def finish(figure: Figure, drawn: Axes, axes: Axes | None, title: str | None = None, columns: int = 2) -> Figure:
+    """Add title and legend to a new figure, or to the axes of the user."""
+    if axes is None:
+        if title:
+            figure.suptitle(title)
+        key(figure, [drawn], columns)
+    else:
+        if title:
+            drawn.set_title(title)
+        legend_below(drawn)
+    return figure
+
+
 def key(figure: Figure, drawn: Iterable[Axes], columns: int) -> Legend:
     """Add a legend of everything labelled in the axes, without duplicates, below the figure."""
     handles, words = _unique(drawn)

@@ -31,11 +31,8 @@ _LINE, _ROOM = 0.135, 9
 def region_map(found: RegionMap) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        180 mm wide; curves of virtual orbits are faint.  Regions have the numbers of the JSON document.  The
-        numeral of a thin region stands beside it, with a leader line.
+    Curves of virtual orbits are faint.  Regions have the numbers of the JSON document.  The numeral of a thin region
+    stands beside it, with a leader line.
     """
     listed = [
         f"{number}: {region.motions.source_region}: {_words(found, region)}"
@@ -75,8 +72,7 @@ def _curve_key(found: RegionMap) -> list[Line2D]:
     for kind, look in CURVES.items():
         if any(curve.kind == kind for curve in found.curves):
             orbits = found.orbits_of(kind)
-            words = f"{look.words}: {orbits}" if orbits else look.words
-            lines.append(Line2D([], [], **look.stroke, label=words))
+            lines.append(look.entry(f"{look.words}: {orbits}" if orbits else ""))
     if not all(np.all(curve.admissible) for curve in found.curves):
         lines.append(Line2D([], [], color=_BLACK, lw=1.1, alpha=FAINT, label="faint: virtual motions only"))
     return lines

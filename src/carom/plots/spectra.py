@@ -31,19 +31,7 @@ def multipliers(orbits: Iterable[Orbit], *, axes: Axes | None = None) -> Figure:
     the unit circle has a logarithmic radius: a multiplier keeps its direction and is drawn at the distance 1 + log10 of
     its modulus.  The axis labels then say so and the axes have no numbers; circles show the modulus.
 
-    If there are more than twelve orbits, the virtual ones share one small marker.
-
-    Parameters
-    ----------
-    orbits : iterable of carom.orbits.Orbit
-        Orbits, for example an :class:`carom.orbits.single_impact.OrbitSet`.
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 88 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Imaginary over real part of the multipliers (no unit), equal scales.
+    If there are more than twelve orbits, the virtual ones share one small marker.  A new figure is 88 mm wide.
     """
     every = list(orbits)
     grouped = [orbit for orbit in every if not orbit.admissible] if len(every) > len(_SHAPES) else []
@@ -159,17 +147,9 @@ def _dots(axes: Axes, values: Complex, count: int) -> None:
 
 @styled
 def spectrum(full: FullSpectrum, *, axes: Axes | None = None) -> Figure:
-    """Draw the full spectrum of a motion: backward whirl at the left, forward whirl at the right.
+    """Draw the full spectrum of a motion over the multiple of the shaft speed: backward whirl left, forward right.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Amplitude in clearances, logarithmic, over the multiple of the shaft speed.
+    Amplitudes are in clearances, on a logarithmic axis.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.36 * TWO_COLUMNS))
     sizes = np.abs(full.amplitudes)

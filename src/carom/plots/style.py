@@ -34,6 +34,7 @@ from types import MappingProxyType
 from typing import Any, ParamSpec
 
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from carom.plots.arrangement import arrange, write_plain_ticks
 from carom.plots.sheet import drawing
@@ -81,6 +82,11 @@ class Look:
     def stroke(self) -> dict[str, Any]:
         """Colour, style and width of a line, as arguments of matplotlib."""
         return {"color": self.colour, "ls": self.line, "lw": self.width}
+
+    def entry(self, words: str = "") -> Line2D:
+        """Return a legend entry: the line, or the marker if the meaning is a point."""
+        drawn = {"marker": self.marker, "ms": 5.0, "color": self.colour, "ls": "none"}
+        return Line2D([], [], **(drawn if self.line == "none" else self.stroke), label=words or self.words)
 
 
 LOOKS = MappingProxyType(

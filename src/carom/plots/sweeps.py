@@ -71,19 +71,14 @@ _FLAGS = ("#dbe4f0", "#56739f", "#e8c26a", "#7a4f1d")
 def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes: Axes | None = None) -> Figure:
     """Draw a variable of a sweep over its two axes, or over its only one.
 
+    The axes are logarithmic if the sweep is.  A new figure is 126 mm wide.
+
     Parameters
     ----------
     data : xarray.Dataset
         From :func:`carom.open_sweep`.  If it has more than two axes, select values first: ``data.sel(friction=0.15)``.
     name : str
         The variable.
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 126 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Axes in SI units if the parameters are physical, logarithmic if the sweep is.
 
     Raises
     ------
@@ -202,14 +197,9 @@ def _shades(
 
 
 def shaded_cells(axes: Axes, edges: tuple[Floats, Floats], values: np.ma.MaskedArray, **look: Any) -> QuadMesh:
-    """Draw cells, given by their edges, in shades of their values; masked ones are left out.
+    """Draw cells, values of shape (n, m) between n + 1 and m + 1 edges, in shades; masked ones are left out.
 
-    Parameters
-    ----------
-    edges : tuple of numpy.ndarray, shapes (n + 1,) and (m + 1,)
-    values : numpy.ma.MaskedArray, shape (n, m)
-    **look
-        Colour map and its limits, as for ``pcolormesh``.
+    `look` are the colour map and its limits, as for ``pcolormesh``.
     """
     return axes.pcolormesh(*edges, values.T, rasterized=True, gid="cells", **{"cmap": _SHADES, **look})
 
@@ -225,20 +215,9 @@ def colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, words: str) -> Colorb
 def blank_cells(
     axes: Axes, edges: tuple[Floats, Floats], reasons: Mapping[str, np.ndarray], words: Mapping[str, str]
 ) -> list[Patch]:
-    """Draw cells without a value so that their hatching says why.
+    """Draw cells without a value, by the key of :data:`BLANKS` that says why, and return the legend entries.
 
-    Parameters
-    ----------
-    edges : tuple of numpy.ndarray, shapes (n + 1,) and (m + 1,)
-    reasons : mapping of str to numpy.ndarray of bool, shape (n, m)
-        Cells by the key of :data:`BLANKS`.
-    words : mapping of str to str
-        Legend texts that replace the words of these looks.
-
-    Returns
-    -------
-    list of matplotlib.patches.Patch
-        Legend entries of the reasons that occur.
+    `words` replace those of the looks.
     """
     handles = []
     for key, cells in reasons.items():

@@ -27,18 +27,10 @@ _WIDE_RANGE = 50.0
 
 @styled
 def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = None) -> Figure:
-    """Draw a touchdown in four panels over one time axis.
+    """Draw a touchdown, with the energies of its motion, in four panels over one time axis.
 
-    Parameters
-    ----------
-    ledger : carom.motions.ledger.EnergyLedger
-        Energies of the motion.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        From top to bottom: distance from the centre; regime and whirl direction; impulses and contact forces; energies
-        and works.  180 mm wide.
+    From top to bottom: distance from the centre; regime and whirl direction; impulses and contact forces; energies and
+    works.
     """
     figure = StyledFigure(figsize=(TWO_COLUMNS, 1.16 * TWO_COLUMNS))
     panels = figure.subplots(4, 1, sharex=True, height_ratios=[1.0, 0.32, 1.0, 1.0])
@@ -58,13 +50,7 @@ def touchdown(trajectory: Trajectory, ledger: EnergyLedger, title: str | None = 
 
 @styled
 def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
-    """Draw two ribbons over time: the regime (flight, sliding, rolling) and the direction of whirl.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 180 mm wide.
-    """
+    """Draw two ribbons over time: the regime (flight, sliding, rolling) and the direction of whirl."""
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.2 * TWO_COLUMNS))
     ends = np.append(trajectory.segment_starts, trajectory.time)
     shown = {}
@@ -107,16 +93,8 @@ def _whirl(trajectory: Trajectory) -> list[tuple[float, float, bool]]:
 def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     """Draw the normal and friction force of lasting contact over time, and the impulse of each impact.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 180 mm wide.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Forces in N and impulses in N s (right axis) if the machine is known, otherwise in ``m c_r Ω²`` and ``m c_r Ω``.
-        Without lasting contact there is no force to draw, and the panel says so.
+    Forces are in N and impulses in N s (right axis) if the machine is known, otherwise in ``m c_r Ω²`` and ``m c_r Ω``.
+    Without lasting contact there is no force to draw, and the panel says so.
     """
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = trajectory.rotor.scales
@@ -179,13 +157,7 @@ def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None
 
 @styled
 def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
-    """Draw the energy of the rotor centre and the works that change it.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes, optional
-        Axes to draw into.  Default: a new figure, 180 mm wide.
-    """
+    """Draw the energy of the rotor centre and the works that change it."""
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
     unit = scales.energy if scales else 1.0

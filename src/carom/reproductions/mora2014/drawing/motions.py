@@ -73,7 +73,7 @@ def _levitation(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion) 
     direction_arrow(fixed, line[times <= 0.5 * motion.span], look)
     point(rotating, place, "contact-free", size=5.5)
     radius.plot(times, np.full_like(times, abs(place)), "-", color=look.colour, lw=1.1)
-    radius.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    radius.axhline(1.0, **LOOKS["wall"].stroke)
     radius.set_xlim(0.0, motion.span)
     radius.set_ylim(0.0, 1.08)
 
@@ -100,21 +100,11 @@ def _orbit(fixed: Axes, rotating: Axes, radius: Axes, motion: ShownMotion, orbit
     struck = line[:: (len(times) - 1) // count]
     impacts(fixed, struck, np.full(len(struck), orbit.angular_speed), size=4.0)
     times, line = orbit_path(orbit, SHOWN_PERIODS)
-    radius.plot(times, np.abs(line), look.line, color=look.colour, lw=look.width)
-    radius.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    radius.plot(times, np.abs(line), **look.stroke)
+    radius.axhline(1.0, **LOOKS["wall"].stroke)
     hits = orbit.period * np.arange(SHOWN_PERIODS + 1)
-    marker = LOOKS["forward" if orbit.angular_speed > -1.0 else "backward"]
-    radius.plot(
-        hits,
-        np.ones_like(hits),
-        ls="none",
-        marker=marker.marker,
-        ms=4.0,
-        mfc=marker.colour,
-        mec="#1a1a1a",
-        mew=0.4,
-        clip_on=False,
-    )
+    whirl = "forward" if orbit.angular_speed > -1.0 else "backward"
+    point(radius, np.asarray(hits + 1j, complex), whirl, size=4.0, label="", clip=False)
     radius.set_xlim(0.0, times[-1])
     depth = 1.0 - float(np.abs(line).min())
     radius.set_ylim(1.0 - 1.12 * depth, 1.0 + 0.12 * depth)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from carom.plots.diagrams import POINTS, point_key
+from carom.plots.diagrams import POINTS
 from carom.plots.style import LOOKS
 from carom.plots.words import orbit_symbol
 
@@ -22,11 +22,8 @@ def letter(axes: Axes, panel: str, words: str = "") -> None:
 
 def branch_key(points: Iterable[str]) -> list[Line2D]:
     """Return legend entries for orbits and for special points of these kinds."""
-    lines = [
-        Line2D([], [], color=LOOKS[look].colour, ls=LOOKS[look].line, lw=LOOKS[look].width, label=f"{look} orbit")
-        for look in ("stable", "unstable", "virtual")
-    ]
-    return lines + [point_key(POINTS[kind]) for kind in points]
+    lines = [LOOKS[look].entry(f"{look} orbit") for look in ("stable", "unstable", "virtual")]
+    return lines + [POINTS[kind].entry() for kind in points]
 
 
 def name_branch(axes: Axes, name: str, x: float, y: float) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
 
-from carom.plots.diagrams import POINTS, mark_point, point_key
+from carom.plots.diagrams import POINTS, mark_point
 from carom.plots.figure import StyledFigure
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol, times_larger
@@ -92,7 +92,7 @@ def _zeros(axes: Axes, pairs: tuple[PeriodPair, ...], birth: float) -> None:
 
 def _birth(axes: Axes, stage: Birth) -> None:
     """Draw radius over angle near the equilibrium, with the smaller orbit enlarged on the free side of the wall."""
-    axes.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    axes.axhline(1.0, **LOOKS["wall"].stroke)
     place = stage.rotor.equilibrium
     look = LOOKS["contact-free"]
     face = "white" if stage.side == "below" else look.colour
@@ -110,15 +110,16 @@ def _birth(axes: Axes, stage: Birth) -> None:
     if stage.orbits:
         small, large = stage.orbits
         _enlarge(axes, small, place, stage.side)
-        far = _farthest(large, place)
-        aside = (far[0] + 0.5 * MILLI, 0.5 * (far[1] + 1.0))
+        angle, radius = _polar(large, place)
+        farthest = float(radius[np.argmax(np.abs(radius - 1.0))])
+        aside = (float(angle.max()) + 0.5 * MILLI, 0.5 * (farthest + 1.0))
         axes.annotate(orbit_symbol(large.name), aside, ha="left", va="center")
 
 
 def _enlarge(axes: Axes, orbit: Orbit, place: complex, side: str) -> None:
     low = 0.13 if side == "below" else 0.58
     inner = axes.inset_axes((0.5, low, 0.44, 0.34))
-    inner.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+    inner.axhline(1.0, **LOOKS["wall"].stroke)
     _loop(inner, orbit, place)
     inner.margins(0.25)
     inner.set_xticks(())
@@ -137,7 +138,7 @@ def _enlarge(axes: Axes, orbit: Orbit, place: complex, side: str) -> None:
 def _loop(axes: Axes, orbit: Orbit, place: complex) -> None:
     angle, radius = _polar(orbit, place)
     look = LOOKS[orbit_look(orbit)]
-    axes.plot(angle, radius, look.line, color=look.colour, lw=look.width)
+    axes.plot(angle, radius, **look.stroke)
     axes.plot(angle[:1], radius[:1], ls="none", marker="o", ms=2.5, color=look.colour)
 
 
@@ -148,46 +149,17 @@ def _polar(orbit: Orbit, place: complex) -> tuple[np.ndarray, np.ndarray]:
     return np.angle(line / place), np.abs(line)
 
 
-def _farthest(orbit: Orbit, place: complex) -> tuple[float, float]:
-    angle, radius = _polar(orbit, place)
-    far = int(np.argmax(np.abs(radius - 1.0)))
-    return float(angle.max()), float(radius[far])
-
-
 def _key(periods: Periods) -> list[Line2D]:
     first, second = (function.gamma for function in periods.functions)
-    roots = [
-        Line2D([], [], color=INK, ls="-", lw=0.9, marker="o", ms=3.5, label=rf"$F_1$ and zeros, $\gamma$ = {first:g}"),
-        Line2D(
-            [],
-            [],
-            color=SLATE,
-            ls="--",
-            lw=0.9,
-            marker="o",
-            ms=3.5,
-            mfc="white",
-            mec=INK,
-            label=rf"$\gamma$ = {second:g}",
-        ),
+    dot: dict[str, Any] = {"lw": 0.9, "marker": "o", "ms": 3.5}
+    return [
+        Line2D([], [], color=INK, ls="-", **dot, label=rf"$F_1$ and zeros, $\gamma$ = {first:g}"),
+        Line2D([], [], color=SLATE, ls="--", **dot, mfc="white", mec=INK, label=rf"$\gamma$ = {second:g}"),
+        Line2D([], [], color=INK, ls="-", lw=0.9, label="longer period of a pair"),
+        Line2D([], [], color=INK, ls="--", lw=0.9, label="shorter period of a pair"),
+        POINTS["fold"].entry(),
+        POINTS["non-smooth-hopf"].entry(),
+        LOOKS["unstable"].entry("orbit, admissible, unstable"),
+        LOOKS["virtual"].entry("orbit, virtual"),
+        LOOKS["contact-free"].entry(f"{LOOKS['contact-free'].words} (hollow: virtual)"),
     ]
-    zeros = [
-        Line2D([], [], color=INK, ls=line, lw=0.9, label=f"{words} period of a pair")
-        for line, words in (("-", "longer"), ("--", "shorter"))
-    ]
-    virtual, unstable = LOOKS["virtual"], LOOKS["unstable"]
-    equilibrium = LOOKS["contact-free"]
-    orbits = [
-        Line2D([], [], color=unstable.colour, ls=unstable.line, lw=unstable.width, label="orbit, admissible, unstable"),
-        Line2D([], [], color=virtual.colour, ls=virtual.line, lw=virtual.width, label="orbit, virtual"),
-        Line2D(
-            [],
-            [],
-            ls="none",
-            marker=equilibrium.marker,
-            ms=5.5,
-            color=equilibrium.colour,
-            label=f"{equilibrium.words} (hollow: virtual)",
-        ),
-    ]
-    return [*roots, *zeros, *(point_key(POINTS[kind]) for kind in ("fold", "non-smooth-hopf")), *orbits]

@@ -118,5 +118,5 @@ def _curve_key(plane: DampingStiffnessPlane) -> list[Line2D]:
         look = CURVES[curve.kind]
         if curve.kind == "boundary-equilibrium":
             entries.append(Line2D([], [], color=look.colour, lw=2.4, label="non-smooth Hopf bifurcation"))
-        entries.append(Line2D([], [], color=look.colour, ls=look.line, lw=look.width, label=look.words))
+        entries.append(look.entry())
     return [*entries, Line2D([], [], ls="none", marker="o", ms=4.5, color=INK, label="two at once")]

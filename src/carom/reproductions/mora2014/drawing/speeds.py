@@ -43,8 +43,10 @@ def figure_4(pair: FirstPair) -> Figure:
         axes.axvspan(-0.53, 0.0, color="#f3f3f3", lw=0.0, zorder=-2)
         axes.text(0.02, 0.96, "negative damping", transform=axes.transAxes, va="top", color="#666666")
         birth.set_xlim(0.045, 0.115)
-    _local_lines(grid[0, 1], pair, [cycle.radial_slope for cycle in pair.hopf.cycles])
-    _local_lines(grid[1, 1], pair, [cycle.angular_slope for cycle in pair.hopf.cycles])
+    gammas = np.array([0.045, 0.115])
+    for cycle in pair.hopf.cycles:
+        for row, slope in enumerate((cycle.radial_slope, cycle.angular_slope)):
+            grid[row, 1].plot(gammas, slope * (gammas - pair.hopf.gamma), **LOCAL.stroke, zorder=3)
     _name_figure_4(grid)
     for axes, panel, words in zip(
         grid.ravel(),
@@ -60,17 +62,9 @@ def figure_4(pair: FirstPair) -> Figure:
             else r"$\dot{\theta}$ before the impact ($\Omega$)"
         )
     entries = branch_key(MARKED)
-    entries.insert(3, Line2D([], [], color=LOCAL.colour, ls=LOCAL.line, lw=LOCAL.width, label=LOCAL.words))
+    entries.insert(3, LOCAL.entry())
     figure.legend(handles=entries, loc="outside lower center", ncols=4)
     return figure
-
-
-def _local_lines(axes: Axes, pair: FirstPair, slopes: list[float]) -> None:
-    gammas = np.array([0.045, 0.115])
-    for slope in slopes:
-        axes.plot(
-            gammas, slope * (gammas - pair.hopf.gamma), color=LOCAL.colour, ls=LOCAL.line, lw=LOCAL.width, zorder=3
-        )
 
 
 def _name_figure_4(grid: np.ndarray) -> None:
@@ -95,7 +89,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.46 * TWO_COLUMNS))
     left, right = figure.subplots(1, 2)
     for axes, branch, lines in ((left, pair.slow, radii.slow), (right, pair.fast, radii.fast)):
-        axes.axhline(1.0, color=LOOKS["wall"].colour, lw=LOOKS["wall"].width)
+        axes.axhline(1.0, **LOOKS["wall"].stroke)
         for line in lines:
             branch_line(axes, branch, line.places, line.gammas, line.radii)
         _mark_extrema(axes, branch, lines)
