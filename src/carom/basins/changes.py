@@ -111,7 +111,7 @@ def _least_part(found: GainMap, goal: tuple[float, float], wanted: float, thread
 
     def share(part: float) -> Share:
         node, _ = _moved(found.present, goal, part)
-        (entry,) = measured(found.parameters, found.plan, found.axes, [node], {**found.limits, "threads": threads})
+        (entry,) = measured(found.rotor, found.plan, found.axes, [node], {**found.limits, "threads": threads})
         return Share.of(entry["count"], entry["total"], drawn=isinstance(found.plan, Sample))
 
     low, high, best = 0.0, 1.0, share(1.0)

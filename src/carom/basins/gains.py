@@ -15,18 +15,19 @@ from carom.basins.entropy import entropies
 from carom.basins.integrity_measures import safe_size
 from carom.basins.losses import smallest_lost
 from carom.basins.shares import Share
-from carom.bifurcations import Axis, Numbers, axis
 from carom.disturbances import BaseShock, Grid, KickPlane, Plan, Sample, Starts, VelocityKick
 from carom.disturbances.following import NO_START, follow_machines
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Axis, Model, Subject, axis, model_of
+from carom.models.axes import Ends, read_interval
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
-from carom.parameters import Parameters
 from carom.progress import Reporter, Wish, shows_progress
 
 if TYPE_CHECKING:
     import xarray
+
+    from carom.parameters import Scales
 
 AROUND = (0.5, 2.0)
 """Default range of a parameter, in multiples of its present value."""
@@ -63,14 +64,13 @@ class GainMap(Mapped):
     def axes(self) -> tuple[Axis, Axis]:
         """The two parameters."""
         first, second = self.dataset["recovered"].dims
-        return axis(self.parameters, str(first)), axis(self.parameters, str(second))
+        return axis(self.rotor, str(first)), axis(self.rotor, str(second))
 
     @property
     def present(self) -> tuple[float, float]:
         """Values of the two parameters in the present machine."""
-        numbers = Numbers.of(self.parameters)
         first, second = self.axes
-        return first.get(numbers), second.get(numbers)
+        return first.value(self.rotor), second.value(self.rotor)
 
     @property
     def present_share(self) -> Share:
@@ -90,7 +90,7 @@ def map_gains(
     disturbances: Plan,
     names: tuple[str, str] = ("stiffness", "damping"),
     *,
-    ranges: tuple[tuple[float, float] | None, tuple[float, float] | None] = (None, None),
+    ranges: tuple[Ends | None, Ends | None] = (None, None),
     shape: tuple[int, int] = (16, 16),
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
@@ -109,9 +109,9 @@ def map_gains(
         shocks keep their size in SI units.
     names : tuple of str
         The two parameters, such as ``("stiffness", "damping")`` (P and D gain) or ``("omega", "gamma")``; any of
-        :func:`carom.bifurcations.axis`.
-    ranges : tuple of tuple of float, optional
-        Ranges of both, in SI units if physical; by default half to twice the present value.
+        :func:`carom.models.axis`.
+    ranges : tuple of tuple of float or str, optional
+        Ranges of both, in SI units if physical, or texts with a unit; by default half to twice the present value.
     shape : tuple of int
         Number of values of both, ends included.
     patience, max_events, threads, source
@@ -129,21 +129,21 @@ def map_gains(
     InputError
         A name or range that cannot be used.
     """
-    parameters = jeffcott_of(machine).parameters
-    axes = axis(parameters, names[0]), axis(parameters, names[1])
+    rotor = model_of(machine)
+    axes = axis(rotor, names[0]), axis(rotor, names[1])
     if axes[0].name == axes[1].name:
         raise InputError("names", ",".join(names), "two different parameters")
     if any(count < 2 for count in shape):
         raise InputError("shape", "x".join(map(str, shape)), "at least 2 values of each parameter")
     values = [
-        _values(parameters, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)
+        _values(rotor, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)
     ]
     limits = {"patience": patience, "max_events": max_events}
     nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
-    present = tuple(varied.get(Numbers.of(parameters)) for varied in axes)
+    present = tuple(varied.value(rotor) for varied in axes)
     measures, tell = [], Reporter.of(progress, "following starts of other gains")
     for done, found in enumerate(
-        measured(parameters, disturbances, axes, [*nodes, present], {**limits, "threads": threads}), start=1
+        measured(rotor, disturbances, axes, [*nodes, present], {**limits, "threads": threads}), start=1
     ):
         measures.append(found)
         tell(done / (len(nodes) + 1))
@@ -151,7 +151,7 @@ def map_gains(
     dataset = _dataset(axes, values, grid)
     dataset.attrs = {
         **(source or {}),
-        **provenance(Jeffcott(parameters), disturbances),
+        **provenance(rotor, disturbances),
         "title": "Share of disturbances that come back to levitation, against two parameters",
         **limits,
         "present_recovered": now["count"],
@@ -160,49 +160,41 @@ def map_gains(
     return GainMap(dataset)
 
 
-def _values(parameters: Parameters, varied: Axis, given: tuple[float, float] | None, count: int) -> np.ndarray:
+def _values(rotor: Model, varied: Axis, given: Ends | None, count: int) -> np.ndarray:
     """Evenly spaced values of a parameter over its range."""
     if given is None:
-        now = varied.get(Numbers.of(parameters))
+        now = varied.value(rotor)
         if not now > 0.0:
             raise InputError("ranges", None, f"one for {varied.name}, as {varied.name} = {now:g} gives none around it")
         given = AROUND[0] * now, min(AROUND[1] * now, varied.field.highest)
-    low, high = given
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise InputError("ranges", f"{low:g},{high:g}", f"two finite values of {varied.name} in ascending order")
-    for end in given:
-        varied.field.check(end, end)
-    return np.linspace(low, high, count)
+    return np.linspace(*read_interval(varied, given), count)
 
 
 def measured(
-    parameters: Parameters,
+    rotor: Model,
     plan: Plan,
     axes: tuple[Axis, Axis],
     nodes: list[tuple[float, ...]],
     limits: Mapping[str, Any],
 ) -> Iterator[dict[str, Any]]:
     """Yield the measures of each node; nodes are followed in chunks of about CHUNK starts."""
-    there, back = tee(_machine(parameters, plan, axes, node) for node in nodes)
-    for (rotor, starts), ends in zip(there, follow_machines(back, CHUNK, **limits), strict=True):
+    there, back = tee(_machine(rotor, plan, axes, node) for node in nodes)
+    for (moved, starts), ends in zip(there, follow_machines(back, CHUNK, **limits), strict=True):
         measures = _measures(plan, ends.outcomes)
         if isinstance(plan.model, VelocityKick | KickPlane):
-            measures |= _smallest(parameters, rotor, starts, ends.outcomes)
+            measures |= _smallest(rotor.scales, moved.scales, starts, ends.outcomes)
         yield measures
 
 
 def _machine(
-    parameters: Parameters, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]
-) -> tuple[Jeffcott, Starts]:
+    rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]
+) -> tuple[Model, Starts]:
     """Machine of a node and its starts; none of them exists if it cannot levitate."""
-    numbers = Numbers.of(parameters)
-    for varied, value in zip(axes, node, strict=True):
-        numbers = varied.set(numbers, value)
-    machine = numbers.parameters
-    rotor = Jeffcott(machine)
-    if abs(rotor.equilibrium) >= 1.0:
-        return rotor, Starts.of(np.zeros(plan.count), 0j, False)
-    return rotor, plan.rescaled(parameters.scales, machine.scales).starts(rotor)
+    moved = rotor.replace(**{varied.name: value for varied, value in zip(axes, node, strict=True)})
+    if np.abs(moved.system.arrays.offsets).max() >= 1.0:
+        nowhere = np.zeros((plan.count, *moved.system.rest.shape)[: 1 + (moved.system.rest.size > 1)], complex)
+        return moved, Starts.of(np.zeros(plan.count), 0j, False)._replace(positions=nowhere, velocities=nowhere)
+    return moved, plan.rescaled(rotor.scales, moved.scales).starts(moved)
 
 
 def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
@@ -233,11 +225,13 @@ def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
     return measures
 
 
-def _smallest(parameters: Parameters, rotor: Jeffcott, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
+def _smallest(
+    present: Scales | None, scales: Scales | None, starts: Starts, outcomes: np.ndarray
+) -> dict[str, float]:
     """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
     speed, direction = smallest_lost(starts, outcomes) or (math.nan, math.nan)
-    if rotor.scales is not None and parameters.scales is not None:
-        speed *= rotor.scales.velocity / parameters.scales.velocity
+    if scales is not None and present is not None:
+        speed *= scales.velocity / present.velocity
     return {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}
 
 

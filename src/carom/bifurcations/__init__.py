@@ -1,6 +1,5 @@
 """Bifurcations of equilibria and single-impact orbits: branches, diagrams, curves in two parameters, regions."""
 
-from carom.bifurcations.axes import Axis, Numbers, axis, value_of, vary
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.cells import Region
@@ -21,7 +20,6 @@ __all__ = [
     "KINDS",
     "ONSETS",
     "AttractorSample",
-    "Axis",
     "Bifurcation",
     "BoundaryEquilibrium",
     "Codimension2Point",
@@ -29,7 +27,6 @@ __all__ = [
     "Diagram",
     "EquilibriumBranch",
     "Motions",
-    "Numbers",
     "OrbitBranch",
     "OrbitWindows",
     "Plane",
@@ -41,7 +38,6 @@ __all__ = [
     "UnexplainedChange",
     "Window",
     "WindowEnd",
-    "axis",
     "boundary_equilibria",
     "continue_curve",
     "continue_orbit",
@@ -52,6 +48,4 @@ __all__ = [
     "orbit_windows",
     "rubbing_orbits",
     "sample_attractors",
-    "value_of",
-    "vary",
 ]

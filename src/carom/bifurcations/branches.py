@@ -8,7 +8,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Ends, Numbers, axis, interval_around
 from carom.bifurcations.conditions import (
     BOUNDLESS,
     FASTEST,
@@ -26,8 +25,10 @@ from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.naming import meeting_at
 from carom.bifurcations.points import Bifurcation
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
+from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit
+from carom.parameters import Numbers
 from carom.results import Result
 
 STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
@@ -149,13 +150,13 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         Unknown parameter, or an interval without the orbit.
     """
     base = Numbers.of(orbit.rotor.parameters)
-    along = axis(orbit.rotor.parameters, parameter)
-    present, limits = interval_around(along, base, interval)
+    along = axis(orbit.rotor, parameter)
+    present, limits = interval_around(along, along.value(orbit.rotor), interval)
     pair = orbit.name.pair
 
     def numbers_at(p: float) -> Numbers:
         # Backward slip with friction μ obeys the equations of forward slip with −μ.
-        numbers = along.set(base, p)
+        numbers = base.moved(along.name, p)
         return numbers if orbit.slip > 0 else numbers._replace(mu=-numbers.mu)
 
     def residual(u: np.ndarray, p: float) -> np.ndarray:

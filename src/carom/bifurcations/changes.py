@@ -7,12 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import TESTS, conditions_at, is_admissible
 from carom.bifurcations.motions import Motions, forward_orbits, motions_at
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 
 NARROW = 1e-9
 """Width of the bracket around a change, in widths of the plane."""
@@ -85,7 +84,7 @@ def accounts_for(kinds: set[str], before: Motions, after: Motions) -> bool:
 
 def causes_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> list[Bifurcation]:
     """Bifurcations of motions of the machine in a narrow bracket, from the test functions that change sign in it."""
-    sides = [Numbers.of(plane.at(parameters, *stand.place.tolist())) for stand in (low, high)]
+    sides = [plane.numbers_at(Numbers.of(parameters), *stand.place.tolist()) for stand in (low, high)]
     return [*_of_steady_motions(*sides), *_of_orbits(*sides)]
 
 

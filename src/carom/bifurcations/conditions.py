@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
 from carom.closed_forms.thresholds import rolling_condition, rub_fold_condition, wall_condition
 from carom.core import planar
 from carom.models import Jeffcott
@@ -18,6 +17,7 @@ from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit, orbit_at
 from carom.orbits.stability import multipliers
+from carom.parameters import Numbers
 
 BOUNDLESS, FASTEST = "radial speed without bound", 30.0
 """Radial speed, in ``c_r Ω``, beyond which orbits are not followed: it grows without bound where ``a₁₂`` vanishes."""

@@ -9,7 +9,6 @@ from typing import Literal
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import (
     BOUNDLESS,
     FASTEST,
@@ -30,6 +29,7 @@ from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.orbits.names import OrbitName, combined
 from carom.outcome import InputError
+from carom.parameters import Numbers
 from carom.results import Result
 
 Function = Callable[[np.ndarray, float], np.ndarray]
@@ -189,7 +189,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     kind, base = bifurcation.kind, bifurcation.numbers
     if base.mu < 0.0:
         raise InputError("bifurcation", f"{kind} of {bifurcation.name}", "one of an orbit with forward slip")
-    first, second = plane.axes(base.parameters)
+    plane.axes(base.parameters)
     start = np.array(plane.place_of(base))
     lows, highs = np.transpose([plane.first_range, plane.second_range])
     if not ((lows <= start) & (start <= highs)).all():
@@ -207,7 +207,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         guess.append(profile_at(base, *guess).top)
 
     def numbers_at(x: float, y: float) -> Numbers:
-        return second.set(first.set(base, x), y)
+        return plane.numbers_at(base, x, y)
 
     def numbers(u: np.ndarray, p: float) -> Numbers:
         return numbers_at(float(u[-1]), p)

@@ -23,10 +23,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import jacobian_at
 from carom.core.periods import returns
 from carom.core.planar import planar_exponents
+from carom.parameters import Numbers
 
 STEP = 1e-30
 """Imaginary step: its square is far below the rounding error of any parameter."""

@@ -10,7 +10,6 @@ from typing import ClassVar
 import numpy as np
 
 from carom.attractors import DisturbanceSet
-from carom.bifurcations.axes import Axis, Ends, Numbers, axis, read_interval, vary
 from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import corrected
 from carom.bifurcations.points import Bifurcation
@@ -24,8 +23,9 @@ from carom.bifurcations.steady import (
     steady_points,
 )
 from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.single_impact import Orbit, find_orbits
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line
 
@@ -133,13 +133,13 @@ def find_bifurcations(
     """
     parameters = jeffcott_of(machine).parameters
     along = axis(parameters, parameter)
-    limits = read_interval(parameter, interval)
+    limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     followed = 1.0 if not attractors else FOLLOWING_SHARE
     branches: list[OrbitBranch] = []
     rubbing: list[RubbingBranch] = []
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
-        here = vary(parameters, parameter, value)
+        here = parameters.replace(**{parameter: value})
         for orbit in _orbits(here):
             wanted = virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from carom.attractors import DisturbanceSet, document_of
-from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
+from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
 from carom.parameters import Parameters
 from carom.results import fields_of
@@ -83,7 +83,7 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
             for number, region in enumerate(found.regions, start=1)
         ],
         "present": {
-            "point": list(plane.place_of(Numbers.of(parameters))),
+            "point": list(plane.place_of(parameters)),
             "region": found.present_region,
             "words": found.present_motions.words,
         },

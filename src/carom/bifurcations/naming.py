@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import name_of
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.orbits.names import OrbitName, in_order
+from carom.parameters import Numbers
 
 BELOW = 1e-4
 """Relative distance from a period within which a root counts as that period."""

@@ -8,7 +8,6 @@ from typing import Literal
 
 import numpy as np
 
-from carom.bifurcations.axes import axis
 from carom.bifurcations.lift_offs import DIFFERENCE, LiftOff, end_of_motions, next_lift_off
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.rubbing import RubbingPoint
@@ -56,12 +55,12 @@ def follow_onset(point: RubbingPoint, plane: Plane) -> tuple[np.ndarray, tuple[s
     if point.parameter not in (plane.first, plane.second):
         raise InputError("plane", f"{plane.first},{plane.second}", f"a plane with {point.parameter}")
     base, whirl = point.numbers, point.whirl
-    first, second = plane.axes(base.parameters)
+    plane.axes(base.parameters)
     low, high = plane.first_range
 
     def lift_off(angle: float, x: float, y: float) -> LiftOff | None:
         try:
-            return next_lift_off(Jeffcott(second.set(first.set(base, x), y).parameters), whirl, angle)
+            return next_lift_off(Jeffcott(plane.numbers_at(base, x, y).parameters), whirl, angle)
         except InputError:
             return None
 
@@ -73,8 +72,7 @@ def follow_onset(point: RubbingPoint, plane: Plane) -> tuple[np.ndarray, tuple[s
             return np.full(2, math.nan)
         return np.array([math.remainder(found.angle - u[0], math.tau), found.landing_force - force])
 
-    at = axis(base.parameters, point.parameter).set(base, value)
-    start = np.array([first.get(at), second.get(at)])
+    start = np.array(plane.place_of(base.moved(point.parameter, value)))
     widths = np.ptp([plane.first_range, plane.second_range], axis=1)
     sizes = np.maximum(np.abs(start), 0.1 * widths)
     edge = Watch(EDGE, lambda u, _: min(u[1] - low, high - u[1]), ends_branch=True)

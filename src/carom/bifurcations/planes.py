@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Ends, Numbers, axis, read_interval, value_in
+from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.outcome import InputError
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 
 EDGE = "edge of the plane"
 """Why curves end that leave the plane."""
@@ -50,9 +50,9 @@ class Plane:
         """Widths of both ranges, shape (2,)."""
         return np.ptp([self.first_range, self.second_range], axis=1)
 
-    def place_of(self, numbers: Numbers) -> tuple[float, float]:
+    def place_of(self, at: Parameters | Numbers) -> tuple[float, float]:
         """Values of both parameters, whether inside the plane or outside."""
-        return value_in(numbers, self.first), value_in(numbers, self.second)
+        return at.value(self.first), at.value(self.second)
 
     def holds(self, x: float, y: float) -> bool:
         """Whether a point lies in the plane, within rounding."""
@@ -70,5 +70,8 @@ class Plane:
 
     def at(self, base: Parameters, x: float, y: float) -> Parameters:
         """Parameters at a point of the plane."""
-        first, second = axis(base, self.first), axis(base, self.second)
-        return second.set(first.set(Numbers.of(base), x), y).parameters
+        return self.numbers_at(Numbers.of(base), x, y).parameters
+
+    def numbers_at(self, base: Numbers, x: float, y: float) -> Numbers:
+        """Plain numbers at a point of the plane; an analytic function of both parameters."""
+        return base.moved(self.first, x).moved(self.second, y)

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import orbit_of
 from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import Orbit
 from carom.outcome import InputError
+from carom.parameters import Numbers
 from carom.results import Result
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]

@@ -7,7 +7,6 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import Codimension2Point, Curve, can_be_followed, continue_curve
@@ -17,7 +16,7 @@ from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.rubbing import RubbingPoint
 from carom.bifurcations.survey import Survey
-from carom.models import Subject, jeffcott_of
+from carom.models import Axis, Subject, jeffcott_of
 from carom.orbits.names import combined
 from carom.outcome import CaromError
 from carom.progress import Reporter, Wish, shows_progress
@@ -173,7 +172,7 @@ def map_regions(
     parameters = jeffcott_of(machine).parameters
     axes = plane.axes(parameters)
     tell = Reporter.of(progress, "counting motions, following curves")
-    place = plane.place_of(Numbers.of(parameters))
+    place = plane.place_of(parameters)
     inside = plane.holds(*place)
     base = parameters if inside else plane.at(parameters, *np.mean([plane.first_range, plane.second_range], axis=1))
     curves: list[Curve] = []

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.bifurcations.curves import Codimension2Point
 from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 
 TURNS = {"resonance-1:1": 1.0, "resonance-1:2": -1.0}
 """Value of the double multiplier at each resonance."""
@@ -31,11 +30,11 @@ def beside_resonance(parameters: Parameters, plane: Plane, point: Codimension2Po
         ``None`` if there is none in the plane.
     """
     base = Numbers.of(parameters)
-    first, second = plane.axes(parameters)
+    plane.axes(parameters)
     wanted = TURNS[point.kind] * (2.0 - ASIDE)
 
     def numbers_at(x: float, y: float) -> Numbers:
-        return second.set(first.set(base, x), y)
+        return plane.numbers_at(base, x, y)
 
     period, speed, place = point.period, point.radial_speed, point.value
     for _ in range(ITERATIONS):

@@ -24,7 +24,6 @@ from typing import Literal
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Ends, Numbers, axis, interval_around
 from carom.bifurcations.lift_offs import (
     LONGEST,
     TOLERANCE,
@@ -41,9 +40,10 @@ from carom.bifurcations.points import Bifurcation, MotionKind
 from carom.continuation import Steps, Watch, continue_branch
 from carom.continuation.roots import bracketed_root, sign_change
 from carom.models import Jeffcott
+from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, InputError
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 from carom.results import Result
 
 SAMPLES = 48
@@ -214,9 +214,8 @@ def continue_rubbing(orbit: RubbingOrbit, parameter: str, interval: Ends) -> Rub
         Unknown parameter, or an interval without the motion.
     """
     along = axis(orbit.parameters, parameter)
-    base = Numbers.of(orbit.parameters)
-    present, limits = interval_around(along, base, interval)
-    lift_offs = _Map(along, base, orbit.whirl)
+    present, limits = interval_around(along, orbit.parameters.value(parameter), interval)
+    lift_offs = _Map(along, Jeffcott(orbit.parameters), orbit.whirl)
     size = max(abs(present), 0.1 * (limits[1] - limits[0]))
     branch = continue_branch(
         lambda u, p: np.array([lift_offs.shift(float(u[0]), p)]),
@@ -266,13 +265,13 @@ class _Map:
     """The map of lift-offs as a function of the angle and of a parameter."""
 
     along: Axis
-    base: Numbers
+    base: Jeffcott
     whirl: Whirl
 
     def after(self, angle: float, value: float) -> LiftOff | None:
         """The next lift-off."""
         try:
-            rotor = Jeffcott(self.along.set(self.base, value).parameters)
+            rotor = self.along.move(self.base, value)
         except InputError:
             return None
         return next_lift_off(rotor, self.whirl, angle)
@@ -289,7 +288,7 @@ class _Map:
         """A special point at this angle and value."""
         return RubbingPoint(
             kind,
-            self.along.set(self.base, value),
+            Numbers.of(self.base.parameters).moved(self.along.name, value),
             known(self.after(angle, value)).time,
             parameter=self.along.name,
             value=value,

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
-from carom.bifurcations.axes import vary
 from carom.disturbances import Plan
 from carom.models import Jeffcott
 from carom.motions.settling import REPEATING
@@ -105,7 +104,7 @@ def sample_attractors(
     tell = Reporter.of(progress, "following disturbances")
     found: list[AttractorSample] = []
     for done, value in enumerate(np.linspace(*interval, values).tolist()):
-        rotor = Jeffcott(vary(parameters, parameter, value))
+        rotor = Jeffcott(parameters.replace(**{parameter: value}))
         attractors = find_attractors(rotor, disturbances)
         found += [_sample(value, rotor, each) for each in attractors if each.settled]
         found += _transient(value, attractors)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_of_roots
+from carom.parameters import Numbers
 
 
 class Solution(NamedTuple):

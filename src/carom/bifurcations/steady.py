@@ -7,15 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.bifurcations.axes import Axis, Numbers
 from carom.bifurcations.conditions import TESTS
 from carom.bifurcations.points import Bifurcation
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
 from carom.continuation.roots import bracketed_root
-from carom.models import Jeffcott
-from carom.parameters import Parameters
+from carom.models import Axis, Jeffcott
+from carom.parameters import Numbers, Parameters
 from carom.results import Result
 
 SAMPLES = 201
@@ -60,9 +59,9 @@ class RollingBranch(Result):
 
 def rolling_branch(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> RollingBranch:
     """Rolling on an evenly spaced grid of the parameter."""
-    base = Numbers.of(parameters)
+    base = Jeffcott(parameters)
     grid = np.linspace(*interval, SAMPLES)
-    found = [rolling(Jeffcott(along.set(base, value).parameters)) for value in grid.tolist()]
+    found = [rolling(along.move(base, value)) for value in grid.tolist()]
     return RollingBranch(
         grid, np.array([entry.largest_force for entry in found]), np.array([entry.holds for entry in found])
     )
@@ -77,12 +76,12 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
     for kind, name in kinds:
 
         def function(value: float, kind: str = kind) -> float:
-            return TESTS[kind](along.set(base, value), 1.0, 0.0)
+            return TESTS[kind](base.moved(along.name, value), 1.0, 0.0)
 
         values = np.array([function(value) for value in grid])
         for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
             root = bracketed_root(function, grid[i], grid[i + 1])
-            at = along.set(base, root)
+            at = base.moved(along.name, root)
             real = kind != "rub-fold" or happens_to_rubs(at)
             detail = boundary_kind(at) if kind == "boundary-equilibrium" else ""
             points.append(Bifurcation(kind, at, math.nan, math.nan, name, along.name, root, real, detail))
@@ -93,12 +92,12 @@ def equilibrium_branches(
     parameters: Parameters, along: Axis, interval: tuple[float, float]
 ) -> tuple[EquilibriumBranch, ...]:
     """Levitation and both rubs on an evenly spaced grid of the parameter."""
-    base = Numbers.of(parameters)
+    base = Jeffcott(parameters)
     grid = np.linspace(*interval, SAMPLES)
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
-        for equilibrium in find_equilibria(Jeffcott(along.set(base, value).parameters)):
+        for equilibrium in find_equilibria(along.move(base, value)):
             place = 0 if equilibrium.kind == "contact-free" else 1 if equilibrium.stable else 2
             table[place, column] = (
                 equilibrium.radius,

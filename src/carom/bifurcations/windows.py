@@ -15,7 +15,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.axes import Numbers, vary
 from carom.bifurcations.branches import OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import (
     corrected,
@@ -30,7 +29,7 @@ from carom.models import Jeffcott
 from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach
 from carom.outcome import CaromError
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 from carom.progress import Reporter, Wish
 
 SAME = 1e-6
@@ -136,7 +135,7 @@ def orbit_windows(
     tell = Reporter.of(progress, "following orbits")
     columns: list[list[_Member]] = []
     for done, value in enumerate(values):
-        columns.append(_members(vary(parameters, parameter, value)))
+        columns.append(_members(parameters.replace(**{parameter: value})))
         tell(0.7 * (done + 1) / len(values))
     cells = list(pairwise(values))
     partners = [_partners(*pair) for pair in pairwise(columns)]
@@ -334,7 +333,7 @@ def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, f
     """
     middle = 0.5 * float(course[0, 0] + course[-1, 0])
     values, *others = course[np.argsort(course[:, 0])].T
-    numbers = branch.axis.set(branch.numbers[0], middle)
+    numbers = branch.numbers[0].moved(branch.parameter, middle)
     if branch.numbers[0].mu < 0.0:
         numbers = numbers._replace(mu=-abs(numbers.mu))
     period, speed = corrected(numbers, *(float(np.interp(middle, values, other)) for other in others))

@@ -192,8 +192,8 @@ def _plane(
     parameters: Parameters, plane: str | None, x: str | None, y: str | None
 ) -> tuple[tuple[str, str], tuple[Any, Any]]:
     """Return the names and ranges of the two parameters of a gain map."""
-    from carom.bifurcations import axis
     from carom.cli.starts import read_range
+    from carom.models import axis
 
     given = plane or ("stiffness,damping" if parameters.scales else "omega,gamma")
     names = [name.strip() for name in given.split(",")]

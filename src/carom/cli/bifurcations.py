@@ -13,7 +13,8 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from carom.bifurcations import Axis, Diagram, RegionMap
+    from carom.bifurcations import Diagram, RegionMap
+    from carom.models import Axis
     from carom.parameters import Parameters
 
 Out = Annotated[
@@ -68,9 +69,10 @@ def bifurcations(
     points, grazing, boundary equilibria, non-smooth Hopf points, folds of rubs and the limit of rolling.  Along the
     speed it is a run-up diagram: damping and stiffness stay fixed, their dimensionless values change with the speed.
     """
-    from carom.bifurcations import Numbers, axis, find_bifurcations
+    from carom.bifurcations import find_bifurcations
     from carom.bifurcations.documents import diagram_document
     from carom.cli.starts import read_value
+    from carom.models import axis
     from carom.parameters import load
 
     parameters = load(machine, settings or ()).parameters
@@ -98,8 +100,7 @@ def bifurcations(
     if as_json:
         print_document(document)
         return
-    present = varied.get(Numbers.of(parameters))
-    _print_diagram(diagram, present)
+    _print_diagram(diagram, parameters.value(varied.name))
 
 
 def regions(
@@ -126,8 +127,9 @@ def regions(
     Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
     of motions between neighbouring points of the grid.  Changes that no curve explains are listed.
     """
-    from carom.bifurcations import Plane, axis, map_regions
+    from carom.bifurcations import Plane, map_regions
     from carom.bifurcations.documents import regions_document
+    from carom.models import axis
     from carom.parameters import load
 
     parameters = load(machine, settings or ()).parameters
@@ -160,13 +162,11 @@ def regions(
 
 def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
     """Return the range of a parameter: as given, or around its present value."""
-    from carom.bifurcations import Numbers
-
     if given is not None:
         from carom.cli.starts import read_range
 
         return read_range(option, given, varied)
-    present = varied.get(Numbers.of(parameters))
+    present = parameters.value(varied.name)
     if not present > 0.0:
         raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")
     return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)

@@ -9,7 +9,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales, read_quantity, read_size
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Axis
+    from carom.models import Axis
     from carom.motions.starts import Kick, State
 
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"

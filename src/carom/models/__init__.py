@@ -1,6 +1,7 @@
 """Rotors: from parameters to the arrays that the kernels use.
 
 ========================  =================================================================
+``axes``                  :class:`Axis`: any named parameter of any model, to vary
 ``model``                 :class:`Model`: what every description of a rotor offers
 ``system``                :class:`System`: modes and contact planes of any linear rotor
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
@@ -10,6 +11,7 @@
 ========================  =================================================================
 """
 
+from carom.models.axes import Axis, axis
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
 from carom.models.model import Model
@@ -17,11 +19,13 @@ from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, mod
 from carom.models.system import System, second_order_system
 
 __all__ = [
+    "Axis",
     "Jeffcott",
     "LinearRotor",
     "Model",
     "Subject",
     "System",
+    "axis",
     "case_of",
     "jeffcott_of",
     "model_from",

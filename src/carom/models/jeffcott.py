@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 from carom.core.planar import planar_exponents
 from carom.models.system import System, second_order_system
 from carom.outcome import InputError, shown
-from carom.parameters import Parameters, Scales
+from carom.parameters import Field, Parameters, Scales
 
 
 @dataclass(frozen=True)
@@ -70,14 +71,17 @@ class Jeffcott:
         """Contact-free equilibrium position ``U*``; it may lie outside the clearance."""
         return complex(self.system.rest[0])
 
-    def replace(self, **changes: Any) -> Jeffcott:
-        """Return the rotor with other parameters.
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Parameters that can be varied."""
+        return self.parameters.varied
 
-        Raises
-        ------
-        InputError
-            A name is unknown or a value not allowed.
-        """
+    def value(self, name: str) -> float:
+        """Value of a parameter (:meth:`Parameters.value`)."""
+        return self.parameters.value(name)
+
+    def replace(self, **changes: Any) -> Jeffcott:
+        """Return the rotor with other parameters (:meth:`Parameters.replace`)."""
         return Jeffcott(self.parameters.replace(**changes))
 
     def attributes(self) -> dict[str, str]:

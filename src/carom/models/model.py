@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from carom.models.system import System
-    from carom.parameters import Scales
+    from carom.parameters import Field, Scales
 
 
 @runtime_checkable
@@ -29,8 +31,15 @@ class Model(Protocol):
     def unbalance_phase(self) -> float:
         """Angle of the unbalance in the co-rotating frame, in rad."""
 
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Named parameters that can be varied: words, symbol, unit and range of each."""
+
+    def value(self, name: str) -> float:
+        """Value of a named parameter, in the unit of its field."""
+
     def replace(self, **changes: Any) -> Self:
-        """Return the rotor with other values of named parameters."""
+        """Return the rotor with other values of named parameters; what depends on them changes too."""
 
     def attributes(self) -> dict[str, Any]:
         """Numbers and texts from which :func:`~carom.models.subjects.model_from` makes the same model again."""

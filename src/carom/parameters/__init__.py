@@ -6,15 +6,24 @@
 ``quantities``            text with units -> float in SI units
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           TOML file -> raw tables
+``numbers``               :class:`Numbers`: plain dimensionless numbers, conversion from and to SI units
 ``scaling``               :class:`Scales` and their units, :class:`Parameters`
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
 """
 
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, Field, unknown_name
+from carom.parameters.fields import (
+    DIMENSIONLESS_FIELDS,
+    MACHINE_FIELDS,
+    PARAMETERS,
+    PHYSICAL_PARTNER,
+    Field,
+    unknown_name,
+)
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load
+from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import UNITS, Parameters, Scales
 from carom.parameters.sizes import Size, read_size
@@ -22,11 +31,13 @@ from carom.parameters.sizes import Size, read_size
 __all__ = [
     "DIMENSIONLESS_FIELDS",
     "MACHINE_FIELDS",
+    "PARAMETERS",
     "PHYSICAL_PARTNER",
     "UNITS",
     "Case",
     "Field",
     "Machine",
+    "Numbers",
     "Parameters",
     "Scales",
     "Size",

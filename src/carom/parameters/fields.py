@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from carom.outcome import InputError, shown
+from carom.outcome import InputError, Problems, shown
 
 _LONGEST_NAME = 60
 _MOST_SUGGESTIONS = 100
@@ -142,6 +143,9 @@ DIMENSIONLESS_FIELDS: Mapping[str, Field] = _by_name(
 )
 """Entries of a ``[dimensionless]`` table; (2.12) of the source paper defines the first three."""
 
+PARAMETERS: Mapping[str, Field] = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
+"""All parameters of the planar rotor."""
+
 PHYSICAL_PARTNER: Mapping[str, str] = {
     "gamma": "damping",
     "omega": "stiffness",
@@ -178,6 +182,32 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     best = nearest_name(name, known)
     advice = f"did you mean {best}? " if best else ""
     return InputError(shown(name), shown(given), f"unknown name in {where}; {advice}allowed: {', '.join(known)}")
+
+
+def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
+    """Check that names are machine fields or dimensionless parameters, and that no two set the same thing.
+
+    Parameters
+    ----------
+    changes : iterable or mapping
+        The names; the values of a mapping appear in the message.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or if, for example, both ``damping`` and ``gamma`` are there.  It reports all errors at
+        once.
+    """
+    values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
+    problems = Problems()
+    for name, value in values.items():
+        partner = PHYSICAL_PARTNER.get(name)
+        if name not in PARAMETERS:
+            problems.errors.append(unknown_name(name, value, PARAMETERS, "a machine or its parameters"))
+        elif partner in values:
+            allowed = f"sets {partner}, which is set too; give one of the two"
+            problems.errors.append(InputError(name, shown(value), allowed))
+    problems.tell()
 
 
 def name_errors(table: Mapping[str, object], fields: Mapping[str, Field], where: str) -> list[InputError]:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from decimal import Context, Decimal, localcontext
 from typing import Any, Self, cast
 
 import pydantic
 
 from carom.outcome import InputError, Problems, shown, together
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, name_errors, unknown_name
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, check_names, name_errors
+from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters, Scales
 from carom.parameters.toml_reader import read_machine_tables
@@ -139,7 +139,9 @@ class Machine(pydantic.BaseModel):
         scales = scales or parameters.scales
         if scales is None:
             raise InputError("scales", None, "these parameters have none: give mass, clearance and speed")
-        values = {link.physical: link.solve(getattr(parameters, name), scales) for name, link in _LINKS.items()}
+        values = {
+            physical: _solved(name, getattr(parameters, name), scales) for name, physical in PHYSICAL_PARTNER.items()
+        }
         return cls(**values, mass=scales.mass, clearance=scales.clearance, speed=scales.speed)
 
     @property
@@ -151,7 +153,10 @@ class Machine(pydantic.BaseModel):
     def parameters(self) -> Parameters:
         """Dimensionless parameters of this machine, with its scales; (2.12) of the source paper."""
         scales = self.scales
-        numbers = {name: link.forward(getattr(self, link.physical), scales) for name, link in _LINKS.items()}
+        numbers = {
+            name: CONVERSIONS[name].number(getattr(self, physical), scales)
+            for name, physical in PHYSICAL_PARTNER.items()
+        }
         return Parameters(**numbers, scales=scales)
 
     def replace(self, /, **changes: Any) -> Machine:
@@ -176,7 +181,7 @@ class Machine(pydantic.BaseModel):
         solved = {}
         for name, value in given.items():
             number = read_quantity(DIMENSIONLESS_FIELDS[name], value)
-            solved[PHYSICAL_PARTNER[name]] = _LINKS[name].solve(number, machine.scales)
+            solved[PHYSICAL_PARTNER[name]] = _solved(name, number, machine.scales)
         try:
             return Machine(**{**machine.model_dump(), **solved})
         except InputError as problem:
@@ -196,89 +201,23 @@ class Machine(pydantic.BaseModel):
         return "\n".join(lines) + "\n"
 
 
-def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
-    """Check that names are machine fields or dimensionless parameters, and that no two set the same thing.
+def _solved(name: str, number: float, scales: Scales) -> float:
+    """Return the value, in SI units, of the partner of a dimensionless parameter that gives this number.
 
-    Parameters
-    ----------
-    changes : iterable or mapping
-        The names; the values of a mapping appear in the message.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, or if, for example, both ``damping`` and ``gamma`` are there.  It reports all errors at
-        once.
+    Short decimals are tried first: rounding to 15 digits finds the value that a person wrote. The conversion rounds at
+    most three times, so every double it maps to `number` lies within four units in the last place of the exact value.
     """
-    values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
-    known = {**MACHINE_FIELDS, **DIMENSIONLESS_FIELDS}
-    problems = Problems()
-    for name, value in values.items():
-        partner = PHYSICAL_PARTNER.get(name)
-        if name not in known:
-            problems.errors.append(unknown_name(name, value, known, "a machine or its parameters"))
-        elif partner in values:
-            allowed = f"sets {partner}, which is set too; give one of the two"
-            problems.errors.append(InputError(name, shown(value), allowed))
-    problems.tell()
-
-
-@dataclass(frozen=True)
-class _Link:
-    """Conversion between a field of the machine and a dimensionless number, in both directions."""
-
-    physical: str
-    forward: Callable[[float, Scales], float]
-    inverse: Callable[[Decimal, Scales], Decimal]
-
-    def solve(self, number: float, scales: Scales) -> float:
-        """Return the physical value, in SI units, that gives the dimensionless number.
-
-        Short decimals are tried first: rounding to 15 digits finds the value that a person wrote. The forward map
-        rounds at most three times, so every double it maps to `number` lies within four units in the last place of the
-        exact value.
-        """
-        with localcontext(Context(prec=60)):
-            exact = self.inverse(Decimal(number), scales)
-            candidates = [float(f"{exact:.{digits - 1}e}") for digits in (15, 16, 17)]
-        nearest = below = above = float(exact)
-        candidates.append(nearest)
-        for _ in range(4):
-            below, above = math.nextafter(below, -math.inf), math.nextafter(above, math.inf)
-            candidates += [below, above]
-        candidates = [value for value in candidates if value >= 0 or exact < 0]
-        return min(candidates, key=lambda value: abs(self.forward(value, scales) - number))
-
-
-def _copy(physical: str) -> _Link:
-    return _Link(physical, lambda value, scales: value, lambda number, scales: number)
-
-
-_LINKS: Mapping[str, _Link] = {
-    "gamma": _Link(
-        "damping",
-        lambda value, scales: value / scales.damping,
-        lambda number, scales: number * Decimal(scales.damping),
-    ),
-    "omega": _Link(
-        "stiffness",
-        lambda value, scales: math.sqrt(value / scales.stiffness),
-        lambda number, scales: number * number * Decimal(scales.stiffness),
-    ),
-    "rho": _Link(
-        "eccentricity",
-        lambda value, scales: value / scales.clearance,
-        lambda number, scales: number * Decimal(scales.clearance),
-    ),
-    "phi": _copy("unbalance_phase"),
-    "mu": _copy("friction"),
-    "d": _copy("restitution"),
-    "radius_ratio": _Link(
-        "rotor_radius",
-        lambda value, scales: value / scales.clearance,
-        lambda number, scales: number * Decimal(scales.clearance),
-    ),
-}
+    conversion = CONVERSIONS[name]
+    with localcontext(Context(prec=60)):
+        exact = conversion.value(Decimal(number), scales)
+        candidates = [float(f"{exact:.{digits - 1}e}") for digits in (15, 16, 17)]
+    nearest = below = above = float(exact)
+    candidates.append(nearest)
+    for _ in range(4):
+        below, above = math.nextafter(below, -math.inf), math.nextafter(above, math.inf)
+        candidates += [below, above]
+    candidates = [value for value in candidates if value >= 0 or exact < 0]
+    return min(candidates, key=lambda value: abs(conversion.number(value, scales) - number))
 
 
 def _input_errors(problem: pydantic.ValidationError, values: Mapping[str, Any]) -> list[InputError]:

@@ -15,10 +15,11 @@ from carom.parameters.fields import (
     MACHINE_FIELDS,
     PHYSICAL_PARTNER,
     Field,
+    check_names,
     name_errors,
     unknown_name,
 )
-from carom.parameters.machine import Machine, check_names
+from carom.parameters.machine import Machine
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
@@ -98,6 +99,25 @@ class Case:
     machine: Machine | None
     zones: Zones
 
+    def replace(self, /, **changes: Any) -> Case:
+        """Return the case with other parameters of the machine, bit for bit the same as with ``--set``.
+
+        Parameters
+        ----------
+        **changes
+            As for :meth:`Machine.replace`; for a dimensionless case as for :meth:`Parameters.replace`.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown or a value not allowed.
+        """
+        if self.machine is None:
+            return Case(self.name, self.parameters.replace(**changes), None, self.zones)
+        machine = self.machine.replace(**changes)
+        numbers = {name: value for name, value in changes.items() if name in DIMENSIONLESS_FIELDS}
+        return Case(self.name, machine.parameters.replace(**numbers), machine, self.zones)
+
 
 def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     """Read a machine file and apply settings to it.
@@ -145,10 +165,9 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     problems.tell()
     name = printable(Path(path).stem)
     zones = zones or Zones()
-    if not isinstance(base, Machine):
-        return Case(name, cast("Parameters", base).replace(**dimensionless), None, zones)
-    machine = base.replace(**physical, **dimensionless)
-    return Case(name, machine.parameters.replace(**dimensionless), machine, zones)
+    if isinstance(base, Machine):
+        return Case(name, base.parameters, base, zones).replace(**physical, **dimensionless)
+    return Case(name, cast("Parameters", base), None, zones).replace(**dimensionless)
 
 
 def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:

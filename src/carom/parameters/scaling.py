@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.outcome import InputError, shown
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, unknown_name
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Field, unknown_name
+from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
 
 UNITS = {
@@ -168,23 +169,53 @@ class Parameters:
             raise InputError("scales", shown(self.scales), "must be a carom.parameters.Scales, or None")
 
     def replace(self, /, **changes: Any) -> Parameters:
-        """Return a copy with other values.
+        """Return a copy with other values, dimensionless or physical.
 
         Parameters
         ----------
         **changes
-            Numbers by their names, or ``scales``.
+            Numbers by their names; physical ones in SI units, or text with a unit.  Physical ones are set first, each
+            with all others unchanged; a dimensionless one then moves alone.  ``scales`` are changed before all others.
 
         Raises
         ------
         InputError
-            If a name is unknown or a value not allowed.
+            If a name is unknown or a value not allowed, or a physical value is given without scales.
         """
-        known = {**DIMENSIONLESS_FIELDS, "scales": None}
+        known = {**self.varied, "scales": None}
         for name, value in changes.items():
             if name not in known:
-                raise unknown_name(name, value, known, "Parameters")
-        return dataclasses.replace(self, **changes)
+                raise self._no_such(name, value, known)
+        physical = {name: value for name, value in changes.items() if name in MACHINE_FIELDS}
+        own = {name: value for name, value in changes.items() if name not in physical}
+        if not physical:
+            return dataclasses.replace(self, **own)
+        numbers = Numbers.of(dataclasses.replace(self, scales=own.pop("scales", self.scales)))
+        for name, value in physical.items():
+            numbers = numbers.moved(name, read_quantity(MACHINE_FIELDS[name], value))
+        return dataclasses.replace(numbers.parameters, **own)
+
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """What :meth:`replace` can vary: dimensionless parameters, and with scales the fields of the machine too."""
+        return DIMENSIONLESS_FIELDS if self.scales is None else PARAMETERS
+
+    def value(self, name: str) -> float:
+        """Present value of a parameter, in SI units if it is a physical one.
+
+        Raises
+        ------
+        InputError
+            If the name is unknown, or a physical one without scales.
+        """
+        if name not in self.varied:
+            raise self._no_such(name, "wanted", self.varied)
+        return Numbers.of(self).value(name)
+
+    def _no_such(self, name: str, given: object, known: Mapping[str, object]) -> InputError:
+        if name not in MACHINE_FIELDS:
+            return unknown_name(name, given, known, "Parameters")
+        return InputError(name, shown(given), "mass, clearance and speed are not known: give scales, or a machine")
 
     def as_dict(self) -> dict[str, float]:
         """Return the seven numbers by name, without the scales."""

@@ -21,7 +21,7 @@ from carom.plots.words import number, parameter_label, parameter_unit
 
 if TYPE_CHECKING:
     from carom.basins import GainChange, GainMap
-    from carom.bifurcations import Axis
+    from carom.models import Axis
 
 _LEVELS = MappingProxyType({0.5: ":", 0.9: "--", 0.99: "-"})
 """Shares at which contours are drawn, and their line styles."""
@@ -81,7 +81,7 @@ def gain_map(
     values = np.ma.masked_invalid(found.dataset[measure].values)
     bar = _MEASURES[measure][0]
     if measure == "smallest_unrecovered_kick":
-        scales = found.parameters.scales
+        scales = found.rotor.scales
         values, bar = (
             (values, rf"{bar} ($c_r \Omega$)") if scales is None else (values * scales.velocity, f"{bar} (m/s)")
         )

@@ -9,7 +9,7 @@ from carom.outcome import Outcome
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Axis
+    from carom.models import Axis
     from carom.orbits.single_impact import Orbit
     from carom.parameters import Scales
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from carom.bifurcations import Window, WindowEnd, orbit_windows, vary
+from carom.bifurcations import Window, WindowEnd, orbit_windows
 from carom.closed_forms.thresholds import Gain
 from carom.models import Jeffcott
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
@@ -91,7 +91,7 @@ def _edge(parameters: Parameters, gain: Gain, end: WindowEnd, inward: float, sta
     there = [
         any(
             orbit.admissible and (orbit.stable or not stable)
-            for orbit in orbits_within_reach(Jeffcott(vary(parameters, gain, place)))
+            for orbit in orbits_within_reach(Jeffcott(parameters.replace(**{gain: place})))
         )
         for place in (end.value * (1.0 + inward * NEARBY), end.value * (1.0 - inward * NEARBY))
     ]

@@ -8,10 +8,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from carom.bifurcations import Bifurcation, Numbers, OrbitBranch
+from carom.bifurcations import Bifurcation, OrbitBranch
 from carom.bifurcations.conditions import grazing_equations
 from carom.continuation.roots import bracketed_root
 from carom.models import Jeffcott
+from carom.parameters import Numbers
 from carom.reproductions.mora2014.branches import DAMPINGS, FirstPair
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result

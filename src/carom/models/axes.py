@@ -1,0 +1,110 @@
+"""Parameters to vary: any named parameter of any model, and ranges of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from carom.models.model import Model
+from carom.models.subjects import Subject, model_of
+from carom.outcome import InputError
+from carom.parameters import MACHINE_FIELDS, PARAMETERS, Field, read_quantity, unknown_name
+
+Ends = tuple[float | str, float | str]
+"""Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
+_Replaceable = TypeVar("_Replaceable", bound=Model)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A parameter to vary.
+
+    Attributes
+    ----------
+    field : Field
+        Name, words, symbol, unit and range of the parameter.
+    """
+
+    field: Field
+
+    @property
+    def name(self) -> str:
+        """Name of the parameter."""
+        return self.field.name
+
+    def value(self, model: Model) -> float:
+        """Its value in a model, in SI units if it is physical."""
+        return model.value(self.name)
+
+    def move(self, model: _Replaceable, value: float) -> _Replaceable:
+        """Return the model with another value of it; what depends on it changes too.
+
+        Raises
+        ------
+        InputError
+            The value is out of range, or makes another parameter leave its range.
+        """
+        return model.replace(**{self.name: value})
+
+
+def axis(machine: Subject, name: str) -> Axis:
+    """Parameter of this name, of a model.
+
+    Raises
+    ------
+    InputError
+        The model has no parameter of this name, or a physical one while mass, clearance and speed are not known.
+    """
+    model = model_of(machine)
+    varied = model.varied
+    if name in varied:
+        return Axis(varied[name])
+    if name in MACHINE_FIELDS and model.scales is None:
+        raise InputError(
+            name,
+            "to vary",
+            f"only dimensionless parameters can be varied here ({', '.join(varied)}), as "
+            "mass, clearance and speed are not known",
+        )
+    raise unknown_name(name, "to vary", varied, "the parameters")
+
+
+def field_of(parameter: str | Axis) -> Field:
+    """Field of a parameter of the planar rotor by its name, or of any axis."""
+    if isinstance(parameter, Axis):
+        return parameter.field
+    if parameter not in PARAMETERS:
+        raise unknown_name(parameter, "to vary", PARAMETERS, "the parameters")
+    return PARAMETERS[parameter]
+
+
+def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:
+    """Read a range of a parameter.
+
+    Raises
+    ------
+    InputError
+        No such parameter, a value that it cannot have, or a range that is empty.
+    """
+    field = field_of(parameter)
+    low, high = (read_quantity(field, end) for end in given)
+    if not low < high:
+        raise InputError(field.name, f"{low:g} to {high:g}", "a range of two finite values in ascending order")
+    return low, high
+
+
+def interval_around(along: Axis, value: float, given: Ends) -> tuple[float, tuple[float, float]]:
+    """Present value of a parameter, and a range that must hold it, by rounding at least.
+
+    Raises
+    ------
+    InputError
+        The range cannot be read or does not hold the value.
+    """
+    low, high = read_interval(along, given)
+    nearest = min(max(value, low), high)
+    if not abs(value - nearest) <= 1e-12 * max(abs(low), abs(high)):
+        raise InputError(
+            along.name, f"{low:g} to {high:g}", f"an interval that holds the motion's own value {value:.6g}"
+        )
+    return nearest, (low, high)
