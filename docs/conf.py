@@ -50,7 +50,7 @@ autosummary_generate = True
 # Names that differ in case only, for file systems that do not tell them apart.
 autosummary_filename_map = {
     "carom.closed_forms.Rolling": "carom.closed_forms.Rolling-class",
-    "carom.bifurcations.Axis": "carom.bifurcations.Axis-class",
+    "carom.models.Axis": "carom.models.Axis-class",
 }
 # Types stand in the signatures; a docstring repeats only those that say more than the signature, such as shapes.
 autodoc_typehints = "signature"

@@ -11,7 +11,6 @@ from machines import PAPER
 
 import carom
 from carom.basins import GainMap, basin_entropy, integrity, least_gain_change, map_basins, map_gains
-from carom.bifurcations import vary
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.outcome import InputError, Outcome
 
@@ -34,7 +33,7 @@ def test_each_node_is_the_basin_of_its_machine(found):
     assert not levitates.all()
     for i, stiffness in enumerate(found.dataset["stiffness"].values):
         for k, damping in enumerate(found.dataset["damping"].values):
-            machine = vary(vary(MACHINE, "stiffness", stiffness), "damping", damping)
+            machine = MACHINE.replace(stiffness=stiffness, damping=damping)
             rotor = carom.models.Jeffcott(machine)
             node = found.dataset.isel(stiffness=i, damping=k)
             assert levitates[i, k] == (abs(rotor.equilibrium) < 1.0)
@@ -77,7 +76,7 @@ def test_the_least_change_is_enough_and_half_of_it_is_not(found):
     shares = []
     for part in (1.0, 0.97):
         values = [now * (1.0 + part * relative) for now, relative in zip(found.present, change.changes, strict=True)]
-        machine = vary(vary(MACHINE, "stiffness", values[0]), "damping", values[1])
+        machine = MACHINE.replace(stiffness=values[0], damping=values[1])
         shares.append(map_basins(carom.models.Jeffcott(machine), KICKS).share_recovered.fraction)
     assert shares[0] == change.share.fraction >= 0.95
     assert shares[1] < 0.95
@@ -96,7 +95,7 @@ def test_no_change_and_no_way(found):
 
 def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
     found = map_gains(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
-    slow = vary(vary(MACHINE, "speed", 120.0), "damping", 3000.0)
+    slow = MACHINE.replace(speed=120.0, damping=3000.0)
     plan = Grid(VelocityKick.in_si(slow.scales, 0.02), (10, 10))
     assert plan.model.fastest != pytest.approx(KICKS.model.fastest, rel=0.1)
     share = map_basins(carom.models.Jeffcott(slow), plan).share_recovered
@@ -128,7 +127,7 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
         ({"names": ("gama", "omega")}, "gamma"),
         ({"shape": (1, 4)}, "at least 2"),
         ({"ranges": ((2.0, 1.0), None)}, "ascending order"),
-        ({"ranges": ((1.0, math.inf), None)}, "ascending order"),
+        ({"ranges": ((1.0, math.inf), None)}, "not a finite number"),
         ({"ranges": (None, (-1.0, 10.0))}, "damping"),
     ],
 )

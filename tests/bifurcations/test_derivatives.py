@@ -11,13 +11,13 @@ from flint import acb, acb_mat, arb, arb_mat, ctx
 from machines import PAPER, random_parameters
 
 from carom import find_orbits
-from carom.bifurcations import Bifurcation, Numbers, Plane, branches, continue_curve, continue_orbit, curves, value_of
+from carom.bifurcations import Bifurcation, Plane, branches, continue_curve, continue_orbit, curves
 from carom.bifurcations.conditions import conditions_at
 from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
 from carom.continuation import continue_branch
 from carom.models import Jeffcott
 from carom.outcome import CaromError
-from carom.parameters import Scales
+from carom.parameters import Numbers, Scales
 
 ctx.prec = 192
 TESTS = ("fold", "speed-fold", "slip-stop", "contact-onset", "period-doubling", "neimark-sacker", "pair-sum")
@@ -196,7 +196,7 @@ SCALED = PAPER.replace(scales=Scales(50.0, 0.7e-3, 184.2))
 )
 def test_branches_along_any_parameter(monkeypatch, name):
     orbit = find_orbits(Jeffcott(SCALED))["B1,d"]
-    value = value_of(SCALED, name)
+    value = SCALED.value(name)
 
     def follow():
         continue_orbit(orbit, name, (0.98 * value, 1.02 * value))

@@ -10,11 +10,11 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import Machine, find_equilibria, find_orbits
-from carom.bifurcations import Plane, axis, find_bifurcations, map_regions, motions_at, value_of
+from carom.bifurcations import Plane, find_bifurcations, map_regions, motions_at
 from carom.bifurcations.curves import STEPS
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import Scales
+from carom.parameters import PARAMETERS, Scales
 
 
 @pytest.fixture(scope="module")
@@ -160,8 +160,8 @@ REASONS = {
 
 
 def around(machine, name: str) -> tuple[float, float]:
-    present = value_of(machine, name)
-    highest = axis(machine, name).field.highest
+    present = machine.value(name)
+    highest = PARAMETERS[name].highest
     return (0.0, 1.0) if name in ("d", "restitution") else (0.5 * present, min(2.0 * present + 1e-6, highest))
 
 

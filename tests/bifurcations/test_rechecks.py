@@ -10,7 +10,7 @@ import pytest
 from machines import PAPER, ExactMotion
 
 from carom import find_equilibria, find_orbits, simulate
-from carom.bifurcations import Bifurcation, Diagram, Numbers, Plane, find_bifurcations, map_regions, vary
+from carom.bifurcations import Bifurcation, Diagram, Plane, find_bifurcations, map_regions
 from carom.bifurcations.boundary import boundary_equilibria
 from carom.bifurcations.conditions import orbit_of
 from carom.closed_forms.periods import PeriodCondition
@@ -19,7 +19,7 @@ from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
 from carom.orbits.single_impact import Orbit
 from carom.outcome import Phase
-from carom.parameters import Parameters
+from carom.parameters import Numbers, Parameters
 
 pytestmark = pytest.mark.jit_only
 
@@ -47,7 +47,7 @@ def diagrams() -> dict[str, Diagram]:
 
 
 def sides(base: Parameters, point: Bifurcation, width: float, close: float = CLOSE) -> tuple[Parameters, Parameters]:
-    low, high = (vary(base, point.parameter, point.value + side * close * width) for side in (-1.0, 1.0))
+    low, high = (base.replace(**{point.parameter: point.value + side * close * width}) for side in (-1.0, 1.0))
     return low, high
 
 
@@ -98,7 +98,7 @@ def rolls_on(parameters: Parameters) -> bool:
 
 
 def check(base: Parameters, point: Bifurcation, width: float) -> None:
-    at, (low, high) = vary(base, point.parameter, point.value), sides(base, point, width)
+    at, (low, high) = base.replace(**{point.parameter: point.value}), sides(base, point, width)
     if point.kind == "fold":
         assert abs(count_roots(low, point) - count_roots(high, point)) == 2
     elif point.kind == "speed-fold":

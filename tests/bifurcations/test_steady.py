@@ -7,8 +7,8 @@ import math
 import pytest
 from machines import PAPER
 
-from carom.bifurcations.axes import axis
 from carom.bifurcations.steady import steady_points
+from carom.models import axis
 
 
 def test_at_resonance_points_are_found_through_zero_damping():

@@ -7,7 +7,7 @@ import pytest
 from machines import PAPER
 
 from carom import Machine, map_regions
-from carom.bifurcations import Motions, Plane, RegionMap, motions_at, value_of
+from carom.bifurcations import Motions, Plane, RegionMap, motions_at
 from carom.bifurcations import survey as module
 from carom.bifurcations.cells import regions_between
 from carom.bifurcations.changes import Stand
@@ -44,7 +44,7 @@ CLOSE = 3e-4
 def around(base: Parameters, first: str, second: str, up_to: float = np.inf) -> Plane:
     """The plane that the command draws by default."""
     return Plane(
-        first, second, *((0.25 * v, min(2.5 * v, up_to)) for v in (value_of(base, name) for name in (first, second)))
+        first, second, *((0.25 * v, min(2.5 * v, up_to)) for v in (base.value(name) for name in (first, second)))
     )
 
 

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from carom.bifurcations import axis
 from carom.cli import main
 from carom.cli.starts import read_kick, read_range, read_start, read_time
+from carom.models import axis
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError
 from carom.parameters import Parameters, Scales

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from machines import PAPER, path, rest_position
 from scipy.integrate import solve_ivp
 
-from carom.bifurcations.axes import Numbers
 from carom.bifurcations.motions import motions_at
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import (
@@ -35,7 +34,7 @@ from carom.closed_forms.thresholds import (
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import Parameters, Scales
+from carom.parameters import Numbers, Parameters, Scales
 
 MACHINE = PAPER.replace(gamma=0.15, rho=0.3)
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)

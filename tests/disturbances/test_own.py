@@ -103,7 +103,7 @@ def test_attractors_that_own_disturbances_reach(basin):
 @pytest.mark.jit_only
 def test_gain_maps_of_own_disturbances(tmp_path):
     found = cm.map_gains(MACHINE, PLAN, ("speed", "damping"), shape=(2, 2), ranges=((150.0, 200.0), (500.0, 4000.0)))
-    machine = cm.bifurcations.vary(cm.bifurcations.vary(MACHINE, "speed", 150.0), "damping", 4000.0)
+    machine = MACHINE.replace(speed=150.0, damping=4000.0)
     there = Grid(Shove(1.2, (0.1 + 0.2j) * SCALES.velocity / machine.scales.velocity), (6, 8))
 
     assert found.dataset["recovered"].values[0, 1] == cm.map_basins(machine, there).share_recovered.fraction

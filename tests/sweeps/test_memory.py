@@ -82,7 +82,7 @@ def test_a_grid_is_the_same_at_each_point_and_a_sample_is_not(machine):
     data = run_sweep(plan_sweep(machine, AXES[1:], kicks)).dataset
 
     for place, damping in enumerate(data["damping"].values):
-        share = cm.map_basins(cm.bifurcations.vary(machine.parameters, "damping", damping), kicks).share_recovered
+        share = cm.map_basins(machine.parameters.replace(damping=damping), kicks).share_recovered
         assert data["recovered"].values[place] == share.fraction == data["recovered_low"].values[place]
     plan = plan_sweep(machine, AXES[1:], Sample(KickPlane(0.3), 30))
     rotors = [cm.models.Jeffcott(plan.case_at((place,)).parameters) for place in (0, 1)]

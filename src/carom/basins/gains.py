@@ -135,9 +135,7 @@ def map_gains(
         raise InputError("names", ",".join(names), "two different parameters")
     if any(count < 2 for count in shape):
         raise InputError("shape", "x".join(map(str, shape)), "at least 2 values of each parameter")
-    values = [
-        _values(rotor, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)
-    ]
+    values = [_values(rotor, varied, given, count) for varied, given, count in zip(axes, ranges, shape, strict=True)]
     limits = {"patience": patience, "max_events": max_events}
     nodes = [(float(x), float(y)) for x in values[0] for y in values[1]]
     present = tuple(varied.value(rotor) for varied in axes)
@@ -186,9 +184,7 @@ def measured(
         yield measures
 
 
-def _machine(
-    rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]
-) -> tuple[Model, Starts]:
+def _machine(rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]) -> tuple[Model, Starts]:
     """Machine of a node and its starts; none of them exists if it cannot levitate."""
     moved = rotor.replace(**{varied.name: value for varied, value in zip(axes, node, strict=True)})
     if np.abs(moved.system.arrays.offsets).max() >= 1.0:
@@ -225,9 +221,7 @@ def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
     return measures
 
 
-def _smallest(
-    present: Scales | None, scales: Scales | None, starts: Starts, outcomes: np.ndarray
-) -> dict[str, float]:
+def _smallest(present: Scales | None, scales: Scales | None, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
     """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
     speed, direction = smallest_lost(starts, outcomes) or (math.nan, math.nan)
     if scales is not None and present is not None:

@@ -6,6 +6,7 @@
 ``system``                :class:`System`: modes and contact planes of any linear rotor
 ``jeffcott``              :class:`Jeffcott`: the planar rigid rotor, by its parameters
 ``linear``                :class:`LinearRotor`: any linear isotropic rotor, by its matrices
+``linear_parameters``     its named parameters
 ``modes``                 modes of a matrix, in pairs where two nearly coincide
 ``subjects``              :func:`model_of`, :func:`case_of`: any description of a rotor -> its model, its case
 ========================  =================================================================

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 
 from carom.core.layout import rotor_record
+from carom.models import linear_parameters
 from carom.models.modes import modes_of
 from carom.models.system import System, second_order_system
 from carom.outcome import InputError
-from carom.parameters import Scales
+from carom.parameters import Field, Scales
 from carom.results import Result
 
 _COMPLEX = ("mass", "damping", "stiffness", "forcing", "planes", "translation")
@@ -165,12 +166,38 @@ class LinearRotor(Result):
         """Angle of the unbalance in the co-rotating frame, in rad: that of its force on the rotor as a whole."""
         return float(np.angle(np.vdot(self.translation, self.forcing)))
 
+    @property
+    def varied(self) -> Mapping[str, Field]:
+        """Parameters that can be varied (:mod:`carom.models.linear_parameters`)."""
+        return linear_parameters.fields(self)
+
+    def value(self, name: str) -> float:
+        """Value of a parameter.
+
+        Raises
+        ------
+        InputError
+            No such name, or planes with different values.
+        """
+        return linear_parameters.value_of(self, name)
+
     def replace(self, **changes: Any) -> LinearRotor:
-        """Return the rotor with other attributes."""
-        unknown = sorted(set(changes) - {field.name for field in dataclasses.fields(self)})
-        if unknown:
-            raise InputError("parameter", unknown[0], f"one of: {', '.join(f.name for f in dataclasses.fields(self))}")
-        return dataclasses.replace(self, **changes)
+        """Return the rotor with other attributes, or other values of its parameters (:attr:`varied`).
+
+        ``friction`` and ``restitution`` are attributes as arrays, and parameters of all planes as numbers.  Attributes
+        are set first, then the speed, then the other parameters in the order given.
+
+        Raises
+        ------
+        InputError
+            A name is unknown or a value not allowed, or there is nothing to multiply: no damping, stiffness or unbalance.
+        """
+        given = {field.name for field in dataclasses.fields(self)} & set(changes)
+        given -= {name for name in linear_parameters.SAME if np.ndim(changes.get(name, 0.0)) == 0}
+        rotor = dataclasses.replace(self, **{name: changes[name] for name in given}) if given else self
+        for name in sorted(set(changes) - given, key=lambda name: (name != "speed", list(changes).index(name))):
+            rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
+        return rotor
 
     def attributes(self) -> dict[str, str]:
         """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER
 
 if TYPE_CHECKING:
-    from carom.parameters.scaling import Parameters, Scales
+    from carom.parameters.scaling import Parameters
 
 
 class Units(NamedTuple):
@@ -32,15 +32,15 @@ class Conversion(NamedTuple):
     power : {1, 2}
     """
 
-    unit: Callable[[Units | Scales], float]
+    unit: Callable[[Any], float]
     power: int = 1
 
-    def number(self, value: float, scales: Units | Scales) -> float:
+    def number(self, value: float, scales: Any) -> float:
         """Dimensionless number of a value in SI units; an analytic function of both."""
         ratio = value / self.unit(scales)
         return _root(ratio) if self.power == 2 else ratio
 
-    def value(self, number: Any, scales: Units | Scales) -> Any:
+    def value(self, number: Any, scales: Any) -> Any:
         """Value in SI units of a dimensionless number, a float or an exact ``Decimal``."""
         unit = self.unit(scales)
         return number**self.power * (Decimal(unit) if isinstance(number, Decimal) else unit)
@@ -86,7 +86,7 @@ class Numbers(NamedTuple):
         """Read the numbers of some parameters."""
         scales = parameters.scales
         units = None if scales is None else Units(scales.mass, scales.clearance, scales.speed)
-        return cls(*(getattr(parameters, name) for name in DIMENSIONLESS_FIELDS), units)
+        return cls(**parameters.as_dict(), units=units)
 
     @property
     def parameters(self) -> Parameters:

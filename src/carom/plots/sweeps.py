@@ -19,7 +19,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
 from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
+from carom.parameters import PARAMETERS
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
@@ -96,7 +96,7 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     places = []
     for dimension, direction in zip(dimensions, "xy", strict=False):
-        varied: Any = SimpleNamespace(name=dimension, field={**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}[dimension])
+        varied: Any = SimpleNamespace(name=dimension, field=PARAMETERS[dimension])
         places.append(data[dimension].values / parameter_unit(varied))
         set_up = {f"{direction}label": parameter_label(varied)}
         if spacings[dimension] == "log":

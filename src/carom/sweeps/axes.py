@@ -10,12 +10,11 @@ from typing import Any, Literal, cast
 
 import numpy as np
 
+from carom.models.axes import Axis, field_of
 from carom.outcome import InputError, Problems, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, read_quantity, unknown_name
+from carom.parameters import PARAMETERS, Field, read_quantity
 
 LONGEST_AXIS = 1_000_000
-PARAMETERS = {**DIMENSIONLESS_FIELDS, **MACHINE_FIELDS}
-"""All parameters that an axis can vary."""
 
 Spacing = Literal["linear", "log", "list"]
 
@@ -27,7 +26,7 @@ class GridAxis:
     Attributes
     ----------
     name : str
-        A field of a machine, or a dimensionless parameter.
+        A field of a machine, a dimensionless parameter, or a parameter of another model.
     spacing : {"linear", "log", "list"}
     given : tuple of float
         First and last value, or all values of a list; in SI units or dimensionless.
@@ -38,10 +37,16 @@ class GridAxis:
     spacing: Spacing
     given: tuple[float, ...]
     count: int
+    own: Field | None = None
 
     @classmethod
     def between(
-        cls, name: str, low: float | str, high: float | str, count: int, spacing: Literal["linear", "log"] = "linear"
+        cls,
+        parameter: str | Axis,
+        low: float | str,
+        high: float | str,
+        count: int,
+        spacing: Literal["linear", "log"] = "linear",
     ) -> GridAxis:
         """Evenly spaced values of a parameter, ends included.
 
@@ -56,8 +61,8 @@ class GridAxis:
         InputError
             No such parameter, or an end, a count or a spacing that cannot be used.
         """
-        where, problems = f"axes.{name}", Problems()
-        field = _field(name)
+        field, problems = field_of(parameter), Problems()
+        where = f"axes.{field.name}"
         ends = [problems.attempt(_number, f"{where}.{key}", field, end) for key, end in (("from", low), ("to", high))]
         if not (isinstance(count, Integral) and 2 <= count <= LONGEST_AXIS):
             allowed = f"must be a whole number from 2 to {LONGEST_AXIS}: how many values"
@@ -70,10 +75,10 @@ class GridAxis:
             raise InputError(f"{where}.spacing", shown(spacing), 'must be "linear" or "log"')
         if spacing == "log" and not (first > 0 and last > 0):
             raise InputError(f"{where}.spacing", "log", "needs ends above 0")
-        return cls(name, spacing, (first, last), int(count))
+        return cls(field.name, spacing, (first, last), int(count), _own(parameter))
 
     @classmethod
-    def of(cls, name: str, values: Sequence[float | str]) -> GridAxis:
+    def of(cls, parameter: str | Axis, values: Sequence[float | str]) -> GridAxis:
         """Values of a parameter one by one: numbers, in SI units if it is physical, or texts with a unit.
 
         Raises
@@ -81,12 +86,13 @@ class GridAxis:
         InputError
             No such parameter, no value, or values that are the same or cannot be used.
         """
-        where, field, problems = f"axes.{name}.values", _field(name), Problems()
+        field, problems = field_of(parameter), Problems()
+        where = f"axes.{field.name}.values"
         numbers = [problems.attempt(_number, where, field, value) for value in values]
         problems.tell()
         if not 0 < len(set(numbers)) == len(numbers) <= LONGEST_AXIS:
             raise InputError(where, shown(list(values)), f"must be different values, 1 to {LONGEST_AXIS} of them")
-        return cls(name, "list", tuple(cast("list[float]", numbers)), len(numbers))
+        return cls(field.name, "list", tuple(cast("list[float]", numbers)), len(numbers), _own(parameter))
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -99,17 +105,16 @@ class GridAxis:
     @property
     def field(self) -> Field:
         """Words, symbol and unit of the parameter."""
-        return PARAMETERS[self.name]
+        return self.own or PARAMETERS[self.name]
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the axis, as plain data for JSON."""
         return {"name": self.name, "spacing": self.spacing, "values": list(self.given), "count": self.count}
 
 
-def _field(name: str) -> Field:
-    if name not in PARAMETERS:
-        raise unknown_name(name, "to vary", PARAMETERS, "the parameters")
-    return PARAMETERS[name]
+def _own(parameter: str | Axis) -> Field | None:
+    """Field of an axis of a model, which a name alone would not give."""
+    return None if isinstance(parameter, str) else parameter.field
 
 
 def _number(where: str, field: Field, given: object) -> float:

@@ -13,8 +13,8 @@ import numpy as np
 
 from carom.disturbances import Grid, Plan, Sample
 from carom.outcome import InputError, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
-from carom.parameters.machine import check_names
+from carom.parameters import MACHINE_FIELDS, Case
+from carom.parameters.fields import check_names
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.studies import StudyTask
@@ -146,12 +146,7 @@ class SweepPlan:
         InputError
             The parameters of this point do not describe a machine.
         """
-        case, values = self.case, {**self.fixed, **self.values(point)}
-        numbers = {name: value for name, value in values.items() if name in DIMENSIONLESS_FIELDS}
-        if case.machine is None:
-            return Case(case.name, case.parameters.replace(**numbers), None, case.zones)
-        machine = case.machine.replace(**values)
-        return Case(case.name, machine.parameters.replace(**numbers), machine, case.zones)
+        return self.case.replace(**{**self.fixed, **self.values(point)})
 
     def seed_of(self, point: tuple[int, ...]) -> np.random.SeedSequence:
         """Return the seed of a point, which does not depend on its chunk or worker."""

@@ -14,6 +14,7 @@ from carom.disturbances import MODELS, Sample
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import (
     DIMENSIONLESS_FIELDS,
+    PARAMETERS,
     Case,
     Scales,
     Zones,
@@ -21,10 +22,9 @@ from carom.parameters import (
     read_size,
     unknown_name,
 )
-from carom.parameters.fields import nearest_name
-from carom.parameters.machine import check_names
+from carom.parameters.fields import check_names, nearest_name
 from carom.parameters.toml_reader import read_toml
-from carom.sweeps.axes import LONGEST_AXIS, PARAMETERS, GridAxis
+from carom.sweeps.axes import LONGEST_AXIS, GridAxis
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.plan import SweepPlan, Task, check_varied, cut
 from carom.sweeps.studies import StudyTask

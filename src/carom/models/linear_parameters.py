@@ -1,0 +1,135 @@
+"""Named parameters of a linear rotor: the numbers of the planar rotor, for any matrices.
+
+With the direction ``t`` in which the rotor moves as a whole, ``⟨A⟩ = tᴴ A t``, and ``M``, ``D``, ``K`` and ``F`` of the fixed
+frame (:meth:`~carom.models.LinearRotor.in_fixed_frame`),
+
+    γ = ⟨D⟩/⟨M⟩,      ω² = ⟨K⟩/⟨M⟩,      ρ e^{iφ} = tᴴF/⟨M⟩,
+
+which for one coordinate are the numbers of the planar rotor.  Another value of ``γ``, ``ω`` or ``ρ`` multiplies all of
+``D``, ``K`` or ``F`` by one factor; ``φ`` turns ``F``.  The friction ``μ``, the restitution ``d`` and the radius ratio, the
+drive less one, are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` moves ``D``
+with ``1/Ω`` and ``K`` with ``1/Ω²``; masses, gyroscopic matrix and unbalance, which both grow alike, stay.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.outcome import InputError, shown
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Numbers, read_quantity, unknown_name
+
+if TYPE_CHECKING:
+    from carom.models.linear import LinearRotor
+
+SAME = {"friction": "mu", "restitution": "d", "unbalance_phase": "phi"}
+"""Physical parameters that are numbers without a scale."""
+_AT_PLANES = {"mu": ("friction", 0.0), "d": ("restitution", 0.0), "radius_ratio": ("drive", 1.0)}
+"""Attribute of each parameter of the planes, and what it has in addition."""
+
+
+def fields(rotor: LinearRotor) -> dict[str, Field]:
+    """Fields of all parameters by name."""
+    found = {**DIMENSIONLESS_FIELDS, **{name: MACHINE_FIELDS[name] for name in SAME}}
+    if rotor.scales is not None:
+        found["speed"] = MACHINE_FIELDS["speed"]
+    for own, (name, plane) in _planes(rotor).items():
+        field = DIMENSIONLESS_FIELDS[name]
+        words = f"{field.words} at plane {plane + 1}"
+        found[own] = replace(field, name=own, symbol=f"{field.symbol}_{plane + 1}", words=words)
+    return found
+
+
+def _planes(rotor: LinearRotor) -> dict[str, tuple[str, int]]:
+    """Parameter and plane by name, for several planes."""
+    count = len(rotor.planes)
+    return {f"{name}_{plane + 1}": (name, plane) for name in _AT_PLANES for plane in range(count) if count > 1}
+
+
+def value_of(rotor: LinearRotor, name: str) -> float:
+    """Present value of a parameter.
+
+    Raises
+    ------
+    InputError
+        No such name, or planes with different values.
+    """
+    if name not in fields(rotor):
+        raise unknown_name(name, "wanted", fields(rotor), "the parameters")
+    if name == "speed" and rotor.scales is not None:
+        return rotor.scales.speed
+    own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
+    if own in _AT_PLANES:
+        attribute, beside = _AT_PLANES[own]
+        values = (getattr(rotor, attribute) - beside)[slice(None) if plane is None else [plane]]
+        if np.ptp(values) > 0.0:
+            names = ", ".join(f"{own}_{number + 1}" for number in range(len(values)))
+            raise InputError(name, values.tolist(), f"the same at all planes here; {names} are those of each plane")
+        return float(values[0])
+    return float(getattr(_numbers(rotor), own))
+
+
+def _numbers(rotor: LinearRotor) -> Numbers:
+    """Numbers of the rotor moving as a whole; those of the planes are left out."""
+    damping, stiffness = _fixed(rotor)
+    mass = _whole(rotor, rotor.mass)
+    force = complex(np.vdot(np.asarray(rotor.translation), rotor.forcing)) / mass
+    omega = math.sqrt(max(_whole(rotor, stiffness) / mass, 0.0))
+    return Numbers(_whole(rotor, damping) / mass, omega, abs(force), cmath.phase(force), *(math.nan,) * 3)
+
+
+def _fixed(rotor: LinearRotor) -> tuple[np.ndarray, np.ndarray]:
+    """Damping and stiffness matrix in the fixed frame, without the gyroscopic part."""
+    spin = rotor.damping - 2j * rotor.mass
+    return 0.5 * (spin + spin.conj().T), rotor.stiffness + rotor.mass - 1j * spin
+
+
+def _whole(rotor: LinearRotor, matrix: np.ndarray) -> float:
+    direction = np.asarray(rotor.translation)
+    return float(np.einsum("i,ij,j->", direction.conj(), matrix, direction).real)
+
+
+def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
+    """Attributes that another value of a parameter changes; a physical one is in SI units, or text with a unit.
+
+    Raises
+    ------
+    InputError
+        The value is out of range, or there is nothing to multiply: no damping, stiffness or unbalance.
+    """
+    known = fields(rotor)
+    if name not in known:
+        raise unknown_name(name, given, known, "the attributes and parameters of the rotor")
+    value = read_quantity(known[name], given)
+    own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
+    if own in _AT_PLANES:
+        attribute, beside = _AT_PLANES[own]
+        values = getattr(rotor, attribute).copy()
+        values[slice(None) if plane is None else plane] = value + beside
+        return {attribute: values}
+    if own == "phi":
+        return {"forcing": rotor.forcing * cmath.exp(1j * (value - rotor.unbalance_phase))}
+    damping, stiffness = _fixed(rotor)
+    if own == "speed" and rotor.scales is not None:
+        slower = rotor.scales.speed / value
+        more = (slower - 1.0) * damping
+        stiffer = (slower * slower - 1.0) * stiffness
+        return {
+            "damping": rotor.damping + more,
+            "stiffness": rotor.stiffness + stiffer + 1j * more,
+            "scales": replace(rotor.scales, speed=value),
+        }
+    present = value_of(rotor, own)
+    if not present:
+        raise InputError(name, shown(value), f"cannot be set: the rotor has none, {name} = 0, that could be multiplied")
+    factor = value / present
+    if own == "rho":
+        return {"forcing": rotor.forcing * factor}
+    if own == "omega":
+        return {"stiffness": rotor.stiffness + (factor * factor - 1.0) * stiffness}
+    more = (factor - 1.0) * damping
+    return {"damping": rotor.damping + more, "stiffness": rotor.stiffness + 1j * more}

@@ -1,0 +1,90 @@
+"""Parameters that are varied, against the machine they belong to."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from machines import PAPER
+
+from carom import Machine
+from carom.models import Jeffcott, axis
+from carom.models.axes import interval_around, read_interval
+from carom.outcome import InputError
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Numbers, Scales
+
+MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
+
+
+@pytest.mark.parametrize("name", MACHINE_FIELDS)
+def test_physical_parameters_move_what_the_machine_moves(name):
+    along = axis(MACHINE, name)
+    assert along.name == name
+    assert along.field is MACHINE_FIELDS[name]
+    for factor in (0.7, 0.99):
+        value = factor * getattr(MACHINE, name)
+        expected = MACHINE.replace(**{name: value}).parameters
+        got = along.move(Jeffcott(MACHINE.parameters), value)
+        assert got.parameters.as_dict() == pytest.approx(expected.as_dict(), rel=1e-13)
+        assert got.scales is not None
+        assert vars(got.scales) == pytest.approx(vars(expected.scales), rel=1e-13)
+        assert along.value(got) == got.parameters.value(name) == pytest.approx(value, rel=1e-13)
+        if name not in ("mass", "clearance", "speed"):
+            assert got.parameters == expected, "the same bits as with --set"
+
+
+@pytest.mark.parametrize("name", DIMENSIONLESS_FIELDS)
+def test_dimensionless_parameters_move_alone(name):
+    along = axis(PAPER, name)
+    got = along.move(Jeffcott(PAPER), 0.8)
+    assert got.parameters == PAPER.replace(**{name: 0.8})
+    assert along.value(got) == 0.8
+
+
+def test_the_order_of_physical_parameters_does_not_matter():
+    changes = {"speed": 120.0, "damping": "3 kN s/m", "mass": 40.0, "stiffness": 1.2e6, "rotor_radius": "50 mm"}
+    expected = MACHINE.replace(**changes).parameters
+    for names in (list(changes), list(changes)[::-1]):
+        got = MACHINE.parameters.replace(**{name: changes[name] for name in names})
+        assert got.as_dict() == pytest.approx(expected.as_dict(), rel=1e-14)
+        assert got.scales == expected.scales
+    assert MACHINE.parameters.replace(gamma=0.3, speed=120.0).gamma == 0.3
+
+
+def test_numbers_are_moved_without_checks():
+    numbers = Numbers.of(MACHINE.parameters).moved("stiffness", -1.0)
+    assert np.isnan(numbers.omega)
+    assert Numbers.of(PAPER).moved("d", 1.2).d == 1.2
+
+
+@pytest.mark.parametrize("name", MACHINE_FIELDS)
+def test_numbers_are_analytic_functions_of_each_parameter(name):
+    numbers, size = Numbers.of(MACHINE.parameters), 1e-6 * MACHINE.parameters.value(name)
+    value = numbers.value(name)
+    rates = np.array(numbers.moved(name, complex(value, 1e-30))[:7]).imag / 1e-30
+    low, high = (np.array(numbers.moved(name, value + change)[:7]) for change in (-size, size))
+    np.testing.assert_allclose(rates, (high - low) / (2.0 * size), rtol=1e-9, atol=1e-9 / value)
+
+
+def test_names_that_cannot_be_varied():
+    with pytest.raises(InputError, match="did you mean gamma"):
+        axis(PAPER, "gama")
+    with pytest.raises(InputError, match="did you mean gamma"):
+        PAPER.value("gama")
+    for call in (axis, lambda machine, name: machine.value(name), lambda machine, name: machine.replace(**{name: 1.0})):
+        with pytest.raises(InputError, match="mass, clearance and speed are not known"):
+            call(PAPER, "speed")
+    with pytest.raises(InputError, match="d = "):
+        axis(PAPER, "d").move(Jeffcott(PAPER), 1.2)
+
+
+def test_ranges():
+    damping = axis(MACHINE, "damping")
+    assert read_interval(damping, ("300 N s/m", 2000.0)) == read_interval("damping", (300, "2 kN s/m")) == (300, 2000)
+    for ends in ((2.0, 1.0), (1.0, 1.0)):
+        with pytest.raises(InputError, match="a range of two finite values in ascending order"):
+            read_interval("damping", ends)
+    with pytest.raises(InputError, match="damping = "):
+        read_interval(damping, (1.0, np.inf))
+    assert interval_around(damping, 300.0 * (1.0 - 1e-14), (300.0, 400.0)) == (300.0, (300.0, 400.0))
+    with pytest.raises(InputError, match="the motion's own value 299"):
+        interval_around(damping, 299.0, (300.0, 400.0))

@@ -1,0 +1,141 @@
+"""Named parameters of linear rotors, against the planar rotor and the matrices of the fixed frame."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from linear_rotors import bending
+from machines import PAPER
+
+from carom.models import Jeffcott, LinearRotor, axis
+from carom.outcome import InputError
+from carom.parameters import Scales
+
+SCALES = Scales(50.0, 0.7e-3, 184.2)
+MASS = np.array([[2.0, 0.3], [0.3, 1.5]])
+DAMPING = np.array([[0.4, 0.1j], [-0.1j, 0.6]])
+STIFFNESS = np.array([[1.2, 0.2], [0.2, 2.0]])
+GYROSCOPIC = np.diag([0.0, 0.7])
+FORCING = np.array([0.4 + 0.1j, 0.05])
+TRANSLATION = np.array([1.0, 0.25])
+
+
+def planar(parameters) -> LinearRotor:
+    return LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[parameters.gamma]],
+        stiffness=[[parameters.omega**2]],
+        forcing=[parameters.rho * np.exp(1j * parameters.phi)],
+        planes=[[1.0]],
+        friction=[parameters.mu],
+        restitution=[parameters.d],
+        drive=[parameters.radius_ratio + 1.0],
+        scales=parameters.scales,
+    )
+
+
+def rotor(**changes) -> LinearRotor:
+    """A rotor with two coordinates and two planes."""
+    given = {"mass": MASS, "damping": DAMPING, "stiffness": STIFFNESS, "gyroscopic": GYROSCOPIC, "forcing": FORCING}
+    given |= {"planes": [[1.0, 0.5], [1.0, -0.4]], "friction": [0.1, 0.2], "restitution": [0.9, 0.9], "drive": [30, 40]}
+    return LinearRotor.in_fixed_frame(**(given | {"translation": TRANSLATION, "scales": SCALES} | changes))
+
+
+def assert_alike(got: LinearRotor, expected: LinearRotor) -> None:
+    for name in ("mass", "damping", "stiffness", "forcing", "planes", "friction", "restitution", "drive"):
+        np.testing.assert_allclose(getattr(got, name), getattr(expected, name), rtol=1e-14, atol=1e-15, err_msg=name)
+    assert got.scales == expected.scales
+
+
+def whole(matrix: np.ndarray) -> float:
+    return float((TRANSLATION @ matrix @ TRANSLATION).real)
+
+
+@pytest.mark.parametrize("name", Jeffcott(PAPER.replace(scales=SCALES)).varied)
+def test_one_coordinate_has_the_parameters_of_the_planar_rotor(name):
+    machine = Jeffcott(PAPER.replace(scales=SCALES))
+    linear = planar(machine.parameters)
+    if name not in linear.varied:
+        assert name in ("mass", "damping", "stiffness", "eccentricity", "clearance", "rotor_radius")
+        return
+    along = axis(linear, name)
+    assert along == axis(machine, name), "one definition of each parameter"
+    assert along.value(linear) == pytest.approx(along.value(machine), rel=1e-14)
+    value = 0.9 * along.value(machine)
+    got = along.move(linear, value)
+    assert_alike(got, planar(along.move(machine, value).parameters))
+    assert along.value(got) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize("factor", [0.3, 1.0, 2.5])
+def test_damping_stiffness_and_unbalance_are_multiplied_as_a_whole(factor):
+    given = rotor()
+    gamma, omega = whole(DAMPING) / whole(MASS), np.sqrt(whole(STIFFNESS) / whole(MASS))
+    force = TRANSLATION @ FORCING / whole(MASS)
+    assert [given.value(name) for name in ("gamma", "omega", "rho", "phi", "speed")] == pytest.approx(
+        [gamma, omega, abs(force), np.angle(force), SCALES.speed], rel=1e-14
+    )
+    assert_alike(given.replace(gamma=factor * gamma), rotor(damping=factor * DAMPING))
+    assert_alike(given.replace(omega=factor * omega), rotor(stiffness=factor**2 * STIFFNESS))
+    assert_alike(given.replace(rho=factor * abs(force)), rotor(forcing=factor * FORCING))
+    turned = FORCING * np.exp(1j * (factor - np.angle(force)))
+    assert_alike(given.replace(phi=factor), rotor(forcing=turned))
+    assert_alike(given.replace(unbalance_phase=f"{factor} rad"), rotor(forcing=turned))
+    speed = factor * SCALES.speed
+    expected = rotor(
+        damping=DAMPING / factor, stiffness=STIFFNESS / factor**2, scales=Scales(SCALES.mass, SCALES.clearance, speed)
+    )
+    assert_alike(given.replace(speed=speed), expected)
+
+
+def test_planes_together_and_one_by_one():
+    given = rotor()
+    assert given.replace(friction=0.3).friction.tolist() == given.replace(mu=0.3).friction.tolist() == [0.3, 0.3]
+    assert given.replace(friction=[0.3, 0.1]).friction.tolist() == [0.3, 0.1]
+    assert given.replace(mu_2=0.3).friction.tolist() == [0.1, 0.3]
+    assert given.replace(radius_ratio_1=50.0).drive.tolist() == [51.0, 40.0]
+    assert given.replace(d=0.5).restitution.tolist() == [0.5, 0.5]
+    assert [given.value(name) for name in ("mu_1", "mu_2", "d", "radius_ratio_2")] == [0.1, 0.2, 0.9, 39.0]
+    assert axis(given, "mu_2").field.words == "coefficient of friction at plane 2"
+    assert "mu_1" not in planar(PAPER).varied
+    with pytest.raises(InputError, match="mu_1, mu_2 are those of each plane"):
+        given.value("mu")
+
+
+def test_several_at_once():
+    given = rotor()
+    got = given.replace(gamma=0.3, speed=100.0, mu=0.25, planes=[[1.0, 0.1], [1.0, 0.0]])
+    assert got.value("gamma") == pytest.approx(0.3, rel=1e-14), "physical parameters are set first"
+    assert got.value("omega") == pytest.approx(given.value("omega") * 1.842, rel=1e-14)
+    assert (got.scales.speed, got.value("friction"), got.planes[0, 1]) == (100.0, 0.25, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"gama": 0.1}, "did you mean gamma"),
+        ({"mu_3": 0.1}, "unknown name"),
+        ({"d": 1.2}, "d = 1.2: must be a number, 0 to 1"),
+        ({"omega": 0.0}, "omega = 0.0: must be"),
+        ({"gamma": "much"}, "gamma = much: must be"),
+    ],
+)
+def test_values_that_cannot_be_set(changes, words):
+    with pytest.raises(InputError, match=words):
+        rotor().replace(**changes)
+
+
+def test_nothing_to_multiply():
+    for name, without in (("gamma", {"damping": 0.0 * DAMPING}), ("rho", {"forcing": 0.0 * FORCING})):
+        with pytest.raises(InputError, match=f"{name} = 0, that could be multiplied"):
+            rotor(**without).replace(**{name: 0.1})
+    with pytest.raises(InputError, match="mass, clearance and speed are not known"):
+        axis(rotor(scales=None), "speed")
+    with pytest.raises(InputError, match="did you mean gamma"):
+        rotor().value("gama")
+
+
+def test_modes_change_with_the_speed():
+    model = bending().model
+    faster = model.replace(scales=SCALES).replace(speed=2.0 * SCALES.speed)
+    assert not np.allclose(np.sort(faster.system.exponents.real), np.sort(model.system.exponents.real))
