@@ -5,9 +5,9 @@
 >>> for picture in mora2014.figures(found):           # figures 2 to 6
 ...     print(picture.name, picture.caption)
 ...     figure = picture.draw()                    # a matplotlib figure; picture.result is what it shows
->>> for row in found.numbers:                      # or mora2014.numbers()
+>>> for row in found.numbers:                      # every number that the paper prints
 ...     print(row.place, row.quantity, row.printed, row.value, row.agrees, row.note)
->>> for row in found.misprints:                    # or mora2014.misprints()
+>>> for row in found.misprints:                    # formulas that do not hold, evaluated beside the correct ones
 ...     print(row.place, row.printed, row.right, row.printed_value, row.value)
 >>> for claim in found.claims:                     # propositions, and what holds of them
 ...     print(claim.place, claim.statement, claim.holds, claim.found)

@@ -79,14 +79,7 @@ def tables(found: Reproduction) -> tuple[TextTable, ...]:
             "Numbers printed in the source and computed here",
             ("where", "quantity", "printed", "computed", "difference", "note"),
             tuple(
-                (
-                    row.place,
-                    row.quantity,
-                    _with_unit(row.printed, row.unit),
-                    f"{row.value:.10g}",
-                    f"{row.difference:.2g}",
-                    row.note,
-                )
+                (row.place, row.quantity, row.shown, f"{row.value:.10g}", f"{row.difference:.2g}", row.note)
                 for row in compared
             ),
             tuple(row.agrees for row in compared),
@@ -96,14 +89,7 @@ def tables(found: Reproduction) -> tuple[TextTable, ...]:
             "Misprints of the source, evaluated",
             ("where", "printed", "right", "evaluated", "printed form", "right form"),
             tuple(
-                (
-                    row.place,
-                    row.printed,
-                    row.right,
-                    row.quantity,
-                    "" if row.printed_value is None else f"{row.printed_value:.8g}",
-                    f"{row.value:.8g}",
-                )
+                (row.place, row.printed, row.right, row.quantity, _text(row.printed_value), _text(row.value))
                 for row in found.misprints
             ),
             (True,) * len(found.misprints),
@@ -132,7 +118,7 @@ def tables(found: Reproduction) -> tuple[TextTable, ...]:
 def given_words(found: Reproduction) -> str:
     """Return the printed numbers that were used as they are, in a sentence."""
     given = (row for row in found.numbers if row.kind == "given")
-    listed = (f"{row.quantity} = {_with_unit(row.printed, row.unit)} ({row.place})" for row in given)
+    listed = (f"{row.quantity} = {row.shown} ({row.place})" for row in given)
     return f"Used as given: {', '.join(listed)}."
 
 
@@ -146,5 +132,5 @@ def markdown(found: Reproduction) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def _with_unit(text: str, unit: str) -> str:
-    return f"{text} {unit}" if unit else text
+def _text(value: float | None) -> str:
+    return "" if value is None else f"{value:.8g}"

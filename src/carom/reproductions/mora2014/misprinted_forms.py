@@ -18,8 +18,8 @@ from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.orbits.single_impact import Orbit, find_orbits, period_condition
 from carom.parameters import Parameters
-from carom.reproductions.mora2014.branches import FirstPair, first_pair
-from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.reproductions.mora2014.branches import FirstPair
+from carom.reproductions.mora2014.plane import DampingStiffnessPlane
 from carom.reproductions.mora2014.propositions import fixed_points
 from carom.reproductions.mora2014.source import SCALES, machine_at
 
@@ -59,26 +59,16 @@ class Misprint:
         return None if self.printed_value is None else self.value - self.printed_value
 
 
-def misprints(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None = None) -> tuple[Misprint, ...]:
-    """List the misprints in the order of the text.
-
-    Parameters
-    ----------
-    pair : FirstPair, optional
-        The branches of the first pair of orbits; computed here by default.
-    plane : DampingStiffnessPlane, optional
-        The plane of figure 6b; computed here by default.
-    """
-    branches = pair or first_pair()
-    drawn = plane or damping_stiffness_plane(branches)
+def misprints(pair: FirstPair, plane: DampingStiffnessPlane) -> tuple[Misprint, ...]:
+    """List the misprints in the order of the text."""
     orbit = find_orbits(Jeffcott(machine_at(0.1)))["B1,d"]
     return (
         *_impact_law(orbit),
         *_closed_forms(orbit),
         *_propositions(),
-        *_stability(branches),
-        *_local_theory(branches),
-        _grazing_regions(drawn),
+        *_stability(pair),
+        *_local_theory(pair),
+        _grazing_regions(plane),
     )
 
 

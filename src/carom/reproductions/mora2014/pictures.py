@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Literal
 
-from carom.reproductions.mora2014.reproduction import Reproduction, reproduce
+from carom.reproductions.mora2014.reproduction import Reproduction
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -38,15 +38,8 @@ class Picture(Result):
     draw: Callable[[], Figure]
 
 
-def figures(found: Reproduction | None = None) -> tuple[Picture, ...]:
-    """List figures 2 to 6.  Nothing is drawn before :attr:`Picture.draw` is called.
-
-    Parameters
-    ----------
-    found : Reproduction, optional
-        Computed here by default.
-    """
-    results = found or reproduce()
+def figures(results: Reproduction) -> tuple[Picture, ...]:
+    """List figures 2 to 6.  Nothing is drawn before :attr:`Picture.draw` is called."""
     birth = results.pair.hopf.gamma
     fold = results.pair.special("fold", "d").value
     grazing = results.pair.special("grazing", "d").value

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from carom.bifurcations import Bifurcation, Codimension2Point, Curve, Motions, Plane, continue_curve, motions_at
 from carom.closed_forms.thresholds import rub_limit
 from carom.continuation import Steps
-from carom.reproductions.mora2014.branches import FirstPair, first_pair
+from carom.reproductions.mora2014.branches import FirstPair
 from carom.reproductions.mora2014.source import machine_at
 from carom.results import Result
 
@@ -80,21 +80,17 @@ class DampingStiffnessPlane(Result):
         return next(point for point in self.curve(first).codimension2 if point.kinds == (first, second))
 
 
-def four_curves(pair: FirstPair | None = None) -> tuple[Curve, ...]:
+def four_curves(pair: FirstPair) -> tuple[Curve, ...]:
     """Compute the curves of fold, boundary equilibrium and non-smooth Hopf bifurcation, grazing and period doubling.
 
-    Parameters
-    ----------
-    pair : FirstPair, optional
-        The branches on which the curves start; computed here by default.
+    They start on the branches of the pair.
     """
-    branches = pair or first_pair()
-    fold, grazing, doubling = (branches.special(kind, "d") for kind in ("fold", "grazing", "period-doubling"))
-    boundary = Bifurcation.near("boundary-equilibrium", machine_at(branches.hopf.gamma))
+    fold, grazing, doubling = (pair.special(kind, "d") for kind in ("fold", "grazing", "period-doubling"))
+    boundary = Bifurcation.near("boundary-equilibrium", machine_at(pair.hopf.gamma))
     return tuple(continue_curve(point, PLANE, STEPS) for point in (fold, boundary, grazing, doubling))
 
 
-def damping_stiffness_plane(pair: FirstPair | None = None) -> DampingStiffnessPlane:
+def damping_stiffness_plane(pair: FirstPair) -> DampingStiffnessPlane:
     """Compute figure 6b: the four curves, the fold of the rubs, and the motions in each region."""
     rub_fold = continue_curve(Bifurcation.near("rub-fold", machine_at(rub_limit(machine_at(0.1)))), PLANE, STEPS)
     regions = []

@@ -83,13 +83,5 @@ def reproduce(*, progress: Wish = None) -> Reproduction:
     tell(0.7, "following the curves of figure 6b")
     plane = damping_stiffness_plane(pair)
     tell(0.9, "comparing the numbers")
-    return Reproduction(
-        motions,
-        periods,
-        pair,
-        radii,
-        plane,
-        numbers(pair, plane),
-        misprints(pair, plane),
-        claims(pair, plane),
-    )
+    compared = numbers(pair, plane), misprints(pair, plane), claims(pair, plane)
+    return Reproduction(motions, periods, pair, radii, plane, *compared)

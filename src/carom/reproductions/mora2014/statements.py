@@ -9,8 +9,8 @@ import numpy as np
 
 from carom.models import Jeffcott
 from carom.orbits.single_impact import Orbit, find_orbits
-from carom.reproductions.mora2014.branches import FirstPair, first_pair
-from carom.reproductions.mora2014.plane import DampingStiffnessPlane, damping_stiffness_plane
+from carom.reproductions.mora2014.branches import FirstPair
+from carom.reproductions.mora2014.plane import DampingStiffnessPlane
 from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds
 from carom.reproductions.mora2014.source import machine_at
 
@@ -40,19 +40,9 @@ class Claim:
     found: str
 
 
-def claims(pair: FirstPair | None = None, plane: DampingStiffnessPlane | None = None) -> tuple[Claim, ...]:
-    """Test the statements in the order of the text.
-
-    Parameters
-    ----------
-    pair : FirstPair, optional
-        The branches of the first pair of orbits; computed here by default.
-    plane : DampingStiffnessPlane, optional
-        The plane of figure 6b; computed here by default.
-    """
-    branches = pair or first_pair()
-    drawn = plane or damping_stiffness_plane(branches)
-    return (*_propositions(branches), _longer_pairs(), _stability(branches), _third_region(drawn))
+def claims(pair: FirstPair, plane: DampingStiffnessPlane) -> tuple[Claim, ...]:
+    """Test the statements in the order of the text."""
+    return (*_propositions(pair), _longer_pairs(), _stability(pair), _third_region(plane))
 
 
 def _propositions(branches: FirstPair) -> tuple[Claim, ...]:
