@@ -223,3 +223,27 @@ def single(planes=2, **changes):
         "translation": np.ones(1),
     }
     return FixedFrame(**{**numbers, **changes})
+
+
+def random_rotor(seed, *, n=None, planes=None, unbalance=None, damping=None, friction=None):
+    """A rotor of one to three coordinates and planes; what is given is fixed, everything else random."""
+    random = np.random.default_rng(seed)
+    n, planes = n or int(random.integers(1, 4)), planes or int(random.integers(1, 4))
+    mass, stiffness = (part @ part.T for part in random.normal(size=(2, n, n)))
+    mass, stiffness = mass + 0.3 * np.eye(n), (stiffness + 0.1 * np.eye(n)) * 10.0 ** random.uniform(-1.0, 1.5)
+    rows = random.normal(size=(planes, n))
+    size = 10.0 ** random.uniform(-0.5, 0.5, planes) / np.sqrt(
+        np.einsum("pn,np->p", rows, np.linalg.solve(mass, rows.T))
+    )
+    force = random.normal(size=n) * (unbalance or 10.0 ** random.uniform(-1.0, 0.5)) * np.exp(1j)
+    return LinearRotor.in_fixed_frame(
+        mass=mass,
+        damping=(damping or 10.0 ** random.uniform(-2.0, 0.0)) * mass,
+        stiffness=stiffness,
+        gyroscopic=random.choice([0.0, 1.0]) * np.diag(random.random(n)),
+        forcing=force,
+        planes=rows * size[:, None],
+        friction=np.full(planes, friction) if friction else random.choice([0.0, 0.05, 0.3, 1.0], planes),
+        restitution=random.choice([0.0, 0.3, 0.8, 0.95], planes),
+        drive=1.0 + 10.0 ** random.uniform(0.0, 2.0, planes),
+    )

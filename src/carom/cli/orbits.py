@@ -37,7 +37,7 @@ def orbits(
         from carom.studies import orbits_document
 
         rotor = Jeffcott(case.parameters)
-        steady = find_equilibria(rotor)
+        steady = find_equilibria(rotor).members
         found = orbits_within_reach(rotor) if longest is None else find_orbits(rotor, longest)
     if as_json:
         print_document(orbits_document(case.parameters, steady, found, case.machine))

@@ -1,7 +1,9 @@
-"""Exact results for the planar rotor.
+"""Exact results: equilibria of any linear rotor, everything else for the planar rotor.
 
 ==================  ===================================================
-``equilibria``      contact-free and rubbing equilibria
+``equilibria``      contact-free and rubbing equilibria of any linear rotor
+``statics``         forces of rubs at rest, at one plane and at several
+``rub_stability``   whether a rub at rest attracts sliding
 ``thresholds``      where motions begin and end, and disturbances that never reach the wall
 ``whirl``           backward whirl: runaway and rolling
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
@@ -11,7 +13,7 @@
 """
 
 from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
-from carom.closed_forms.equilibria import Equilibrium, find_equilibria
+from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_step, rub_limit
@@ -20,6 +22,7 @@ from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 __all__ = [
     "ContactSystem",
     "Equilibrium",
+    "EquilibriumSet",
     "LocalCycle",
     "NonSmoothHopf",
     "PeriodCondition",

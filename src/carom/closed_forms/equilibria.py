@@ -1,14 +1,19 @@
-"""Equilibria in the co-rotating frame: contact-free levitation and synchronous rub."""
+"""Equilibria in the co-rotating frame of any linear rotor: contact-free levitation and synchronous rub."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from functools import cached_property
+from typing import Any, Literal, overload
 
 import numpy as np
 
-from carom.models import Jeffcott, Subject, jeffcott_of
-from carom.results import Result
+from carom.closed_forms.rub_stability import sliding_rates
+from carom.closed_forms.statics import COUNTED, rub_forces, static_state
+from carom.models import Jeffcott, Model, Subject, System, model_of
+from carom.outcome import Phase
+from carom.results import Result, in_a_line
 
 Kind = Literal["contact-free", "rub"]
 Status = Literal["admissible", "boundary", "virtual"]
@@ -16,7 +21,7 @@ Status = Literal["admissible", "boundary", "virtual"]
 BOUNDARY = 1e-12
 """Distance from the wall (in clearances) or normal force (in ``m c_r Ω²``) that counts as zero."""
 NEUTRAL = 64 * np.finfo(float).eps
-"""Rounding error of the exponents along the wall, relative to the largest."""
+"""Rounding error of the exponents, relative to the largest."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -26,64 +31,147 @@ class Equilibrium(Result):
     Attributes
     ----------
     kind : {"contact-free", "rub"}
-    position : complex
-        ``U*`` in clearances.
-    normal_force : float
-        ``N`` in ``m c_r Ω²``; zero for the contact-free one.
+    position : complex, or ndarray of complex, shape (n,)
+        Coordinates of the rotor, for the planar rotor ``U*`` in clearances.
+    places : ndarray of complex, shape (P,)
+        Displacement at each contact plane, in the clearance there.
+    normal_forces : ndarray, shape (P,)
+        ``N`` at each plane, in ``m c_r Ω²`` with the mass that an impulse there moves; zero where it does not rub.
+    planes : tuple of int
+        Planes that rub.
     status : {"admissible", "boundary", "virtual"}
-        Contact-free: inside, on or outside the wall.  Rub: pressed on the wall, just touching, or only possible if the
-        wall could pull.
+        Contact-free: inside, on or outside a wall.  Rub: pressed on its walls and inside the others; on the boundary of
+        this; or only possible if a wall could pull, or outside another wall.
     eigenvalues : ndarray of complex
-        Exponents of small disturbances; for a rub those along the wall.
+        Exponents of small disturbances; for a rub of those that maintain contact where it rubs.
     stable : bool
-        Whether small disturbances die out, including those that lift a rubbing rotor off the wall.
+        Whether small disturbances die out, including those that lift a rotor that rubs at one plane off its wall.  Of a
+        rub at several planes only disturbances that maintain contact are judged.
     """
 
     kind: Kind
-    position: complex
-    normal_force: float
+    position: Any
+    places: np.ndarray
+    normal_forces: np.ndarray
+    planes: tuple[int, ...]
     status: Status
     eigenvalues: np.ndarray
     stable: bool
 
     @property
+    def plane(self) -> int:
+        """Plane with the largest normal force; without contact the one nearest to its wall."""
+        return int(np.argmax(self.normal_forces if self.planes else np.abs(self.places)))
+
+    @property
+    def normal_force(self) -> float:
+        """Normal force there; zero without contact."""
+        return float(self.normal_forces[list(self.planes)].max() if self.planes else 0.0)
+
+    @property
     def radius(self) -> float:
-        """``|U*|`` in clearances."""
-        return abs(self.position)
+        """``|y|`` there, in clearances."""
+        return float(abs(self.places[self.plane]))
+
+    @property
+    def angle(self) -> float:
+        """``arg y`` there, in rad."""
+        return float(np.angle(self.places[self.plane]))
 
     @property
     def attracts_sliding(self) -> bool:
         """Whether a rub attracts, as long as nothing lifts the rotor off the wall."""
         return self.kind == "rub" and self.status == "admissible" and _dies_out(self.eigenvalues)
 
-    @property
-    def angle(self) -> float:
-        """``arg U*`` in rad."""
-        return float(np.angle(self.position))
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EquilibriumSet(Result):
+    """The equilibria of a rotor: the contact-free one, then the synchronous rubs, stable ones first.
+
+    Attributes
+    ----------
+    rotor : Model
+    members : tuple of Equilibrium
+    complete : bool
+        Whether these are all isolated equilibria.
+    """
+
+    rotor: Model
+    members: tuple[Equilibrium, ...]
+    complete: bool
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Each equilibrium in a line."""
+        lines = [
+            (
+                f"{at.kind}{f' at plane {in_a_line(at.planes)}' if len(at.places) > 1 and at.planes else ''}",
+                f"{at.status}, {'stable' if at.stable else 'not stable'}, normal force {at.normal_force:.6g}",
+            )
+            for at in self.members
+        ]
+        return [("rotor", in_a_line(self.rotor)), *lines, ("complete", in_a_line(self.complete))]
+
+    def __len__(self) -> int:
+        return len(self.members)
+
+    def __iter__(self) -> Iterator[Equilibrium]:
+        return iter(self.members)
+
+    @overload
+    def __getitem__(self, place: int) -> Equilibrium: ...
+    @overload
+    def __getitem__(self, place: slice) -> tuple[Equilibrium, ...]: ...
+    def __getitem__(self, place: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
+        return self.members[place]
+
+    @cached_property
+    def argument(self) -> str:
+        """Why there are no more, or what is not claimed."""
+        found = "A linear rotor has one contact-free equilibrium; rubs at one plane are the two roots of a quadratic"
+        if len(self.members[0].places) > 1:
+            found += ", those at two planes the real roots of a polynomial of degree eight"
+        if not self.complete:
+            found += "; rubs at more planes were searched by Newton's method from many starts, so there may be others"
+        return f"{found}. Rubs that are possible at every angle, as those of a balanced rotor, are not listed."
 
 
-def find_equilibria(machine: Subject) -> tuple[Equilibrium, ...]:
-    """All equilibria: the contact-free one, then the synchronous rubs (none or two, the stable one first).
+def find_equilibria(machine: Subject) -> EquilibriumSet:
+    """All equilibria: the contact-free one, then the synchronous rubs, the stable ones first.
 
-    Contact-free: ``U* = ρe^{iφ}/(ω² − 1 + iγ)``, source paper (3.7).
+    Contact-free: ``K U* = F`` with the matrices of the co-rotating frame; for the planar rotor
+    ``U* = ρe^{iφ}/(ω² − 1 + iγ)``, source paper (3.7).
 
     Synchronous rub: the contact force ``−N(1 + iμ)e^{iθ}`` (slip is forward, ``s + 1 > 0``) acts through the static
-    receptance ``H = −W M⁻¹ B`` of the contact plane, so ``e^{iθ}(1 + hN) = U*`` with ``h = H(1 + iμ)``, and
-    ``|h|²N² + 2 Re(h) N + 1 − |U*|² = 0``.  For the planar rotor ``H = 1/(ω² − 1 + iγ)``, which is
-    ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``.
+    receptance of the planes (:mod:`carom.closed_forms.statics`).  Rubs at one plane and at two planes at once are all
+    found; at three and more they are searched, and :attr:`EquilibriumSet.complete` is false.  For the planar rotor
+    ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``: none or two.
 
     For a balanced rotor (``ρ = 0``) no rub is listed, because no angle is distinguished: if ``γ + μ(1 − ω²) = 0``, as
-    without damping and friction, it may rub at every angle, otherwise at none.
+    without damping and friction, the planar rotor may rub at every angle, otherwise at none.  Nor are rubs at two planes
+    that always touch together, whose forces statics does not tell apart.
     """
-    rotor = jeffcott_of(machine)
-    return (_contact_free(rotor), *_rubs(rotor))
+    model = model_of(machine)
+    system = model.system
+    rubs = [_rub(system, *balance) for balance in rub_forces(system)]
+    found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
+    return EquilibriumSet(model, found, complete=len(system.arrays.rows) <= COUNTED)
 
 
-def _contact_free(rotor: Jeffcott) -> Equilibrium:
-    eigenvalues = rotor.system.exponents
-    gap = 1.0 - abs(rotor.equilibrium)
-    stable = bool(eigenvalues.real.max() < 0.0)
-    return Equilibrium("contact-free", rotor.equilibrium, 0.0, _status(gap), eigenvalues, stable)
+def _contact_free(model: Model) -> Equilibrium:
+    system = model.system
+    places = np.asarray(system.arrays.offsets)
+    # The exponents of the planar rotor are exact, others have rounding errors.
+    margin = 0.0 if isinstance(model, Jeffcott) else NEUTRAL
+    return Equilibrium(
+        "contact-free",
+        complex(system.rest[0]) if len(system.rest) == 1 else system.rest,
+        places,
+        np.zeros(len(places)),
+        (),
+        _status(1.0 - float(np.abs(places).max())),
+        system.exponents,
+        _dies_out(system.exponents, margin),
+    )
 
 
 def _status(margin: float) -> Status:
@@ -92,57 +180,31 @@ def _status(margin: float) -> Status:
     return "admissible" if margin > 0 else "virtual"
 
 
-def _rubs(rotor: Jeffcott) -> list[Equilibrium]:
-    arrays = rotor.system.arrays
-    grip = complex(1.0, arrays.friction[0])
-    receptance = -complex(arrays.rows[0] @ np.linalg.solve(rotor.system.generator, arrays.columns[:, 0]))
-    h = receptance * grip
-    reach = abs(h) * abs(rotor.equilibrium)
-    if reach < abs(h.imag) or reach == 0.0:
-        return []
-    # The square root of Re(h)² − |h|²(1 − |U*|²), and 1 + hN below, in forms that neither cancel nor underflow.
-    distance = float(np.sqrt(reach - abs(h.imag)) * np.sqrt(reach + abs(h.imag)))
-    rubs = []
-    for root in (distance, -distance):
-        force = float((root - h.real) / abs(h) ** 2)
-        position = rotor.equilibrium * h.conjugate() / complex(root, -h.imag)
-        position /= abs(position)
-        eigenvalues = _eigenvalues_along_wall(rotor, position, force)
-        stable = _dies_out(eigenvalues) and force > 0.0 and bool(arrays.restitution[0] < 1.0)
-        rubs.append(Equilibrium("rub", position, force, _status(force), eigenvalues, stable))
-    return sorted(rubs, key=lambda rub: not rub.stable)
-
-
-def _dies_out(eigenvalues: np.ndarray) -> bool:
-    """Whether disturbances along the wall die out, with a margin above the rounding errors."""
-    return bool(eigenvalues.real.max() < -NEUTRAL * np.abs(eigenvalues).max())
-
-
-def _eigenvalues_along_wall(rotor: Jeffcott, position: complex, force: float) -> np.ndarray:
-    """Exponents of small disturbances of a rub that maintain contact and slip.
-
-    With ``n = e^{iθ}`` the contact force changes by ``−(1 + iμ)n (δN + iN δθ)``.  Staying on the wall,
-    ``Re(n̄ δÿ) = 0`` gives ``δN = Re(n̄ W M² δc) + μN δθ``.  The motion is then restricted to disturbances with
-    ``Re(n̄ δy) = Re(n̄ δẏ) = 0``.
-    """
-    arrays = rotor.system.arrays
-    modes = len(arrays.exponents)
-    grip = complex(1.0, arrays.friction[0])
-    inward = position.conjugate()
-
-    def rate(change: np.ndarray) -> np.ndarray:
-        turn = (inward * (arrays.rows[0] @ change)).imag
-        push = (inward * (arrays.acceleration_rows[0] @ change)).real + arrays.friction[0] * force * turn
-        return rotor.system.generator @ change - arrays.columns[:, 0] * grip * position * (push + 1j * force * turn)
-
-    def as_real(vector: np.ndarray) -> np.ndarray:
-        return np.concatenate([vector.real, vector.imag])
-
-    units = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
-    matrix = np.array([as_real(rate(unit)) for unit in units]).T
-    constraints = np.array(
-        [[(inward * (row @ unit)).real for unit in units] for row in (arrays.rows[0], arrays.rate_rows[0])]
+def _rub(system: System, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
+    arrays, chosen = system.arrays, list(planes)
+    amplitudes = static_state(system, planes, forces, touching)
+    places, pushes = arrays.rows @ amplitudes + arrays.offsets, np.zeros(len(arrays.rows))
+    places[chosen], pushes[chosen] = touching, forces
+    contact = np.full(len(places), Phase.FLIGHT)
+    contact[chosen] = Phase.FORWARD_SLIP
+    eigenvalues = sliding_rates(system, amplitudes, contact)
+    position, _ = system.state(amplitudes)
+    # At several planes bounces are not judged.
+    lands = len(planes) > 1 or bool(arrays.restitution[planes[0]] < 1.0)
+    margin = min(forces.min(), *(1.0 - np.abs(np.delete(places, chosen))), np.inf)
+    stable = _dies_out(eigenvalues) and bool(forces.min() > 0.0) and lands
+    return Equilibrium(
+        "rub",
+        complex(touching[0]) if system.is_planar else position if len(system.rest) > 1 else complex(position),
+        places,
+        pushes,
+        planes,
+        _status(float(margin)),
+        eigenvalues,
+        stable,
     )
-    _, _, directions = np.linalg.svd(constraints)
-    along = directions[2:].T
-    return np.linalg.eigvals(along.T @ matrix @ along).astype(complex)
+
+
+def _dies_out(eigenvalues: np.ndarray, margin: float = NEUTRAL) -> bool:
+    """Whether disturbances die out, with a margin above the rounding errors."""
+    return bool(eigenvalues.real.max() < -margin * np.abs(eigenvalues).max())

@@ -179,7 +179,9 @@ def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, p
     )
     safe = least_safe_damping(parameters, progress=tell.part(0.55, 1.0, "disturbances at other dampings"))
     advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
-    return Study(case, rotor, find_equilibria(rotor), orbits, ranges, boundaries, alone, advice, found, safe, fresh)
+    return Study(
+        case, rotor, find_equilibria(rotor).members, orbits, ranges, boundaries, alone, advice, found, safe, fresh
+    )
 
 
 def _ranges(parameters: Parameters, tell: Reporter) -> tuple[MotionRange, ...]:

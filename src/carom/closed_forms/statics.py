@@ -1,0 +1,167 @@
+"""Rubs at rest in the co-rotating frame, for any modes and contact planes: the forces that balance there.
+
+At rest a contact force ``−(1 + iμ_q) N_q y_q`` at plane ``q`` (slip is forward: ``s + 1 > 0``) acts through the static
+receptance ``H = −W M⁻¹ B``, so with ``h_pq = H_pq (1 + iμ_q)`` and the contact-free displacements ``y*``
+
+    y_p + Σ_q h_pq N_q y_q = y*_p,      |y_p| = 1 at each plane in contact.
+
+*One plane* gives ``|h|²N² + 2 Re(h) N + 1 − |y*|² = 0``: both roots.  *Two planes*: by Cramer's rule, with
+
+    D = 1 + h₁₁N₁ + h₂₂N₂ + (h₁₁h₂₂ − h₁₂h₂₁) N₁N₂,
+    y₁D = y*₁ + (h₂₂y*₁ − h₁₂y*₂) N₂,      y₂D = y*₂ + (h₁₁y*₂ − h₂₁y*₁) N₁,
+
+the conditions ``|y₁D|² = |y₂D|²`` and ``|y₂D|² = |D|²`` are quadratic in ``N₂`` with coefficients quadratic in ``N₁``; their
+resultant is a polynomial of degree eight in ``N₁``, whose roots are all there are.  *More planes* are searched by Newton's
+method from many starts, which proves nothing about their number; only those with pushing forces are kept.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+from numpy.polynomial import polynomial
+
+from carom.models import System
+
+COUNTED = 2
+"""Most planes in contact for which all rubs are found."""
+NEARLY_REAL = 0.1
+"""Imaginary part, relative to the modulus, up to which a root is a start of Newton's method: coarse, as it decides nothing."""
+STEPS, CONVERGED, SAME = 60, 1e-11, 1e-7
+FARTHEST = 1e6
+"""Force, per stiffness of the plane, beyond which Newton's method has diverged."""
+SMALLEST = 1e-9
+"""Static receptance of a plane, relative to the largest, below which its coupling to the others counts instead."""
+STARTS = 200
+
+
+def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.ndarray]]:
+    """Planes in contact, normal forces and displacements there of rubs at rest, wherever the other planes are.
+
+    Rubs that are no isolated points, as those of a balanced rotor, are left out.
+    """
+    receptance = -system.arrays.rows @ np.linalg.solve(system.generator, system.arrays.columns)
+    lever = receptance * (1.0 + 1j * system.arrays.friction)
+    found = []
+    for count in range(1, len(lever) + 1):
+        for planes in combinations(range(len(lever)), count):
+            rest, h = system.arrays.offsets[list(planes)], lever[np.ix_(planes, planes)]
+            if count == 1:
+                pairs = _one_plane(complex(h[0, 0]), complex(rest[0]))
+            else:
+                # In units of the stiffness of each plane the coefficients are of one size.
+                units = 1.0 / np.maximum(np.abs(h.diagonal()), SMALLEST * np.abs(h).max() or 1.0)
+                scaled = h * units
+                starts = _two_planes(scaled, rest) if count == COUNTED else _anywhere(count)
+                pairs = [(units * forces, places) for forces, places in _balanced(scaled, rest, starts)]
+            found += [(planes, *pair) for pair in pairs if count <= COUNTED or pair[0].min() > 0.0]
+    return found
+
+
+def static_state(system: System, planes: tuple[int, ...], forces: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Amplitudes of the rotor at rest under contact forces at some planes, shape (N,)."""
+    chosen = list(planes)
+    pushes = (1.0 + 1j * system.arrays.friction[chosen]) * forces * places
+    amplitudes: np.ndarray = np.linalg.solve(system.generator, system.arrays.columns[:, chosen] @ pushes)
+    return amplitudes
+
+
+def _one_plane(h: complex, rest: complex) -> list[tuple[np.ndarray, np.ndarray]]:
+    reach = abs(h) * abs(rest)
+    if reach < abs(h.imag) or reach == 0.0:
+        return []
+    # The square root of Re(h)² − |h|²(1 − |y*|²), and 1 + hN below, in forms that neither cancel nor underflow.
+    distance = float(np.sqrt(reach - abs(h.imag)) * np.sqrt(reach + abs(h.imag)))
+    pairs = []
+    for root in (distance, -distance):
+        place = rest * h.conjugate() / complex(root, -h.imag)
+        pairs.append((np.array([float((root - h.real) / abs(h) ** 2)]), np.array([place / abs(place)])))
+    return pairs
+
+
+def _two_planes(h: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """Starts of Newton's method near all pairs of forces, shape (m, 2)."""
+    if not rest.any():
+        return np.empty((0, 2))
+    starts = []
+    for order in (np.array([0, 1]), np.array([1, 0])):
+        first, second = _conditions(h[np.ix_(order, order)], rest[order])
+        for force in np.roots(_resultant(first, second)[::-1]):
+            if abs(force.imag) > NEARLY_REAL * (1.0 + abs(force)):
+                continue
+            for condition in (first, second):
+                quadratic = [polynomial.polyval(force.real, part) for part in reversed(condition)]
+                starts += [np.array([force.real, other.real])[order] for other in np.roots(quadratic)]
+    return np.array(starts).reshape(-1, 2)
+
+
+def _conditions(h: np.ndarray, rest: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """``|y₁D|² − |y₂D|²`` and ``|D|² − |y₂D|²``: coefficients of powers of ``N₂``, each a polynomial in ``N₁``."""
+    second = np.array([rest[1], h[0, 0] * rest[1] - h[1, 0] * rest[0]])
+    constant, linear = np.array([1.0, h[0, 0]]), np.array([h[1, 1], h[0, 0] * h[1, 1] - h[0, 1] * h[1, 0]])
+    lever, size = h[1, 1] * rest[0] - h[0, 1] * rest[1], _product(second, second)
+    apart = [
+        np.array([abs(rest[0]) ** 2]),
+        np.array([2.0 * (rest[0].conjugate() * lever).real]),
+        np.array([abs(lever) ** 2]),
+    ]
+    whole = [_product(constant, constant), 2.0 * _product(constant, linear), _product(linear, linear)]
+    return [polynomial.polysub(apart[0], size), *apart[1:]], [polynomial.polysub(whole[0], size), *whole[1:]]
+
+
+def _product(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """``Re(p̄ q)`` of two polynomials in a real variable."""
+    product: np.ndarray = polynomial.polymul(one.conj(), other).real
+    return product
+
+
+def _resultant(first: list[np.ndarray], second: list[np.ndarray]) -> np.ndarray:
+    """Resultant of two quadratics whose coefficients are polynomials."""
+
+    def crossed(i: int, j: int) -> np.ndarray:
+        part: np.ndarray = polynomial.polysub(
+            polynomial.polymul(first[i], second[j]), polynomial.polymul(first[j], second[i])
+        )
+        return part
+
+    outer = crossed(2, 0)
+    resultant: np.ndarray = polynomial.polysub(
+        polynomial.polymul(outer, outer), polynomial.polymul(crossed(2, 1), crossed(1, 0))
+    )
+    return resultant
+
+
+def _anywhere(planes: int) -> np.ndarray:
+    """Starts of Newton's method for three planes and more: pushing forces of all sizes that matter, shape (m, C)."""
+    starts: np.ndarray = 10.0 ** np.random.default_rng(0).uniform(-3.0, 1.0, (STARTS, planes))
+    return starts
+
+
+def _balanced(h: np.ndarray, rest: np.ndarray, starts: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Forces and displacements to which Newton's method converges from starts (m, C), each once."""
+    moved, unit = starts, np.eye(len(h))
+    for step in range(STEPS + 1):
+        forces = moved[np.abs(moved).max(axis=1) < FARTHEST]
+        places, misses = _places(h, rest, forces)
+        if step == STEPS or not len(forces):
+            break
+        slopes = np.linalg.solve(unit + h * forces[:, None, :], h * places[:, None, :])
+        slopes = -2.0 * (places.conj()[..., None] * slopes).real
+        moved = forces - (np.linalg.pinv(slopes) @ misses[..., None])[..., 0]
+        if (np.abs(moved - forces).max(axis=1) <= 4e-16 * np.abs(forces).max(axis=1)).all():
+            break
+    found: list[tuple[np.ndarray, np.ndarray]] = []
+    for force, place, miss in zip(forces, places, misses, strict=True):
+        alike = (np.abs(force - other).max() <= SAME * np.abs(force).max() for other, _ in found)
+        if np.abs(miss).max() < CONVERGED and not any(alike):
+            found.append((force, place / np.abs(place)))
+    return found
+
+
+def _places(h: np.ndarray, rest: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Displacements at the planes under forces (m, C), and how far each is beyond its wall, squared."""
+    places: np.ndarray = np.linalg.solve(
+        np.eye(len(h)) + h * forces[:, None, :], np.broadcast_to(rest, forces.shape)[..., None]
+    )[..., 0]
+    return places, np.abs(places) ** 2 - 1.0

@@ -1,0 +1,164 @@
+"""Equilibria of any linear rotor: residuals in high precision, all of them against blind searches, and motions that end there."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import mpmath
+import numpy as np
+import pytest
+from compilation import sized
+from linear_rotors import random_rotor, single, tilting
+from machines import random_parameters
+from scipy.optimize import root
+
+from carom import find_equilibria
+from carom.models import Jeffcott, LinearRotor
+from carom.motions.ensembles import settle
+from carom.outcome import Outcome
+
+
+def misses(model, at):
+    """Largest residual of the equations of motion at rest, and of the walls, in 40 digits."""
+    with mpmath.workdps(40):
+        count = len(model.planes)
+        mass, stiffness, planes = (mpmath.matrix(part.tolist()) for part in (model.mass, model.stiffness, model.planes))
+        rest = mpmath.matrix(np.atleast_1d(at.position).tolist())
+        felt = planes * (mass**-1) * planes.H
+        places = planes * rest
+        force = mpmath.matrix(model.forcing.tolist()) - stiffness * rest
+        for q in range(count):
+            push = (
+                mpmath.mpf(float(at.normal_forces[q]))
+                / felt[q, q]
+                * mpmath.mpc(1, float(model.friction[q]))
+                * places[q]
+            )
+            force -= planes[q, :].H * push
+        walls = [abs(abs(places[q]) - 1) for q in at.planes]
+        size = 1 + mpmath.norm(stiffness, 1) * mpmath.norm(rest) + mpmath.norm(mpmath.matrix(model.forcing.tolist()))
+        return float(mpmath.norm(force) / size), float(max(walls, default=0))
+
+
+def test_each_balances_all_forces():
+    seen = set()
+    for seed in range(sized(25, 25, 2000)):
+        model = random_rotor(seed)
+        for at in find_equilibria(model):
+            residual, wall = misses(model, at)
+            # Forces and displacements in double precision; near a fold both are conditioned like a square root.
+            assert residual < 1e-11
+            assert wall < 1e-10
+            seen.add((len(at.planes), at.status))
+    assert {(0, "admissible"), (1, "admissible"), (1, "virtual"), (2, "admissible"), (2, "virtual")} <= seen
+
+
+def test_none_is_missed_at_one_and_two_planes():
+    """Newton's method from random forces, in SciPy, finds no other."""
+    found = 0
+    for seed in range(sized(12, 12, 1000)):
+        model = random_rotor(seed)
+        random = np.random.default_rng(seed)
+        static = model.planes @ np.linalg.solve(model.stiffness, model.planes.conj().T)
+        felt = np.einsum("pn,np->p", model.planes, np.linalg.solve(model.mass, model.planes.conj().T)).real
+        h = static * (1.0 + 1j * model.friction) / felt
+        rest = model.planes @ np.linalg.solve(model.stiffness, model.forcing)
+        every = find_equilibria(model)
+        for count in (1, 2):
+            for planes in combinations(range(len(h)), count):
+                part, chosen = h[np.ix_(planes, planes)], list(planes)
+                mine = [at.normal_forces[chosen] for at in every if at.planes == planes]
+
+                def beyond(forces, part=part, free=rest[chosen]):
+                    return np.abs(np.linalg.solve(np.eye(len(part)) + part * forces, free)) ** 2 - 1.0
+
+                for _ in range(sized(8, 8, 60)):
+                    size = random.choice([1.0, -1.0], count) * 10.0 ** random.uniform(-2.0, 1.5, count)
+                    other = root(beyond, size / np.abs(part.diagonal()), tol=1e-13)
+                    if not other.success or np.abs(beyond(other.x)).max() > 1e-9:
+                        continue
+                    found += 1
+                    assert any(np.abs(other.x - one).max() < 1e-4 * np.abs(one).max() for one in mine), (seed, planes)
+    assert found > 50
+
+
+def test_the_planar_rotor_by_its_matrices_has_the_same():
+    random = np.random.default_rng(4)
+    for _ in range(sized(30, 30, 2000)):
+        one = random_parameters(random, gamma=float(10 ** random.uniform(-2, 0.3)))
+        model = LinearRotor.in_fixed_frame(
+            mass=np.eye(2),
+            damping=np.diag([one.gamma, 0.3]),
+            stiffness=np.diag([one.omega**2, 0.7]),
+            forcing=[one.rho * np.exp(1j * one.phi), 0.2],
+            planes=[[1.0, 0.0]],
+            friction=[one.mu],
+            restitution=[one.d],
+            drive=[one.radius_ratio + 1.0],
+        )
+        pairs = list(zip(find_equilibria(Jeffcott(one)), find_equilibria(model), strict=True))
+        for planar, general in pairs:
+            assert general.status == planar.status
+            assert general.stable == planar.stable
+            assert general.position[0] == pytest.approx(planar.position, rel=1e-12)
+            assert general.normal_force == pytest.approx(planar.normal_force, rel=1e-12, abs=1e-12 * (1 + one.omega**2))
+
+
+def test_a_balanced_rotor_and_planes_that_touch_together_list_no_rub():
+    balanced = find_equilibria(tilting(forcing=np.zeros(2)).model)
+    assert len(balanced) == 1
+    assert balanced.complete
+    twice = find_equilibria(tilting(arms=(0.8, 0.8), stiffness=0.4 * np.eye(2), damping=0.1 * np.eye(2)).model)
+    assert {at.planes for at in twice} <= {(), (0,), (1,)}
+    assert {at.status for at in twice if at.planes} <= {"boundary", "virtual"}
+
+
+def test_it_says_that_three_planes_at_once_are_only_searched():
+    two, three = (find_equilibria(random_rotor(7, n=2, planes=count)) for count in (2, 3))
+    assert two.complete
+    assert "degree eight" in two.argument
+    assert not three.complete
+    assert "there may be others" in three.argument
+
+
+@pytest.mark.jit_only
+def test_motions_come_to_rest_in_a_stable_rub_and_in_no_other():
+    """Starts anywhere and next to each admissible rub."""
+    ended, repelled = {1: 0, 2: 0}, 0
+    for seed in range(sized(6, 2, 150)):
+        random = np.random.default_rng(seed)
+        model = random_rotor(seed, n=1 + seed % 2, planes=2, unbalance=3.0, damping=0.2, friction=0.1)
+        n = len(model.mass)
+        every = [at for at in find_equilibria(model) if at.planes and at.status == "admissible"]
+        starts = random.normal(size=(10, n)) + 1j * random.normal(size=(10, n))
+        starts *= (0.9 * random.random(10) / np.abs(starts @ model.planes.T).max(axis=1))[:, None]
+        rates = random.normal(size=(10, n)) + 1j * random.normal(size=(10, n))
+        near = np.array([np.atleast_1d(at.position) for at in every]).reshape(-1, n)
+        nudge = 1e-4 * random.normal(size=near.shape)
+        starts, rates = np.concatenate([starts, (1.0 - 1e-4) * near]), np.concatenate([rates, nudge])
+        ends = settle(
+            model,
+            np.squeeze(starts, -1) if n == 1 else starts,
+            np.squeeze(rates, -1) if n == 1 else rates,
+            until=3000.0,
+        )
+        resting = np.abs(ends.velocities.reshape(-1, n)).max(axis=1) < 1e-6
+        resting &= ends.outcomes == Outcome.FORWARD_RUB
+        for position in ends.positions.reshape(-1, n)[resting]:
+            (end,) = (at for at in every if np.abs(np.atleast_1d(at.position) - position).max() < 1e-5)
+            assert end.stable
+            ended[len(end.planes)] += 1
+        for at, rests, position in zip(every, resting[10:], ends.positions.reshape(-1, n)[10:], strict=True):
+            back = rests and np.abs(np.atleast_1d(at.position) - position).max() < 1e-5
+            assert back == at.stable
+            repelled += not back
+    assert min(ended.values()) > 0
+    assert repelled > 0
+
+
+def test_a_rotor_of_one_coordinate_has_plain_numbers():
+    at = find_equilibria(single().model)[0]
+    assert isinstance(at.position, complex)
+    assert at.places == pytest.approx([1.25 * at.position, 1.2 * at.position])
+    assert at.plane == 0
+    assert at.radius == pytest.approx(1.25 * abs(at.position))
