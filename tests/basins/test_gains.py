@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from linear_rotors import tilting
 from machines import PAPER
 
 import carom
@@ -134,3 +135,20 @@ def test_samples_and_dimensionless_axes_and_files(tmp_path):
 def test_what_cannot_be_mapped(words, complaint):
     with pytest.raises(InputError, match=complaint):
         map_gains(MACHINE, KICKS, **words)
+
+
+def test_any_model_has_gain_maps():
+    rotor = tilting().model
+    kicks = Grid(VelocityKick(fastest=0.6), (3, 4))
+    found = map_gains(rotor, kicks, ("gamma", "omega"), shape=(2, 3), ranges=((0.2, 0.5), None))
+    assert found.present == (rotor.value("gamma"), rotor.value("omega"))
+    levitates = found.dataset["levitates"].values > 0.0
+    assert levitates.any()
+    assert not levitates.all()
+    for i, gamma in enumerate(found.dataset["gamma"].values):
+        for k, omega in enumerate(found.dataset["omega"].values):
+            machine = rotor.replace(gamma=gamma, omega=omega)
+            assert levitates[i, k] == (np.abs(machine.system.arrays.offsets).max() < 1.0)
+            share = map_basins(machine, kicks).share_recovered.fraction if levitates[i, k] else 0.0
+            assert found.dataset["recovered"].values[i, k] == share
+    found.plot()

@@ -180,7 +180,7 @@ def measured(
     for (moved, starts), ends in zip(there, follow_machines(back, CHUNK, **limits), strict=True):
         measures = _measures(plan, ends.outcomes)
         if isinstance(plan.model, VelocityKick | KickPlane):
-            measures |= _smallest(rotor.scales, moved.scales, starts, ends.outcomes)
+            measures |= _smallest(rotor.scales, moved, starts, ends.outcomes)
         yield measures
 
 
@@ -221,11 +221,11 @@ def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
     return measures
 
 
-def _smallest(present: Scales | None, scales: Scales | None, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
+def _smallest(present: Scales | None, rotor: Model, starts: Starts, outcomes: np.ndarray) -> dict[str, float]:
     """The smallest kick tried from which a machine does not recover, in the present machine's units of velocity."""
-    speed, direction = smallest_lost(starts, outcomes) or (math.nan, math.nan)
-    if scales is not None and present is not None:
-        speed *= scales.velocity / present.velocity
+    speed, direction = smallest_lost(rotor, starts, outcomes) or (math.nan, math.nan)
+    if rotor.scales is not None and present is not None:
+        speed *= rotor.scales.velocity / present.velocity
     return {"smallest_unrecovered_kick": speed, "smallest_unrecovered_kick_angle": direction}
 
 

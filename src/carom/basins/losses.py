@@ -26,7 +26,7 @@ from carom.disturbances import (
     VelocityKick,
 )
 from carom.disturbances.following import follow
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Jeffcott, Model, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, Wish, shows_progress
 
@@ -333,9 +333,9 @@ def lost(outcomes: np.ndarray) -> np.ndarray:
     return (outcomes != Outcome.LEVITATED) & (outcomes != Outcome.GRAZING)
 
 
-def smallest_lost(kicks: Starts, outcomes: np.ndarray) -> tuple[float, float] | None:
+def smallest_lost(rotor: Model, kicks: Starts, outcomes: np.ndarray) -> tuple[float, float] | None:
     """Speed and direction of the smallest lost one among kicks; ``None`` if none is lost."""
-    gone = kicks.velocities[kicks.exists & lost(outcomes)]
+    gone = rotor.system.push_of(kicks.velocities[kicks.exists & lost(outcomes)])
     if not gone.size:
         return None
     smallest = gone[np.abs(gone).argmin()]

@@ -102,7 +102,7 @@ def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> Non
     table.add_row("failed", f"{tally.failed:,}")
     table.add_row("all", f"{tally.points:,}")
     grid = " x ".join(f"{axis.count} {axis.name}" for axis in plan.axes)
-    screen.print(f"Sweep of {plan.case.name} ({plan.task.kind}): {grid}", soft_wrap=True)
+    screen.print(f"Sweep of {plan.name} ({plan.task.kind}): {grid}", soft_wrap=True)
     screen.print(table)
     if tally.computed:
         rate = rate_words(tally.rate, "points")

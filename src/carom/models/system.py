@@ -101,6 +101,14 @@ class System(Result):
         velocities = np.multiply.outer(push, moves)
         return np.broadcast_to(self.rest, velocities.shape), velocities
 
+    def push_of(self, velocities: np.ndarray) -> np.ndarray:
+        """Velocities (...) as a whole of rates (..., n) of the coordinates that :meth:`kicked` has given."""
+        if self.translation is None:
+            return velocities
+        moves = self.translation if len(self.rest) > 1 else self.translation[0]
+        pushes: np.ndarray = np.dot(velocities, moves.conj()) / np.vdot(moves, moves)
+        return pushes
+
     @cached_property
     def is_planar(self) -> bool:
         """Whether it is a :func:`second_order_system`: lanes and the closing of orbits are made for these."""

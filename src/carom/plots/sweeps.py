@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from types import MappingProxyType, SimpleNamespace
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,8 +18,9 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
+from carom.models import Axis
 from carom.outcome import InputError
-from carom.parameters import PARAMETERS
+from carom.parameters import PARAMETERS, Field
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
@@ -96,7 +97,7 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     places = []
     for dimension, direction in zip(dimensions, "xy", strict=False):
-        varied: Any = SimpleNamespace(name=dimension, field=PARAMETERS[dimension])
+        varied = _axis(data[dimension])
         places.append(data[dimension].values / parameter_unit(varied))
         set_up = {f"{direction}label": parameter_label(varied)}
         if spacings[dimension] == "log":
@@ -116,6 +117,13 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     if title:
         drawn.set_title(title)
     return figure
+
+
+def _axis(coordinate: xarray.DataArray) -> Axis:
+    """The parameter of a coordinate; one of another model than the planar rotor has its name for a symbol."""
+    name, words, unit = str(coordinate.name), coordinate.attrs["long_name"], coordinate.attrs["units"]
+    own = Field(name, name.replace("_", r"\_"), words, "a number", "" if unit == "1" else unit, -np.inf, np.inf, "")
+    return Axis(PARAMETERS.get(name, own))
 
 
 def _plain_ticks(axis: AnyAxis, values: np.ndarray) -> None:

@@ -14,7 +14,7 @@ from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
     from carom.disturbances import Disturbance, Starts
-    from carom.models import Jeffcott
+    from carom.models import Model
     from carom.parameters import Case, Scales
 
 ENDINGS = (
@@ -99,7 +99,7 @@ class BasinsTask:
         """Return the disturbance model for a machine with these scales."""
         return self.tried.model.rescaled(self.scales, scales, self.in_si)
 
-    def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
+    def evaluate(self, case: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out.
 
         Parameters
@@ -110,16 +110,16 @@ class BasinsTask:
         from carom.basins.losses import smallest_lost
         from carom.basins.shares import Share
         from carom.disturbances.following import follow
-        from carom.models import Jeffcott
+        from carom.models import model_of
 
-        rotor = Jeffcott(case.parameters)
+        rotor = model_of(case)
         counts = np.zeros(len(ENDINGS), np.int64)
         impacts, kicks = 0, []
         for starts in self._batches(rotor, seed):
             endings = follow(rotor, starts, threads=1)
             counts += np.array([endings.count(ending) for ending in ENDINGS])
             impacts += int(endings.impacts.sum())
-            if self._kicks and (kick := smallest_lost(starts, endings.outcomes)):
+            if self._kicks and (kick := smallest_lost(rotor, starts, endings.outcomes)):
                 kicks.append(kick)
         possible = int(counts.sum())
         found: dict[str, Any] = {"possible": possible, "counts": counts}
@@ -134,7 +134,7 @@ class BasinsTask:
                 found["smallest_unrecovered_kick_si"] = smallest * rotor.scales.velocity
         return found
 
-    def _batches(self, rotor: Jeffcott, seed: np.random.SeedSequence) -> Iterator[Starts]:
+    def _batches(self, rotor: Model, seed: np.random.SeedSequence) -> Iterator[Starts]:
         model = self.model(rotor.scales)
         if isinstance(self.tried, Grid):
             yield Grid(model, self.tried.shape).starts(rotor)

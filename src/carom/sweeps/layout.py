@@ -116,7 +116,7 @@ def description_of(plan: SweepPlan) -> dict[str, Any]:
     """Return the attributes of the results of a plan."""
     return {
         "Conventions": "CF-1.11",
-        "title": f"Sweep of {plan.case.name}: {plan.task.kind}",
+        "title": f"Sweep of {plan.name}: {plan.task.kind}",
         "source": f"carom {versions()['carom']}",
         "history": f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ} begun",
         "versions": versions() | {"python": platform.python_version()},

@@ -21,7 +21,7 @@ from carom.sweeps.studies import StudyTask
 from carom.sweeps.variables import STATUS
 
 if TYPE_CHECKING:
-    from carom.models import Subject
+    from carom.models import Model, Subject
     from carom.sweeps.variables import Dimension, PointStatus, Variable
 
 MOST_CHUNKS = 1_000_000
@@ -56,7 +56,7 @@ class Task(Protocol):
     def describe(self) -> dict[str, Any]:
         """Return what identifies the task, as plain data for JSON."""
 
-    def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
+    def evaluate(self, case: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name."""
 
 
@@ -66,7 +66,7 @@ class SweepPlan:
 
     Attributes
     ----------
-    case : Case
+    case : Case or Model
         The machine whose parameters the axes vary.
     axes : tuple of GridAxis
     task : Task
@@ -80,7 +80,7 @@ class SweepPlan:
         Texts of the sweep file and of the machine file, which the store keeps.
     """
 
-    case: Case
+    case: Case | Model
     axes: tuple[GridAxis, ...]
     task: Task
     chunk_shape: tuple[int, ...]
@@ -92,6 +92,11 @@ class SweepPlan:
     def variables(self) -> tuple[Variable | PointStatus, ...]:
         """What is stored for each point, the status last."""
         return *self.task.variables, STATUS
+
+    @property
+    def name(self) -> str:
+        """Name of the machine."""
+        return self.case.name if isinstance(self.case, Case) else type(self.case).__name__
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -138,8 +143,8 @@ class SweepPlan:
         """Return the values of the parameters that vary, at a point of the grid."""
         return {axis.name: float(axis.values[place]) for axis, place in zip(self.axes, point, strict=True)}
 
-    def case_at(self, point: tuple[int, ...]) -> Case:
-        """Return the machine at a point, bit for bit the same as with ``--set``.
+    def case_at(self, point: tuple[int, ...]) -> Case | Model:
+        """Return the machine at a point; a case is bit for bit the same as with ``--set``.
 
         Raises
         ------
@@ -155,10 +160,16 @@ class SweepPlan:
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the plan: two plans with the same description have the same results."""
-        scales = self.case.parameters.scales
-        return {
-            "parameters": self.case.parameters.as_dict(),
-            "scales": None if scales is None else [scales.mass, scales.clearance, scales.speed],
+        machine: dict[str, Any]
+        if isinstance(self.case, Case):
+            scales = self.case.parameters.scales
+            machine = {
+                "parameters": self.case.parameters.as_dict(),
+                "scales": None if scales is None else [scales.mass, scales.clearance, scales.speed],
+            }
+        else:
+            machine = self.case.attributes()
+        return machine | {
             "fixed": dict(self.fixed),
             "axes": [axis.describe() for axis in self.axes],
             "task": self.task.describe(),
@@ -205,9 +216,13 @@ def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...
     return tuple(sizes)
 
 
-def check_varied(case: Case, name: str) -> None:
-    """Refuse to vary a physical parameter of a machine that is given by dimensionless numbers."""
-    if name in MACHINE_FIELDS and case.machine is None:
+def check_varied(case: Case | Model, name: str) -> None:
+    """Refuse to vary a parameter that the machine does not have."""
+    if not isinstance(case, Case):
+        from carom.models.axes import axis
+
+        axis(case, name)
+    elif name in MACHINE_FIELDS and case.machine is None:
         allowed = "the machine is dimensionless; vary dimensionless parameters"
         raise InputError(f"axes.{name}", shown(name), allowed)
 
@@ -242,16 +257,18 @@ def plan_sweep(
     InputError
         There is no axis, or two of them vary the same, or a parameter that cannot be varied here.
     """
-    from carom.models.subjects import case_of
+    from carom.models import Model, case_of, model_of
 
-    case = case_of(machine)
+    keeps = isinstance(machine, Model) and not isinstance(work, StudyTask)
+    case: Case | Model = model_of(machine) if keeps else case_of(machine)
     names = [axis.name for axis in axes]
     if not names or len(set(names)) < len(names):
         raise InputError("axes", ", ".join(names) or None, "must be one or more, each for another parameter")
-    check_names(dict.fromkeys(names, "varied"))
+    if isinstance(case, Case):
+        check_names(dict.fromkeys(names, "varied"))
     for name in names:
         check_varied(case, name)
-    scales = case.parameters.scales
+    scales = model_of(case).scales
     if seed is None:
         seed = work.seed if isinstance(work, Sample) else 0
     task: Task
@@ -259,7 +276,7 @@ def plan_sweep(
         tried = replace(work, seed=0) if isinstance(work, Sample) else work  # each point has a seed of its own
         task = BasinsTask(tried, tuple(work.model.measured_in), scales)
     else:
-        task = replace(work, zone_limits=case.zones.limits, has_scales=scales is not None)
+        task = replace(work, zone_limits=case_of(case).zones.limits, has_scales=scales is not None)
     if not 0 <= seed < 2**63:
         raise InputError("seed", seed, "must be a whole number from 0 to 2^63 - 1")
     if chunk is not None and chunk < 1:

@@ -13,7 +13,7 @@ from carom.parameters import Zones
 from carom.sweeps.variables import Dimension, Variable, with_si
 
 if TYPE_CHECKING:
-    from carom.models import Jeffcott
+    from carom.models import Jeffcott, Model
     from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case
 
@@ -109,7 +109,7 @@ class StudyTask:
             "zone_limits": list(self.zone_limits),
         }
 
-    def evaluate(self, case: Case, seed: np.random.SeedSequence) -> dict[str, Any]:
+    def evaluate(self, machine: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
         """Compute the values of one machine by variable name; a variable without a value is left out.
 
         Parameters
@@ -117,8 +117,9 @@ class StudyTask:
         seed : SeedSequence
             Seed of this point.
         """
-        from carom.models import Jeffcott
+        from carom.models import Jeffcott, case_of
 
+        case = case_of(machine)
         rotor = Jeffcott(case.parameters)
         found = self._closed_forms(rotor, case)
         number = int(seed.generate_state(1)[0])
