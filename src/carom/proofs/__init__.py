@@ -1,12 +1,20 @@
 """Theorems about one machine, or about a box of machines, in ball arithmetic.
 
-==================  =====================================================
+==================  ==============================================================
 ``hypotheses``      the numbers of a machine exactly as they are given
 ``balls``           exact numbers to balls, balls to decimal enclosures
 ``rotor``           closed forms of the planar rotor in ball arithmetic
+``cells``           signs of an analytic function on intervals
+``periods``         all roots of ``F₁``
+``single_impact``   orbits with one impact a period: existence, course, stability
+``slip``            no orbit stops its slip
+``steady``          levitation, rubs, harmless kicks
 ``claims``          claims and proofs
 ``evidence``        what a search found, so that a check need not search
-==================  =====================================================
+``theorems``        the theorems by name
+``proving``         prove, at a precision that rises by itself
+``certificates``    proofs as JSON, and their check
+==================  ==============================================================
 """
 
 from carom.outcome import CaromError
@@ -16,7 +24,10 @@ try:
 except ImportError:
     raise CaromError('proofs need python-flint; install it with: pip install "carom[proof]"') from None
 
+from carom.proofs.balls import Enclosure
+from carom.proofs.certificates import certificate, check, save
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
+from carom.proofs.proving import prove
 
-__all__ = ["Claim", "Hypotheses", "Proof", "hypotheses_of"]
+__all__ = ["Claim", "Enclosure", "Hypotheses", "Proof", "certificate", "check", "hypotheses_of", "prove", "save"]

@@ -22,10 +22,11 @@ the levers of the source paper's (4.1) are ``a₁₂ = f/D`` and ``a₂₂ = (f'
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from flint import acb, acb_series, arb, arb_series
+from flint import acb, acb_series, arb, arb_series, ctx
 
 from carom.proofs.balls import ball_of
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
@@ -89,6 +90,8 @@ class Rotor:
 
     Attributes
     ----------
+    bits : int
+        Precision.
     gamma, omega_squared, rho, mu, d, radius_ratio : arb
     split : arb
         ``Δ = γ² − 4ω²``.
@@ -97,7 +100,7 @@ class Rotor:
     """
 
     def __init__(self, hypotheses: Hypotheses) -> None:
-        self.hypotheses = hypotheses
+        self.hypotheses, self.bits = hypotheses, ctx.prec
         self.gamma, self.omega_squared, self.rho, self.mu, self.d, self.radius_ratio = (
             ball_of(hypotheses.numbers[name]) for name in NUMBERS
         )
@@ -109,6 +112,12 @@ class Rotor:
     def levitation_squared(self) -> Any:
         """``|U*|²``."""
         return self.rho**2 / ((self.omega_squared - 1) ** 2 + self.gamma**2)
+
+    @cached_property
+    def on_the_wall(self) -> bool:
+        """Whether ``|U*| = 1`` exactly."""
+        given = self.hypotheses.rational("gamma", "omega_squared", "rho")
+        return given is not None and given[2] ** 2 == (given[1] - 1) ** 2 + given[0] ** 2
 
     @cached_property
     def slowest_decay(self) -> Any:
@@ -158,7 +167,24 @@ class Rotor:
         numerator = [slopes[k] - delta[k] for k in range(length)]
         determinant = [delta[k] - 2 * slopes[k] - self.drag * f[k] for k in range(length)]
         determinant[0] = determinant[0] + 1
+        if time == 0:
+            # What cancels at once: both vanish with their slopes.
+            head = [(acb(0), acb(0)), (acb(0), acb(0)), (-self.chi / 2, self.chi)][:length]
+            numerator[: len(head)], determinant[: len(head)] = (list(terms) for terms in zip(*head, strict=True))
         return f[:length], numerator, determinant
+
+    def pole_in(self, period: Any) -> bool:
+        """Whether ``D`` is known to vanish once, inside a ball: at a resonance, without damping."""
+        if self.hypotheses.rational("gamma") != (Fraction(0),):
+            return False
+        frequency = self.omega_squared.sqrt()
+        turns = [period * (1 + sign * frequency) / (2 * arb.pi()) for sign in (1, -1)]
+        whole = [turn.unique_fmpz() for turn in turns]
+        apart = sum(not turn.contains_integer() for turn in turns) == 1
+        return apart and any(
+            number is not None and period.contains_interior(2 * arb.pi() * number / (1 + sign * frequency))
+            for number, sign in zip(whole, (1, -1), strict=True)
+        )
 
     def closing_series(self, time: Any, length: int) -> list[Any]:
         """Taylor coefficients of ``P = |D|²F₁`` about a time."""

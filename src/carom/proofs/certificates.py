@@ -1,0 +1,109 @@
+"""Certificates: proofs as JSON, and their check, which trusts no search."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from carom.files import write_whole
+from carom.outcome import CaromError, InputError, printable, shown
+from carom.proofs.claims import Proof
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.hypotheses import Hypotheses
+from carom.proofs.proving import MOST_BITS, proof_at
+from carom.proofs.theorems import THEOREMS
+
+FORMAT = "carom proof 1"
+LARGEST_BYTES = 50_000_000
+_KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence")
+
+
+def certificate(proof: Proof) -> dict[str, Any]:
+    """A proof as plain data for JSON."""
+    return {
+        "format": FORMAT,
+        "theorem": proof.theorem,
+        "options": dict(proof.options),
+        "hypotheses": proof.hypotheses.document(),
+        "bits": proof.bits,
+        "claims": [claim.document() for claim in proof.claims],
+        "not_claimed": list(proof.not_claimed),
+        "evidence": dict(proof.evidence),
+    }
+
+
+def save(proof: Proof, path: str | os.PathLike[str]) -> None:
+    """Write a proof as a certificate."""
+    write_whole(Path(path), json.dumps(certificate(proof), indent=1, ensure_ascii=False).encode())
+
+
+def check(source: str | os.PathLike[str] | Mapping[str, Any]) -> Proof:
+    """Verify a certificate by itself.
+
+    All inequalities are evaluated again in ball arithmetic, from the numbers of the machine in the certificate and from its
+    evidence; nothing is searched.  Every word and digit of the claims must come out the same.
+
+    Parameters
+    ----------
+    source : path or mapping
+        A file, or what :func:`certificate` gives.
+
+    Returns
+    -------
+    Proof
+
+    Raises
+    ------
+    InputError
+        It cannot be read as a certificate, or it does not show what it claims.
+    """
+    document, name = (source, "certificate") if isinstance(source, Mapping) else (_read(source), shown(source))
+    try:
+        proof = _proof_of(document)
+    except (CaromError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
+        raise InputError("certificate", name, f"is refused: {printable(str(problem))}") from None
+    return proof
+
+
+def _proof_of(document: Mapping[str, Any]) -> Proof:
+    if sorted(document) != sorted(_KEYS) or document["format"] != FORMAT:
+        raise NotShownError(f"it must have the format {FORMAT!r} and the keys {', '.join(_KEYS)}")
+    theorem, bits = document["theorem"], document["bits"]
+    if theorem not in THEOREMS or not isinstance(bits, int) or not 2 <= bits <= MOST_BITS:
+        raise NotShownError(f"it must name a known theorem and 2 to {MOST_BITS} bits")
+    evidence = Evidence(document["evidence"])
+    hypotheses = Hypotheses.from_document(document["hypotheses"])
+    proof = proof_at(bits, theorem, hypotheses, dict(document["options"]), evidence)
+    found = certificate(proof)
+    for key in _KEYS:
+        if found[key] != document[key]:
+            raise NotShownError(
+                f"its {key} are not what the evidence shows{_first_difference(found[key], document[key])}"
+            )
+    return proof
+
+
+def _first_difference(found: Any, told: Any) -> str:
+    if isinstance(found, list) and isinstance(told, list):
+        for one, other in zip(found, told, strict=False):
+            if one != other and isinstance(one, dict):
+                return f": {one.get('about')} {one.get('kind')}"
+    return ""
+
+
+def _read(path: str | os.PathLike[str]) -> dict[str, Any]:
+    try:
+        data = Path(path).read_bytes()
+        if len(data) > LARGEST_BYTES:
+            raise ValueError("too long")
+        document = json.loads(data)
+        if not isinstance(document, dict):
+            raise TypeError("no object")
+    except OSError as problem:
+        raise InputError("certificate", shown(path), f"cannot be read: {problem.strerror or problem}") from None
+    except (RecursionError, TypeError, ValueError):
+        raise InputError("certificate", shown(path), "must be a JSON file that carom prove has written") from None
+    return document

@@ -1,0 +1,268 @@
+"""All roots of ``F₁``: the periods of orbits with one impact a period whose slip stays forward.
+
+**Far out there is none.**  Let ``γ > 0`` and ``r`` be the decay of the slower mode.  With :mod:`carom.proofs.rotor`,
+``|f' − δ| ≤ e^{−rT}(1 + |γ/2 + i|T) + e^{−2rT}``, since ``|cosh x| ≤ e^{|Re x|}`` and ``|sinh x / x| ≤ e^{|Re x|}``, and
+``|D| ≥ (1 − e^{−rT})²``.  So ``F₁ ≥ 1 − |q|(…)/(…)``, and this bound rises with ``T`` where ``rT ≥ 1``.
+
+**Next to zero** ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + O(T³)`` and ``P = |χ|²T⁴(1 + O(T))F₁``: the first coefficient that
+is not zero decides.
+
+**In between** the cells of :mod:`carom.proofs.cells` tile the interval.  On each, ``P`` keeps its sign or is monotone, and
+then its signs at the ends count its zeros.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import ceil, floor
+from typing import Any
+
+from flint import arb
+
+from carom.proofs.balls import exact_ends, interval
+from carom.proofs.cells import (
+    FALLING,
+    NEGATIVE,
+    OPEN,
+    POSITIVE,
+    RISING,
+    Analytic,
+    Cells,
+    cells_of,
+    power_of_two_below,
+    show,
+)
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.rotor import Rotor
+
+SHORTEST_CELL = 200
+"""Binary digits of the length of the cell next to zero at which the search there ends."""
+
+
+@dataclass(frozen=True)
+class Root:
+    """A simple root of ``F₁``, alone on its cell.
+
+    Attributes
+    ----------
+    low, high : Fraction
+        Periods between which it lies.
+    pair : int
+        Number of the pair of roots it belongs to, from 1.
+    longer : bool
+        Whether it is the longer one of the pair: ``F₁`` rises there.
+    """
+
+    low: Fraction
+    high: Fraction
+    pair: int
+    longer: bool
+
+    @property
+    def ball(self) -> Any:
+        """The period as a ball."""
+        return interval(self.low, self.high)
+
+
+@dataclass(frozen=True)
+class Periods:
+    """What is known of the roots of ``F₁``.
+
+    Attributes
+    ----------
+    roots : tuple of Root
+        In ascending order.
+    end : Fraction
+        Period up to which they were looked for.
+    none_beyond : bool
+        Whether there is provably none beyond.
+    open : tuple of (Fraction, Fraction)
+        Intervals on which more roots may lie.
+    """
+
+    roots: tuple[Root, ...]
+    end: Fraction
+    none_beyond: bool
+    open: tuple[tuple[Fraction, Fraction], ...]
+
+    @property
+    def complete(self) -> bool:
+        """Whether these are all roots there are."""
+        return self.none_beyond and not self.open
+
+
+def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most: int) -> Periods:
+    """All roots of ``F₁``, or those that could be shown.
+
+    Parameters
+    ----------
+    longest : Fraction, optional
+        Look only for periods up to this.
+    most : int
+        Number of cells after which the search ends.
+    """
+    condition = Analytic(rotor.closing_series)
+    known = evidence.take("no period beyond", lambda: _text(_longest_period(rotor)))
+    bound = None if known is None else Fraction(known)
+    if bound is not None and not _none_beyond(rotor, bound):
+        raise NotShownError(f"the certificate does not show that there is no period beyond {bound}")
+    width = power_of_two_below(2 / Fraction(rotor.fastest))
+    end = min((limit for limit in (longest, bound) if limit is not None), default=most * width / 4)
+    lead = _first_coefficient(rotor)
+    first = evidence.take("first cell", lambda: _text(_first_cell(condition, lead, min(width, end))))
+    if first is None:
+        return Periods((), Fraction(0), False, ((Fraction(0), end),))
+    start = Fraction(first)
+    sign = condition.sign_next_to(arb(0), start, lead, 1)
+    if not sign:
+        raise NotShownError("the certificate does not show the sign of F1 next to 0")
+    least = width / 2 ** max(rotor.bits // 2, 20)
+    search = _limited(condition, start, end, width=width, least=least, most=most)
+    cells = Cells.from_document(evidence.take("cells of F1", lambda: search().document()))
+    if cells.cuts[0] != start or cells.cuts[-1] > end:
+        raise NotShownError("the cells of a certificate do not begin where the first one ends")
+    show(condition, cells)
+    found = _roots_on(rotor, condition, cells, sign, evidence)
+    return replace(found, none_beyond=bound is not None and cells.cuts[-1] == bound)
+
+
+def _limited(function: Analytic, low: Fraction, high: Fraction, **limits: Any) -> Callable[[], Cells]:
+    def search() -> Cells:
+        if low == high:
+            return Cells((low,), "")
+        found = cells_of(function, low, high, kinds=POSITIVE + NEGATIVE + RISING + FALLING, **limits)
+        return found if isinstance(found, Cells) else Cells((low,), "")
+
+    return search
+
+
+def _text(number: Fraction | None) -> str | None:
+    return None if number is None else str(number)
+
+
+# ------------------------------------------------------------------------------------------------ beyond
+
+
+def _none_beyond(rotor: Rotor, period: Fraction) -> bool:
+    """Whether the decay keeps ``F₁`` above zero from a period on."""
+    time, rate = interval(period, period), rotor.slowest_decay
+    if not (rotor.gamma > 0 and rate * time >= 1):
+        return False
+    slow = (-rate * time).exp()
+    swing = (rotor.gamma**2 / 4 + 1).sqrt() * time
+    size = (1 + rotor.d) * (1 + rotor.mu**2).sqrt()
+    return bool(size * (slow * (1 + swing) + slow**2) < (1 - slow) ** 2)
+
+
+def _longest_period(rotor: Rotor) -> Fraction | None:
+    """A period beyond which there is no root; ``None`` if none is shown."""
+    if not (rotor.gamma > 0 and rotor.slowest_decay > 0):
+        return None
+    end = Fraction(1, 4)
+    while not _none_beyond(rotor, end):
+        end *= 2
+        if end > 2**64:
+            return None
+    for part in (Fraction(3, 4), Fraction(5, 6), Fraction(9, 10)):
+        if _none_beyond(rotor, end * part):
+            end *= part
+    return Fraction(-(-end.numerator * 8 // end.denominator), 8) if end > 1 else end
+
+
+# ------------------------------------------------------------------------------------------------ next to zero
+
+
+def _first_coefficient(rotor: Rotor) -> int:
+    """Order of the first coefficient of ``P`` about zero that is not known to vanish."""
+    given = rotor.hypotheses.rational("gamma", "mu", "d")
+    if rotor.hypotheses.rational("d") != (Fraction(1),):
+        return 4
+    return 7 if given and given[0] == 2 * given[1] else 5
+
+
+def _first_cell(condition: Analytic, lead: int, width: Fraction) -> Fraction | None:
+    """Length of an interval next to zero on which ``F₁`` keeps its sign; ``None`` if none is found."""
+    for _ in range(SHORTEST_CELL):
+        if condition.sign_next_to(arb(0), width, lead, 1):
+            return width
+        width /= 2
+    return None
+
+
+# ------------------------------------------------------------------------------------------------ roots
+
+
+def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evidence: Evidence) -> Periods:
+    """Roots on the cells; ``start`` is the sign of ``F₁`` before the first one."""
+    roots: list[Root] = []
+    unclear: list[tuple[Fraction, Fraction]] = []
+    # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
+    count, zeros = 0 if start > 0 else 1, 0
+    for low, high, kind, before, after in _runs(condition, cells):
+        if kind == OPEN or not before or not after:
+            unclear.append((low, high))
+            # An open interval hides a pair of roots, or none; it counts as a pair.
+            count += 2 if before == after else 1
+        if kind == OPEN or before == after or not before * after:
+            continue
+        zeros += 1
+        ends = evidence.take(f"root {zeros} of F1", _refined(condition, low, high))
+        near, far = (Fraction(text) for text in ends)
+        if not (low <= near < far <= high and condition.sign(near) == before and condition.sign(far) == after):
+            raise NotShownError(f"the certificate does not show a root of F1 between {near} and {far}")
+        period = interval(near, far)
+        if rotor.pole_in(period):
+            continue
+        if not rotor.gamma > 0 and rotor.return_series(period, 1)[2][0].contains(0):
+            unclear.append((near, far))
+        else:
+            roots.append(Root(near, far, count // 2 + 1, bool(count % 2)))
+        count += 1
+    return Periods(tuple(roots), cells.cuts[-1], False, tuple(unclear))
+
+
+def _runs(condition: Analytic, cells: Cells) -> Iterator[tuple[Fraction, Fraction, str, int, int]]:
+    """Both ends, kind and signs at the ends of runs of monotone cells, and of open ones."""
+    told = {POSITIVE: 1, NEGATIVE: -1}
+    first = 0
+    while first < len(cells.kinds):
+        kind, last = cells.kinds[first], first
+        while last + 1 < len(cells.kinds) and cells.kinds[last + 1] == kind:
+            last += 1
+        if kind not in told:
+            low, high = cells.cuts[first], cells.cuts[last + 1]
+            before = told.get(cells.kinds[first - 1], 0) if first else 0
+            after = told.get(cells.kinds[last + 1], 0) if last + 1 < len(cells.kinds) else 0
+            yield low, high, kind, before or condition.sign(low), after or condition.sign(high)
+        first = last + 1
+
+
+def _refined(condition: Analytic, low: Fraction, high: Fraction) -> Callable[[], list[str]]:
+    """Search for a narrow interval with the root that lies between two periods."""
+
+    def search() -> list[str]:
+        left, right, before = low, high, condition.sign(low)
+        for _ in range(6):
+            middle = (left + right) / 2
+            sign = condition.sign(middle)
+            left, right = (middle, right) if sign == before else (left, middle) if sign else (left, right)
+        guess = interval((left + right) / 2, (left + right) / 2)
+        for _ in range(20):
+            value, slope = condition.series(guess, 2)
+            step = value / slope
+            guess = (guess - step).mid()
+            if step.contains(0):
+                break
+        reach = exact_ends(abs(step))[1] * 4 + Fraction(1, 10**60)
+        middle = exact_ends(guess)[0]
+        for _ in range(40):
+            scale = Fraction(10) ** (len(str(int(1 / reach))) + 1)
+            near, far = floor((middle - reach) * scale) / scale, ceil((middle + reach) * scale) / scale
+            if low <= near and far <= high and condition.sign(near) == before and condition.sign(far) == -before:
+                return [str(near), str(far)]
+            reach *= 2
+        return [str(left), str(right)]
+
+    return search

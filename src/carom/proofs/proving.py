@@ -1,0 +1,86 @@
+"""Prove: the search for a proof, at a precision that rises by itself."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+
+from carom.models import Subject
+from carom.outcome import InputError, shown
+from carom.proofs.balls import at_precision
+from carom.proofs.claims import Proof
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of
+from carom.proofs.rotor import Rotor
+from carom.proofs.theorems import THEOREMS, Options
+
+FIRST_BITS, MOST_BITS = 128, 1024
+"""Precision to begin with, and beyond which a claim is left undecided."""
+MOST_CELLS = 2000
+"""Cells of the periods after which the search ends."""
+
+
+def prove(
+    machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given],
+    settings: Iterable[str] = (),
+    *,
+    longest_period: Given | None = None,
+) -> Proof:
+    """Prove what can be proven of a machine's equilibria and of its orbits with one impact a period.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters, model, path, mapping or Hypotheses
+        See :func:`~carom.proofs.hypotheses_of`: the decimal numbers of a file count as they are written, those of a Machine,
+        Case, Parameters or model as doubles.
+    longest_period : number, optional
+        Look only for periods up to this, in ``1/Ω``; by default for all.
+
+    Returns
+    -------
+    Proof
+        Claims that are undecided have the reason with them.
+
+    Raises
+    ------
+    InputError
+        A number cannot be used.
+    """
+    hypotheses = hypotheses_of(machine, settings)
+    limit = None if longest_period is None else str(_time(longest_period))
+    return proof_of("single-impact orbits", hypotheses, {"longest_period": limit, "cells": MOST_CELLS})
+
+
+def proof_of(theorem: str, hypotheses: Hypotheses, options: Options) -> Proof:
+    """Prove the claims of a theorem, with more bits as long as more bits may decide a claim."""
+    bits = FIRST_BITS
+    while True:
+        try:
+            proof = proof_at(bits, theorem, hypotheses, options, Evidence())
+        except NotShownError:
+            # A search and its check differ by rounding: more bits settle it.
+            if bits >= MOST_BITS:
+                raise
+        else:
+            if bits >= MOST_BITS or not any(claim.limited_by_precision for claim in proof.claims):
+                return proof
+        bits *= 2
+
+
+def proof_at(bits: int, theorem: str, hypotheses: Hypotheses, options: Options, evidence: Evidence) -> Proof:
+    """Claims of a theorem at one precision, from evidence that is searched for or read."""
+    with at_precision(bits):
+        claims = THEOREMS[theorem].claims(Rotor(hypotheses), evidence, options)
+    not_claimed = THEOREMS[theorem].not_claimed
+    return Proof(theorem, hypotheses, options, tuple(claims), bits, not_claimed, evidence.document())
+
+
+def _time(given: Given) -> Fraction:
+    try:
+        time = Fraction(given)  # type: ignore[arg-type]
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        time = Fraction(0)
+    if time <= 0:
+        raise InputError("longest_period", shown(given), "a time above 0, in 1/Omega")
+    return time

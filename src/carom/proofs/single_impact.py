@@ -1,0 +1,239 @@
+"""Orbits with one impact a period: existence, uniqueness, the course between impacts, slip and stability.
+
+At a root ``T`` of ``F₁`` the radial speed solves ``|q a₁₂|²ṙ² + 2 Re(q a₁₂)ṙ + 1 − |U*|² = 0``.  A positive discriminant
+gives two simple solutions, so by the implicit function theorem each orbit is the only one near it.
+
+*Between the impacts* ``R(t) = |U|² − 1`` is analytic with ``R(0) = R(T) = 0``, ``Ṙ(0) = −2dṙ`` and ``Ṙ(T) = 2ṙ``.  Next to
+both impacts its first term decides, in between cells on which it is negative.
+
+*Stability.*  With trace ``τ``, sum of principal minors ``m`` and determinant ``D = d²e^{−2γT}`` of the derivative of the impact
+map, all multipliers lie inside the unit circle exactly if (Schur, Cohn)
+
+    |D| < 1,      1 − τ + m − D > 0,      1 + τ + m + D > 0,      Π_{j<k}(1 − λⱼλₖ) = 1 − m + D(τ − D) > 0.
+
+If all lie inside or on it, none of these is violated.  So a violated one proves instability.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil
+from typing import Any
+
+from flint import arb
+
+from carom.proofs.balls import decided, enclosure_of, exact_ends
+from carom.proofs.cells import NEGATIVE, Analytic, Cells, cells_of, power_of_two_below, show
+from carom.proofs.claims import Claim, Status, claim_of
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.periods import Periods
+from carom.proofs.rotor import Impact, Rotor
+
+MOST_CELLS = 1000
+"""Cells of one flight after which the search ends."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A solution of the closing conditions of an orbit."""
+
+    name: str
+    impact: Impact
+
+
+def candidates(rotor: Rotor, periods: Periods) -> Iterator[tuple[str, list[Candidate] | None]]:
+    """Both solutions at each root, or none, or ``None`` where this is undecided, with the names they would have."""
+    for root in periods.roots:
+        lever, turn = rotor.levers(root.ball)
+        letters = "bd" if root.longer else "ac"
+        names = [f"B{root.pair},{letter}" for letter in letters]
+        speeds = _radial_speeds(rotor, lever)
+        found = (
+            None
+            if speeds is None
+            else [
+                Candidate(name, Impact(root.ball, speed, lever, turn))
+                for name, speed in zip(names, speeds, strict=False)
+            ]
+        )
+        yield f"B{root.pair},{'/'.join(letters)}", found
+
+
+def _radial_speeds(rotor: Rotor, lever: Any) -> list[Any] | None:
+    """Both radial speeds, the lower first; empty if there is none, ``None`` if that is undecided."""
+    discriminant = rotor.discriminant(lever)
+    if discriminant < 0:
+        return []
+    if not discriminant > 0:
+        return None
+    half, square, constant = lever.real, lever.real**2 + lever.imag**2, 1 - rotor.levitation_squared
+    if rotor.on_the_wall:
+        return [arb(0), -2 * half / square] if half < 0 else [-2 * half / square, arb(0)]
+    root = discriminant.sqrt()
+    lower, upper = (-half - root) / square, (-half + root) / square
+    # The form without cancellation.
+    if half > 0:
+        upper = constant / (-half - root)
+    elif half < 0:
+        lower = constant / (-half + root)
+    return [lower, upper]
+
+
+def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[list[Claim], Status]:
+    """Claims about one orbit, and whether it is a motion of the machine."""
+    impact, name = orbit.impact, orbit.name
+    values = {"period": impact.period, "radial_speed": impact.speed, "angular_speed": impact.angular_speed}
+    solution = claim_of(
+        name,
+        "solution",
+        "The closing conditions of an orbit with one impact a period and forward slip have exactly one solution with a period "
+        "and a radial speed in these intervals.",
+        1,
+        enclosures={key: enclosure_of(ball) for key, ball in values.items()},
+    )
+    outward = claim_of(
+        name,
+        "outward",
+        "Its radial speed before the impact is positive: it meets the wall from inside.",
+        decided(impact.speed) or (-1 if impact.speed.is_zero() else 0),
+        reason="its radial speed is not above 0" if impact.speed <= 0 else "the sign of its radial speed is open",
+        limited=rotor.hypotheses.exact,
+    )
+    claims = [solution, outward]
+    if outward.status == "proven":
+        claims += [_inside_claim(rotor, orbit, evidence), _slip_claim(rotor, orbit)]
+    kinds = {claim.status for claim in claims}
+    status: Status = "refuted" if "refuted" in kinds else "undecided" if "undecided" in kinds else "proven"
+    claims.append(
+        Claim(
+            name,
+            "admissible",
+            "It is a motion of the machine: it meets the wall from inside, stays inside between its impacts, and its slip "
+            "stays forward.",
+            status,
+            "; ".join(claim.reason for claim in claims if claim.status == status and claim.reason),
+            limited_by_precision=any(claim.limited_by_precision for claim in claims),
+        )
+    )
+    return [*claims, _stability_claim(rotor, orbit)], status
+
+
+def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
+    """Claim that the slip stays forward throughout the impact."""
+    impact = orbit.impact
+    before = rotor.radius_ratio + 1 + impact.angular_speed
+    after = before - rotor.mu * (1 + rotor.d) * impact.speed
+    free = rotor.hypotheses.rational("mu") == (Fraction(0),)
+    words = "friction would stop its slip, or its slip is backward"
+    return claim_of(
+        orbit.name,
+        "slip",
+        "Its slip is forward before the impact and after it, or there is no friction.",
+        1 if free else decided(after),
+        reason=words if after < 0 else "whether its slip stays forward is open",
+        enclosures={"slip_after": enclosure_of(after)},
+        limited=rotor.hypotheses.exact,
+    )
+
+
+# ------------------------------------------------------------------------------------------------ between the impacts
+
+
+def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
+    """Claim that the orbit stays inside the wall strictly between its impacts."""
+    statement = "It stays inside the wall, |U| < 1, strictly between its impacts."
+    radius = Analytic(lambda time, length: rotor.radius_series(orbit.impact, time, length))
+    # Without rebound the rotor leaves with no radial speed, and the push decides.
+    order = 2 if rotor.hypotheses.rational("d") == (Fraction(0),) else 1
+    found = evidence.take(f"flight of {orbit.name}", lambda: _flight(rotor, orbit.impact, radius, order))
+    if found is None:
+        reason = f"no sign of |U| - 1 could be shown in {MOST_CELLS} cells"
+        return claim_of(orbit.name, "inside", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
+    if "outside" in found:
+        time = Fraction(found["outside"])
+        if time == 0:
+            shown = order == 2 and radius.series(arb(0), 3)[2] > 0
+            reason = "it would stay on the wall: it does not rebound and is pressed outward"
+        else:
+            shown = 0 < time < exact_ends(orbit.impact.period)[0] and radius.sign(time) > 0
+            reason = f"it would be outside the wall at t = {float(time):.6g} after the impact"
+        if not shown:
+            raise NotShownError(f"the certificate does not show that {orbit.name} leaves the wall at {time}")
+        return claim_of(orbit.name, "inside", statement, -1, reason=reason)
+    cells = Cells.from_document(found)
+    if set(cells.kinds) - {NEGATIVE} or not _ends_inside(orbit.impact, radius, cells.cuts[0], cells.cuts[-1], order):
+        raise NotShownError(f"the certificate does not show that {orbit.name} stays inside the wall")
+    show(radius, cells)
+    return claim_of(orbit.name, "inside", statement, 1)
+
+
+def _ends_inside(impact: Impact, radius: Analytic, first: Fraction, last: Fraction, order: int) -> bool:
+    """Whether the radius is below one from the impact to ``first``, and from ``last`` to the next impact."""
+    return (
+        0 < first <= last < exact_ends(impact.period)[0]
+        and radius.sign_next_to(arb(0), first, order, 1) < 0
+        and radius.sign_next_to(impact.period, exact_ends(impact.period)[1] - last, 1, -1) < 0
+    )
+
+
+def _flight(rotor: Rotor, impact: Impact, radius: Analytic, order: int) -> dict[str, Any] | None:
+    """Cells on which the radius is below one, or a time at which it is not; ``None`` if neither is found."""
+    if order == 2 and radius.series(arb(0), 3)[2] > 0:
+        return {"outside": "0"}
+    low, high = exact_ends(impact.period)
+    width = power_of_two_below(min(1 / Fraction(rotor.fastest), low / 4))
+    least = width / 2 ** max(rotor.bits // 2, 20)
+    # Both ends are tried from the widest interval on; a point outside ends the search.
+    ends = []
+    for place, side in ((arb(0), 1), (impact.period, -1)):
+        reach = width
+        while not radius.sign_next_to(place, reach + (high - low), order if side > 0 else 1, side) < 0:
+            near = reach if side > 0 else low - reach
+            if radius.sign(near) > 0:
+                return {"outside": str(near)}
+            reach /= 2
+            if reach < least:
+                return None
+        ends.append(reach)
+    first, grid = ends[0], ends[1] / 256
+    last = ceil((low - ends[1]) / grid) * grid
+    if not _ends_inside(impact, radius, first, last, order):
+        return None
+    if first == last:
+        return Cells((first,), "").document()
+    found = cells_of(radius, first, last, width=width, least=least, most=MOST_CELLS, kinds=NEGATIVE)
+    if isinstance(found, Fraction):
+        return {"outside": str(found)}
+    return found.document() if found.cuts[-1] == last and set(found.kinds) == {NEGATIVE} else None
+
+
+# ------------------------------------------------------------------------------------------------ stability
+
+
+def _stability_claim(rotor: Rotor, orbit: Candidate) -> Claim:
+    """Claim that all multipliers lie inside the unit circle."""
+    found = rotor.invariants(orbit.impact)
+    conserved = rotor.hypotheses.rational("d", "gamma") == (Fraction(1), Fraction(0))
+    conditions = {
+        "the product of its multipliers is 1 or more in modulus": 1 - found.determinant,
+        "a multiplier is above 1": found.at_one,
+        "a multiplier is below -1": found.at_minus_one,
+        "the product of two multipliers is above 1": found.of_pairs,
+    }
+    signs = {words: decided(ball) for words, ball in conditions.items()}
+    if conserved:
+        signs["the product of its multipliers is 1 or more in modulus"] = -1
+    sign = min(signs.values())
+    reasons = [words for words, value in signs.items() if value == sign]
+    values = {"trace": found.trace, "minors": found.minors, "determinant": found.determinant}
+    return claim_of(
+        orbit.name,
+        "stable",
+        "All three multipliers of the impact map at it lie inside the unit circle.",
+        sign,
+        reason="; ".join(reasons) if sign < 0 else f"it is open whether {', or whether '.join(reasons)}",
+        enclosures={key: enclosure_of(ball) for key, ball in values.items()},
+        limited=rotor.hypotheses.exact,
+    )

@@ -1,0 +1,64 @@
+"""No orbit with one impact a period stops its slip, or slips backward.
+
+Let an impact leave no forward slip.  In the fixed frame the rotor then moves along the wall at a speed of ``−s`` or less,
+``s = R/c_r``.  While it is inside, stiffness and unbalance push it along that tangent by less than ``ω² + ρ``, so from
+``ẍ = −γẋ + …`` for ``γ ≥ 0``
+
+    x(τ) ≤ −b(τ),      b(τ) = s(1 − e^{−γτ})/γ − (ω² + ρ)τ²/2,
+
+a concave function with ``b(0) = 0``.  Let ``b(τ₁) > 1`` for a ``τ₁ ≤ π``.  A longer period would need ``|z| ≥ b(τ₁) > 1``
+on the way.  A period ``T ≤ τ₁`` ends where the orbit began in the co-rotating frame, in the fixed frame at
+``x(T) = sin T ≥ 0``, while ``x(T) ≤ −b(T) < 0``.  So there is no such orbit.  Without friction no impact stops the slip.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import arb
+
+from carom.proofs.balls import exact_ends, rational
+from carom.proofs.claims import Claim, claim_of
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.rotor import Rotor
+
+STEPS = 64
+
+
+def slip_claim(rotor: Rotor, evidence: Evidence) -> Claim:
+    """Claim that no orbit with one impact a period stops its slip or slips backward."""
+    statement = (
+        "No periodic motion with one impact a period, inside the clearance in between, has an impact that stops the slip "
+        "or that begins with backward slip."
+    )
+    if rotor.hypotheses.rational("mu") == (Fraction(0),):
+        statement = "There is no friction: slip changes nothing."
+        return claim_of("machine", "slip", statement, 1)
+    found = evidence.take("out of the clearance after", lambda: _time_out(rotor))
+    if found is None:
+        reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
+        if not rotor.gamma >= 0:
+            reason = "the argument needs damping that is not negative"
+        return claim_of("machine", "slip", statement, 0, reason=reason, limited=False)
+    if not _out(rotor, Fraction(found)):
+        raise NotShownError(f"the certificate does not show that the rotor is out of the clearance after {found}")
+    return claim_of("machine", "slip", statement, 1)
+
+
+def _out(rotor: Rotor, time: Fraction) -> bool:
+    """Whether ``b > 1`` at a time of at most half a turn."""
+    moment = rational(time)
+    if not (time > 0 and moment <= arb.pi() and rotor.gamma >= 0):
+        return False
+    # Damping is strongest at the upper end; there e^{−γτ} has its least value.
+    gamma = exact_ends(rotor.gamma)[1]
+    way = (1 - (-rational(gamma) * moment).exp()) / rational(gamma) if gamma else moment
+    return bool(rotor.radius_ratio * way - (rotor.omega_squared + rotor.rho) * moment**2 / 2 > 1)
+
+
+def _time_out(rotor: Rotor) -> str | None:
+    for k in range(1, STEPS + 1):
+        time = Fraction(314 * k, 100 * STEPS)
+        if _out(rotor, time):
+            return str(time)
+    return None

@@ -1,0 +1,154 @@
+"""Levitation and synchronous rubs: existence, place and stability; kicks that never reach the wall.
+
+*Levitation* ``|U*|² = ρ²/((1 − ω²)² + γ²)``, and its small disturbances die out exactly for ``γ > 0``.
+
+*Synchronous rub* (``θ̇ = 0``, forward slip ``s + 1 > 0``): with ``κ = 1 − ω²`` the normal forces are the roots of
+``(1 + μ²)N² − 2(κ − μγ)N + κ² + γ² − ρ² = 0``, with a quarter of the discriminant
+``ρ²(1 + μ²) − (γ + μκ)²``.  Along the wall a disturbance obeys ``δ̈ + (γ + 2μ)δ̇ + Kδ = 0`` with
+``K = (1 + μ²)N − κ + μγ``, the square root of it for the larger ``N`` and its negative for the smaller.
+
+*Harmless kick.*  A kick of speed ``v`` out of levitation moves the rotor in the fixed frame along its own direction by
+``v h(t)`` with the real response ``h`` of :mod:`carom.proofs.rotor`, at most ``v h(τ)`` with the first turning point
+``τ = (2/γ) x⁻¹ artanh x``, ``x² = Δ/γ²``.  So it stays inside while ``v h(τ) < 1 − |U*|``.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import arb
+
+from carom.proofs.balls import Enclosure, decided, enclosure_of
+from carom.proofs.claims import Claim, claim_of
+from carom.proofs.rotor import Rotor
+
+
+def steady_claims(rotor: Rotor) -> list[Claim]:
+    """Claims about levitation, rubs and kicks."""
+    return [*_levitation_claims(rotor), *_rub_claims(rotor), _kick_claim(rotor)]
+
+
+def _levitation_claims(rotor: Rotor) -> list[Claim]:
+    square = rotor.levitation_squared
+    inside = -1 if rotor.on_the_wall else decided(1 - square)
+    reason = (
+        "it lies on the wall" if rotor.on_the_wall else "it lies outside the wall" if inside else "|U*| is next to 1"
+    )
+    damping = rotor.hypotheses.numbers["gamma"]
+    return [
+        claim_of(
+            "levitation",
+            "inside",
+            "The contact-free equilibrium lies inside the wall, |U*| < 1.",
+            inside,
+            reason=reason,
+            enclosures={"radius": enclosure_of(square.sqrt())},
+            limited=rotor.hypotheses.exact,
+        ),
+        claim_of(
+            "levitation",
+            "stable",
+            "Contact-free motions decay to the contact-free equilibrium.",
+            1 if damping.low > 0 else -1 if damping.high <= 0 else 0,
+            reason="the damping is not above 0" if damping.high <= 0 else "the damping may be 0",
+            limited=False,
+        ),
+    ]
+
+
+def _rub_claims(rotor: Rotor) -> list[Claim]:
+    """Claims about both synchronous rubs, that of the larger normal force first."""
+    kappa = 1 - rotor.omega_squared
+    square = rotor.rho**2 * (1 + rotor.mu**2) - (rotor.gamma + rotor.mu * kappa) ** 2
+    claims = []
+    for name, side in (("rub 1", 1), ("rub 2", -1)):
+        claims += _claims_of_rub(rotor, name, side, square, kappa - rotor.mu * rotor.gamma)
+    return claims
+
+
+def _claims_of_rub(rotor: Rotor, name: str, side: int, square: Any, half: Any) -> list[Claim]:
+    sign = _sign_of_square(rotor, square)
+    exists = claim_of(
+        name,
+        "solution",
+        "The balance of forces of a synchronous rub has two solutions; this is that of the "
+        f"{'larger' if side > 0 else 'smaller'} normal force.",
+        sign,
+        reason="no rub is in balance, or both are one" if sign < 0 else "the rubs may meet in a fold",
+        limited=rotor.hypotheses.exact,
+    )
+    if exists.status != "proven":
+        return [exists]
+    root = square.sqrt()
+    force = (half + side * root) / (1 + rotor.mu**2)
+    if half * side < 0:
+        # The form without cancellation.
+        force = (rotor.chi.real**2 + rotor.gamma**2 - rotor.rho**2) / (half - side * root)
+        force = arb(0) if rotor.on_the_wall else force
+    pressed = claim_of(
+        name,
+        "pressed",
+        "The wall pushes the rotor there: its normal force is positive.",
+        decided(force) or (-1 if force.is_zero() else 0),
+        reason="the wall would have to pull, or does not push"
+        if force <= 0
+        else "the sign of its normal force is open",
+        enclosures={"normal_force": enclosure_of(force)},
+        limited=rotor.hypotheses.exact,
+    )
+    given = rotor.hypotheses.rational("gamma", "mu")
+    damping = -1 if given and given[0] + 2 * given[1] == 0 else decided(rotor.gamma + 2 * rotor.mu)
+    attracts = claim_of(
+        name,
+        "attracts sliding",
+        "It is a motion of the machine, and small disturbances along the wall die out.",
+        min(side, damping, {"proven": 1, "refuted": -1, "undecided": 0}[pressed.status]),
+        reason="it is a saddle along the wall"
+        if side < 0
+        else "it is not pressed on the wall, or sliding is not damped",
+        limited=rotor.hypotheses.exact,
+    )
+    return [exists, pressed, attracts]
+
+
+def _sign_of_square(rotor: Rotor, square: Any) -> int:
+    """Sign of the discriminant; not positive where it is exactly zero."""
+    given = rotor.hypotheses.rational("gamma", "omega_squared", "rho", "mu")
+    if given is not None:
+        gamma, stiffness, rho, mu = given
+        if rho**2 * (1 + mu**2) <= (gamma + mu * (1 - stiffness)) ** 2:
+            return -1
+    return decided(square)
+
+
+def _kick_claim(rotor: Rotor) -> Claim:
+    """Claim that kicks below a speed are harmless; without damping or with it, and refuted where no speed is small enough."""
+    statement = "The rotor levitates inside the wall, and no kick out of levitation slower than this speed brings it to the wall."
+    room = 1 - rotor.levitation_squared.sqrt()
+    damping = rotor.hypotheses.numbers["gamma"]
+    if rotor.on_the_wall or room < 0 or damping.high < 0:
+        reason = "it does not levitate inside the wall, or any kick grows"
+        return claim_of("kick", "harmless", statement, -1, reason=reason)
+    if not (room > 0 and damping.low >= 0):
+        reason = "it may not levitate inside the wall, or a kick may grow"
+        return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
+    speed = room / _largest_response(rotor)
+    if not (speed.is_finite() and speed > 0):
+        reason = "the largest response to a kick could not be enclosed"
+        return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
+    limit = enclosure_of(speed).low
+    return claim_of("kick", "harmless", statement, 1, enclosures={"speed": Enclosure(limit, limit)})
+
+
+def _largest_response(rotor: Rotor) -> Any:
+    """``h(τ)``, the largest value of the response."""
+    gamma, split = rotor.gamma, rotor.split
+    if split < 0:
+        frequency = (-split).sqrt()
+        time = 2 * arb.atan2(frequency, gamma) / frequency
+    elif split > 0:
+        rate = split.sqrt()
+        time = ((gamma + rate) ** 2 / (4 * rotor.omega_squared)).log() / rate
+    else:
+        time = 2 / gamma * (split / gamma**2).hypgeom_2f1(arb(1) / 2, arb(1), arb(3) / 2)
+    return rotor.response(time)[0]

@@ -1,0 +1,102 @@
+"""The theorems that can be proven: each a function of a rotor in balls and of evidence.
+
+A theorem never searches outside of :meth:`~carom.proofs.evidence.Evidence.take`, and verifies all that it takes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from carom.proofs.claims import Claim, claim_of
+from carom.proofs.evidence import Evidence
+from carom.proofs.periods import Periods, all_periods
+from carom.proofs.rotor import Rotor
+from carom.proofs.single_impact import candidates, orbit_claims
+from carom.proofs.slip import slip_claim
+from carom.proofs.steady import steady_claims
+
+Options = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """A theorem by its claims and what is not claimed.
+
+    Attributes
+    ----------
+    claims : callable
+        Takes a :class:`~carom.proofs.rotor.Rotor`, :class:`~carom.proofs.evidence.Evidence` and options.
+    not_claimed : tuple of str
+    """
+
+    claims: Callable[[Rotor, Evidence, Options], list[Claim]]
+    not_claimed: tuple[str, ...]
+
+
+def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[Claim]:
+    """Equilibria, and all orbits with one impact a period."""
+    longest = options.get("longest_period")
+    periods = all_periods(rotor, evidence, None if longest is None else Fraction(longest), int(options["cells"]))
+    slip = slip_claim(rotor, evidence)
+    claims = [*steady_claims(rotor), _periods_claim(rotor, periods), slip]
+    admissible, doubts = [], []
+    if not periods.complete:
+        doubts.append("not all periods are known")
+    if slip.status != "proven":
+        doubts.append("motions whose impacts stop the slip are not excluded")
+    for names, found in candidates(rotor, periods):
+        if not found:
+            claims.append(_no_solution(rotor, names, found is not None))
+            doubts += [] if found is not None else [f"it is open whether {names} exist"]
+        for orbit in found or ():
+            told, status = orbit_claims(rotor, orbit, evidence)
+            claims += told
+            admissible += [orbit.name] if status == "proven" else []
+            doubts += [f"it is open whether {orbit.name} is a motion"] if status == "undecided" else []
+    words = f"exactly these: {', '.join(admissible)}" if admissible else "none"
+    statement = f"Motions of the machine with one impact a period, synchronous with the shaft, are {words}."
+    limited = any(claim.limited_by_precision for claim in claims)
+    complete = claim_of(
+        "machine", "orbits", statement, 0 if doubts else 1, reason="; ".join(doubts), limited=bool(doubts) and limited
+    )
+    return [*claims, complete]
+
+
+def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
+    """Claim that the roots found are all there are."""
+    count = len(periods.roots)
+    reasons = [f"F1 may have roots next to T = {float(low):.10g}" for low, _ in periods.open]
+    if not periods.none_beyond:
+        reasons.append(f"periods beyond {float(periods.end):.6g}/Omega were not looked at")
+        if not rotor.gamma > 0:
+            reasons.append("without damping there is no longest period")
+    return claim_of(
+        "machine",
+        "periods",
+        f"F1 has exactly {count} root{'' if count == 1 else 's'} T > 0, each of them simple.",
+        1 if periods.complete else 0,
+        reason="; ".join(reasons),
+        limited=bool(periods.open) and rotor.hypotheses.exact,
+    )
+
+
+def _no_solution(rotor: Rotor, names: str, known: bool) -> Claim:
+    statement = "The closing conditions of an orbit with one impact a period have solutions at this root of F1."
+    reason = "its radial speeds are not real" if known else "its two radial speeds may meet in a fold"
+    return claim_of(names, "solution", statement, -1 if known else 0, reason=reason, limited=rotor.hypotheses.exact)
+
+
+THEOREMS: Mapping[str, Theorem] = {
+    "single-impact orbits": Theorem(
+        _single_impact,
+        (
+            "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
+            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
+            "that a rub attracts motions that bounce, not only those that slide",
+        ),
+    ),
+}
+"""Theorems by their names in certificates."""
