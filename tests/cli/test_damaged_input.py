@@ -327,7 +327,7 @@ def nothing_computed(monkeypatch):
 
     for home, name in (
         ("cli.simulate", "_follow"),
-        ("cli.basins", "_follow"),
+        ("basins", "map_basins"),
         ("closed_forms.equilibria", "find_equilibria"),
         ("bifurcations", "find_bifurcations"),
         ("bifurcations", "map_regions"),

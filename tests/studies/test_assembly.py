@@ -7,9 +7,10 @@ import math
 import pytest
 from studies import study_once
 
+from carom.files import as_json
 from carom.outcome import InputError, Outcome
 from carom.parameters import Case, Machine, Parameters, Scales, Zones
-from carom.studies import NOT_COVERED, as_json, free_spans, study
+from carom.studies import NOT_COVERED, free_spans, study
 from carom.studies.summaries import kick_rows, machine_rows, motion_rows, range_rows, threshold_rows
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)

@@ -1,16 +1,20 @@
 """The command line.
 
-=============  ==========================================================
-``app``        all commands, and how errors are reported
-``study``      ``carom study``
-``simulate``   ``carom simulate``
-``orbits``     ``carom orbits``
-``basins``     ``carom basins``, its tables in ``basin_tables``
-``starts``     starts and times from text, with or without units
-``tables``     results as tables
-``terminal``   output, progress and options that commands share
-``screen``     output to the terminal, with control characters escaped
-=============  ==========================================================
+A module for each command (``study``, ``simulate``, ``orbits``, ``bifurcations`` with ``regions``, ``basins``, ``sweep``,
+``paper``), and what they share:
+
+=================  ==========================================================
+``app``            all commands, and how errors are reported
+``terminal``       output, progress and options that commands share
+``screen``         output to the terminal, with control characters escaped
+``fitting``        tables that fit into a narrow terminal
+``tables``         tables of ``study``, ``simulate`` and ``orbits``
+``basin_options``  options of ``basins``
+``basin_tables``   what ``basins`` prints
+``region_tables``  what ``regions`` prints
+``starts``         starts, times and ranges from text, with or without units
+``logs``           contact logs as files
+=================  ==========================================================
 
 Modules here import only what the help needs; commands import the rest when they run.
 """

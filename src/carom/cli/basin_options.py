@@ -77,18 +77,7 @@ Out = Annotated[
 
 @dataclass(frozen=True)
 class Gains:
-    """The gain map requested by the options.
-
-    Attributes
-    ----------
-    names : tuple of str
-        Names of its two parameters.
-    ranges : tuple
-        First and last value of each, or None.
-    shape : tuple of int
-    wanted : float
-        Share of the disturbances that must come back.
-    """
+    """The gain map requested by the options: names and ranges of its two parameters, and the share that must come back."""
 
     names: tuple[str, str]
     ranges: tuple[Any, Any]

@@ -154,10 +154,9 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     noun = _LOSSES[smallest.kind]
     lines = []
     if smallest.size is not None:
-        lines.append(
-            f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {_where(basin, smallest)}"
-            f"{_ending(smallest)}."
-        )
+        ending = f"; it ends in {smallest.outcome.label.replace('-', ' ')}" if smallest.outcome else ""
+        where = _where(basin, smallest)
+        lines.append(f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {where}{ending}.")
     if smallest.all_back is None:
         lines.append("It is lost already without any speed.")
     elif smallest.fresh:
@@ -190,10 +189,6 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
         return f"from an eccentricity that differs by it at {math.degrees(angle):+.0f} deg from the heavy side"
     heavy = math.degrees(math.remainder(angle - basin.parameters.phi, 2.0 * math.pi))
     return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side)"
-
-
-def _ending(smallest: SmallestLoss) -> str:
-    return f"; it ends in {smallest.outcome.label.replace('-', ' ')}" if smallest.outcome else ""
 
 
 def _measures(basin: Basin) -> list[str]:

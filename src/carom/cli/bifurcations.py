@@ -13,7 +13,7 @@ from carom.outcome import InputError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from carom.bifurcations import Diagram, RegionMap
+    from carom.bifurcations import Diagram
     from carom.models import Axis
     from carom.parameters import Parameters
 
@@ -44,8 +44,6 @@ Seed = Annotated[
 ]
 NEAR = (0.25, 2.5)
 """Default range of a parameter, relative to its present value."""
-_NAMED = {"non-smooth-hopf": "non-smooth Hopf", "neimark-sacker": "Neimark-Sacker"}
-"""Names of bifurcations that keep hyphens or capitals."""
 
 
 def bifurcations(
@@ -99,8 +97,8 @@ def bifurcations(
         _write(directory, f"bifurcations-{varied.name}", diagram.plot(), document)
     if as_json:
         print_document(document)
-        return
-    _print_diagram(diagram, parameters.value(varied.name))
+    else:
+        _print_diagram(diagram, parameters.value(varied.name))
 
 
 def regions(
@@ -156,8 +154,10 @@ def regions(
         _write(directory, f"regions-{axes[0].name}-{axes[1].name}", found.plot(), document)
     if as_json:
         print_document(document)
-        return
-    _print_map(found)
+    else:
+        from carom.cli.region_tables import print_map
+
+        print_map(console(), found)
 
 
 def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:
@@ -181,12 +181,12 @@ def _directory(out: str | None) -> Path | None:
 
 
 def _write(directory: Path, stem: str, figure: Figure, document: dict[str, Any]) -> None:
+    from carom.files import write_json
     from carom.plots import save
-    from carom.studies import as_json
 
     written = save(figure, directory / stem)
     target = directory / f"{stem}.json"
-    target.write_text(as_json(document) + "\n", encoding="utf-8")
+    write_json(target, document)
     console(errors=True).print(f"Written: {', '.join(str(path) for path in (*written, target))}", soft_wrap=True)
 
 
@@ -198,13 +198,9 @@ def _shown(varied: Axis, value: float) -> str:
     return f"{text} ({value * 30.0 / math.pi:.6g} rpm)" if varied.name == "speed" else text
 
 
-def _named(kind: str) -> str:
-    """Return the kind of a bifurcation in words."""
-    return _NAMED.get(kind, kind.replace("-", " "))
-
-
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from carom.cli.fitting import fitted, plain_table
+    from carom.cli.region_tables import named
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
@@ -215,7 +211,7 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     for point in diagram.points:
         table.add_row(
             _shown(diagram.axis, point.value),
-            f"{_named(point.kind)} ({point.detail})" if point.detail else _named(point.kind),
+            f"{named(point.kind)} ({point.detail})" if point.detail else named(point.kind),
             point.name,
             "" if point.period != point.period else f"{point.period:.8g}",
             "" if point.radial_speed != point.radial_speed else f"{round(point.radial_speed, 6) + 0.0:.6f}",
@@ -261,30 +257,3 @@ def _print_attractors(diagram: Diagram) -> None:
             lasting.setdefault(sample.survival.words, []).append(_shown(diagram.axis, sample.value))
     for words, places in lasting.items():
         screen.print(f"Irregular bouncing: {words}; at {diagram.axis.name} = {', '.join(places)}")
-
-
-def _print_map(found: RegionMap) -> None:
-    from carom.cli.fitting import fitted
-    from carom.cli.region_tables import curve_table, meeting_table, present_words, region_table, unexplained_table
-
-    screen = console()
-    first, second = (f"{axis.field.words} {_quantity(axis)}" for axis in found.axes)
-    screen.print(f"Plane of {first} and {second}")
-    names = _quantity(found.axes[0]), _quantity(found.axes[1])
-    kinds = {curve.kind for curve in found.curves}
-    screen.print(fitted(screen, curve_table(found, names, _named)) if kinds else "No bifurcation in this plane.")
-    if found.codimension2:
-        screen.print(fitted(screen, meeting_table(found, names, _named)))
-    screen.print(fitted(screen, region_table(found, names)))
-    if found.everywhere:
-        screen.print(f"In every region: {', '.join(found.everywhere)}")
-    screen.print(present_words(found))
-    if found.unexplained:
-        screen.print(fitted(screen, unexplained_table(found, names)))
-    for words in found.lost:
-        screen.print(f"Not followed: {words}")
-
-
-def _quantity(varied: Axis) -> str:
-    """Return the name of a parameter with its unit."""
-    return f"{varied.name} ({varied.field.unit})" if varied.field.unit else varied.name

@@ -12,7 +12,6 @@ from rich.table import Table
 
 if TYPE_CHECKING:
     from rich.console import Console
-    from rich.table import Column
 
 _PADDINGS = ((0, 1, 0, 0), (0, 0))
 """Paddings between columns, from wide to narrow; the box adds one to each."""
@@ -27,22 +26,13 @@ def plain_table(title: str, *headings: str, right: Collection[str] = (), no_wrap
 
 
 def fitted(screen: Console, table: Table) -> Table:
-    """Fit a table to the screen: if it is too wide, choose column widths at which words stay whole.
+    """Fit a table of plain text, with all its rows, to the screen: choose column widths at which words stay whole.
 
-    Parameters
-    ----------
-    table : rich.table.Table
-        A table of plain text, with all its rows.  Columns that do not wrap keep their cells in one line; their headings
-        wrap.
-
-    Returns
-    -------
-    rich.table.Table
-        The same table.
+    Columns that do not wrap keep their cells in one line; their headings wrap.  Return the same table.
     """
     if screen.measure(table, options=screen.options.update(width=10_000)).maximum <= screen.width:
         return table
-    texts = [_texts(column) for column in table.columns]
+    texts = [[str(column.header), *map(str, column.cells)] for column in table.columns]
     most = [max(_widest(text.splitlines()) for text in column) for column in texts]
     least = [
         max(
@@ -66,11 +56,6 @@ def fitted(screen: Console, table: Table) -> Table:
         column.width, column.overflow, column.no_wrap = width, "fold", False
         column.header = textwrap.fill(str(column.header), width)
     return table
-
-
-def _texts(column: Column) -> list[str]:
-    """Return the heading and the cells of a column."""
-    return [str(column.header), *(str(cell) for cell in column.cells)]
 
 
 def _widest(parts: list[str]) -> int:

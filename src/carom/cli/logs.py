@@ -23,13 +23,7 @@ if TYPE_CHECKING:
 
 
 def check_file(option: str, path: str) -> None:
-    """Refuse early a path that cannot become a file.
-
-    Raises
-    ------
-    InputError
-        The path cannot be written; the error names the option.
-    """
+    """Refuse early a path that cannot become a file."""
     target = Path(path)
     if not path.strip() or "\0" in path:
         raise InputError(option, path, "must be the path of a file to write")
@@ -53,14 +47,14 @@ def write_csv(motion: Trajectory, path: str) -> None:
 
     A lasting contact fills only ``kind``, ``time`` and ``end``.
     """
-    columns = _columns(motion)
-    time_unit = columns["time"][1]
+    log = motion.contacts.to_dataset()
+    time_unit = log["time"].attrs["units"]
+    rest = [column for name, column in log.items() if name != "time"]
     header = ["kind", f"time [{time_unit}]", f"end [{time_unit}]"]
-    header += [f"{name} [{unit}]" for name, (_, unit) in columns.items() if name != "time"]
-    rest = [values for name, (values, _) in columns.items() if name != "time"]
+    header += [f"{column.name} [{column.attrs['units']}]" for column in rest]
     rows: list[tuple[float, list[object]]] = []
-    for place, time in enumerate(columns["time"][0].tolist()):
-        rows.append((time, ["impact", time, "", *(values[place].item() for values in rest)]))
+    for time, *values in zip(log["time"].values.tolist(), *(column.values.tolist() for column in rest), strict=True):
+        rows.append((time, ["impact", time, "", *values]))
     scale = motion.rotor.scales.time if motion.rotor.scales else 1.0
     for contact in motion.lasting_contacts:
         start, end = contact.start * scale, contact.end * scale
@@ -81,11 +75,6 @@ def write_netcdf(motion: Trajectory, path: str) -> None:
         write_whole(Path(path), content)
 
 
-def _columns(motion: Trajectory) -> dict[str, tuple[np.ndarray, str]]:
-    dataset = motion.contacts.to_dataset()
-    return {str(name): (column.values, column.attrs["units"]) for name, column in dataset.items()}
-
-
 def _dataset(motion: Trajectory) -> xarray.Dataset:
     from carom.models import jeffcott_of
     from carom.motions.contacts import phase_flags
@@ -94,17 +83,12 @@ def _dataset(motion: Trajectory) -> xarray.Dataset:
     dataset = motion.contacts.to_dataset()
     unit, scale = ("s", scales.time) if scales else ("1/Omega", 1.0)
     contacts = motion.lasting_contacts
-    for name, words in (("start", "start"), ("end", "end")):
+    for name in ("start", "end"):
         times = np.array([getattr(contact, name) * scale for contact in contacts], float)
-        dataset[f"contact_{name}"] = ("contact", times, {"units": unit, "long_name": f"{words} of lasting contact"})
-    dataset["contact_phase"] = (
-        "contact",
-        np.array([contact.phase for contact in contacts], np.int8),
-        {
-            "long_name": "kind of lasting contact",
-            **phase_flags(phase for phase in Phase if phase is not Phase.FLIGHT),
-        },
-    )
+        dataset[f"contact_{name}"] = ("contact", times, {"units": unit, "long_name": f"{name} of lasting contact"})
+    flags = phase_flags(phase for phase in Phase if phase is not Phase.FLIGHT)
+    phases = np.array([contact.phase for contact in contacts], np.int8)
+    dataset["contact_phase"] = ("contact", phases, {"long_name": "kind of lasting contact", **flags})
     dataset.attrs = {
         "Conventions": "CF-1.11",
         "title": "Contacts of a rotor with its touchdown bearing",

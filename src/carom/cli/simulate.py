@@ -10,7 +10,6 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_doc
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
-    from carom.models import Jeffcott
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
@@ -99,20 +98,8 @@ def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None
     from carom.motions.trajectories import simulate as follow
 
     rotor = Jeffcott(case.parameters)
-    if isinstance(start, Kick):
-        _check_levitation(rotor, kick)
-    return follow(
-        rotor,
-        start,
-        end,
-        settle=end is None,
-        max_events=MOST_EVENTS,
-        progress=tell,
-    )
-
-
-def _check_levitation(rotor: Jeffcott, kick: str | None) -> None:
     radius = abs(rotor.equilibrium)
-    if radius > 1.0:
+    if isinstance(start, Kick) and radius > 1.0:
         words = f"needs levitation without contact, but |U*| = {radius:.6g} is outside the wall; use --start"
         raise InputError("--kick", kick, words)
+    return follow(rotor, start, end, settle=end is None, max_events=MOST_EVENTS, progress=tell)

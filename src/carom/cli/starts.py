@@ -1,4 +1,7 @@
-"""Read starts, kicks, times and ranges from text: dimensionless, or with units if the machine is known."""
+"""Read starts, kicks, times and ranges from text: dimensionless, or with units if the machine is known.
+
+What cannot be read raises an :class:`~carom.outcome.InputError` that names the option, the value and what is allowed.
+"""
 
 from __future__ import annotations
 
@@ -17,20 +20,7 @@ _KICK = "must be SPEED or SPEED,ANGLE such as 0.4,0.2 or '50 mm/s,30 deg'"
 
 
 def read_start(text: str, scales: Scales | None) -> State:
-    """Read ``RE,IM,VRE,VIM``: position and velocity in the co-rotating frame.
-
-    Parameters
-    ----------
-    text : str
-        Each value has a unit of length or velocity, or is a number in ``c_r`` or ``c_r Ω``.
-    scales : Scales or None
-        Needed for values with units.
-
-    Raises
-    ------
-    InputError
-        The text cannot be read; the error names ``--start``, the value and what is allowed.
-    """
+    """Read ``RE,IM,VRE,VIM``: position and velocity in the co-rotating frame, in ``c_r`` and ``c_r Ω`` or with units."""
     parts = _split("--start", text, (4,), _START)
     x, y = (read_size("--start", part, "length", scales).own(scales) for part in parts[:2])
     vx, vy = (read_size("--start", part, "velocity", scales).own(scales) for part in parts[2:])
@@ -43,13 +33,7 @@ def read_start(text: str, scales: Scales | None) -> State:
 
 
 def read_kick(text: str, scales: Scales | None) -> Kick:
-    """Read ``SPEED`` or ``SPEED,ANGLE``: a velocity kick out of levitation, co-rotating frame.
-
-    Raises
-    ------
-    InputError
-        The text cannot be read; the error names ``--kick``.
-    """
+    """Read ``SPEED`` or ``SPEED,ANGLE``: a velocity kick out of levitation, co-rotating frame."""
     speed, *angle = _split("--kick", text, (1, 2), _KICK)
     size = read_size("--kick", speed, "velocity", scales).own(scales)
     direction = read_size("--kick", angle[0], "angle", scales).own(scales) if angle else 0.0
@@ -59,24 +43,12 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
 
 
 def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:
-    """Read a time in ``1/Ω``, or with a unit of time.
-
-    Raises
-    ------
-    InputError
-        The text cannot be read; the error names the option.
-    """
+    """Read a time in ``1/Ω``, or with a unit of time."""
     return read_positive(option, text, "time", scales)
 
 
 def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> float:
-    """Read a length, velocity, acceleration or time above 0, in units of the equations.
-
-    Raises
-    ------
-    InputError
-        The text cannot be read; the error names the option.
-    """
+    """Read a length, velocity, acceleration or time above 0, in units of the equations."""
     size = read_size(option, text, kind, scales).own(scales)
     if not size > 0:
         article = "an" if kind[0] in "aeiou" else "a"
@@ -85,13 +57,7 @@ def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> f
 
 
 def read_value(option: str, text: str, varied: Axis) -> float:
-    """Read a value of a parameter to vary.
-
-    Raises
-    ------
-    InputError
-        The text cannot be read; the error names the option.
-    """
+    """Read a value of a parameter to vary."""
     try:
         return read_quantity(varied.field, text)
     except InputError as problem:
@@ -99,13 +65,7 @@ def read_value(option: str, text: str, varied: Axis) -> float:
 
 
 def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
-    """Read ``A,B``, the ends of a range of a parameter in either order; return the smaller one first.
-
-    Raises
-    ------
-    InputError
-        The text cannot be read; the error names the option.
-    """
+    """Read ``A,B``, the ends of a range of a parameter in either order; return the smaller one first."""
     allowed = f"must be two different values of {varied.name} with a comma between them"
     first, second = (read_value(option, part, varied) for part in _split(option, text, (2,), allowed))
     if first == second:

@@ -30,7 +30,7 @@ from carom.studies.wording import counted, no_rigid_wall, number
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium
-    from carom.orbits.single_impact import Orbit, OrbitSet
+    from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case
 
 FIRST_EVENTS, LAST_EVENTS = 20, 8
@@ -72,8 +72,12 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
     console.print(fitted(console, _thresholds(study)))
     kicks = kick_rows(study)
     if kicks:
+        headings = ("speed", "came back", "the others ended")
+        table = plain_table("Kicks out of levitation", *headings, right=headings[:1], no_wrap=headings[:1])
+        for row in kicks:
+            table.add_row(*row)
         console.print()
-        console.print(fitted(console, _kicks(kicks)))
+        console.print(fitted(console, table))
     console.print()
     if report is None:
         console.print("Figures, study.json and report.html: add --out DIR")
@@ -83,17 +87,29 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
 
 def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet) -> None:
     """Print equilibria and orbits, in units of the equations and in SI units."""
-    values = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
-    console.print(Text(f"{case.name}: {values}"))
+    parameters = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
+    console.print(Text(f"{case.name}: {parameters}"))
     console.print()
     rows = simple_motion_rows(equilibria, orbits, Wording(case.parameters.scales), most_virtual=40)
     motions = _motions(rows, "Equilibria and orbits with one impact a period", console.width)
     console.print(fitted(console, motions))
     _print_left_out(console, orbits, most_virtual=40)
     shown = [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS]
-    for table in (_orbit_numbers(shown), _multipliers(shown)) if shown else ():
-        console.print()
-        console.print(fitted(console, table))
+    if shown:
+        columns, size = ("period T", "ṙ", "θ", "θ̇"), "largest modulus"
+        title = "Orbits in the units of the equations, just before the impact"
+        values = plain_table(title, "orbit", *columns, right=columns, no_wrap=("orbit", *columns))
+        title = "Multipliers: a small disturbance is multiplied by these from impact to impact"
+        multipliers = plain_table(title, "orbit", size, "multipliers", right=[size])
+        for orbit in shown:
+            style = "" if orbit.admissible else "dim"
+            numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
+            values.add_row(orbit.name, *(f"{value:.10g}" for value in numbers), style=style)
+            factors = "   ".join(map(_complex, orbit.multipliers.values))
+            multipliers.add_row(orbit.name, f"{orbit.multipliers.spectral_radius:.6g}", factors, style=style)
+        for table in (values, multipliers):
+            console.print()
+            console.print(fitted(console, table))
     console.print()
     console.print(orbits.argument)
 
@@ -151,41 +167,12 @@ def _print_left_out(console: Console, orbits: OrbitSet, most_virtual: int = 8) -
         console.print(f"{virtual} orbits that are not possible are left out; --json lists them.")
 
 
-def _orbit_numbers(shown: list[Orbit]) -> Table:
-    columns = ("period T", "ṙ", "θ", "θ̇")
-    title = "Orbits in the units of the equations, just before the impact"
-    table = plain_table(title, "orbit", *columns, right=columns, no_wrap=("orbit", *columns))
-    for orbit in shown:
-        numbers = (orbit.period, orbit.radial_speed, orbit.angle, orbit.angular_speed)
-        style = "" if orbit.admissible else "dim"
-        table.add_row(orbit.name, *(f"{value:.10g}" for value in numbers), style=style)
-    return table
-
-
-def _multipliers(shown: list[Orbit]) -> Table:
-    title, size = "Multipliers: a small disturbance is multiplied by these from impact to impact", "largest modulus"
-    table = plain_table(title, "orbit", size, "multipliers", right=[size])
-    for orbit in shown:
-        values = "   ".join(_complex(value, 6) for value in orbit.multipliers.values)
-        style = "" if orbit.admissible else "dim"
-        table.add_row(orbit.name, f"{orbit.multipliers.spectral_radius:.6g}", values, style=style)
-    return table
-
-
 def _thresholds(study: Study) -> Table:
     values = ["value", "dimensionless"] if study.wording.scales is not None else ["dimensionless"]
     headings = ("motion", "exists", "quantity", *values, "where")
     table = plain_table("Thresholds, each with all else as it is", *headings, right=["value"], no_wrap=values)
     for row in threshold_rows(study):
         table.add_row(row.motion, row.exists, row.quantity, *(getattr(row, value) for value in values), row.what)
-    return table
-
-
-def _kicks(rows: list[tuple[str, str, str]]) -> Table:
-    headings = ("speed", "came back", "the others ended")
-    table = plain_table("Kicks out of levitation", *headings, right=headings[:1], no_wrap=headings[:1])
-    for row in rows:
-        table.add_row(*row)
     return table
 
 
@@ -230,8 +217,7 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
     return [row for _, row in sorted(entries, key=lambda entry: entry[0])]
 
 
-def _complex(value: complex, digits: int = 6) -> str:
+def _complex(value: complex) -> str:
     if value.imag == 0:
-        return f"{value.real:.{digits}g}"
-    sign = "+" if value.imag >= 0 else "−"
-    return f"{value.real:.{digits}g} {sign} {abs(value.imag):.{digits}g}i"
+        return f"{value.real:.6g}"
+    return f"{value.real:.6g} {'+' if value.imag >= 0 else '−'} {abs(value.imag):.6g}i"

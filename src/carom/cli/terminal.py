@@ -44,7 +44,7 @@ def console(errors: bool = False) -> Console:
 
 def print_document(document: dict[str, Any]) -> None:
     """Print one JSON object."""
-    from carom.studies import as_json
+    from carom.files import as_json
 
     sys.stdout.write(as_json(document) + "\n")
 
@@ -53,15 +53,7 @@ def print_document(document: dict[str, Any]) -> None:
 def progress(step: str) -> Iterator[Reporter]:
     """Show a bar on the error stream for longer tasks; nothing if that stream is not a terminal.
 
-    Parameters
-    ----------
-    step : str
-        Description of the first step.
-
-    Yields
-    ------
-    Reporter
-        To be called with the share done, 0 to 1, and a description of the next step, or handed on as ``progress``.
+    `step` describes the first step.  The reporter can be handed on as ``progress``.
     """
     if not sys.stderr.isatty():
         yield Reporter()

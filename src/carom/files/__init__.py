@@ -1,11 +1,13 @@
-"""Files that are there whole or not at all.
+"""Files and documents.
 
-===========  ============================================================
-``whole``    a file is written completely, or what was there stays
-``netcdf``   datasets as netCDF files with a checksum
-===========  ============================================================
+=============  ============================================================
+``whole``      a file is written completely, or what was there stays
+``netcdf``     datasets as netCDF files with a checksum
+``documents``  results as JSON
+=============  ============================================================
 """
 
+from carom.files.documents import as_json, write_json
 from carom.files.whole import sync_directory, try_place, write_whole
 
-__all__ = ["sync_directory", "try_place", "write_whole"]
+__all__ = ["as_json", "sync_directory", "try_place", "write_json", "write_whole"]

@@ -13,11 +13,12 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from carom import plots
+from carom.files import write_json
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, Wish, shows_progress
 from carom.report.directory import FIGURES, MANIFEST, filled_at_once
 from carom.report.figures import Picture, pictures
-from carom.studies import NOT_COVERED, Study, as_json
+from carom.studies import NOT_COVERED, Study
 from carom.studies.summaries import (
     dimensionless_rows,
     kick_rows,
@@ -74,7 +75,7 @@ def write_report(study: Study, directory: str, *, progress: Wish = None) -> Path
             names += [f"{FIGURES}/{path.name}" for path in paths]
             inline.append(_inline(picture, paths[0].read_text(encoding="utf-8"), f"f{done + 1}-"))
         document = {**study.to_dict(), "figures": names}
-        (place / MANIFEST).write_text(as_json(document) + "\n", encoding="utf-8")
+        write_json(place / MANIFEST, document)
         (place / REPORT).write_text(report_page(study, inline), encoding="utf-8")
     return Path(directory) / REPORT
 

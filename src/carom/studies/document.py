@@ -6,12 +6,8 @@ ends in ``_si``; those keys exist if the machine is known.  Values that are not 
 
 from __future__ import annotations
 
-import json
-import math
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, Ending, document_of
 from carom.basins.shares import CONFIDENCE
@@ -36,17 +32,6 @@ from carom.studies.wording import Wording
 
 if TYPE_CHECKING:
     from carom.studies.assembly import Study
-
-
-def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
-    """Return a document as the text of one JSON object; values that are not finite become ``null``.
-
-    Characters that are not printable are escaped.
-    """
-    text = json.dumps(_plain(document), indent=indent, ensure_ascii=False, allow_nan=False)
-    if text.replace("\n", "").isprintable():
-        return text
-    return "".join(sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1] for sign in text)
 
 
 def orbits_document(
@@ -337,18 +322,3 @@ def _rolling(rotor: Jeffcott) -> dict[str, Any]:
         document["largest_force_si"] = roll.largest_force * scales.force
         document |= _wall(indentation_of_force(rotor.parameters, roll.largest_force))
     return document
-
-
-def _plain(value: Any) -> Any:
-    """Convert a value to the types of JSON."""
-    if isinstance(value, dict):
-        return {key: _plain(entry) for key, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(entry) for entry in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, complex):
-        return [_plain(value.real), _plain(value.imag)]
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    return value

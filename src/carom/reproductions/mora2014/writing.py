@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from carom.files import write_json
 from carom.progress import Reporter, Wish, shows_progress
 from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.pictures import figures
@@ -33,7 +34,6 @@ def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -
     """
     from carom.plots import save
     from carom.report.directory import filled_at_once
-    from carom.studies import as_json
 
     tell = Reporter.of(progress, "drawing")
     pictures = figures(found)
@@ -42,7 +42,7 @@ def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -
         for done, picture in enumerate(pictures):
             tell(done / len(pictures), f"drawing {picture.name.replace('-', ' ')}")
             names += [path.name for path in save(picture.draw(), place / picture.name)]
-        (place / "paper.json").write_text(as_json(paper_document(found, pictures)) + "\n", encoding="utf-8")
+        write_json(place / "paper.json", paper_document(found, pictures))
         (place / "table.md").write_text(markdown(found), encoding="utf-8")
         tell(1.0, "writing")
     return [Path(directory) / name for name in (*names, "paper.json", "table.md")]
