@@ -162,8 +162,6 @@ def find_attractors(
         settle, unless that would take too long.
     threads : int, optional
         By default the number of available cores; the result does not depend on it.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

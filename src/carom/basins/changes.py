@@ -63,8 +63,6 @@ def least_gain_change(
     ----------
     wanted : float
         Share, 0 to 1.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

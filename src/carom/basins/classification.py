@@ -177,8 +177,6 @@ def map_basins(
         By default the number of available cores; the result does not depend on it.
     source : mapping of str to str, optional
         Further attributes of the dataset that say where the machine comes from, such as its file.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

@@ -116,8 +116,6 @@ def map_gains(
         Number of values of both, ends included.
     patience, max_events, threads, source
         As for :func:`~carom.basins.map_basins`.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

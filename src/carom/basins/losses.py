@@ -156,8 +156,6 @@ def smallest_loss(
         2 ``c_r Ω``).
     directions, sizes : int
         Numbers of directions and sizes in the scan.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Raises
     ------

@@ -123,8 +123,6 @@ def find_bifurcations(
         settle: irregular bouncing, orbits with several impacts, rolling and so on.  None by default.
     seed : int
         Seed of these disturbances.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Raises
     ------

@@ -161,8 +161,6 @@ def map_regions(
         Follow bifurcations of virtual orbits too.
     lasting : bool
         Follow the onsets of lasting and of permanent contact too (a few seconds).
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Raises
     ------

@@ -92,8 +92,6 @@ def sample_attractors(
     disturbances : DisturbanceSet, Grid or Sample
         Disturbances followed at each value.  Starts next to every known motion are followed too, but do not count for
         the shares.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

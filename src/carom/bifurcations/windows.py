@@ -129,8 +129,6 @@ def orbit_windows(
         Values, in ascending order, at which all orbits are searched
         (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two of them is found if its orbit
         is admissible, or nearly so, at one of them.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
     """
     tell = Reporter.of(progress, "following orbits")
     columns: list[list[_Member]] = []

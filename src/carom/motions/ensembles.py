@@ -132,8 +132,6 @@ def settle(
         Impacts and steps of lasting contact after which a motion is given up.
     threads : int, optional
         By default the number of available cores.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Raises
     ------

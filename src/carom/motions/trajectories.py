@@ -306,8 +306,6 @@ def simulate(
         With ``settle``: impacts without recurrence after which bouncing counts as aperiodic.
     max_events : int
         Impacts and steps of lasting contact after which to give up.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Raises
     ------

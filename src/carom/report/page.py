@@ -51,8 +51,6 @@ def write_report(study: Study, directory: str, *, progress: Wish = None) -> Path
     ----------
     directory : str
         Target directory, created if it does not exist.  Files of an earlier study are replaced; other files stay.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

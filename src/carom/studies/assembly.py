@@ -144,8 +144,6 @@ def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, p
     disturbances : Grid, Sample or Disturbance, optional
         The disturbances followed at the machine's own damping and stiffness instead of the standard set, as in
         :func:`~carom.attractors.find_attractors`.  At other values the standard kinds are tried.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Raises
     ------

@@ -30,8 +30,6 @@ def single_impact_ranges(parameters: Parameters, gain: Gain, progress: Wish = No
     ----------
     gain : {"gamma", "omega"}
         The gain that is varied.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

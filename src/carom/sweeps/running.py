@@ -135,8 +135,6 @@ def run_sweep(
         Compute on a Dask cluster instead: address or file of its scheduler, ``"slurm"``, or a client.
     retry_failed : bool
         Compute chunks with failed points again.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

@@ -66,11 +66,6 @@ class Reproduction(Result):
 @shows_progress
 def reproduce(*, progress: Wish = None) -> Reproduction:
     """Compute the data of all figures of the source paper and all numbers that it prints.
-
-    Parameters
-    ----------
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
     """
     tell = Reporter.of(progress, "reproducing the paper")
     tell(0.0, "finding the motions of figure 2 (the kernels are compiled on first use)")

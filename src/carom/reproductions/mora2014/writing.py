@@ -19,8 +19,6 @@ def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -
     ----------
     directory : str
         Target directory, created if it does not exist; files of the same name are replaced.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------

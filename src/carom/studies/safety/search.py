@@ -77,8 +77,6 @@ def least_safe_damping(
         Largest ``γ`` to search.
     threads : int, optional
         By default one for each core; the result does not depend on it.
-    progress : callable or bool, optional
-        Called with a :class:`~carom.progress.Progress` from time to time; ``True`` shows a bar.
 
     Returns
     -------
