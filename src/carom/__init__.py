@@ -5,7 +5,8 @@
 >>> orbits = cm.find_orbits(machine)
 >>> motion = cm.simulate(machine, cm.kick(0.4, angle=0.2), 400.0)
 
-Each verb takes a machine, a case, parameters or a model.  What is more special lives in the packages: ``cm.disturbances``,
+Each verb takes a machine, a case, parameters or a model.  Where one takes long, ``progress=True`` shows a bar, and a
+callable receives each :class:`~carom.progress.Progress`.  What is more special lives in the packages: ``cm.disturbances``,
 ``cm.basins``, ``cm.bifurcations``, ``cm.closed_forms``, ``cm.plots`` and so on.
 
 Names and packages are loaded when they are first used, so ``import carom`` stays light.  The file ``__init__.pyi`` beside

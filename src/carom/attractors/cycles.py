@@ -28,23 +28,19 @@ TURNS = 10.0
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cycle(Result):
-    """The cycle that a settled motion repeats.
-
-    Attributes
-    ----------
-    synchronous : bool
-        Whether it is at rest in the co-rotating frame.
-    period : float or None
-        In ``1/Ω``; ``None`` if it is at rest, does not repeat or has not settled.
-    positions, velocities : ndarray of complex, shape (m,)
-        States just before the impacts of one period, in their order; empty if there are none or no period.
-    """
+    """The cycle that a settled motion repeats."""
 
     outcome: Outcome
     synchronous: bool
+    """Whether it is at rest in the co-rotating frame."""
     period: float | None
+    """In ``1/Ω``; ``None`` if it is at rest, does not repeat or has not settled."""
     positions: np.ndarray
     velocities: np.ndarray
+    """States just before the impacts of one period, in their order; empty if there are none or no period.
+
+    Shape (m,), complex.
+    """
 
     @property
     def kind(self) -> tuple[Outcome, bool, int]:

@@ -33,30 +33,20 @@ FINEST = 1e-11
 
 @dataclass(frozen=True)
 class LiftOff:
-    """The next lift-off after a given one, and the motion in between.
-
-    Attributes
-    ----------
-    angle : float
-        ``x = θ − φ`` of the lift-off, rad.
-    whirl : {1, -1}
-        Sign of ``1 + θ̇``: forward or backward in the fixed frame.
-    time : float
-        Time since the previous lift-off, in ``1/Ω``.
-    impacts : int
-        Number of bounces in between, without those replaced by the completion of the chatter.
-    contact_time : float
-        Duration of the lasting contact, in ``1/Ω``.
-    landing_force : float
-        Normal force at the beginning of the lasting contact, in ``m c_r Ω²``; it vanishes at the onset.
-    """
+    """The next lift-off after a given one, and the motion in between."""
 
     angle: float
+    """``x = θ − φ`` of the lift-off, rad."""
     whirl: Whirl
+    """Sign of ``1 + θ̇``: forward or backward in the fixed frame."""
     time: float
+    """Time since the previous lift-off, in ``1/Ω``."""
     impacts: int
+    """Number of bounces in between, without those replaced by the completion of the chatter."""
     contact_time: float
+    """Duration of the lasting contact, in ``1/Ω``."""
     landing_force: float
+    """Normal force at the beginning of the lasting contact, in ``m c_r Ω²``; it vanishes at the onset."""
 
 
 def lift_off_state(rotor: Jeffcott, whirl: Whirl, angle: float) -> State | None:

@@ -100,20 +100,13 @@ class RubbingOrbit(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RubbingPoint(Bifurcation):
-    """A special point of such a branch: ``"fold"``, ``"period-doubling"``, ``"contact-onset"`` or ``"permanent-contact"``.
-
-    Attributes
-    ----------
-    angle : float
-        ``x = θ − φ`` at the lift-off, rad.
-    whirl : {1, -1}
-    beside : tuple of float or None
-        For both onsets the landing force, angle and value of the parameter of a motion next to it.
-    """
+    """A special point of such a branch: ``"fold"``, ``"period-doubling"``, ``"contact-onset"`` or ``"permanent-contact"``."""
 
     angle: float = math.nan
+    """``x = θ − φ`` at the lift-off, rad."""
     whirl: Whirl = 1
     beside: tuple[float, float, float] | None = None
+    """For both onsets the landing force, angle and value of the parameter of a motion next to it."""
 
     @property
     def motion(self) -> MotionKind:

@@ -13,20 +13,14 @@ from carom.parameters import Numbers
 
 
 class Solution(NamedTuple):
-    """A solution, without multipliers and without certified admissibility.
-
-    Attributes
-    ----------
-    numbers : Numbers
-        Parameters; with negative ``mu`` for backward slip.
-    period, radial_speed : float
-        In ``1/Ω`` and ``c_r Ω``.
-    """
+    """A solution, without multipliers and without certified admissibility."""
 
     name: OrbitName
     numbers: Numbers
+    """Parameters; with negative ``mu`` for backward slip."""
     period: float
     radial_speed: float
+    """In ``1/Ω`` and ``c_r Ω``."""
 
 
 def orbit_solutions(machine: Subject, longest_period: float | None = None, *, backward: bool = False) -> list[Solution]:

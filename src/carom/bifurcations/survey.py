@@ -28,21 +28,15 @@ MOST_CHANGES = 30
 
 @dataclass(eq=False)
 class Survey:
-    """Motions on a grid of cells of a plane and along its edges, and the curves between them.
-
-    Attributes
-    ----------
-    curves : list of Curve
-        Curves known before; curves that are found are added.
-    seen : dict
-        A point for each set of motions found at or between the points of the grid.
-    """
+    """Motions on a grid of cells of a plane and along its edges, and the curves between them."""
 
     parameters: Parameters
     plane: Plane
     curves: list[Curve]
+    """Curves known before; curves that are found are added."""
     unexplained: list[UnexplainedChange] = field(default_factory=list)
     seen: dict[Motions, tuple[float, float]] = field(default_factory=dict)
+    """A point for each set of motions found at or between the points of the grid."""
 
     def grid(self, cells: int) -> tuple[np.ndarray, np.ndarray]:
         """Values of both parameters at the edges of the plane and in the middle of each cell, shape (cells + 2,) each."""

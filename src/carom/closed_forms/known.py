@@ -21,24 +21,16 @@ ROTORS = 64
 
 @dataclass(frozen=True)
 class Known:
-    """What is known of a model.
-
-    Attributes
-    ----------
-    rubs : bool
-        Whether its synchronous rubs are known.
-    rub : Equilibrium or None
-        The synchronous rub that attracts sliding, also for ``d = 1``, where it does not attract bouncing.
-    around : RubNeighbourhood or None
-        A neighbourhood of that rub which sliding never leaves.
-    runaway : float
-        Speed of backward whirl beyond which sliding certainly goes over to lasting rolling; infinite if there is none.
-    """
+    """What is known of a model."""
 
     rubs: bool = False
+    """Whether its synchronous rubs are known."""
     rub: Equilibrium | None = None
+    """The synchronous rub that attracts sliding, also for ``d = 1``, where it does not attract bouncing."""
     around: RubNeighbourhood | None = None
+    """A neighbourhood of that rub which sliding never leaves."""
     runaway: float = np.inf
+    """Speed of backward whirl beyond which sliding certainly goes over to lasting rolling; infinite if there is none."""
 
 
 @singledispatch

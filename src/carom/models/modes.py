@@ -15,20 +15,14 @@ INDEPENDENT = 1e-9
 
 
 class Modes(NamedTuple):
-    """Modes of a system.
-
-    Attributes
-    ----------
-    exponents : ndarray of complex, shape (N,)
-    driven : ndarray of bool, shape (N,)
-        Whether a mode is driven by the one before it; see :func:`carom.core.layout.rotor_record`.
-    basis : ndarray of complex, shape (N, N)
-        State per amplitude.
-    """
+    """Modes of a system."""
 
     exponents: np.ndarray
+    """Shape (N,), complex."""
     driven: np.ndarray
+    """Whether a mode is driven by the one before it; see :func:`carom.core.layout.rotor_record`.  Shape (N,), bool."""
     basis: np.ndarray
+    """State per amplitude.  Shape (N, N), complex."""
 
 
 def modes_of(matrix: np.ndarray) -> Modes:

@@ -24,13 +24,7 @@ _LONGEST, _DIGITS, _MOST_DIGITS, _LARGEST_EXPONENT = 200, 40, 30, 400
 
 @dataclass(frozen=True)
 class ExactNumber:
-    """A number, or all numbers of an interval: those from ``low`` to ``high``, times ``π**turns``.
-
-    Attributes
-    ----------
-    low, high : Fraction
-    turns : int
-    """
+    """A number, or all numbers of an interval: those from ``low`` to ``high``, times ``π**turns``."""
 
     low: Fraction
     high: Fraction

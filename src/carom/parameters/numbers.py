@@ -23,16 +23,10 @@ class Units(NamedTuple):
 
 
 class Conversion(NamedTuple):
-    """A dimensionless number is ``(value/unit)^(1/power)``, with the value of its partner among the machine fields.
-
-    Attributes
-    ----------
-    unit : callable
-        The unit in SI units, from :class:`Units` or :class:`~carom.parameters.Scales`.
-    power : {1, 2}
-    """
+    """A dimensionless number is ``(value/unit)^(1/power)``, with the value of its partner among the machine fields."""
 
     unit: Callable[[Any], float]
+    """The unit in SI units, from :class:`Units` or :class:`~carom.parameters.Scales`."""
     power: int = 1
 
     def number(self, value: float, scales: Any) -> float:

@@ -30,21 +30,14 @@ _PLACE = re.compile(r"\(at line ([0-9]+), ")
 
 @dataclass(frozen=True)
 class MachineTables:
-    """Raw tables of a machine file.
-
-    Parameters
-    ----------
-    kind : str
-        ``"machine"`` or ``"dimensionless"``: the table the file holds.
-    values : mapping
-        Entries of that table, as TOML gives them.
-    zones : mapping
-        Entries of the optional table ``[zones]``.
-    """
+    """Raw tables of a machine file."""
 
     kind: str
+    """``"machine"`` or ``"dimensionless"``: the table the file holds."""
     values: Mapping[str, Any]
+    """Entries of that table, as TOML gives them."""
     zones: Mapping[str, Any] = field(default_factory=dict)
+    """Entries of the optional table ``[zones]``."""
 
 
 def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:

@@ -15,18 +15,12 @@ _SMALL = 0.15
 
 @dataclass
 class Closeup:
-    """A square of the plane to be enlarged.
-
-    Attributes
-    ----------
-    members : list of int
-        Indices of the paths that it enlarges.
-    places : list of numpy.ndarray
-        Everything that it must show: complex positions in units of the clearance.
-    """
+    """A square of the plane to be enlarged."""
 
     members: list[int] = field(default_factory=list)
+    """Indices of the paths that it enlarges."""
     places: list[Complex] = field(default_factory=list)
+    """Everything that it must show: complex positions in units of the clearance."""
 
     @property
     def middle(self) -> complex:

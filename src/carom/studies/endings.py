@@ -18,24 +18,16 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class KickSize:
-    """All kicks of one size.
-
-    Attributes
-    ----------
-    speed : float
-        Size of the kicks, in ``c_r Ω``.
-    directions : int
-        Number of directions tried.
-    recovered : int
-        Number of kicks that came back to levitation.
-    lost : dict of MotionName to int
-        Number of the other kicks by the attractor in which they ended.
-    """
+    """All kicks of one size."""
 
     speed: float
+    """Size of the kicks, in ``c_r Ω``."""
     directions: int
+    """Number of directions tried."""
     recovered: int
+    """Number of kicks that came back to levitation."""
     lost: dict[MotionName, int]
+    """Number of the other kicks by the attractor in which they ended."""
 
 
 def ending_words(motion: MotionName) -> str:

@@ -34,30 +34,21 @@ State = Literal["stable", "unstable", "not possible", "seen", "transient", "unde
 
 @dataclass(frozen=True)
 class MotionRow:
-    """A motion of the machine.
-
-    Attributes
-    ----------
-    state : {"stable", "unstable", "not possible", "seen", "transient", "undecided"}
-        Seen: disturbances ended there, its stability was not computed; transient: it ends; undecided: its end was not
-        found.
-    size : str
-        Radius of a steady motion, or radial speed of impacts.
-    impulse : str
-        Normal impulse of an impact.
-    force : str
-        Force of lasting contact, or mean force of impacts.
-    trials : str
-        Number of disturbances that ended there.
-    """
+    """A motion of the machine."""
 
     name: str
     state: State
+    """Seen: disturbances ended there, its stability was not computed; transient: it ends; undecided: its end was not
+    found.  One of "stable", "unstable", "not possible", "seen", "transient", "undecided"."""
     period: str = ""
     size: str = ""
+    """Radius of a steady motion, or radial speed of impacts."""
     impulse: str = ""
+    """Normal impulse of an impact."""
     force: str = ""
+    """Force of lasting contact, or mean force of impacts."""
     trials: str = ""
+    """Number of disturbances that ended there."""
     remark: str = ""
 
 

@@ -34,22 +34,15 @@ _COST, _COST_OF_START = 0.002, 1e-4
 
 @dataclass(frozen=True)
 class BasinsTask:
-    """Disturbances followed at each point of the grid.
-
-    Attributes
-    ----------
-    tried : Sample or Grid
-        The disturbances.  Of a sample the model and the number count: each point draws its own.
-    in_si : tuple of str
-        Fields of the model that keep their size in SI units where an axis changes the scales; others keep their number.
-    scales : Scales or None
-        Scales for which the sizes are given, if mass, clearance and speed are known; results are then stored in SI units
-        too.
-    """
+    """Disturbances followed at each point of the grid."""
 
     tried: Plan
+    """The disturbances.  Of a sample the model and the number count: each point draws its own."""
     in_si: tuple[str, ...] = ()
+    """Fields of the model that keep their size in SI units where an axis changes the scales; others keep their number."""
     scales: Scales | None = None
+    """Scales for which the sizes are given, if mass, clearance and speed are known; results are then stored in SI units
+    too."""
 
     kind: ClassVar[str] = "basins"
     dimensions: ClassVar[tuple[Dimension, ...]] = (OUTCOMES,)

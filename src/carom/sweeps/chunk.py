@@ -18,39 +18,26 @@ _LONGEST_MESSAGE = 500
 
 @dataclass(frozen=True)
 class Failure:
-    """A point that could not be computed.
-
-    Attributes
-    ----------
-    point : tuple of int
-        Index of the point in the grid.
-    values : dict
-        Values of the parameters that vary, in SI units or dimensionless.
-    error : str
-        Error message, on one line.
-    """
+    """A point that could not be computed."""
 
     point: tuple[int, ...]
+    """Index of the point in the grid."""
     values: dict[str, float]
+    """Values of the parameters that vary, in SI units or dimensionless."""
     error: str
+    """Error message, on one line."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Chunk(Result):
-    """The results at the points of a chunk.
-
-    Attributes
-    ----------
-    arrays : dict of ndarray
-        One for each variable, and ``status``.  Shape: that of the chunk, followed by the variable's own dimension.
-    processor : str
-        Kind of the processor that computed the chunk; empty if it was not computed.
-    """
+    """The results at the points of a chunk."""
 
     number: int
     arrays: dict[str, np.ndarray]
+    """One for each variable, and ``status``.  Shape: that of the chunk, followed by the variable's own dimension."""
     failures: tuple[Failure, ...]
     processor: str = ""
+    """Kind of the processor that computed the chunk; empty if it was not computed."""
 
 
 def compute_chunk(plan: SweepPlan, number: int) -> Chunk:

@@ -22,45 +22,34 @@ class Status:
 
 @dataclass(frozen=True)
 class Dimension:
-    """A dimension of a variable besides the axes of the grid.
-
-    Attributes
-    ----------
-    values : tuple of int
-        Its coordinate.
-    flags : tuple of str
-        Meaning of each value.
-    """
+    """A dimension of a variable besides the axes of the grid."""
 
     name: str
     values: tuple[int, ...]
+    """Its coordinate."""
     words: str
     flags: tuple[str, ...]
+    """Meaning of each value."""
 
 
 @dataclass(frozen=True)
 class Variable:
-    """A number, a count or a flag that every point of the grid has.
-
-    Attributes
-    ----------
-    kind : {"number", "count", "flag"}
-        Stored as double, as 64-bit or as 8-bit integer; a missing value is stored as NaN or -1.
-    scale : str
-        The property of :class:`~carom.parameters.Scales` that converts it to SI units; empty for a pure number.
-    si_of : str
-        The variable that it is in SI units; empty for others.
-    flags : tuple of str
-        Meanings of 0, 1, 2, ...
-    """
+    """A number, a count or a flag that every point of the grid has."""
 
     name: str
     words: str
     kind: Kind = "number"
+    """Stored as double, as 64-bit or as 8-bit integer; a missing value is stored as NaN or -1.
+
+    One of "number", "count", "flag".
+    """
     unit: str = "1"
     scale: str = ""
+    """The property of :class:`~carom.parameters.Scales` that converts it to SI units; empty for a pure number."""
     si_of: str = ""
+    """The variable that it is in SI units; empty for others."""
     flags: tuple[str, ...] = ()
+    """Meanings of 0, 1, 2, ..."""
     along: Dimension | None = None
 
     @property

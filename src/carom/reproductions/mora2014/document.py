@@ -13,21 +13,15 @@ from carom.results import fields_of
 
 @dataclass(frozen=True)
 class TextTable:
-    """A table of text.
-
-    Attributes
-    ----------
-    agrees : tuple of bool
-        Of each row: whether the source agrees with what was computed.
-    numbers : tuple of str
-        Headings of the columns that hold numbers.
-    """
+    """A table of text."""
 
     title: str
     headings: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     agrees: tuple[bool, ...]
+    """Of each row: whether the source agrees with what was computed."""
     numbers: tuple[str, ...] = ()
+    """Headings of the columns that hold numbers."""
 
 
 def paper_document(found: Reproduction, pictures: tuple[Picture, ...] = ()) -> dict[str, Any]:

@@ -65,8 +65,7 @@ class Reproduction(Result):
 
 @shows_progress
 def reproduce(*, progress: Wish = None) -> Reproduction:
-    """Compute the data of all figures of the source paper and all numbers that it prints.
-    """
+    """Compute the data of all figures of the source paper and all numbers that it prints."""
     tell = Reporter.of(progress, "reproducing the paper")
     tell(0.0, "finding the motions of figure 2 (the kernels are compiled on first use)")
     motions = shown_motions()

@@ -76,22 +76,15 @@ def try_disturbances(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Loss(Result):
-    """Starts that were lost at one damping.
-
-    Attributes
-    ----------
-    rotor : Jeffcott
-        The rotor with that damping.
-    kicked : ndarray of bool, shape (n,)
-        Which starts are kicks of the levitating rotor.
-    positions, velocities : ndarray of complex, shape (n,)
-        The starts, co-rotating frame.
-    """
+    """Starts that were lost at one damping."""
 
     rotor: Jeffcott
+    """The rotor with that damping."""
     kicked: np.ndarray
+    """Which starts are kicks of the levitating rotor.  Shape (n,), bool."""
     positions: np.ndarray
     velocities: np.ndarray
+    """The starts, co-rotating frame.  Shape (n,), complex."""
     endings: Endings
 
     @property
