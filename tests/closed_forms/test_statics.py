@@ -46,8 +46,8 @@ def test_each_balances_all_forces():
         model = random_rotor(seed)
         for at in find_equilibria(model):
             residual, wall = misses(model, at)
-            # Forces and displacements in double precision; near a fold both are conditioned like a square root.
-            assert residual < 1e-11
+            # The position is a sum of modes; near a fold forces are conditioned like a square root.
+            assert residual < 1e-14 * (10.0 + np.linalg.cond(np.concatenate([model.system.shapes, model.system.rates])))
             assert wall < 1e-10
             seen.add((len(at.planes), at.status))
     assert {(0, "admissible"), (1, "admissible"), (1, "virtual"), (2, "admissible"), (2, "virtual")} <= seen

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from carom.core.planar import planar_exponents
+from carom.models.model import Matrices
 from carom.models.system import System, second_order_system
 from carom.outcome import InputError, shown
 from carom.parameters import Field, Parameters, Scales
@@ -55,6 +58,13 @@ class Jeffcott:
             restitution=parameters.d,
             drive=parameters.radius_ratio + 1.0,
         )
+
+    @property
+    def matrices(self) -> Matrices:
+        """``z̈ + γż + ω²z = ρe^{iφ}e^{it}`` as matrices of one row."""
+        at = self.parameters
+        mass, damping, gyroscopic, stiffness = np.reshape((1.0 + 0j, at.gamma, 0.0, at.omega**2), (4, 1, 1))
+        return Matrices(mass, damping, gyroscopic, stiffness, np.array([cmath.rect(at.rho, at.phi)]))
 
     @property
     def scales(self) -> Scales | None:

@@ -13,6 +13,7 @@ import numpy as np
 
 from carom.core.layout import rotor_record
 from carom.models import linear_parameters
+from carom.models.model import Matrices
 from carom.models.modes import modes_of
 from carom.models.system import System, second_order_system
 from carom.outcome import InputError
@@ -160,6 +161,13 @@ class LinearRotor(Result):
             exponents=(fast, slow), equilibrium=equilibrium, friction=friction, restitution=restitution, drive=drive
         )
         return dataclasses.replace(system, translation=self.translation)
+
+    @property
+    def matrices(self) -> Matrices:
+        """Matrices of the fixed frame; see :meth:`in_fixed_frame`."""
+        spin = self.damping - 2j * self.mass
+        damping, gyroscopic = 0.5 * (spin + spin.conj().T), 0.5j * (spin - spin.conj().T)
+        return Matrices(self.mass, damping, gyroscopic, self.stiffness + self.mass - 1j * spin, self.forcing)
 
     @property
     def unbalance_phase(self) -> float:

@@ -75,17 +75,11 @@ def value_of(rotor: LinearRotor, name: str) -> float:
 
 def _numbers(rotor: LinearRotor) -> Numbers:
     """Numbers of the rotor moving as a whole; those of the planes are left out."""
-    damping, stiffness = _fixed(rotor)
-    mass = _whole(rotor, rotor.mass)
+    inertia, damping, _, stiffness, _ = rotor.matrices
+    mass = _whole(rotor, inertia)
     force = complex(np.vdot(np.asarray(rotor.translation), rotor.forcing)) / mass
     omega = math.sqrt(max(_whole(rotor, stiffness) / mass, 0.0))
     return Numbers(_whole(rotor, damping) / mass, omega, abs(force), cmath.phase(force), *(math.nan,) * 3)
-
-
-def _fixed(rotor: LinearRotor) -> tuple[np.ndarray, np.ndarray]:
-    """Damping and stiffness matrix in the fixed frame, without the gyroscopic part."""
-    spin = rotor.damping - 2j * rotor.mass
-    return 0.5 * (spin + spin.conj().T), rotor.stiffness + rotor.mass - 1j * spin
 
 
 def _whole(rotor: LinearRotor, matrix: np.ndarray) -> float:
@@ -113,7 +107,7 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
         return {attribute: values}
     if own == "phi":
         return {"forcing": rotor.forcing * cmath.exp(1j * (value - rotor.unbalance_phase))}
-    damping, stiffness = _fixed(rotor)
+    _, damping, _, stiffness, _ = rotor.matrices
     if own == "speed" and rotor.scales is not None:
         slower = rotor.scales.speed / value
         more = (slower - 1.0) * damping

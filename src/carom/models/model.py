@@ -2,13 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, runtime_checkable
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import numpy as np
+
     from carom.models.system import System
     from carom.parameters import Field, Scales
+
+
+class Matrices(NamedTuple):
+    """Matrices of a rotor in the fixed frame, ``M Z̈ + (D − iG) Ż + K Z = F e^{it}``.
+
+    Attributes
+    ----------
+    mass, damping, gyroscopic, stiffness : ndarray of complex, shape (n, n)
+        ``D`` and ``G`` are Hermitian; so is ``K`` without circulatory forces.
+    forcing : ndarray of complex, shape (n,)
+    """
+
+    mass: np.ndarray
+    damping: np.ndarray
+    gyroscopic: np.ndarray
+    stiffness: np.ndarray
+    forcing: np.ndarray
 
 
 @runtime_checkable
@@ -22,6 +41,10 @@ class Model(Protocol):
     @property
     def system(self) -> System:
         """Modes, contact planes and contact law."""
+
+    @property
+    def matrices(self) -> Matrices:
+        """Matrices of the equations of motion in the fixed frame."""
 
     @property
     def scales(self) -> Scales | None:

@@ -7,15 +7,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.models import jeffcott_of
+from carom.models import Matrices, Model
 from carom.motions.contacts import Table
 from carom.motions.trajectories import Trajectory
-from carom.outcome import Phase
+from carom.outcome import InputError, Phase
 from carom.parameters import Scales
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 LONGEST_PIECE = 1.5
 """Longest stretch, in ``1/max|λ|``, over which one Gauss rule is used; its error is below rounding."""
+HERMITIAN = 1e-12
+"""Largest skew part of a matrix, relative to its largest element, that counts as rounding."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -23,18 +25,20 @@ class EnergyLedger(Table):
     """Energies of a motion over time in the fixed frame, in ``m c_r² Ω²``.
 
     All arrays have shape (k,): values at ``times``, which begin at zero and contain the ends of all segments.  Works
-    are cumulative from the start; a positive work supplies energy to the rotor.
+    are cumulative from the start; a positive work supplies energy to the rotor.  Gyroscopic forces do no work.
 
     Attributes
     ----------
     times : ndarray
         In ``1/Ω``.
     kinetic, spring : ndarray
-        Energy of the rotor centre ``|ż|²/2`` and of the bearing's stiffness ``ω²|z|²/2``.
+        Energy of all masses, ``ŻᴴMŻ/2``, and of the springs, ``ZᴴKZ/2`` with the Hermitian part of ``K``.
     unbalance, damping : ndarray
-        Work of the unbalance force and of the bearing's damping.
+        Work of the unbalance forces and of damping.
+    circulatory : ndarray
+        Work of the rest of ``K``, such as cross-coupled stiffness; zero for the planar rotor.
     impacts, friction : ndarray
-        Work at the contact point: in impacts, and by friction in lasting contact.
+        Work at the contact points of all planes: in impacts, and by friction in lasting contact.
     drive : ndarray
         Work that the shaft's drive supplies through friction, in impacts and in lasting contact.
     """
@@ -46,6 +50,7 @@ class EnergyLedger(Table):
     spring: np.ndarray
     unbalance: np.ndarray
     damping: np.ndarray
+    circulatory: np.ndarray
     impacts: np.ndarray
     friction: np.ndarray
     drive: np.ndarray
@@ -54,10 +59,11 @@ class EnergyLedger(Table):
     dimension: ClassVar[str] = "times"
     columns: ClassVar[dict[str, tuple[str, str, str]]] = {
         "times": ("time", "s", "time"),
-        "kinetic": ("energy", "J", "kinetic energy of the rotor centre"),
-        "spring": ("energy", "J", "energy of the bearing's stiffness"),
+        "kinetic": ("energy", "J", "kinetic energy of the rotor"),
+        "spring": ("energy", "J", "energy of the stiffness"),
         "unbalance": ("energy", "J", "work of the unbalance since the start"),
-        "damping": ("energy", "J", "work of the bearing's damping since the start"),
+        "damping": ("energy", "J", "work of damping since the start"),
+        "circulatory": ("energy", "J", "work of circulatory forces since the start"),
         "impacts": ("energy", "J", "work at the contact point in impacts since the start"),
         "friction": ("energy", "J", "work of friction in lasting contact since the start"),
         "drive": ("energy", "J", "work of the shaft's drive through friction since the start"),
@@ -71,38 +77,37 @@ class EnergyLedger(Table):
     @property
     def supplied(self) -> np.ndarray:
         """Sum of all works since the start."""
-        return self.unbalance + self.damping + self.impacts + self.friction + self.drive
+        return self.unbalance + self.damping + self.circulatory + self.impacts + self.friction + self.drive
 
     @property
     def imbalance(self) -> float:
         """Largest error of the balance, relative to the largest energy or work that occurs; 0 at rest."""
         missing = np.abs(self.energy - self.energy[0] - self.supplied).max()
-        works = (self.unbalance, self.damping, self.impacts, self.friction, self.drive)
+        works = (self.unbalance, self.damping, self.circulatory, self.impacts, self.friction, self.drive)
         passed = max(self.energy.max(), *(np.abs(work).max() for work in works))
         return float(missing / passed) if passed > 0.0 else 0.0
 
 
 def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
-    """Compute the energy ledger of a motion.
+    """Compute the energy ledger of a motion of any linear rotor.
 
-    With ``w = U̇ + iU`` (velocity in the fixed frame, seen in the co-rotating one) the energy
-    ``(|w|² + ω²|U|²)/2`` changes by the power ``Re(w̄ρe^{iφ})`` of the unbalance, ``−γ|w|²`` of the damping and that of
-    the contact force.  A friction force ``F`` does the work ``F v`` on the contact point, which slips with
-    ``v = s + 1 + θ̇``, and the rest ``−F s`` comes from the drive.
+    With ``w = U̇ + iU`` (velocities in the fixed frame, seen in the co-rotating one) and ``K = K₀ + K₁``, Hermitian and
+    skew-Hermitian, the energy ``(wᴴMw + UᴴK₀U)/2`` changes by the power ``Re(wᴴF)`` of the unbalance, ``−wᴴDw`` of the
+    damping, ``−Re(wᴴK₁U)`` of the circulatory forces and that of the contact forces.  A friction force ``F`` does the
+    work ``F v`` on the contact point, which slips with ``v = s + 1 + θ̇``, and the rest ``−F s`` comes from the drive.
 
     Raises
     ------
     InputError
-        The motion is that of another model than the planar rotor.
+        The mass matrix is not Hermitian, so there is no kinetic energy.
     """
-    parameters = jeffcott_of(trajectory.rotor).parameters
+    matrices = trajectory.rotor.matrices
     edges, counts = _pieces(trajectory)
+    if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():
+        raise InputError("mass", matrices.mass.tolist(), "a Hermitian matrix: otherwise there is no kinetic energy")
     half = 0.5 * np.diff(edges)
     times = (edges[:-1] + half)[:, None] + half[:, None] * _NODES
-    position, velocity = trajectory.at(times)
-    fixed = velocity + 1j * position
-    _, grip = trajectory.forces(times)
-    slip = parameters.radius_ratio + (position.conj() * fixed).imag
+    position, fixed = _in_fixed_frame(*trajectory.at(times), len(matrices.mass))
     ends = np.concatenate([[0], np.cumsum(counts)])
 
     def work(power: np.ndarray) -> np.ndarray:
@@ -111,27 +116,60 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 
     def at_events(events: np.ndarray, values: np.ndarray) -> np.ndarray:
         shares = np.zeros(len(ends))
-        shares[1:-1][events] = values
+        shares[1:-1][events] = masses[trajectory.event_planes[events]] * values
         return np.cumsum(shares)
 
-    force = parameters.rho * np.exp(1j * parameters.phi)
-    kinetic, spring = _stored(trajectory)
+    masses = _felt(trajectory.rotor, matrices)
+    slides, drives = np.zeros(times.shape), np.zeros(times.shape)
+    for plane, mass in enumerate(masses):
+        friction, drive = _contact_power(trajectory.seen_at(plane), times)
+        slides, drives = slides + mass * friction, drives + mass * drive
+    skew = 0.5 * (matrices.stiffness - matrices.stiffness.conj().T)
+    if np.abs(skew).max() <= HERMITIAN * np.abs(matrices.stiffness).max():
+        skew = np.zeros_like(skew)
+    kinetic, spring = _stored(trajectory, matrices)
     impact, landing = trajectory.is_impact, trajectory.is_landing
     impacts, landings = trajectory.log_of(impact), trajectory.log_of(landing)
     return EnergyLedger(
         times=edges[ends],
         kinetic=kinetic,
         spring=spring,
-        unbalance=work((fixed.conj() * force).real),
-        damping=work(-parameters.gamma * np.abs(fixed) ** 2),
+        unbalance=work((fixed.conj() @ matrices.forcing).real),
+        damping=work(-_form(fixed, matrices.damping, fixed)),
+        circulatory=work(-_form(fixed, skew, position)),
         impacts=at_events(impact, impacts.contact_work),
         # A landing stands for the last bounces of a chatter; its work is a correction to their friction.
-        friction=work(grip * slip) + at_events(landing, landings.contact_work),
-        drive=work(-parameters.radius_ratio * grip)
-        + at_events(impact, impacts.drive_work)
-        + at_events(landing, landings.drive_work),
+        friction=work(slides) + at_events(landing, landings.contact_work),
+        drive=work(drives) + at_events(impact, impacts.drive_work) + at_events(landing, landings.drive_work),
         scales=trajectory.rotor.scales,
     )
+
+
+def _form(left: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """``Re(aᴴAb)`` of vectors along the last axis."""
+    form: np.ndarray = np.einsum("...i,ij,...j->...", left.conj(), matrix, right, optimize=True).real
+    return form
+
+
+def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates along a last axis, and their velocities in the fixed frame."""
+    if coordinates == 1:
+        position, velocity = position[..., None], velocity[..., None]
+    return position, velocity + 1j * position
+
+
+def _felt(rotor: Model, matrices: Matrices) -> np.ndarray:
+    """Mass that an impulse at each plane moves, shape (P,): twice the energy of a rotor at rest that it gives speed one."""
+    given = rotor.system.rates @ rotor.system.arrays.columns
+    return _form(given.T, matrices.mass, given.T)
+
+
+def _contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Powers of friction on the contact point of a plane and of the drive, per mass that is felt there."""
+    position, velocity = motion.at_plane(times)
+    drive = float(motion.rotor.system.arrays.drive[motion.plane])
+    _, grip = motion.forces(times)
+    return grip * (drive + (position.conj() * velocity).imag), -(drive - 1.0) * grip
 
 
 def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
@@ -139,7 +177,7 @@ def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     bounds = np.append(trajectory.segment_starts, trajectory.time)
     lengths = np.diff(bounds)
     fastest = np.abs(trajectory.rotor.system.exponents).max()
-    flying = trajectory.segment_phases[:, 0] == Phase.FLIGHT
+    flying = (trajectory.segment_phases == Phase.FLIGHT).all(axis=1)
     counts = np.where(flying, np.ceil(lengths * fastest / LONGEST_PIECE), 1).astype(int)
     counts = np.maximum(counts, 1)
     owner = np.repeat(np.arange(len(counts)), counts)
@@ -147,10 +185,10 @@ def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     return np.append(bounds[owner] + lengths[owner] * place / counts[owner], trajectory.time), counts
 
 
-def _stored(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
+def _stored(trajectory: Trajectory, matrices: Matrices) -> tuple[np.ndarray, np.ndarray]:
     """Kinetic and spring energy at the start of each segment and at the end."""
     position, velocity = trajectory.rotor.system.state(trajectory.segment_amplitudes)
-    position = np.append(position, trajectory.final.position)
-    velocity = np.append(velocity, trajectory.final.velocity)
-    omega = jeffcott_of(trajectory.rotor).parameters.omega
-    return 0.5 * np.abs(velocity + 1j * position) ** 2, 0.5 * omega**2 * np.abs(position) ** 2
+    position = np.concatenate([position, np.asarray(trajectory.final.position)[None]])
+    velocity = np.concatenate([velocity, np.asarray(trajectory.final.velocity)[None]])
+    position, fixed = _in_fixed_frame(position, velocity, len(matrices.mass))
+    return 0.5 * _form(fixed, matrices.mass, fixed), 0.5 * _form(position, matrices.stiffness, position)

@@ -135,11 +135,12 @@ OUTCOMES = MappingProxyType(
 
 WORKS = MappingProxyType(
     {
-        "energy": Look("#1a1a1a", "energy of the rotor centre", line="-", width=1.3),
+        "energy": Look("#1a1a1a", "energy of the rotor", line="-", width=1.3),
         "drive": Look("#009e73", "work of the drive", line="-", width=0.9),
         "impacts": Look("#d55e00", "work at the contact in impacts", line="--", width=0.9),
         "friction": Look("#cc79a7", "work of friction in lasting contact", line="-.", width=0.9),
         "damping": Look("#0072b2", "work of damping", line=":", width=1.1),
+        "circulatory": Look("#56b4e9", "work of circulatory forces", line=(0, (3, 1, 1, 1, 1, 1)), width=0.9),
         "unbalance": Look("#e69f00", "work of unbalance", line=(0, (6, 1, 1, 1)), width=0.9),
     }
 )

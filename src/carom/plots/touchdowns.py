@@ -157,13 +157,15 @@ def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None
 
 @styled
 def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
-    """Draw the energy of the rotor centre and the works that change it."""
+    """Draw the energy of the rotor and the works that change it, circulatory ones where there are any."""
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
     unit = scales.energy if scales else 1.0
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
-        drawn.plot(ledger.times, unit * getattr(ledger, name), **look.stroke, label=look.words)
+        values = getattr(ledger, name)
+        if name != "circulatory" or values.any():
+            drawn.plot(ledger.times, unit * values, **look.stroke, label=look.words)
     drawn.set_xlim(0.0, float(ledger.times[-1]))
     drawn.set_xlabel(axis_time(scales))
     drawn.set_ylabel("energy, work since the start (J)" if scales else r"energy, work ($m c_r^2 \Omega^2$)")
