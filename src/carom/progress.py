@@ -93,19 +93,9 @@ def shows_progress(function: Callable[Arguments, Value]) -> Callable[Arguments, 
 
 @contextmanager
 def bar(step: str, console: Console | None = None) -> Iterator[Reporter]:
-    """Show a bar that appears if the work takes longer than a moment.
+    """Show a bar that appears if the work takes longer than a moment; the reporter moves it.
 
-    Parameters
-    ----------
-    step : str
-        The first step, in words.
-    console : rich.console.Console, optional
-        By default the error stream, or the notebook.
-
-    Yields
-    ------
-    Reporter
-        Moves the bar.
+    `step` is the first step, in words.  By default the console is the error stream, or the notebook.
     """
     shown = _bar(console)
     task = shown.add_task(step, total=1.0)

@@ -74,27 +74,11 @@ class Ending:
 def follow_in_stages(
     rotor: Jeffcott, starts: Starts, patience: int, threads: int | None, tell: Reporter
 ) -> tuple[Endings, np.ndarray, Survival | None]:
-    """Follow all starts: first each for a short time, then longer those that are still irregular.
+    """Follow all starts, one-dimensional: first each for a short time, then longer those that are still irregular.
 
     The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they
-    leave it, unless that takes too long.
-
-    Parameters
-    ----------
-    starts : Starts
-        One-dimensional.
-    patience : int
-        Impacts without recurrence after which bouncing counts as irregular.
-    threads : int or None
-        By default the number of available cores; the result does not depend on it.
-
-    Returns
-    -------
-    endings : Endings
-    lasted : ndarray of bool
-        Which motions were irregular after 1000 impacts.
-    survival : Survival or None
-        How long irregular motion lasts; ``None`` if no motion was irregular after 1000 impacts.
+    leave it, unless that takes too long.  Return the endings, which motions were irregular after 1000 impacts, and how
+    long irregular motion lasts (``None`` if there was none).
     """
     seen = min(FIRST_PATIENCE, patience)
     first = follow(rotor, starts, patience=seen, threads=threads, progress=tell.part(0.0, 0.8))

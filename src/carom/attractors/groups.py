@@ -80,16 +80,9 @@ class Attractor(Result):
 
 
 def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> Attractor:
-    """Describe the motion on which starts end.
+    """Describe the motion on which starts end, from all endings and a state that the first of its starts has reached.
 
-    One motion is simulated once more: from a state on it, or from a start if it was given up.
-
-    Parameters
-    ----------
-    endings : sequence of Ending
-        Those that end on it and, for the shares, all others.
-    state : State
-        State that the first start that ends on it has reached.
+    One motion is simulated once more: from the state, or from a start if it was given up.
     """
     here = [ending for ending in endings if ending.attractor == name]
     first = here[0]

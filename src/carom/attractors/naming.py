@@ -27,25 +27,11 @@ LOOKED_AT = 400
 def name_motions(
     rotor: Model, endings: Endings, orbits: Sequence[Orbit] | None = None
 ) -> tuple[np.ndarray, tuple[MotionName, ...]]:
-    """Name the motion each start ends on.
+    """Name the motion each start ends on: indices (int16, −1 without a start), and names in the order of outcomes.
 
     The names of levitation and of motions in lasting contact follow from the outcome.  For periodic bouncing, one
     motion of each kind (impacts per period, speeds at the last impact) is followed for its period and compared with the
-    orbits known in closed form and with the other kinds.
-
-    Parameters
-    ----------
-    endings : Endings
-        Outcomes are negative where there is no start.
-    orbits : sequence of Orbit, optional
-        The orbits known in closed form; by default they are searched for where they are needed.
-
-    Returns
-    -------
-    indices : ndarray of int16
-        Index of the name of each; −1 where there is no start.
-    names : tuple of MotionName
-        The names, in the order of their outcome.
+    orbits known in closed form, which are searched for if they are not given, and with the other kinds.
     """
     outcomes = endings.outcomes
     named = np.full(outcomes.shape, -1, np.int16)

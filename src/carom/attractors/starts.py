@@ -153,13 +153,7 @@ def starts_at(states: Sequence[State]) -> Starts:
 def disturbances_of(
     rotor: Jeffcott, tried: DisturbanceSet | Plan | Sequence[State | Kick]
 ) -> tuple[list[Start], Starts]:
-    """Those of the disturbances that are possible, as single starts and as arrays.
-
-    Raises
-    ------
-    InputError
-        None of the disturbances of a plan is possible.
-    """
+    """Those of the disturbances that are possible, as single starts and as arrays; a plan without any is refused."""
     if isinstance(tried, Sequence):
         states = [start.state(rotor) if isinstance(start, Kick) else start for start in tried]
         whole = starts_at(states)

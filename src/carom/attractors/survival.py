@@ -125,17 +125,10 @@ def measure_survival(
     impacts: int,
     threads: int | None = None,
 ) -> Survival:
-    """Follow irregular motions further and count those that leave.
+    """Follow irregular motions for a number of impacts further, and count those that leave.
 
-    Parameters
-    ----------
-    positions, velocities : ndarray of complex, shape (M,)
-        States of irregular motions, each just before an impact, co-rotating frame.  Of more than 200 a random part is
-        taken; fewer are extended to 200 by small changes of their velocity.
-    impacts : int
-        Number of impacts for which to follow each of them.
-    threads : int, optional
-        By default the number of available cores; the result does not depend on it.
+    The states, shape (M,), are those just before an impact, co-rotating frame.  Of more than 200 a random part is
+    taken; fewer are extended to 200 by small changes of their velocity.
     """
     random = np.random.default_rng(SEED)
     places = np.resize(random.permutation(len(positions)), MOTIONS)

@@ -27,13 +27,7 @@ if TYPE_CHECKING:
 
 
 def plan_of(document: Mapping[str, Any]) -> Plan:
-    """Plan from its description in the attributes of a dataset.
-
-    Raises
-    ------
-    InputError
-        A kind of disturbance that is not known.
-    """
+    """Plan from its description in the attributes of a dataset; an unknown kind of disturbance is refused."""
     model = Disturbance.of(document["model"])
     if "cells" in document:
         return Grid(model, tuple(document["cells"]))

@@ -35,17 +35,9 @@ def basin_document(
 ) -> dict[str, Any]:
     """Document of all results about a basin.
 
-    Parameters
-    ----------
-    smallest : SmallestLoss or None
-        Smallest loss of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
-        return to.
-    harmless : float
-        Speed up to which kicks provably never reach the wall.
-    change : GainChange, optional
-        Least change of the two parameters that reaches the wanted share.
-    wanted : float
-        Share of the disturbances that is to come back, 0 to 1.
+    The smallest loss is of the same kind of disturbance; ``None`` if that has no size, or if there is no levitation to
+    return to.  Kicks up to the speed ``harmless`` provably never reach the wall.  ``change`` reaches the share
+    ``wanted``.
     """
     scales = basin.scales
     attributes = basin.dataset.attrs

@@ -66,13 +66,7 @@ def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
 
 
 def entropies(labels: np.ndarray, side: int | None = None) -> BasinEntropy:
-    """Basin entropy of labels on a grid; boxes with a negative label are left out.
-
-    Raises
-    ------
-    InputError
-        The grid has no room for a box.
-    """
+    """Basin entropy of labels on a grid with room for a box; boxes with a negative label are left out."""
     side = side or max(2, round(IN_A_BOX ** (1.0 / labels.ndim)))
     counts = [cells // side for cells in labels.shape]
     if side < 2 or not all(counts):

@@ -65,12 +65,8 @@ def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> t
 def starts_enough(wanted: float, confidence: float = CONFIDENCE) -> int | None:
     """Smallest sample which, if all its starts come back, shows that the share is at least the wanted one.
 
-    For ``n`` of ``n`` Wilson's interval begins at ``n/(n + z²)``.
-
-    Returns
-    -------
-    int or None
-        ``None`` for a share of one, which no sample can show.
+    For ``n`` of ``n`` Wilson's interval begins at ``n/(n + z²)``.  ``None`` for a share of one, which no sample can
+    show.
     """
     if wanted >= 1.0:
         return None

@@ -48,15 +48,10 @@ def regions_between(
     cells: Sequence[Sequence[Stand]],
     seen: dict[Motions, tuple[float, float]],
 ) -> tuple[Region, ...]:
-    """Regions of a plane, largest first.
+    """Regions of a plane, largest first, from the middle of each cell by first and second parameter.
 
-    Parameters
-    ----------
-    cells : sequence of sequence of Stand
-        The middle of each cell, by first and second parameter.
-    seen : dict
-        A point for each set of motions found anywhere.  Sets that occur in the middle of no cell become regions thinner
-        than a cell, with a share of 0.
+    ``seen`` has a point for each set of motions found anywhere.  Sets that occur in the middle of no cell become
+    regions thinner than a cell, with a share of 0.
     """
     grid = len(cells)
     found = {(i, j): stand.motions for i, column in enumerate(cells) for j, stand in enumerate(column)}

@@ -88,17 +88,9 @@ def spectral_radius(numbers: Numbers, period: float, speed: float) -> float:
 def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float]:
     """Margins of the conditions for an orbit to be a motion of the machine: it is one if all are positive.
 
-    Parameters
-    ----------
-    numbers : Numbers
-        A negative ``mu`` means backward slip.
-
-    Returns
-    -------
-    dict of str to float
-        Each margin by the kind of special point at which it vanishes: the radial speed, the slip after the impact, the
-        depth of the highest maximum of the radius below the wall (in ``r²``), and without rebound the pull off the
-        wall.  Infinite where a condition does not apply.
+    Each by the kind of special point at which it vanishes: the radial speed, the slip after the impact (backward if
+    ``mu`` is negative), the depth of the highest maximum of the radius below the wall (in ``r²``), and without rebound
+    the pull off the wall.  Infinite where a condition does not apply.
     """
     slip, away = math.inf, math.inf
     if numbers.mu != 0.0:

@@ -50,15 +50,7 @@ class LiftOff:
 
 
 def lift_off_state(rotor: Jeffcott, whirl: Whirl, angle: float) -> State | None:
-    """State of a rotor that lifts off the wall; ``None`` where the normal force does not fall through zero.
-
-    Parameters
-    ----------
-    whirl : {1, -1}
-        Sign of ``1 + θ̇``.
-    angle : float
-        ``x = θ − φ`` in rad.
-    """
+    """State of a rotor that lifts off at ``x = θ − φ``; ``None`` if the normal force does not fall through zero."""
     gamma, omega, rho = rotor.parameters.gamma, rotor.parameters.omega, rotor.parameters.rho
     square = omega * omega - rho * math.cos(angle)
     if not square > 0.0:
@@ -117,13 +109,7 @@ def shift_of(found: LiftOff | None, whirl: Whirl, angle: float) -> float:
 
 
 def known(found: LiftOff | None) -> LiftOff:
-    """Return a lift-off that must exist because its motion was followed.
-
-    Raises
-    ------
-    CaromError
-        There is no lift-off.
-    """
+    """Return a lift-off that must exist because its motion was followed; an error if it does not."""
     if found is None:
         raise CaromError("a motion that was followed has no lift-off any more")
     return found

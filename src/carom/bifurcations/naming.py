@@ -29,15 +29,7 @@ def meeting_at(kind: str, name: OrbitName) -> tuple[OrbitName, ...]:
 
 
 def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -> tuple[OrbitName, ...]:
-    """Names of the orbits that bifurcate on a curve, each once, in order.
-
-    Parameters
-    ----------
-    kind : str
-        One of :data:`~carom.bifurcations.curves.KINDS`.
-    points : sequence of tuple
-        Numbers, period and radial speed along the curve.
-    """
+    """Names of the orbits that bifurcate on a curve, in order, from numbers, period and radial speed along it."""
     last = max(len(points) - 1, 1)
     pairs = [_pair(*points[i][:2]) for i in np.linspace(0, len(points) - 1, PLACES).round().astype(int)]
     names: set[OrbitName] = set()

@@ -19,15 +19,10 @@ ARRIVED, ITERATIONS = 1e-10, 20
 
 
 def beside_resonance(parameters: Parameters, plane: Plane, point: Codimension2Point) -> Bifurcation | None:
-    """A point of the Neimark–Sacker curve next to the resonance where it begins.
+    """A point of the Neimark–Sacker curve next to the resonance where it begins; ``None`` outside the plane.
 
     For the pair of multipliers ``e^{±iα}`` the sum ``2 cos α`` is prescribed; place, period and radial speed are the
     unknowns, found by Newton's method.
-
-    Returns
-    -------
-    Bifurcation or None
-        ``None`` if there is none in the plane.
     """
     base = Numbers.of(parameters)
     plane.axes(parameters)

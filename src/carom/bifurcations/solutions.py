@@ -24,20 +24,10 @@ class Solution(NamedTuple):
 
 
 def orbit_solutions(machine: Subject, longest_period: float | None = None, *, backward: bool = False) -> list[Solution]:
-    """Solve the equations at all roots of ``F₁`` (:func:`carom.orbits.single_impact.find_orbits`).
+    """Solve the equations at all roots of ``F₁`` up to a longest period, in ``1/Ω``, with forward or backward slip.
 
-    Parameters
-    ----------
-    machine : Machine, Case, Parameters or model
-    longest_period : float, optional
-        Longest period searched, in ``1/Ω``.
-    backward : bool
-        Whether to solve for orbits with backward slip instead of forward slip.
-
-    Returns
-    -------
-    list of Solution
-        Solutions with a positive radial speed, which meet the wall from inside.
+    Only solutions with a positive radial speed, which meet the wall from inside; see
+    :func:`carom.orbits.single_impact.find_orbits`.
     """
     rotor = jeffcott_of(machine)
     if rotor.equilibrium == 0.0:

@@ -60,15 +60,10 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
 def sign_change(
     function: Callable[[float], float], low: float, high: float, halvings: int = HALVINGS
 ) -> tuple[float, float] | None:
-    """Part of an interval at whose ends a function has opposite signs.
+    """Part of an interval at whose ends a function has opposite signs; ``None`` if it has one sign wherever evaluated.
 
     If a function is ``nan`` at one end, the point is approached at which it begins to be defined: a new maximum of the
     radius, for example, may be born close to the wall.
-
-    Returns
-    -------
-    tuple of float or None
-        ``None`` if the function has the same sign at both ends, or wherever it was evaluated.
     """
     below, above = function(low), function(high)
     if math.isnan(below) == math.isnan(above):

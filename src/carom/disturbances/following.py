@@ -19,21 +19,10 @@ NO_START = -1
 def follow(
     machine: Model | Sequence[Model], starts: Starts, *, which: np.ndarray | None = None, **limits: Any
 ) -> Endings:
-    """Follow all starts that exist and are decided; see :func:`~carom.motions.ensembles.settle`.
+    """Follow all starts that exist and are decided, of one machine, or of several (``which`` for each start).
 
-    Parameters
-    ----------
-    machine : Model or sequence of Model
-    which : ndarray of int, optional
-        With a sequence: the index of the machine of each start, of their shape.
-    **limits
-        Of :func:`~carom.motions.ensembles.settle`.
-
-    Returns
-    -------
-    Endings
-        Of the shape of the starts.  Outcomes are ``NO_START`` where there is no start, and ``GRAZING`` where it is
-        undecided; all other numbers are zero there.
+    Limits and endings are those of :func:`~carom.motions.ensembles.settle`, of the shape of the starts.  Outcomes are
+    ``NO_START`` where there is no start, and ``GRAZING`` where it is undecided; all other numbers are zero there.
     """
     chosen = starts.exists & ~starts.undecided
     machines = None if which is None else which[chosen]
@@ -48,20 +37,9 @@ def follow(
 
 
 def follow_machines(machines: Iterable[tuple[Model, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
-    """Follow the disturbances of one machine after another.
+    """Follow the disturbances of one machine after another; yield the endings of each, as of :func:`follow`.
 
-    Parameters
-    ----------
-    machines : iterable of (Model, Starts)
-    chunk : int
-        Approximate number of starts that are followed together and held in memory.
-    **limits
-        Of :func:`~carom.motions.ensembles.settle`.
-
-    Yields
-    ------
-    Endings
-        As of :func:`follow`, for each machine in its turn.
+    About ``chunk`` starts are followed together and held in memory.
     """
     waiting: list[tuple[Model, Starts]] = []
     for machine in machines:
@@ -82,13 +60,7 @@ def _together(machines: list[tuple[Model, Starts]], limits: dict[str, Any]) -> I
 
 
 def require_start(rotor: Model, starts: Starts) -> None:
-    """Refuse disturbances of which none is possible.
-
-    Raises
-    ------
-    InputError
-        None of the starts exists.
-    """
+    """Refuse disturbances of which none is possible."""
     if not starts.exists.any():
         raise InputError(
             "disturbance",

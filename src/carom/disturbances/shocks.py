@@ -41,10 +41,7 @@ LEAST_DISTANCE = 1e-6
 def shaken(rotor: Jeffcott, duration: float) -> System:
     """A system of four modes: free flight, and the two exponentials of a half-sine pulse of this duration in ``1/Ω``.
 
-    Raises
-    ------
-    InputError
-        Undamped levitation in resonance with the pulse.
+    Undamped levitation in resonance with the pulse is refused.
     """
     arrays = rotor.system.arrays
     frequency = math.pi / duration
@@ -69,25 +66,11 @@ def shaken(rotor: Jeffcott, duration: float) -> System:
 def states_after_shocks(
     rotor: Jeffcott, peaks: np.ndarray, duration: float, directions: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """State at the end of half-sine pulses that hit the levitating rotor.
+    """State at the end of half-sine pulses that hit a rotor that levitates inside the wall.
 
-    Parameters
-    ----------
-    rotor : Jeffcott
-        A rotor that levitates inside the wall.
-    peaks, directions : ndarray
-        Peak accelerations of the housing, in ``c_r Ω²``, and their directions in rad, of one shape.
-    duration : float
-        Duration of the pulses, in ``1/Ω``.
-
-    Returns
-    -------
-    positions, velocities : ndarray of complex
-        In the co-rotating frame at the end of the pulse; on the wall where the rotor is in contact then.
-    undecided : ndarray of bool
-        The wall was grazed so nearly that double precision cannot decide.
-    touched : ndarray of bool
-        The rotor met the wall during the pulse.
+    Peak accelerations of the housing are in ``c_r Ω²``, directions in rad, the duration in ``1/Ω``.  Return positions
+    (on the wall where the rotor is in contact then) and velocities in the co-rotating frame, whether the wall was
+    grazed so nearly that double precision cannot decide, and whether it was met during the pulse.
     """
     system = shaken(rotor, duration)
     arrays, table = system.arrays, system.table

@@ -53,13 +53,7 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
 
 
 def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
-    """Write a motion as netCDF, whole or not at all, so that :func:`load_trajectory` gives the same motion.
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
-    """
+    """Write a motion as netCDF, whole or not at all, so that :func:`load_trajectory` gives the same motion."""
     import xarray
 
     columns: dict[str, Any] = {
@@ -80,13 +74,7 @@ def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
 
 
 def load_trajectory(path: str | os.PathLike[str]) -> Trajectory:
-    """Read a motion that :func:`save_trajectory` has written.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, is damaged, or holds no motion.
-    """
+    """Read a motion that :func:`save_trajectory` has written; refuse a file that is damaged or holds no motion."""
     dataset = netcdf.load(path, SEGMENTS)
     attributes = dataset.attrs
     try:

@@ -53,14 +53,8 @@ def departure(parameters: Parameters, section: Section, slip: Slip) -> State:
 def why_virtual(rotor: Jeffcott, period: float, section: Section, slip: Slip) -> str:
     """Reason why an orbit is not admissible; empty if it is.
 
-    Parameters
-    ----------
-    period : float
-        In ``1/Ω``.
-    section : Section
-        State just before the impact, to which the flight returns after the period.
-    slip : {1, -1}
-        Direction of the slip that the orbit assumes.
+    The section is the state just before the impact, to which the flight returns after the period, in ``1/Ω``; ``slip``
+    is the direction of the slip that the orbit assumes.
     """
     parameters = rotor.parameters
     if section.radial_speed <= 0.0:

@@ -292,17 +292,7 @@ def orbits_of_roots(
 
 
 def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, nontrivial: Multipliers) -> Orbit:
-    """Orbit of known state and period, with its admissibility checked.
-
-    Parameters
-    ----------
-    name : OrbitName
-        With the direction of the slip in the impact.
-    period : float
-        In ``1/Ω``.
-    section : Section
-        State just before the impact, to which the flight returns after the period.
-    """
+    """Orbit of known period, in ``1/Ω``, and state just before the impact, with its admissibility checked."""
     return Orbit(rotor, name, period, section, nontrivial, why_virtual(rotor, period, section, name.slip))
 
 

@@ -25,18 +25,7 @@ LARGEST = 0.1
 
 
 def indentation_of_force(parameters: Parameters, force: float) -> float:
-    """Least indentation of the wall under a force.
-
-    Parameters
-    ----------
-    force : float
-        In ``m c_r Ω²``.
-
-    Returns
-    -------
-    float
-        In clearances; ``nan`` where mass, clearance and speed are not known.
-    """
+    """Least indentation of the wall, in clearances, under a force in ``m c_r Ω²``; ``nan`` without scales."""
     scales = parameters.scales
     if scales is None:
         return math.nan

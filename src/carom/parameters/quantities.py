@@ -88,13 +88,7 @@ def _from_text(field: Field, text: str) -> float:
 
 
 def unit_factor(field: Field, unit: str, text: str) -> Decimal:
-    """Size of one `unit` in SI units of the field, to the digits of the context; `text` is shown in errors.
-
-    Raises
-    ------
-    InputError
-        It is not a unit, or one of another kind of quantity.
-    """
+    """Size of one `unit` in SI units of the field, to the digits of the context; `text` is shown in errors."""
     try:
         if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
             raise ValueError(unit)

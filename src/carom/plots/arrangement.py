@@ -19,14 +19,10 @@ from carom.plots.figure import POINTS, gauge
 
 
 def arrange(figure: Figure) -> None:
-    """Lay out axes, legends, titles and ticks, and fix this layout.
+    """Lay out axes, legends, titles and ticks of a complete figure, under the style sheet, and fix this layout.
 
-    Later drawing neither moves anything nor creates ticks, which would take the settings of the user.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        A complete figure; call this under the style sheet.  If the figure has been laid out before, nothing is done.
+    Later drawing neither moves anything nor creates ticks, which would take the settings of the user.  A figure that
+    has been laid out before stays as it is.
     """
     if isinstance(figure.get_layout_engine(), PlaceHolderLayoutEngine):
         return

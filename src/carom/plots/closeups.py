@@ -44,21 +44,9 @@ class Closeup:
 
 
 def closeups(paths: Sequence[Complex], points: Sequence[complex], most: int = 2) -> list[Closeup]:
-    """Group small paths with the paths and points near them.
+    """Group small paths with the paths and points near them, in close-ups from left to right in the plane.
 
-    Parameters
-    ----------
-    paths : sequence of numpy.ndarray
-        Complex positions along each path, in units of the clearance.
-    points : sequence of complex
-        Points that belong to a close-up if they are near one of its paths.
-    most : int
-        Largest number of close-ups; those with the most members are kept.
-
-    Returns
-    -------
-    list of Closeup
-        Sorted from left to right in the plane.
+    Positions are complex, in units of the clearance.  Those with the most members are kept.
     """
     found: list[Closeup] = []
     for i, line in enumerate(paths):

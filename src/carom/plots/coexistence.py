@@ -58,10 +58,7 @@ def row_of_point(point: Bifurcation) -> str | None:
 def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
     """Draw a bar over the range of every motion: broad where it is stable, a thin dashed line where it is unstable.
 
-    Parameters
-    ----------
-    unit : float
-        Divisor of the parameter.
+    `unit` is the divisor of the parameter.
     """
     rows = rows_of(diagram)
     heights = {row: float(len(rows) - place) for place, row in enumerate(rows)}

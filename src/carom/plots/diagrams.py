@@ -141,16 +141,9 @@ def branch_line(
 ) -> None:
     """Draw a quantity along a branch; its look changes at the special points.
 
-    Parameters
-    ----------
-    places : ndarray, shape (n,)
-        Places on the branch at which the quantity is known, ascending; see :class:`~carom.bifurcations.Bifurcation`.
-    values, heights : ndarray, shape (n,)
-        The parameter, in the unit drawn, and the quantity.
-    special_heights : ndarray, optional
-        The quantity at the special points, interpolated by default.
-    unit : float
-        Divisor of the parameter of special points.
+    It is known at ascending places on the branch (see :class:`~carom.bifurcations.Bifurcation`), shape (n,), and at the
+    special points, where it is interpolated by default.  `values` are those of the parameter in the unit drawn; `unit`
+    is the divisor of the parameter of special points.
     """
     special = [point for point in branch.special if places[0] <= point.place <= places[-1]]
     extra = np.array([point.place for point in special])

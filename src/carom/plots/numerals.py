@@ -29,14 +29,9 @@ _LEADER, _APART = 12.0, 2.0
 
 
 def number_regions(axes: Axes, found: RegionMap, units: Floats) -> None:
-    """Write the numerals of all regions into axes that are otherwise complete and laid out.
+    """Write the numerals of all regions into axes that are otherwise complete and laid out, clear of curves and points.
 
-    Parameters
-    ----------
-    found : carom.bifurcations.RegionMap
-        Numerals keep clear of its curves and marked points.
-    units : numpy.ndarray, shape (2,)
-        Divisors of the two parameters.
+    `units`, shape (2,), are the divisors of the two parameters.
     """
     figure = axes.get_figure(root=True)
     if figure is None:

@@ -10,21 +10,7 @@ def spread(wanted: ArrayLike, gap: float, low: float = -np.inf, high: float = np
     """Return positions at least `gap` apart, in the order of the wanted ones and nearest in the least-squares sense.
 
     With ``y_i = x_i - i gap`` the task is to find the non-decreasing sequence nearest to y: isotonic regression by
-    pooling adjacent violators.
-
-    Parameters
-    ----------
-    wanted : array_like, shape (n,)
-        Wanted positions, in any order.
-    gap : float
-        Smallest distance between two positions.
-    low, high : float
-        Limits of the positions, if there is room for all of them; otherwise the positions start at `low`.
-
-    Returns
-    -------
-    numpy.ndarray, shape (n,)
-        Positions, in the order of `wanted`.
+    pooling adjacent violators.  The limits hold if there is room for all; otherwise the positions start at `low`.
     """
     positions = np.asarray(wanted, dtype=float)
     order = np.argsort(positions, kind="stable")

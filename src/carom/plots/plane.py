@@ -211,12 +211,7 @@ def point(
 def magnifier(axes: Axes, shown: Complex, margin: float = 0.25, words: str = "enlarged ") -> Axes | None:
     """Open an enlarged view of the square around `shown` in the free part of the clearance circle.
 
-    Its title is how many times it is enlarged, with `words` before it.
-
-    Returns
-    -------
-    matplotlib.axes.Axes or None
-        The inner axes with its piece of the circle drawn, or None if `shown` is large enough to be visible.
+    Its title is how many times it is enlarged, with `words` before it.  None if `shown` is large enough to be visible.
     """
     low, high = complex(shown.real.min(), shown.imag.min()), complex(shown.real.max(), shown.imag.max())
     middle, half = (low + high) / 2.0, max(high.real - low.real, high.imag - low.imag) / 2.0 * (1.0 + margin)

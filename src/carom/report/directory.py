@@ -17,19 +17,10 @@ MANIFEST = "study.json"
 
 
 def check_directory(path: str, option: str) -> Path:
-    """Refuse early a path that is not, or cannot become, a writable directory.
+    """Refuse early a path that is not, or cannot become, a writable directory; `option` is its name in errors.
 
     Permissions alone do not decide this (read-only and special file systems, quotas, names too long), so writing is
     tried and undone.
-
-    Parameters
-    ----------
-    option : str
-        Name of the input, for the error.
-
-    Raises
-    ------
-    InputError
     """
     allowed = "must be a directory to write to, existing or new"
     if not path.strip() or "\0" in path:
@@ -58,24 +49,8 @@ def filled_at_once(path: str, option: str) -> Iterator[Path]:
     """Provide an empty staging directory; when the block ends, move its files to the target directory.
 
     Files of the same name are replaced, each atomically.  Figures of an earlier study that this one does not have are
-    removed; all other files stay as they are.  If an error occurs before the move, nothing is changed.
-
-    Parameters
-    ----------
-    path : str
-        The target directory.
-    option : str
-        Name of the input, for errors.
-
-    Yields
-    ------
-    Path
-        The staging directory: inside the target, or beside it if the target does not exist yet.
-
-    Raises
-    ------
-    InputError
-        The target cannot be written.
+    removed; all other files stay as they are.  If an error occurs before the move, nothing is changed.  The staging
+    directory lies inside the target, or beside it if the target does not exist yet.
     """
     target = check_directory(path, option)
     try:

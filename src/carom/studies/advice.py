@@ -67,20 +67,10 @@ def advise(
     ranges: tuple[MotionRange, ...],
     lost_up_to: float = 0.0,
 ) -> tuple[Advice, ...]:
-    """Advise a value of each gain, sorted by the size of the change.
+    """Advise a value of each gain, sorted by the size of the change; none if the machine needs no change.
 
-    Parameters
-    ----------
-    ranges : tuple of MotionRange
-        Ranges of the contact-free motion and of orbits.  They say where to search if no value leaves only levitation.
-    lost_up_to : float
-        Largest ``γ`` at which a disturbance is known to be lost; no ``γ`` up to this value is advised as leaving only
-        levitation.
-
-    Returns
-    -------
-    tuple of Advice
-        Empty if the machine needs no change, or if nothing was found.
+    The ranges of the contact-free motion and of orbits say where to search if no value leaves only levitation.  No
+    ``γ`` up to ``lost_up_to``, at which a disturbance is known to be lost, is advised as leaving only levitation.
     """
     if any(_own(parameters, found.gain) in span for found in alone for span in found.calm):
         return ()

@@ -109,18 +109,8 @@ def levitation_alone(
 ) -> LevitationAlone | None:
     """Find the values of a gain for which levitation is the only motion, by closed forms, search and simulation.
 
-    Parameters
-    ----------
-    gain : {"gamma", "omega"}
-    ranges : tuple of MotionRange
-        Ranges of the contact-free motion, of rubs and of orbits along this gain.
-    count : int
-        Number of disturbances followed at each value.
-
-    Returns
-    -------
-    LevitationAlone or None
-        ``None`` if orbits were not searched.
+    The ranges are those of the contact-free motion, of rubs and of orbits along this gain; ``None`` if orbits were not
+    searched.  ``count`` disturbances are followed at each value.
     """
     free = free_spans(ranges, gain)
     if free is None:

@@ -24,18 +24,9 @@ def single_impact_ranges(parameters: Parameters, gain: Gain, progress: Wish = No
     """Find where single-impact orbits are motions of the machine (:func:`~carom.bifurcations.orbit_windows`).
 
     Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a
-    quarter of the machine's own to four times it.
-
-    Parameters
-    ----------
-    gain : {"gamma", "omega"}
-        The gain that is varied.
-
-    Returns
-    -------
-    tuple of MotionRange
-        Ranges of all admissible orbits, and of the stable ones.  Empty if no search is possible: for stiffness without
-        damping, or with so little damping that there are too many orbits to list.
+    quarter of the machine's own to four times it.  Return the ranges of all admissible orbits, and of the stable ones;
+    none if no search is possible: for stiffness without damping, or with so little that there are too many orbits to
+    list.
     """
     values = _values(parameters, gain)
     if values is None:

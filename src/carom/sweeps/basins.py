@@ -93,13 +93,7 @@ class BasinsTask:
         return self.tried.model.rescaled(self.scales, scales, self.in_si)
 
     def evaluate(self, case: Case | Model, seed: np.random.SeedSequence) -> dict[str, Any]:
-        """Compute the values of one machine by variable name; a variable without a value is left out.
-
-        Parameters
-        ----------
-        seed : SeedSequence
-            Seed of this point.
-        """
+        """Compute the values of one machine by variable name; a variable without a value is left out."""
         from carom.basins.losses import smallest_lost
         from carom.basins.shares import Share
         from carom.disturbances.following import follow

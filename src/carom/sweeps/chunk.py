@@ -43,15 +43,7 @@ class Chunk(Result):
 def compute_chunk(plan: SweepPlan, number: int) -> Chunk:
     """Compute all points of a chunk; a point that fails is recorded, and the others are still computed.
 
-    Parameters
-    ----------
-    number : int
-        From 0 to ``plan.chunks - 1``.
-
-    Returns
-    -------
-    Chunk
-        Depends on the arguments alone, bit for bit.
+    The chunk depends on the plan and its number, from 0 to ``plan.chunks - 1``, alone, bit for bit.
     """
     arrays = _empty(plan, number)
     corner = tuple(part.start for part in plan.region(number))

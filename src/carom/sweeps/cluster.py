@@ -30,13 +30,9 @@ _POLL = 2.0
 def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Generator[Chunk, None, None]:
     """Compute chunks on the workers of a cluster, and yield them in the order in which they become ready.
 
-    Workers may join and leave.  If a worker is lost, the scheduler gives its chunks to another one.  If too many
-    workers are lost while they compute the same chunk, the scheduler gives it up, and the chunk is recorded as failed.
-
-    Parameters
-    ----------
-    numbers : iterator of int
-        Numbers of the chunks.  Only as many are taken as the present workers can work on.
+    Of the numbers only as many are taken as the present workers can work on.  Workers may join and leave.  If a worker
+    is lost, the scheduler gives its chunks to another one.  If too many workers are lost while they compute the same
+    chunk, the scheduler gives it up, and the chunk is recorded as failed.
 
     Raises
     ------
@@ -84,20 +80,10 @@ def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Gener
 
 @contextmanager
 def connect(scheduler: str, workers: int | None) -> Iterator[Client]:
-    """Connect to a cluster.
+    """Connect to a cluster; refuse a scheduler that cannot be reached.
 
-    Parameters
-    ----------
-    scheduler : str
-        Address such as ``"tcp://host:8786"``, path of the scheduler's file, or ``"slurm"`` for jobs of a SLURM cluster,
-        which the configuration of dask-jobqueue describes.
-    workers : int, optional
-        Number of workers to ask for, with ``"slurm"``.
-
-    Raises
-    ------
-    InputError
-        The scheduler cannot be reached, or Dask is not installed.
+    The scheduler is an address such as ``"tcp://host:8786"``, the path of its file, or ``"slurm"`` for as many jobs of
+    a SLURM cluster as there are to be workers, which the configuration of dask-jobqueue describes.
     """
     try:
         from distributed import Client

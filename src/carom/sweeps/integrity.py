@@ -73,13 +73,7 @@ def sums(path: Path) -> bytes:
 
 
 def damaged_metadata(path: Path) -> str | None:
-    """Return the name of the first damaged or missing file of those written before the chunks, or None.
-
-    Raises
-    ------
-    OSError
-        A file cannot be read.
-    """
+    """Return the name of the first damaged or missing file of those written before the chunks, or None."""
     name = SUMS
     try:
         for name, wanted in read_record(path / SUMS).items():

@@ -47,13 +47,7 @@ def _is_store(path: Path) -> bool:
 
 
 def attributes_of(path: Path, option: str) -> dict[str, Any]:
-    """Return the attributes of a store.
-
-    Raises
-    ------
-    InputError
-        There is no store, or its metadata are damaged.
-    """
+    """Return the attributes of a store; refuse a directory without one, or with damaged metadata."""
     if not _is_store(path):
         raise InputError(option, path, "must be a directory that a sweep was written to")
     if name := damaged_metadata(path):

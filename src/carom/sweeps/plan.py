@@ -186,18 +186,8 @@ class SweepPlan:
 def cut(shape: tuple[int, ...], task: Task, chunk: int | None) -> tuple[int, ...]:
     """Return the shape of the chunks of a grid; a chunk extends along the last axes first.
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Shape of the grid.
-    chunk : int, optional
-        Largest number of points of a chunk.  By default a chunk takes some seconds, and there are fewer chunks than
-        allowed.
-
-    Raises
-    ------
-    InputError
-        There would be too many chunks.
+    ``chunk`` is its largest number of points.  By default a chunk takes some seconds, and there are fewer chunks than
+    allowed; too many are refused.
     """
     points = math.prod(shape)
     wanted = chunk or max(int(SECONDS_A_CHUNK / task.seconds), -(-points // (MOST_CHUNKS // 4)), 1)

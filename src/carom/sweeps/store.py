@@ -187,10 +187,7 @@ class SweepStore:
     def write(self, chunk: Chunk) -> None:
         """Write a chunk: its arrays and failures, then its status.  On return it is on the disk.
 
-        Raises
-        ------
-        InputError
-            The chunk cannot be written; chunks written before are kept.
+        If it cannot be written, an input error says so; chunks written before are kept.
         """
         if self._writers is None:
             raise RuntimeError("the store is not open for writing")

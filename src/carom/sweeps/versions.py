@@ -24,13 +24,7 @@ def other_version(there: Mapping[str, str], here: Mapping[str, str]) -> tuple[st
 
 
 def processors_of(path: Path, option: str) -> list[str]:
-    """Return the kinds of processors of a store's chunks, as :func:`carom.core.target.processor` names them.
-
-    Raises
-    ------
-    InputError
-        The record is damaged.
-    """
+    """Return the kinds of processors of a store's chunks, as :func:`carom.core.target.processor` names them."""
     try:
         found: list[str] = read_record(path / PROCESSORS)
     except FileNotFoundError:

@@ -125,12 +125,8 @@ class Loss(Result):
 class Losses:
     """Follows disturbances and variants of lost ones, at any damping of a machine.
 
-    Parameters
-    ----------
-    sample : DisturbanceSet
-        Number of disturbances at each damping, seed of all random numbers, and largest speed.
-    rub_limit : float
-        Damping up to which a synchronous rub is known to exist; 0 if none is known.
+    The sample has the number of disturbances at each damping, the seed of all random numbers, and the largest speed.
+    ``rub_limit`` is the damping up to which a synchronous rub is known to exist; 0 if none is known.
     """
 
     def __init__(self, parameters: Parameters, sample: DisturbanceSet, rub_limit: float, threads: int | None) -> None:
