@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mpmath
 import numpy as np
 import pytest
 from compilation import sized
@@ -73,6 +74,69 @@ def test_modes_stay_accurate_where_two_coincide(split):
 def test_three_modes_in_one_are_refused():
     with pytest.raises(InputError, match="at most two modes"):
         modes_of(np.diag(np.ones(2), 1) - 0.3 * np.eye(3))
+
+
+def exact(model, time, state):
+    """State after a free flight, less the equilibrium, by the matrix exponential in 50 digits."""
+    n = len(model.mass)
+    with mpmath.workdps(50):
+        mass, stiffness, damping = (
+            mpmath.matrix(matrix.tolist()) for matrix in (model.mass, model.stiffness, model.damping)
+        )
+        inverse, generator = mass**-1, mpmath.zeros(2 * n)
+        for i in range(n):
+            generator[i, n + i] = 1
+        for i, j in np.ndindex(n, n):
+            generator[n + i, j], generator[n + i, n + j] = -(inverse * stiffness)[i, j], -(inverse * damping)[i, j]
+        return np.array([complex(value) for value in mpmath.expm(generator * time) * mpmath.matrix(state.tolist())])
+
+
+@pytest.mark.parametrize("split", [0.0, 1e-15, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3, 0.1])
+@pytest.mark.parametrize(
+    ("damping", "stiffness"),
+    [([0, 1], [0, 0]), ([0, 0], [0, 1]), ([0, 1, 0], [0, 0, 1]), ([0, 0, -1], [0, 1, -1])],
+    ids=["damping", "stiffness", "three", "mixed"],
+)
+def test_coordinates_that_are_critically_damped_alike(split, damping, stiffness):
+    """Two or three independent coordinates, the same or nearly so, seen in coordinates in which they are mixed."""
+    random = np.random.default_rng(len(damping))
+    n = len(damping)
+    mix = np.eye(n) + 0.4 * random.normal(size=(n, n))
+    model = LinearRotor.in_fixed_frame(
+        mass=mix.T @ mix,
+        damping=mix.T @ np.diag(1.5 + split * np.array(damping)) @ mix,
+        stiffness=mix.T @ np.diag(0.5625 + split * np.array(stiffness)) @ mix,
+        forcing=random.normal(size=n),
+        planes=random.normal(size=(1, n)),
+        friction=[0.1],
+        restitution=[0.9],
+        drive=[30.0],
+    )
+    state = random.normal(size=2 * n) + 1j * random.normal(size=2 * n)
+    system = model.system
+    flown = system.fly(system.amplitudes(state[:n] + system.rest, state[n:]), np.array(2.3))
+    position, velocity = system.state(flown)
+    got = np.concatenate([position - system.rest, velocity])
+    assert np.abs(got - exact(model, 2.3, state)).max() < 5e-12 * np.abs(state).max()
+
+
+def test_three_modes_of_coordinates_that_cannot_be_separated_are_refused():
+    spin = 1.5 * np.eye(2)
+    stiffness = np.array([[0.5625, 1.0], [0.0, 0.5625]])
+    model = planar(PAPER, beside=0.7).replace(damping=spin, stiffness=stiffness, mass=np.eye(2))
+    with pytest.raises(InputError, match="unless they belong to coordinates that can be separated"):
+        assert model.system
+
+
+@pytest.mark.jit_only
+def test_a_coordinate_that_is_critically_damped_alike_changes_nothing():
+    parameters = PAPER.replace(gamma=2.0 * PAPER.omega)
+    alone, beside = planar(parameters), planar(parameters, beside=parameters.omega**2)
+    position, velocity = 0.7 + 0.1j, 2.4 - 0.9j
+    one = simulate(alone, State(position, velocity), 60.0)
+    other = simulate(beside, State(np.array([position, 0.0]), np.array([velocity, 0.0])), 60.0)
+    assert len(one.contacts) == len(other.contacts) > 0
+    assert np.allclose(one.contacts.time, other.contacts.time, rtol=0, atol=1e-10)
 
 
 def test_one_coordinate_takes_the_fast_route():

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from compilation import COMPILED
+from machines import PAPER
 
 import carom
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
+from carom.parameters import Scales
 from carom.progress import Progress
 
 SAME = ("outcomes", "times", "impacts", "multiplicities", "positions", "velocities")
@@ -177,3 +179,12 @@ def test_bad_input_is_named(machine, changes, words):
 def test_a_start_needs_a_machine_that_exists(machine):
     with pytest.raises(InputError, match="whole numbers from 0 to 0"):
         settle([carom.models.Jeffcott(machine)], [0.1], [0.0], which=np.array([1]))
+
+
+def test_a_time_may_have_a_unit():
+    """Each machine is followed for the same time in seconds, whatever its own unit of time."""
+    machines = [PAPER.replace(scales=Scales(50.0, 0.7e-3, speed)) for speed in (100.0, 184.2)]
+    found = settle(machines, 0.2, 0.1j, which=[0, 1], until="0.02 s", patience=0)
+    assert found.times.tolist() == [0.02 * 100.0, 0.02 * 184.2]
+    with pytest.raises(InputError, match=r"^until = 0.02 s: must be a number without a unit"):
+        settle(PAPER, 0.2, 0.1j, until="0.02 s")

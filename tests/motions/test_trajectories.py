@@ -10,9 +10,11 @@ from machines import PAPER, fly, strike
 
 from carom.models import Jeffcott
 from carom.motions import trajectories
+from carom.motions.ensembles import settle
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
 from carom.outcome import InputError, Outcome, Phase
+from carom.parameters import Scales
 
 START = State(0.3 + 0.1j, 0.9 - 0.4j)
 RUBBING = PAPER.replace(gamma=0.2, d=0.5)
@@ -205,3 +207,38 @@ class TestLastingContact:
         assert stopped.time == rubbing.lasting_contacts[0].start
         assert abs(stopped.final.position) == pytest.approx(1.0, abs=1e-15)
         assert np.array_equal(stopped.contacts.time, rubbing.contacts.time[: len(stopped.contacts)])
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"max_events": "many"}, "max_events = many: a whole number of at least 1"),
+        ({"max_events": 2.5}, "max_events = 2.5: a whole number of at least 1"),
+        ({"max_events": None}, "max_events = nothing given: a whole number"),
+        ({"max_events": True}, "max_events = true: a whole number"),
+        ({"patience": "long"}, "patience = long: a whole number of at least 0"),
+        ({"patience": -1}, "patience = -1: a whole number of at least 0"),
+        ({"until": [1.0, 2.0]}, "until = .*: a finite time above 0, in 1/Omega or with a unit"),
+        ({"until": "2 kg"}, "until = 2 kg: must be a time"),
+        ({"until": "-2 s"}, "until = -2 s: a finite time above 0"),
+    ],
+)
+def test_limits_that_cannot_be_used_are_named(changes, words):
+    machine = PAPER.replace(scales=Scales(50.0, 0.7e-3, 184.2))
+    for follow in (
+        lambda **limits: simulate(machine, State(0.2 + 0j), **({"until": 1.0} | limits)),
+        lambda **limits: settle(machine, 0.2, 0.0, **({"until": 1.0} | limits)),
+    ):
+        with pytest.raises(InputError, match=f"^{words}") as caught:
+            follow(**changes)
+        assert "\n" not in str(caught.value)
+
+
+def test_times_outside_the_range_followed_are_refused():
+    motion = simulate(PAPER, State(0.2 + 0j), 3.0)
+    assert np.isfinite(motion.at([0.0, 3.0, 3.0 * (1.0 + 1e-13)])[0]).all()
+    assert motion.at([])[0].shape == (0,)
+    for times in (-1e-6, [0.5, 3.001], [[np.inf]]):
+        for ask in (motion.at, motion.at_plane, motion.forces, motion.position, motion.radius, motion.history):
+            with pytest.raises(InputError, match=r"^times = .*: times from 0 to 3, the range followed"):
+                ask(np.atleast_1d(times))

@@ -19,7 +19,7 @@ from carom.disturbances.following import NO_START, follow, require_start
 from carom.models import Subject, model_of
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE, longest_time
-from carom.motions.starts import own_size
+from carom.motions.starts import time_until
 from carom.outcome import InputError, Outcome
 from carom.parameters import Scales
 from carom.progress import Wish, shows_progress
@@ -190,7 +190,7 @@ def map_basins(
     """
     rotor = model_of(machine)
     starts = disturbances.starts(rotor)
-    until = longest_time(rotor) if until is None else own_size("until", until, "time", rotor.scales)
+    until = longest_time(rotor) if until is None else time_until(until, rotor.scales)
     require_start(rotor, starts)
     endings = follow(
         rotor,

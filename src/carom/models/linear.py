@@ -132,7 +132,7 @@ class LinearRotor(Result):
         except np.linalg.LinAlgError:
             raise InputError("mass, stiffness", "singular", "matrices that can be inverted") from None
         generator = np.concatenate([np.eye(n, 2 * n, n), -accelerations])
-        found = modes_of(generator)
+        found = modes_of(generator, self.mass)
         felt = np.einsum("pn,np->p", self.planes, moved)
         if not (felt.real > 0.0).all() or (np.abs(felt.imag) > 1e-9 * np.abs(felt)).any():
             raise InputError(

@@ -12,6 +12,10 @@ PARALLEL = 1e-3
 """Sine of the angle between two eigenvectors below which their modes become a pair: each digit lost is one of sixteen."""
 INDEPENDENT = 1e-9
 """Smallest singular value of the basis that is accepted, relative to the largest."""
+EXACT, ACCURATE = 1e-13, 1e-9
+"""Error of the modes (:meth:`Modes.error`) up to which no other form is tried, and up to which they are accepted."""
+MIXTURES = (0.6180339887498949, -1.324717957244746, 0.2541733958637162)
+"""Weights with which matrices that commute are added, so that coordinates that differ differ in some of the sums."""
 
 
 class Modes(NamedTuple):
@@ -24,23 +28,54 @@ class Modes(NamedTuple):
     basis: np.ndarray
     """State per amplitude.  Shape (N, N), complex."""
 
+    @property
+    def generator(self) -> np.ndarray:
+        """Matrix of the amplitudes, shape (N, N)."""
+        return np.diag(self.exponents) + np.diag(self.driven[1:].astype(complex), -1)
 
-def modes_of(matrix: np.ndarray) -> Modes:
+    def error(self, matrix: np.ndarray) -> float:
+        """Change of the amplitudes' matrix that would make these the modes of a matrix, relative to its size."""
+        sizes = np.linalg.norm(self.basis, axis=0)
+        missing = (matrix @ self.basis - self.basis @ self.generator) / sizes
+        values = np.linalg.svd(self.basis / sizes, compute_uv=False)
+        if values[-1] < INDEPENDENT * values[0]:
+            return np.inf
+        return float(np.linalg.norm(np.linalg.solve(self.basis / sizes, missing)) / np.linalg.norm(matrix))
+
+
+def modes_of(matrix: np.ndarray, mass: np.ndarray | None = None) -> Modes:
     """Modes of ``ẋ = A x``.
 
     Two modes with nearly parallel eigenvectors, such as those of a critically damped oscillator, span a plane in which
     ``A`` is upper triangular, ``[[λ, t], [0, μ]]`` (Schur).  Its first vector is the driven mode, the second one over
-    ``t`` the driving mode.
+    ``t`` the driving mode.  Where more modes nearly coincide, those of a rotor whose coordinates can be separated are
+    still known: of each coordinate two, a pair.
 
     Parameters
     ----------
     matrix : ndarray of complex, shape (N, N)
+    mass : ndarray of complex, shape (n, n), optional
+        Mass matrix ``M`` of a rotor, with ``A = [[0, 1], [−M⁻¹K, −M⁻¹D]]``.
 
     Raises
     ------
     InputError
-        More than two modes nearly coincide.
+        More than two modes nearly coincide, and they do not belong to separate coordinates.
     """
+    found = [_by_eigenvectors(matrix)]
+    if mass is not None and found[0].error(matrix) > EXACT:
+        found += [modes for weight in MIXTURES if (modes := _by_coordinates(matrix, mass, weight))]
+    best = min(found, key=lambda modes: modes.error(matrix))
+    if best.error(matrix) > ACCURATE:
+        raise InputError(
+            "mass, damping, stiffness",
+            "three modes in one",
+            "at most two modes that nearly coincide, unless they belong to coordinates that can be separated",
+        )
+    return best
+
+
+def _by_eigenvectors(matrix: np.ndarray) -> Modes:
     exponents, vectors = np.linalg.eig(matrix)
     order = np.lexsort((exponents.imag, exponents.real))
     exponents, vectors = exponents[order], vectors[:, order]
@@ -56,11 +91,38 @@ def modes_of(matrix: np.ndarray) -> Modes:
         left.remove(nearest)
         found += _pair(matrix, exponents[first], exponents[nearest])
     values, driven, columns = zip(*found, strict=True)
-    basis = np.array(columns).T
-    sizes = np.linalg.svd(basis / np.linalg.norm(basis, axis=0), compute_uv=False)
-    if sizes[-1] < INDEPENDENT * sizes[0]:
-        raise InputError("mass, damping, stiffness", "three modes in one", "at most two modes that nearly coincide")
-    return Modes(np.array(values), np.array(driven), basis)
+    return Modes(np.array(values), np.array(driven), np.array(columns).T)
+
+
+def _by_coordinates(matrix: np.ndarray, mass: np.ndarray, weight: float) -> Modes | None:
+    """Modes of coordinates in which ``M``, ``D`` and ``K`` are diagonal, if there are any.
+
+    With ``M = L Lᴴ`` they are orthogonal eigenvectors that the Hermitian and anti-Hermitian parts of ``L⁻¹ K L⁻ᴴ`` and
+    ``L⁻¹ D L⁻ᴴ`` have in common, and so those of a sum of these with any weights.  Each coordinate, ``ü + d u̇ + k u = 0``, has the driven amplitude ``u`` and the driving one ``u̇ − λ₊u``, however close
+    ``λ₊`` and ``λ₋`` are.
+    """
+    n = len(mass)
+    try:
+        root = np.linalg.cholesky(mass)
+    except np.linalg.LinAlgError:
+        return None
+    # Similar to M⁻¹K and M⁻¹D: Lᴴ (M⁻¹K) L⁻ᴴ.
+    across = np.linalg.inv(root).conj().T
+    stiffness, damping = (-root.conj().T @ part @ across for part in (matrix[n:, :n], matrix[n:, n:]))
+    normed = (part / np.linalg.norm(part) for part in (stiffness, damping))
+    parts = [part + part.conj().T for each in normed for part in (each, 1j * each)]
+    turn = np.linalg.eigh(sum(weight**power * part for power, part in enumerate(parts)))[1]
+    k, d = (np.diag(turn.conj().T @ part @ turn) for part in (stiffness, damping))
+    split = np.sqrt(d * d / 4.0 - k)
+    split = np.where(split.real < 0.0, -split, split)
+    driving, driven, shapes = -d / 2.0 - split, -d / 2.0 + split, across @ turn
+    columns = [
+        np.concatenate(column)
+        for shape, rate in zip(shapes.T, driven, strict=True)
+        for column in ((0.0 * shape, shape), (shape, rate * shape))
+    ]
+    exponents = np.stack([driving, driven], axis=1).ravel()
+    return Modes(exponents, np.tile([False, True], n), np.array(columns).T)
 
 
 def _pair(matrix: np.ndarray, first: complex, second: complex) -> list[tuple[complex, bool, np.ndarray]]:

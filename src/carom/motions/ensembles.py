@@ -6,7 +6,6 @@ import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
-from numbers import Integral
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +19,7 @@ from carom.core.layout import rub_workspace, workspace
 from carom.core.processors import available_cores
 from carom.models import Model, Subject, model_of
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
-from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, amplitudes_of
+from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, amplitudes_of, check_whole, time_until
 from carom.motions.trajectories import EventLog, follow
 from carom.outcome import InputError, Outcome, Phase, shown
 from carom.progress import Reporter, Wish, shows_progress
@@ -97,7 +96,7 @@ def settle(
     velocities: np.ndarray,
     *,
     which: np.ndarray | None = None,
-    until: float | None = None,
+    until: float | str | None = None,
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
@@ -121,9 +120,9 @@ def settle(
         last axis of that length.
     which : array_like of int, optional
         With a sequence: the index of the machine of each start, of the same shape.
-    until : float
-        Time after which a motion that has not settled is given up, in ``1/Ω``; by default
-        :func:`~carom.motions.settling.longest_time` of its machine.
+    until : float or str
+        Time after which a motion that has not settled is given up, in ``1/Ω`` or text with a unit, such as ``"2 s"``; by
+        default :func:`~carom.motions.settling.longest_time` of its machine.
     patience : int
         Impacts without recurrence after which bouncing counts as aperiodic.  With 0 all motions are followed to
         ``until``, settled or not; otherwise each ends as soon as its outcome is known (criteria in
@@ -150,11 +149,12 @@ def settle(
     positions, velocities = (np.broadcast_to(values, shape + coordinates) for values in (positions, velocities))
     which = np.broadcast_to(which, shape).ravel()
     _check_starts(positions, velocities, all(rotor.system.is_planar for rotor in rotors))
-    if (until is None and patience == 0) or (until is not None and not (np.isfinite(until) and until > 0)):
-        raise InputError("until", until, "a finite time above 0, in 1/Omega")
-    for name, number, least in (("patience", patience, 0), ("max_events", max_events, 1), ("threads", threads, 1)):
-        if number is not None and not (isinstance(number, Integral) and number >= least):
-            raise InputError(name, number, f"a whole number of at least {least}")
+    check_whole("patience", patience, 0)
+    check_whole("max_events", max_events, 1)
+    if threads is not None:
+        check_whole("threads", threads, 1)
+    for rotor in rotors if until is not None or patience == 0 else ():
+        time_until(until, rotor.scales)
     order = slice(None) if len(rotors) == 1 else np.argsort(which, kind="stable")
     positions, velocities = (values.reshape(len(which), *coordinates)[order] for values in (positions, velocities))
     motions = _motions(positions, velocities)
@@ -193,7 +193,7 @@ def _read(name: str, given: np.ndarray, coordinates: tuple[int, ...]) -> np.ndar
 
 @dataclass(frozen=True)
 class _Limits:
-    until: float | None
+    until: float | str | None
     patience: int
     max_events: int
 
@@ -268,7 +268,7 @@ def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator
 
 
 def _settle_part(part: _Part, limits: _Limits) -> int:
-    until = longest_time(part.rotor) if limits.until is None else limits.until
+    until = longest_time(part.rotor) if limits.until is None else time_until(limits.until, part.rotor.scales)
     memory = fresh_memory(part.rotor, limits.patience, absorb=True)
     if not part.rotor.system.is_planar:
         return _follow_singly(part, until, limits.max_events, memory)

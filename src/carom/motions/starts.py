@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import cmath
+import math
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,7 @@ import numpy as np
 from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.impact import set_on_wall
 from carom.models import Model
-from carom.outcome import InputError
+from carom.outcome import InputError, shown
 from carom.parameters import Scales, read_size
 
 LARGEST_SPEED = 1e100
@@ -83,6 +85,34 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
 def own_size(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
     """Convert text with a unit to the units of the equations; a number is already in these."""
     return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given
+
+
+def time_until(until: object, scales: Scales | None) -> float:
+    """Time to follow a motion, in ``1/Ω``, from a number or text with a unit.
+
+    Raises
+    ------
+    InputError
+        It is no time above 0, or has a unit and the scales are not known.
+    """
+    given: Any = own_size("until", until, "time", scales) if isinstance(until, str) else until
+    try:
+        time = float(given)
+    except (TypeError, ValueError, OverflowError):
+        time = math.nan
+    if not 0.0 < time < math.inf:
+        raise InputError(
+            "until",
+            until if until is None else shown(until),
+            "a finite time above 0, in 1/Omega or with a unit, such as '2 s'",
+        )
+    return time
+
+
+def check_whole(name: str, number: Any, least: int) -> None:
+    """Refuse what is no whole number, or too small."""
+    if isinstance(number, bool) or not (isinstance(number, Integral) and int(number) >= least):
+        raise InputError(name, number if number is None else shown(number), f"a whole number of at least {least}")
 
 
 def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:

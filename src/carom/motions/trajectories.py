@@ -17,7 +17,7 @@ from carom.core.rub import fly_or_rub_all, forces_all
 from carom.models import Model, Subject, model_of
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
-from carom.motions.starts import Kick, State, amplitudes_of, own_size
+from carom.motions.starts import Kick, State, amplitudes_of, check_whole, time_until
 from carom.outcome import InputError, Outcome, Phase
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     import xarray
 
 """Outcomes of motions that keep hitting the wall: periodic, or irregular."""
+ROUNDING = 1e-12
+"""Excess over the range of times, relative to its length, that counts as rounding."""
 CHUNK = 4096
 """Events per kernel call; between calls progress is reported."""
 
@@ -184,6 +186,11 @@ class Trajectory(Result):
         position, velocity : ndarray of complex
             ``U`` and ``U̇`` in the co-rotating frame, of the shape of ``times``; for a rotor of ``n > 1`` coordinates with a
             last axis of that length.
+
+        Raises
+        ------
+        InputError
+            A time outside the range followed.
         """
         amplitudes, _ = self._amplitudes_at(np.asarray(times, float))
         return self.rotor.system.state(amplitudes)
@@ -196,6 +203,10 @@ class Trajectory(Result):
     def _amplitudes_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mode amplitudes and phases at given times."""
         flat = times.ravel()
+        slack = ROUNDING * self.time
+        outside = flat[(flat < -slack) | (flat > self.time + slack)]
+        if outside.size:
+            raise InputError("times", f"{outside[0]:.10g}", f"times from 0 to {self.time:.10g}, the range followed")
         segment = np.clip(np.searchsorted(self.segment_starts, flat, side="right") - 1, 0, None)
         phases = self.segment_phases[segment]
         moved = fly_or_rub_all(
@@ -317,11 +328,9 @@ def simulate(
     amplitudes, contact = amplitudes_of(rotor, state)
     if until is None and settle:
         until = longest_time(rotor)
-    until = None if until is None else own_size("until", until, "time", rotor.scales)
-    if until is None or not (np.isfinite(until) and until > 0):
-        raise InputError("until", until, "a finite time above 0, in 1/Omega")
-    if max_events < 1:
-        raise InputError("max_events", max_events, "a whole number of at least 1")
+    until = time_until(until, rotor.scales)
+    check_whole("patience", patience, 0)
+    check_whole("max_events", max_events, 1)
     recollection = fresh_memory(rotor, patience if settle else 0, stop_at_chatter)
     first = amplitudes.copy()
     logs: list[EventLog] = []
