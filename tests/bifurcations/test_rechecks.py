@@ -17,7 +17,7 @@ from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
-from carom.orbits.single_impact import Orbit
+from carom.orbits.orbit import Orbit
 from carom.outcome import Phase
 from carom.parameters import Numbers, Parameters
 

@@ -10,7 +10,7 @@ from carom import find_orbits, simulate
 from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
 from carom.models import Jeffcott
 from carom.motions.starts import State
-from carom.orbits.single_impact import Orbit
+from carom.orbits.orbit import Orbit
 
 SOFT = PAPER.replace(omega=0.35, rho=0.2)
 """The source paper's rotor on a softer bearing and better balanced: B1,d loses stability through a pair at 80 degrees."""

@@ -13,7 +13,7 @@ import numpy as np
 from carom.closed_forms.whirl import rolling
 from carom.motions.settling import REPEATING, closed_orbit
 from carom.motions.trajectories import Trajectory
-from carom.orbits.single_impact import Orbit
+from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome, Phase
 from carom.results import Result
 

@@ -15,7 +15,8 @@ from carom.motions.ensembles import Endings
 from carom.motions.settling import AT_REST, REPEATING
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
-from carom.orbits.single_impact import Orbit, orbits_within_reach
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import CaromError, Outcome
 
 ALIKE = 4

@@ -16,7 +16,7 @@ from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, Veloc
 from carom.disturbances.following import require_start
 from carom.models import Jeffcott
 from carom.motions.starts import Kick, State
-from carom.orbits.single_impact import Orbit
+from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
 
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]

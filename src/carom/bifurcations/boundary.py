@@ -33,7 +33,8 @@ from typing import Literal
 from carom.closed_forms.thresholds import BoundaryKind, Gain, boundary_balance, boundary_kind, ranges_of
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName
-from carom.orbits.single_impact import Orbit, orbits_within_reach
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
 from carom.results import Result
 

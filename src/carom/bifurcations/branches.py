@@ -27,7 +27,7 @@ from carom.bifurcations.points import Bifurcation
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import OrbitName
-from carom.orbits.single_impact import Orbit
+from carom.orbits.orbit import Orbit
 from carom.parameters import Numbers
 from carom.results import Result
 

@@ -15,7 +15,8 @@ from carom.core import planar
 from carom.models import Jeffcott
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName
-from carom.orbits.single_impact import Orbit, orbit_at
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import orbit_at
 from carom.orbits.stability import multipliers
 from carom.parameters import Numbers
 

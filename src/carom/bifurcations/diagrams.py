@@ -24,7 +24,8 @@ from carom.bifurcations.steady import (
 )
 from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.models.axes import Axis, Ends, axis, read_interval
-from carom.orbits.single_impact import Orbit, find_orbits
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import find_orbits
 from carom.parameters import Numbers, Parameters
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line

@@ -10,7 +10,7 @@ from typing import Literal
 from carom.bifurcations.conditions import orbit_of
 from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
-from carom.orbits.single_impact import Orbit
+from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
 from carom.parameters import Numbers
 from carom.results import Result

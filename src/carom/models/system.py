@@ -61,8 +61,27 @@ class System(Result):
         return self.shapes @ self.generator
 
     @cached_property
+    def basis(self) -> np.ndarray:
+        """Coordinates, then their rates, per amplitude, shape (2n, N)."""
+        return np.concatenate([self.shapes, self.rates])
+
+    @cached_property
     def _inverse(self) -> np.ndarray:
-        return np.linalg.inv(np.concatenate([self.shapes, self.rates])) if self.inverse is None else self.inverse
+        return np.linalg.inv(self.basis) if self.inverse is None else self.inverse
+
+    @cached_property
+    def _whole_rest(self) -> np.ndarray:
+        return np.concatenate([self.rest, np.zeros(len(self.rest))])
+
+    def amplitudes_of(self, states: np.ndarray) -> np.ndarray:
+        """Mode amplitudes of states (m, 2n), each the coordinates and then their rates; shape (m, N)."""
+        found: np.ndarray = np.einsum("nk,mk->mn", self._inverse, states - self._whole_rest)
+        return found
+
+    def states_of(self, amplitudes: np.ndarray) -> np.ndarray:
+        """States of mode amplitudes, the inverse of :meth:`amplitudes_of`."""
+        found: np.ndarray = np.einsum("nk,mk->mn", self.basis, amplitudes) + self._whole_rest
+        return found
 
     def amplitudes(self, position: complex | np.ndarray, velocity: complex | np.ndarray) -> np.ndarray:
         """Mode amplitudes of a state.

@@ -1,24 +1,34 @@
-"""Periodic orbits with one impact a period, and maps from impact to impact.
+"""Periodic orbits, and maps from impact to impact.
 
 ==================  =======================================================
+``orbit``           a periodic orbit of any word, with its margins
+``word``            which segments follow one another in it
+``shooting``        its equations and Newton's method
+``admissibility``   whether it is a motion of the machine
 ``single_impact``   all orbits with one impact a period
-``names``           names of these orbits
+``names``           names of orbits
 ``maps``            impact map and stroboscopic map, with their derivatives
 ``stability``       multipliers of an orbit
 ==================  =======================================================
 """
 
 from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, stroboscopic_map
-from carom.orbits.single_impact import Orbit, OrbitSet, find_orbits, orbits_within_reach, period_condition
+from carom.orbits.orbit import Margins, Orbit
+from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
 from carom.orbits.stability import Multipliers, multipliers
+from carom.orbits.word import Kind, Segment, Word
 
 __all__ = [
     "ImpactMap",
+    "Kind",
+    "Margins",
     "Multipliers",
     "Orbit",
     "OrbitSet",
     "Section",
+    "Segment",
     "StroboscopicMap",
+    "Word",
     "find_orbits",
     "impact_map",
     "multipliers",

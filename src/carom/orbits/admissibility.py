@@ -1,21 +1,26 @@
-"""Whether a single-impact orbit is a motion of the machine, or why it is not."""
+"""Whether an orbit is a motion of the machine, or why it is not."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from carom.core.contact_series import AWAY
 from carom.core.events import INSIDE, LEAVING, first_crossing
+from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import lift_off
-from carom.models import Jeffcott
-from carom.motions.starts import State
-from carom.orbits.maps import Section
-from carom.orbits.names import Slip
+from carom.models import Jeffcott, Model
+from carom.motions.trajectories import EventLog, follow
+from carom.orbits.shooting import Start
+from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Outcome, Phase
-from carom.parameters import Parameters
 
 ARRIVAL_TOLERANCE = 1e-7
-"""Relative difference below which the certified first return and the period count as the same event."""
+"""Relative difference below which the certified next event and the end of a segment count as the same event."""
+MOST_STEPS = 256
+"""Steps of lasting contact in one segment."""
+SLIPS = {Kind.IMPACT_FORWARD: 1, Kind.IMPACT_BACKWARD: -1, Kind.IMPACT_STOPPED: 0}
+"""Direction of the slip after an impact."""
 
 
 def slip_stays_forward(rotor: Jeffcott) -> bool:
@@ -38,52 +43,80 @@ def slip_stays_forward(rotor: Jeffcott) -> bool:
     return bool((gone - 0.5 * (parameters.rho + parameters.omega**2) * times**2).max() > 1.0)
 
 
-def slip_speed(parameters: Parameters, section: Section) -> float:
-    """Slip velocity just before the impact in ``c_r Ω``."""
-    return parameters.radius_ratio + 1.0 + section.angular_speed
+def departure(rotor: Model, segment: Segment, node: np.ndarray) -> np.ndarray:
+    """Amplitudes just after the beginning of a segment: after the impact, if there is one."""
+    if not segment.kind.is_impact:
+        return node
+    arrays, plane = rotor.system.arrays, segment.plane
+    position, radial, slip = _at_wall(rotor, plane, node)
+    share = -(1.0 + float(arrays.restitution[plane])) * radial
+    along = SLIPS[segment.kind] * float(arrays.friction[plane]) * share
+    change = complex(share, along if SLIPS[segment.kind] else -slip)
+    struck: np.ndarray = node + arrays.columns[:, plane] * (change * position)
+    return struck
 
 
-def departure(parameters: Parameters, section: Section, slip: Slip) -> State:
-    """State just after an impact that does not stop the slip, which has the given direction."""
-    before = section.state
-    change = -(1.0 + parameters.d) * complex(1.0, slip * parameters.mu) * section.radial_speed * before.position
-    return State(before.position, before.velocity + change)
+def _at_wall(rotor: Model, plane: int, node: np.ndarray) -> tuple[complex, float, float]:
+    """Direction of the displacement of a plane on its wall, its radial speed and its slip."""
+    arrays = rotor.system.arrays
+    position = complex(node @ arrays.rows[plane] + arrays.offsets[plane])
+    position /= abs(position)
+    local = position.conjugate() * complex(node @ arrays.rate_rows[plane])
+    return position, local.real, float(arrays.drive[plane]) + local.imag
 
 
-def why_virtual(rotor: Jeffcott, period: float, section: Section, slip: Slip) -> str:
-    """Reason why an orbit is not admissible; empty if it is.
+def why_virtual(rotor: Model, word: Word, start: Start) -> str:
+    """Reason why an orbit of this word, nodes and durations is not admissible; empty if it is."""
+    nodes = rotor.system.amplitudes_of(start.nodes)
+    for i, segment in enumerate(word):
+        target = word[(i + 1) % len(word)]
+        at = rotor, segment, target, nodes[i], float(start.durations[i])
+        reason = _why_no_impact(*at) if segment.kind.is_impact else _why_no_such_contact(*at)
+        if reason:
+            return reason if len(word) == 1 else f"segment {i + 1} of {len(word)}: {reason}"
+    return ""
 
-    The section is the state just before the impact, to which the flight returns after the period, in ``1/Ω``; ``slip``
-    is the direction of the slip that the orbit assumes.
-    """
-    parameters = rotor.parameters
-    if section.radial_speed <= 0.0:
+
+def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
+    """Reason why an impact and the flight after it are not a motion."""
+    arrays, plane = rotor.system.arrays, segment.plane
+    position, radial, slip = _at_wall(rotor, plane, node)
+    friction, restitution = float(arrays.friction[plane]), float(arrays.restitution[plane])
+    if radial <= 0.0:
         return "it would meet the wall from outside (radial speed not above 0)"
-    if parameters.mu > 0.0:
-        speed = slip * slip_speed(parameters, section)
-        if speed < 0.0:
+    stops = friction * (1.0 + restitution) * radial >= abs(slip)
+    if segment.kind is Kind.IMPACT_STOPPED:
+        if not stops:
+            return "friction would not stop the slip during the impact"
+    elif friction > 0.0:
+        if SLIPS[segment.kind] * slip < 0.0:
             return "its slip would run the other way, and friction with it"
-        if parameters.mu * (1.0 + parameters.d) * section.radial_speed >= speed:
+        if stops:
             return "friction would stop the slip during the impact"
-    after = departure(parameters, section, slip)
-    start = rotor.system.amplitudes(after.position, after.velocity)
-    if parameters.d == 0.0:
-        force = start @ rotor.system.arrays.acceleration_rows[0]
-        if (after.position.conjugate() * force).real + abs(after.velocity) ** 2 >= 0.0:
+    after = departure(rotor, segment, node)
+    if restitution == 0.0:
+        speed = complex(after @ arrays.rate_rows[plane])
+        if (position.conjugate() * (after @ arrays.acceleration_rows[plane])).real + abs(speed) ** 2 >= 0.0:
             return "it would stay on the wall: it does not rebound and is pressed outward"
-    code, time = _first_return(rotor, start, 1.5 * period)
-    if code == Outcome.CLEAR or abs(time - period) <= ARRIVAL_TOLERANCE * period:
-        return ""
-    if code == Outcome.GRAZING:
-        return f"it grazes the wall at t = {time:.6g} after the impact"
-    return f"it would cross the wall at t = {time:.6g}, before its period is over"
+        if len(arrays.rows) > 1:
+            return _why_no_such_contact(rotor, segment, target, node, duration)
+    for touched in range(len(arrays.rows)):
+        code, time = _first_contact(rotor, plane, touched, after, 1.5 * duration)
+        arrives = touched == target.plane and abs(time - duration) <= ARRIVAL_TOLERANCE * duration
+        if code == Outcome.CLEAR or arrives or (touched != target.plane and time > duration):
+            continue
+        if code == Outcome.GRAZING:
+            return f"it grazes the wall at t = {time:.6g} after the impact"
+        return f"it would cross the wall at t = {time:.6g}, before its period is over"
+    return ""
 
 
-def _first_return(rotor: Jeffcott, start: np.ndarray, horizon: float) -> tuple[int, float]:
-    """Outcome and time of the first return to the wall after an impact."""
+def _first_contact(rotor: Model, left: int, plane: int, start: np.ndarray, horizon: float) -> tuple[int, float]:
+    """Outcome and time of the first contact of a plane after an impact at a plane."""
     arrays, work = rotor.system.arrays, workspace(len(start))
-    if rotor.parameters.d > 0.0:
-        outcome, time = first_crossing(arrays, rotor.system.table, 0, start, horizon, LEAVING, work)
+    if plane != left or arrays.restitution[plane] > 0.0:
+        leaves = LEAVING if plane == left else INSIDE
+        outcome, time = first_crossing(arrays, rotor.system.table, plane, start, horizon, leaves, work)
         return outcome, time
     # Without rebound the radial speed is zero at first: the distance from the wall grows with the square of time.
     amplitudes = start.copy()
@@ -92,5 +125,35 @@ def _first_return(rotor: Jeffcott, start: np.ndarray, horizon: float) -> tuple[i
         return int(Outcome.GRAZING), 0.0
     if returned:
         return int(Outcome.CONTACT), aloft
-    outcome, time = first_crossing(arrays, rotor.system.table, 0, amplitudes, horizon - aloft, INSIDE, work)
+    outcome, time = first_crossing(arrays, rotor.system.table, plane, amplitudes, horizon - aloft, INSIDE, work)
     return outcome, aloft + time
+
+
+PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
+"""Phase of lasting contact of a segment; all others begin in flight."""
+
+
+def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
+    """Reason why a segment is not what the simulation does from its node, by kind of contact, place and time."""
+    planes = len(rotor.system.arrays.rows)
+    contact = np.full(planes, AWAY)
+    contact[segment.plane] = PHASES.get(segment.kind, Phase.FLIGHT)
+    recollection = memory(len(node), stop_at_landing=True)
+    recollection.lifting = segment.plane + 1 if segment.kind is Kind.LIFT else 0
+    log, amplitudes = EventLog.empty(1, len(node), planes), node.copy()
+    time, first = 0.0, segment.kind.is_impact
+    before = contact.copy()
+    for _ in range(MOST_STEPS):
+        if segment.kind is Kind.LAND:
+            return ""  # :func:`~carom.orbits.shooting.links_of` follows a chatter by simulation in any case
+        outcome, elapsed, _ = follow(rotor, amplitudes, 2.0 * duration + 1.0, contact, log, recollection)
+        time += elapsed
+        changes = (np.maximum(contact, 0) != np.maximum(before, 0)).any() or segment.kind.flies
+        if outcome is not Outcome.EVENT_LIMIT or (changes and not first):
+            break
+        first = False
+    late = abs(time - duration) > ARRIVAL_TOLERANCE * max(duration, 1.0)
+    wrong = contact[target.plane] != PHASES.get(target.kind, Phase.FLIGHT) and target.kind is not Kind.LAND
+    if late or wrong:
+        return f"{segment} would end at t = {time:.6g} in another way than with {target}"
+    return ""

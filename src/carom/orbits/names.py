@@ -63,3 +63,26 @@ def combined(names: Iterable[OrbitName]) -> str:
 
 def _letter(longer: bool, faster: bool) -> str:
     return "abcd"[longer + 2 * faster]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CountedName(str):
+    """Name of an orbit with several impacts a period or lasting contact, such as ``"P2,1"``: a text that also carries what it says.
+
+    Parameters
+    ----------
+    impacts : int
+        Impacts per period, without those of a chatter.
+    number : int
+        Number of the orbit among those of its search, by their periods, from 1.
+    """
+
+    impacts: int
+    number: int
+
+    def __new__(cls, impacts: int, number: int) -> CountedName:
+        """Make the text from the parts."""
+        return super().__new__(cls, f"P{impacts},{number}")
+
+    def __getnewargs__(self) -> tuple[int, int]:  # type: ignore[override]  # for copies and pickles
+        return self.impacts, self.number

@@ -13,12 +13,13 @@ import numpy as np
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
 from carom.models import Jeffcott, Subject, jeffcott_of
-from carom.motions.starts import State
-from carom.motions.trajectories import Trajectory, simulate
-from carom.orbits.admissibility import departure, slip_speed, slip_stays_forward, why_virtual
+from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
+from carom.orbits.orbit import Orbit
+from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers
+from carom.orbits.word import Kind, Word
 from carom.outcome import InputError
 from carom.results import Result, in_a_line
 
@@ -26,108 +27,7 @@ MOST_RADIANS = 1500.0
 """Largest modulus ``|λT|`` of the fastest mode over the longest period that is searched: some hundred orbits."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Orbit(Result):
-    """A periodic motion in the co-rotating frame with one impact a period.
-
-    Attributes
-    ----------
-    rotor : Jeffcott
-    name : OrbitName
-        ``"B1,d"``: pair 1 of the periods; ``a`` and ``c`` have the shorter period of the pair, ``b`` and ``d`` the
-        longer; ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with backward
-        slip begin with ``R``.
-    period : float
-        In ``1/Ω``.
-    section : Section
-        State just before the impact.
-    multipliers : Multipliers
-        The three non-trivial Floquet multipliers.
-    reason : str
-        Why it is not admissible; empty if it is.
-    """
-
-    figure: ClassVar[str] = "orbit"
-    shown: ClassVar[tuple[str, ...]] = (
-        "rotor",
-        "name",
-        "period",
-        "radial_speed",
-        "angle",
-        "angular_speed",
-        "stable",
-        "admissible",
-        "reason",
-    )
-
-    rotor: Jeffcott
-    name: OrbitName
-    period: float
-    section: Section
-    multipliers: Multipliers
-    reason: str
-
-    @property
-    def slip(self) -> Slip:
-        """Direction of the slip in the impact: 1 forward, −1 backward."""
-        return self.name.slip
-
-    @property
-    def impacts(self) -> int:
-        """Impacts per period."""
-        return 1
-
-    @property
-    def admissible(self) -> bool:
-        """Whether it is a motion of the machine: inside the wall between impacts and with one direction of slip."""
-        return not self.reason
-
-    @property
-    def stable(self) -> bool:
-        """Whether small disturbances die out."""
-        return self.multipliers.stable
-
-    @property
-    def position(self) -> complex:
-        """``U`` at the impact, on the unit circle."""
-        return self.section.state.position
-
-    @property
-    def angle(self) -> float:
-        """``θ`` at the impact in rad."""
-        return self.section.angle
-
-    @property
-    def radial_speed(self) -> float:
-        """``ṙ`` just before the impact in ``c_r Ω``."""
-        return self.section.radial_speed
-
-    @property
-    def angular_speed(self) -> float:
-        """``θ̇`` just before the impact in ``Ω``."""
-        return self.section.angular_speed
-
-    @property
-    def departure(self) -> State:
-        """State just after the impact."""
-        return departure(self.rotor.parameters, self.section, self.slip)
-
-    def trajectory(self, periods: float = 1.0) -> Trajectory:
-        """Follow an admissible orbit by simulation, from just after an impact."""
-        return simulate(self.rotor, self.departure, periods * self.period)
-
-    def path(self, times: np.ndarray) -> np.ndarray:
-        """Position ``U`` at times since an impact, by the closed form; for virtual orbits too.
-
-        Parameters
-        ----------
-        times : array_like
-            In ``1/Ω``; the orbit repeats after each period.
-        """
-        departure = self.departure
-        start = self.rotor.system.amplitudes(departure.position, departure.velocity)
-        position, _ = self.rotor.system.state(self.rotor.system.fly(start, np.mod(times, self.period)))
-        return position
+FORWARD, BACKWARD = Word.of(Kind.IMPACT_FORWARD), Word.of(Kind.IMPACT_BACKWARD)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -241,7 +141,9 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
         backward = PeriodCondition(rotor.system, slip=-1)
         reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
         orbits += [
-            orbit for orbit in reversed_orbits if slip_speed(rotor.parameters, orbit.section) < 0.0 < orbit.radial_speed
+            orbit
+            for orbit in reversed_orbits
+            if rotor.parameters.radius_ratio + 1.0 + orbit.angular_speed < 0.0 < orbit.radial_speed
         ]
     return OrbitSet(rotor, tuple(orbits), roots.periods, roots.longest_period, roots.proven, forward_only)
 
@@ -293,7 +195,10 @@ def orbits_of_roots(
 
 def orbit_at(rotor: Jeffcott, name: OrbitName, period: float, section: Section, nontrivial: Multipliers) -> Orbit:
     """Orbit of known period, in ``1/Ω``, and state just before the impact, with its admissibility checked."""
-    return Orbit(rotor, name, period, section, nontrivial, why_virtual(rotor, period, section, name.slip))
+    before = section.state
+    word = FORWARD if name.slip > 0 else BACKWARD
+    start = Start(np.array([[before.position, before.velocity]]), np.array([period]))
+    return Orbit(rotor, name, word, *start, nontrivial, why_virtual(rotor, word, start))
 
 
 def _radial_speeds(rotor: Jeffcott, lever: complex) -> tuple[float, ...]:

@@ -17,7 +17,8 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import number, orbit_symbol, time_in_words
 
 if TYPE_CHECKING:
-    from carom.orbits.single_impact import Orbit, OrbitSet
+    from carom.orbits.orbit import Orbit
+    from carom.orbits.single_impact import OrbitSet
 
 _INK = LOOKS["path"].colour
 _SAME_PERIOD = 1e-6

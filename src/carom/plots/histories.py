@@ -28,7 +28,7 @@ from carom.plots.words import axis_length, axis_time, ending, orbit_look, orbit_
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
     from carom.parameters import Scales, Zones
 
 _PERIODS = 3

@@ -32,7 +32,7 @@ from carom.plots.words import counted, ending, orbit_look, orbit_title, time_in_
 
 if TYPE_CHECKING:
     from carom.motions.trajectories import Trajectory
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
 
 
 @styled

@@ -31,7 +31,8 @@ from carom.plots.words import orbit_look, orbit_symbol
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium
-    from carom.orbits.single_impact import Orbit, OrbitSet
+    from carom.orbits.orbit import Orbit
+    from carom.orbits.single_impact import OrbitSet
     from carom.studies import Study
 
 _ORDER = {"virtual": 0, "unstable": 1, "stable": 2}

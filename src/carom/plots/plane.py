@@ -21,7 +21,7 @@ from carom.plots.style import LOOKS, Look
 from carom.plots.words import axis_length, times_larger
 
 if TYPE_CHECKING:
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
     from carom.parameters import Scales
 
 Complex = NDArray[np.complex128]

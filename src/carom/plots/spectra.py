@@ -16,7 +16,7 @@ from carom.plots.words import orbit_look, orbit_words
 
 if TYPE_CHECKING:
     from carom.motions.spectrum import FullSpectrum
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
 
 _SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p", "<", ">", "h", "*")
 _LINEAR_UP_TO = 2.0

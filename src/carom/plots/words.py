@@ -10,7 +10,7 @@ from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
     from carom.models import Axis
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
     from carom.parameters import Scales
 
 

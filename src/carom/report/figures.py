@@ -12,7 +12,8 @@ from carom import plots
 from carom.attractors import Ending
 from carom.motions.ledger import energy_ledger
 from carom.motions.trajectories import simulate
-from carom.orbits.single_impact import Orbit, OrbitSet, period_condition
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import OrbitSet, period_condition
 from carom.parameters import Zones
 from carom.studies import Study
 from carom.studies.endings import ending_phrase, shown_example

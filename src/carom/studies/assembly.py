@@ -13,7 +13,8 @@ from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import Gain, Steady
 from carom.disturbances import Disturbance, Plan
 from carom.models import Jeffcott, Subject, case_of
-from carom.orbits.single_impact import Orbit, OrbitSet, orbits_within_reach
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
 from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line

@@ -18,7 +18,8 @@ from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott, jeffcott_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
-from carom.orbits.single_impact import Orbit, OrbitSet
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of

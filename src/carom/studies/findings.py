@@ -18,7 +18,7 @@ from carom.studies.wording import counted, listed, no_rigid_wall, number
 if TYPE_CHECKING:
     from carom.attractors import AttractorSet
     from carom.closed_forms.equilibria import Equilibrium
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
     from carom.studies.assembly import Study
 
 GRAVITY = 9.80665

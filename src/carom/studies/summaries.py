@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
-from carom.orbits.single_impact import Orbit, OrbitSet
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import ending_words, kick_sizes

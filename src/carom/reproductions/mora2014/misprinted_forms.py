@@ -16,7 +16,8 @@ import numpy as np
 from carom.closed_forms.local import ContactSystem
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
-from carom.orbits.single_impact import Orbit, find_orbits, period_condition
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import find_orbits, period_condition
 from carom.parameters import Parameters
 from carom.reproductions.mora2014.branches import FirstPair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane

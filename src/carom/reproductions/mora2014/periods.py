@@ -11,7 +11,8 @@ from carom.bifurcations.derivatives import orbit_jacobian
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps, continue_branch
 from carom.models import Jeffcott
-from carom.orbits.single_impact import Orbit, find_orbits
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import find_orbits
 from carom.parameters import Numbers
 from carom.reproductions.mora2014.propositions import hopf_side
 from carom.reproductions.mora2014.source import machine_at

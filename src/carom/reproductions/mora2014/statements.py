@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.models import Jeffcott
-from carom.orbits.single_impact import Orbit, find_orbits
+from carom.orbits.orbit import Orbit
+from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.branches import FirstPair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane
 from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds

@@ -24,7 +24,7 @@ from carom.plots.words import orbit_look, orbit_symbol
 from carom.reproductions.mora2014.drawing.panels import letter
 
 if TYPE_CHECKING:
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
     from carom.reproductions.mora2014.motions import ShownMotion
 
 SHOWN_PERIODS = 3

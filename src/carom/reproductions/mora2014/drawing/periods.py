@@ -17,7 +17,7 @@ from carom.plots.words import orbit_look, orbit_symbol, times_larger
 from carom.reproductions.mora2014.drawing.panels import DAMPING, INK, letter
 
 if TYPE_CHECKING:
-    from carom.orbits.single_impact import Orbit
+    from carom.orbits.orbit import Orbit
     from carom.reproductions.mora2014.periods import Birth, PeriodFunction, PeriodPair
     from carom.reproductions.mora2014.reproduction import Periods
 

@@ -1,0 +1,397 @@
+"""Maps of the segments that an orbit consists of, with their exact derivatives, for any linear rotor.
+
+A segment begins with what happens at its node (an impact with a given slip case, a lift-off, the beginning of sliding or
+rolling) and lasts for a given duration.  Its end has to fulfil a condition: the wall is met, the normal force vanishes,
+the slip stops, or the limit of the friction cone is reached.  Neither the kind of a segment nor its duration is decided
+here.  So all maps are smooth, even where an impact grazes or the motion is impossible.
+
+A chatter is one segment too.  Its bounces have been followed by :func:`carom.core.advance.advance`; their derivatives are
+multiplied here (:func:`carry_through_chatter`).
+
+Directions are changes of the amplitudes, to which everything here is real-linear: the ``2N`` directions ``1`` and ``i``
+of each amplitude stand for the derivative.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from carom.core.contact_series import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, rub_series
+from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
+from carom.core.impact import unit
+from carom.core.layout import ORDER, kernel, part
+from carom.core.taylor import series_step, sum_series
+from carom.core.variation import carry_through_impact, carry_to_wall
+
+__all__ = [
+    "CONE_BACKWARD",
+    "CONE_FORWARD",
+    "IMPACT_BACKWARD",
+    "IMPACT_FORWARD",
+    "IMPACT_STOPPED",
+    "LAND",
+    "LIFT",
+    "MEETS_WALL",
+    "NO_CONDITION",
+    "NO_PUSH",
+    "NO_SLIP",
+    "ROLL",
+    "SLIDE_BACKWARD",
+    "SLIDE_FORWARD",
+    "carry_through_chatter",
+    "follow_contact",
+    "follow_flights",
+    "highest_point",
+    "local_motion",
+]
+
+IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
+"""Kinds of segments; the first four are flights."""
+NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD = range(6)
+"""Conditions at the end; the last two are the limits of the friction cone beyond which forward or backward slip begins."""
+SAMPLES, PER_RADIAN = 32, 10.0
+"""Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
+HALVINGS = 50
+
+
+@kernel
+def follow_flights(rotor, kinds, planes, targets, nodes, durations, arrivals, changes, rates, values, normals):
+    """Follow each impact and flight from its node, with the derivatives of its end, where the wall is to be met.
+
+    Parameters
+    ----------
+    rotor : record of :func:`~carom.core.layout.rotor_record`
+    kinds, planes : int arrays, shape (m,)
+        Kind of each segment and plane of the contact at its beginning; segments that do not fly are left out.
+    targets : int array, shape (m,)
+        Plane at whose wall it ends.
+    nodes : complex array, shape (m, N)
+        Amplitudes at the beginning: just before the impact.
+    durations : array, shape (m,)
+    arrivals : complex array, shape (m, N)
+        Overwritten: amplitudes at the end.
+    changes : complex array, shape (m, 2N, N)
+        Overwritten: derivative of the end by each direction at the node.
+    rates : complex array, shape (m, N)
+        Overwritten: derivative of the end by the duration.
+    values : array, shape (m,)
+        Overwritten: value of the condition, ``(|y|² − 1)/2``.
+    normals : array, shape (m, 2N + 1)
+        Overwritten: its derivative by the directions at the node, and by the duration.
+    """
+    modes = nodes.shape[1]
+    last = 2 * modes
+    moved, increments = np.empty((last + 1, modes), np.complex128), np.empty((last + 1, modes), np.complex128)
+    for i in range(kinds.shape[0]):
+        if kinds[i] > LIFT:
+            continue
+        directions = _set_out(nodes[i], moved)
+        if kinds[i] < LIFT:
+            _strike(rotor, planes[i], kinds[i], moved[last], directions)
+        flight_increments(rotor, moved, durations[i], increments)
+        for row in range(last + 1):
+            for k in range(modes):
+                moved[row, k] += increments[row, k]
+        _hand_over(moved, arrivals[i], changes[i])
+        _flight_rate(rotor, moved[last], rates[i])
+        y = displacement(rotor, targets[i], moved[last])
+        values[i] = 0.5 * (squared_modulus(y) - 1.0)
+        for row in range(last + 1):
+            part_of_y = 0j
+            for k in range(modes):
+                part_of_y += rotor.rows[targets[i], k] * (rates[i, k] if row == last else moved[row, k])
+            normals[i, row] = (y.conjugate() * part_of_y).real
+
+
+@kernel
+def follow_contact(rotor, kinds, planes, ends, nodes, durations, rub, arrivals, changes, rates, values, normals):
+    """:func:`follow_flights` for sliding and rolling at one plane; ``ends`` are the conditions at their ends.
+
+    ``rub`` is a record of :func:`~carom.core.layout.rub_workspace`.
+    """
+    modes = nodes.shape[1]
+    moved = np.empty((2 * modes + 1, modes), np.complex128)
+    contact = np.empty(rotor.rows.shape[0], np.int64)
+    for i in range(kinds.shape[0]):
+        if kinds[i] <= LAND:
+            continue
+        directions, rolls = _set_out(nodes[i], moved), kinds[i] == ROLL
+        _rest(rotor, planes[i], moved[2 * modes], directions, 0.0, rolls)
+        contact[:] = AWAY
+        contact[planes[i]] = FORWARD_SLIP if kinds[i] == SLIDE_FORWARD else BACKWARD_SLIP
+        if rolls:
+            contact[planes[i]] = ROLLING
+        _slide(rotor, contact, planes[i], durations[i], moved[2 * modes], directions, rates[i], rub)
+        _hand_over(moved, arrivals[i], changes[i])
+        values[i] = _condition(rotor, planes[i], ends[i], arrivals[i], changes[i], rates[i], normals[i])
+
+
+@part
+def _set_out(node, moved):
+    """Write all directions, and below them the state; return the directions."""
+    modes = node.shape[0]
+    moved[:] = 0.0
+    for k in range(modes):
+        moved[k, k], moved[modes + k, k], moved[2 * modes, k] = 1.0, 1j, node[k]
+    return moved[: 2 * modes]
+
+
+@part
+def _hand_over(moved, arrival, changes):
+    """Copy the state and the directions."""
+    for k in range(arrival.shape[0]):
+        for row in range(changes.shape[0]):
+            changes[row, k] = moved[row, k]
+        arrival[k] = moved[changes.shape[0], k]
+
+
+@kernel
+def _strike(rotor, plane, kind, state, directions):
+    """Impact with a given slip case, in place."""
+    position, speed = displacement(rotor, plane, state), velocity(rotor, plane, state)
+    normal, radius = unit(position), math.sqrt(squared_modulus(position))
+    local = normal.conjugate() * speed
+    loss = 1.0 + rotor.restitution[plane]
+    share = -loss * local.real
+    grip = rotor.friction[plane] if kind == IMPACT_FORWARD else -rotor.friction[plane]
+    change = complex(share, grip * share)
+    if kind == IMPACT_STOPPED:
+        change = complex(share, -(rotor.drive[plane] + local.imag))
+    for row in range(directions.shape[0]):
+        moved = displacement(rotor, plane, directions[row]) - rotor.offsets[plane]
+        turn = (normal.conjugate() * moved).imag / radius
+        swing = normal.conjugate() * velocity(rotor, plane, directions[row]) - 1j * turn * local
+        varied = complex(-loss * swing.real, -grip * loss * swing.real)
+        if kind == IMPACT_STOPPED:
+            varied = complex(-loss * swing.real, -swing.imag)
+        varied = normal * (varied + 1j * turn * change)
+        for k in range(state.shape[0]):
+            directions[row, k] += rotor.columns[k, plane] * varied
+    for k in range(state.shape[0]):
+        state[k] += rotor.columns[k, plane] * (normal * change)
+
+
+@kernel
+def _rest(rotor, plane, state, directions, grip, rolls):
+    """Put a plane to rest on its wall, in place.
+
+    The radial speed is taken away by an impulse with the given ratio of its part along the wall; if the rotor rolls, the
+    slip is taken away instead.
+    """
+    position = displacement(rotor, plane, state)
+    normal, radius = unit(position), math.sqrt(squared_modulus(position))
+    scale = 1.0 / rotor.weights[plane]
+    turns = np.empty(directions.shape[0])
+    for row in range(directions.shape[0]):
+        moved = displacement(rotor, plane, directions[row]) - rotor.offsets[plane]
+        turns[row] = (normal.conjugate() * moved).imag / radius
+        shift = 1j * normal * turns[row] - moved
+        for k in range(state.shape[0]):
+            directions[row, k] += rotor.rows[plane, k].conjugate() * scale * shift
+    for k in range(state.shape[0]):
+        state[k] += rotor.rows[plane, k].conjugate() * scale * (normal - position)
+    local = normal.conjugate() * velocity(rotor, plane, state)
+    change = complex(-local.real, -grip * local.real)
+    if rolls:
+        change = complex(-local.real, -(rotor.drive[plane] + local.imag))
+    for row in range(directions.shape[0]):
+        swing = normal.conjugate() * velocity(rotor, plane, directions[row]) - 1j * turns[row] * local
+        varied = complex(-swing.real, -(swing.imag if rolls else grip * swing.real))
+        varied = normal * (varied + 1j * turns[row] * change)
+        for k in range(state.shape[0]):
+            directions[row, k] += rotor.columns[k, plane] * varied
+    for k in range(state.shape[0]):
+        state[k] += rotor.columns[k, plane] * (normal * change)
+
+
+@part
+def _flight_rate(rotor, state, rate):
+    """Write ``ċ`` of a flight."""
+    for k in range(state.shape[0]):
+        rate[k] = rotor.exponents[k] * state[k]
+        if rotor.driven[k]:
+            rate[k] += state[k - 1]
+
+
+@kernel
+def _slide(rotor, contact, plane, duration, state, directions, rate, rub):
+    """Lasting contact at one plane for a given duration, in place; ``rate`` receives ``ċ`` at the end."""
+    modes, elapsed = state.shape[0], 0.0
+    series = np.empty((ORDER + 1, modes), np.complex128)
+    moved = np.empty((4, ORDER + 1), np.complex128)
+    push = np.empty(ORDER + 1)
+    while True:
+        rub_series(rotor, contact, state, rub)
+        largest = series_step(rub)
+        left = duration - elapsed
+        step = min(largest, left) if left >= 0.0 else max(-largest, left)
+        for row in range(directions.shape[0]):
+            for k in range(modes):
+                series[0, k] = directions[row, k]
+            _varied_series(rotor, contact[plane], plane, rub, series, moved, push)
+            for k in range(modes):
+                total = series[ORDER, k]
+                for j in range(ORDER - 1, -1, -1):
+                    total = total * step + series[j, k]
+                directions[row, k] = total
+        sum_series(rub, step, state)
+        elapsed += step
+        if step == left:
+            break
+    rub_series(rotor, contact, state, rub)
+    for k in range(modes):
+        rate[k] = rub.series[1, k]
+
+
+@part
+def _varied_series(rotor, phase, plane, rub, series, moved, push):
+    """Taylor coefficients of a small change of a motion in lasting contact; those of order zero are given."""
+    position, speed, free, force = moved[0], moved[1], moved[2], moved[3]
+    grip = complex(1.0, rotor.friction[plane] if phase == FORWARD_SLIP else -rotor.friction[plane])
+    for k in range(ORDER):
+        position[k], speed[k], free[k], force[k], push[k] = 0j, 0j, 0j, 0j, 0.0
+        for m in range(series.shape[1]):
+            position[k] += rotor.rows[plane, m] * series[k, m]
+            speed[k] += rotor.rate_rows[plane, m] * series[k, m]
+            free[k] += rotor.acceleration_rows[plane, m] * series[k, m]
+        if phase == ROLLING:
+            force[k] = -rotor.drive[plane] * rotor.drive[plane] * position[k] - free[k]
+        else:
+            for j in range(k + 1):
+                y, v = rub.position[plane, j], rub.speed[plane, j]
+                push[k] += (position[k - j].conjugate() * rub.free[plane, j] + y.conjugate() * free[k - j]).real
+                push[k] += 2.0 * (v.conjugate() * speed[k - j]).real
+            for j in range(k + 1):
+                force[k] -= grip * (push[j] * rub.position[plane, k - j] + rub.push[plane, j] * position[k - j])
+        for m in range(series.shape[1]):
+            change = rotor.exponents[m] * series[k, m] + rotor.columns[m, plane] * force[k]
+            if rotor.driven[m]:
+                change += series[k, m - 1]
+            series[k + 1, m] = change / (k + 1)
+
+
+@kernel
+def _condition(rotor, plane, end, state, directions, rate, normal):
+    """Value of the condition at the end; ``normal`` receives its derivatives by the directions and by the duration."""
+    y, v, a = displacement(rotor, plane, state), velocity(rotor, plane, state), acceleration(rotor, plane, state)
+    last = directions.shape[0]
+    for row in range(last + 1):
+        change = rate if row == last else directions[row]
+        dy = displacement(rotor, plane, change) - rotor.offsets[plane]
+        dv, da = velocity(rotor, plane, change), acceleration(rotor, plane, change)
+        dpush = (dy.conjugate() * a + y.conjugate() * da).real + 2.0 * (v.conjugate() * dv).real
+        dpull = (dy.conjugate() * a + y.conjugate() * da).imag
+        dslip = (dy.conjugate() * v + y.conjugate() * dv).imag
+        normal[row] = _chosen(end, rotor.friction[plane], (y.conjugate() * dy).real, dpush, dpull, dslip)
+    push = (y.conjugate() * a).real + squared_modulus(v)
+    slip = rotor.drive[plane] + (y.conjugate() * v).imag
+    gap = 0.5 * (squared_modulus(y) - 1.0)
+    return _chosen(end, rotor.friction[plane], gap, push, (y.conjugate() * a).imag, slip)
+
+
+@part
+def _chosen(end, friction, gap, push, pull, slip):
+    """The condition of this kind, or its derivative."""
+    if end == MEETS_WALL:
+        return gap
+    if end == NO_PUSH:
+        return push
+    if end == NO_SLIP:
+        return slip
+    if end == CONE_FORWARD:
+        return friction * push - pull
+    if end == CONE_BACKWARD:
+        return friction * push + pull
+    return 0.0
+
+
+@kernel
+def carry_through_chatter(rotor, plane, arrivals, durations, landing, slip, directions, delays):
+    """Carry directions through the bounces of a chatter and its completion.
+
+    Parameters
+    ----------
+    rotor : record
+    plane : int
+    arrivals : complex array, shape (B, N)
+        Amplitudes just before each bounce; the directions belong to the first.
+    durations : array, shape (B − 1,)
+        Times between the bounces.
+    landing : complex array, shape (N,)
+        Amplitudes just after the last bounce; overwritten by those of lasting contact.
+    slip : {1, -1, 0}
+        Direction of the slip at the landing; 0 if it rolls.
+    directions : complex array, shape (2N, N)
+        Overwritten.
+    delays : array, shape (2N,)
+        Overwritten: derivative of the duration of the chatter.
+    """
+    later = np.empty_like(delays)
+    delays[:] = 0.0
+    for bounce in range(arrivals.shape[0]):
+        carry_through_impact(rotor, plane, arrivals[bounce], directions)
+        if bounce + 1 < arrivals.shape[0]:
+            carry_to_wall(rotor, plane, durations[bounce], arrivals[bounce + 1], directions, later)
+            for row in range(delays.shape[0]):
+                delays[row] += later[row]
+    _rest(rotor, plane, landing, directions, slip * rotor.friction[plane], slip == 0)
+
+
+@kernel
+def local_motion(rotor, planes, states):
+    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force and pull along the wall."""
+    local = np.empty((states.shape[0], 5))
+    for i in range(states.shape[0]):
+        y, v = displacement(rotor, planes[i], states[i]), velocity(rotor, planes[i], states[i])
+        a = acceleration(rotor, planes[i], states[i])
+        normal = unit(y)
+        local[i, 0] = squared_modulus(y) - 1.0
+        local[i, 1] = (normal.conjugate() * v).real
+        local[i, 2] = rotor.drive[planes[i]] + (normal.conjugate() * v).imag
+        local[i, 3] = (normal.conjugate() * a).real + (normal.conjugate() * v).imag ** 2
+        local[i, 4] = (normal.conjugate() * a).imag
+    return local
+
+
+@kernel
+def highest_point(rotor, plane, start, duration):
+    """Largest ``|y|² − 1`` of the local maxima inside a flight, by samples, and its time; ``nan`` if there is none.
+
+    A flight from rest on the wall begins at such a maximum, which is left out with the first sample.
+    """
+    starts, increments = start.reshape(1, -1), np.empty((1, start.shape[0]), np.complex128)
+    fastest = 0.0
+    for k in range(start.shape[0]):
+        fastest = max(fastest, math.sqrt(squared_modulus(rotor.exponents[k])))
+    count = SAMPLES + int(PER_RADIAN * fastest * duration)
+    height, top = np.nan, np.nan
+    _, before = _radial(rotor, plane, starts, duration / count, increments)
+    for i in range(2, count + 1):
+        late = duration * i / count
+        _, after = _radial(rotor, plane, starts, late, increments)
+        if before > 0.0 and after < 0.0:
+            early = duration * (i - 1) / count
+            for _ in range(HALVINGS):
+                middle = 0.5 * (early + late)
+                _, slope = _radial(rotor, plane, starts, middle, increments)
+                if slope > 0.0:
+                    early = middle
+                else:
+                    late = middle
+            excess, _ = _radial(rotor, plane, starts, early, increments)
+            if not excess <= height:
+                height, top = excess, early
+        before = after
+    return height, top
+
+
+@part
+def _radial(rotor, plane, starts, time, increments):
+    """``|y|² − 1`` and ``Re(ȳẏ)`` of a flight at a time."""
+    flight_increments(rotor, starts, time, increments)
+    for k in range(starts.shape[1]):
+        increments[0, k] += starts[0, k]
+    y, v = displacement(rotor, plane, increments[0]), velocity(rotor, plane, increments[0])
+    return squared_modulus(y) - 1.0, (y.conjugate() * v).real

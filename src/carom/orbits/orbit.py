@@ -1,0 +1,325 @@
+"""A periodic orbit: the word of its segments, its nodes and durations, its multipliers and margins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.core.segments import highest_point, local_motion
+from carom.models import Model
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory, simulate
+from carom.orbits.admissibility import SLIPS, departure, why_virtual
+from carom.orbits.maps import Section
+from carom.orbits.names import CountedName, OrbitName
+from carom.orbits.shooting import Links, Start, converged, links_of
+from carom.orbits.stability import Multipliers, multipliers
+from carom.orbits.word import Kind, Word
+from carom.outcome import CaromError
+from carom.results import Result
+
+ALIKE = 1e-8
+"""Distance of two nodes, relative to one plus their size, below which they are the same."""
+
+SHORTEST = 1e-9
+"""Least duration of a segment other than a chatter, in ``1/Ω``."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Margins(Result):
+    """How far an orbit is from a change of its word: all are above zero on a motion of the machine.
+
+    Attributes
+    ----------
+    radius : float
+        One minus the square of the largest radius of a maximum between contacts, at any plane; infinite without maxima.
+    approach : float
+        Least radial speed before an impact, in ``c_r Ω``.
+    slip : float
+        Least slip velocity left after an impact in its direction; where friction stops the slip, what friction could
+        still take away.  In ``c_r Ω``; infinite without impacts.
+    normal_force, cone : float
+        Least normal force, and least distance of friction from its limit while rolling, at the beginning of lasting contact;
+        in ``m c_r Ω²``, infinite without it.
+    """
+
+    radius: float
+    approach: float
+    slip: float
+    normal_force: float
+    cone: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Orbit(Result):
+    """A periodic motion in the co-rotating frame.
+
+    Attributes
+    ----------
+    rotor : Model
+    name : OrbitName or CountedName
+        ``"B1,d"`` for one impact a period: pair 1 of the periods; ``a`` and ``c`` have the shorter period of the pair, ``b``
+        and ``d`` the longer; ``a`` and ``b`` have the lower radial speed, ``c`` and ``d`` the higher.  Names of orbits with
+        backward slip begin with ``R``.  ``"P2,1"`` for the first orbit with two impacts.
+    word : Word
+    nodes : ndarray of complex, shape (m, 2n)
+        Coordinates, then their rates, at the beginning of each segment: just before the impact.
+    durations : ndarray, shape (m,)
+        Of the segments, in ``1/Ω``.
+    multipliers : Multipliers
+        The non-trivial Floquet multipliers: ``2N − 1`` for ``N`` modes.
+    reason : str
+        Why it is not admissible; empty if it is.
+    """
+
+    figure: ClassVar[str] = "orbit"
+    shown: ClassVar[tuple[str, ...]] = (
+        "rotor",
+        "name",
+        "segments",
+        "period",
+        "radial_speed",
+        "angle",
+        "angular_speed",
+        "stable",
+        "admissible",
+        "reason",
+    )
+
+    # Not narrower: closed forms read the parameters of a planar rotor and the parts of a name.
+    rotor: Any
+    name: Any
+    word: Word
+    nodes: np.ndarray
+    durations: np.ndarray
+    multipliers: Multipliers
+    reason: str
+
+    @classmethod
+    def from_links(cls, rotor: Model, word: Word, links: Links, name: OrbitName | CountedName) -> Orbit:
+        """Orbit that multiple shooting has found, with its multipliers and its admissibility checked."""
+        start = links.start
+        return cls(rotor, name, word, *start, multipliers_of(links), why_virtual(rotor, word, start))
+
+    @property
+    def period(self) -> float:
+        """In ``1/Ω``."""
+        return float(self.durations.sum())
+
+    @property
+    def segments(self) -> str:
+        """The word as text."""
+        return str(self.word)
+
+    @property
+    def impacts(self) -> int:
+        """Impacts per period."""
+        return self.word.impacts
+
+    @property
+    def slip(self) -> int:
+        """Direction of the slip after the first impact: 1 forward, −1 backward, 0 if it is stopped."""
+        return SLIPS.get(self.word[0].kind, 0)
+
+    @property
+    def admissible(self) -> bool:
+        """Whether it is a motion of the machine: inside the wall between contacts, with the assumed slip and forces."""
+        return not self.reason
+
+    @property
+    def stable(self) -> bool:
+        """Whether small disturbances die out."""
+        return self.multipliers.stable
+
+    @cached_property
+    def section(self) -> Section:
+        """First node in polar coordinates of its plane."""
+        return self.sections[0]
+
+    @cached_property
+    def sections(self) -> tuple[Section, ...]:
+        """All nodes in polar coordinates of their planes."""
+        states = zip(*self.rotor.system.at_planes(self._amplitudes, self.word.planes), strict=True)
+        return tuple(Section.from_state(complex(position), complex(velocity)) for position, velocity in states)
+
+    @property
+    def position(self) -> complex:
+        """Position at the first impact, on the unit circle."""
+        return self.section.state.position
+
+    @property
+    def angle(self) -> float:
+        """``θ`` at the first impact in rad."""
+        return self.section.angle
+
+    @property
+    def radial_speed(self) -> float:
+        """``ṙ`` just before the first impact in ``c_r Ω``."""
+        return self.section.radial_speed
+
+    @property
+    def angular_speed(self) -> float:
+        """``θ̇`` just before the first impact in ``Ω``."""
+        return self.section.angular_speed
+
+    @property
+    def departure(self) -> State:
+        """State just after the first impact."""
+        return State.of(*self.rotor.system.state(self._departures[0]))
+
+    @cached_property
+    def _departures(self) -> np.ndarray:
+        """Amplitudes just after the beginning of each segment, shape (m, N)."""
+        return np.array([departure(self.rotor, *pair) for pair in zip(self.word, self._amplitudes, strict=True)])
+
+    @cached_property
+    def _amplitudes(self) -> np.ndarray:
+        """Mode amplitudes at the nodes, shape (m, N)."""
+        return self.rotor.system.amplitudes_of(self.nodes)
+
+    @cached_property
+    def links(self) -> Links:
+        """Its segments with their exact derivatives."""
+        return links_of(self.rotor, self.word, Start(self.nodes, self.durations))
+
+    @cached_property
+    def margins(self) -> Margins:
+        """How far it is from a change of its word."""
+        return margins_of(self.links, self.rotor, self.word)
+
+    def trajectory(self, periods: float = 1.0) -> Trajectory:
+        """Follow an admissible orbit by simulation, from just after the first impact."""
+        return simulate(self.rotor, self.departure, periods * self.period)
+
+    def path(self, times: np.ndarray) -> np.ndarray:
+        """Position ``U`` at times since the first impact, by the exact flights; for virtual orbits too.
+
+        Parameters
+        ----------
+        times : array_like
+            In ``1/Ω``; the orbit repeats after each period.
+
+        Raises
+        ------
+        CaromError
+            The orbit has lasting contact; follow its :meth:`trajectory`.
+        """
+        if not self.word.flies:
+            raise CaromError("an orbit with lasting contact has no closed path; follow its trajectory()")
+        times = np.mod(times, self.period)
+        begins = np.concatenate([[0.0], np.cumsum(self.durations)[:-1]])
+        place = np.searchsorted(begins, times, side="right") - 1
+        position, _ = self.rotor.system.state(self.rotor.system.fly(self._departures[place], times - begins[place]))
+        return position
+
+
+def multipliers_of(links: Links) -> Multipliers:
+    """Non-trivial Floquet multipliers, on the plane of changes that keep the first node at the end of the last segment."""
+    return multipliers(on_section(links))
+
+
+def on_section(links: Links) -> np.ndarray:
+    """Derivative of the return map in an orthonormal basis of the section at the first node, shape (2N − 1, 2N − 1)."""
+    monodromy = links.monodromy
+    if not np.isfinite(monodromy).all():
+        return np.full((len(monodromy) - 1,) * 2, np.inf)
+    # Its range is the section: the last passage ends there.
+    normal = np.linalg.svd(links.passages[-1])[0][:, -1]
+    basis = np.linalg.svd(normal[None])[2][1:]
+    return basis @ monodromy @ basis.T
+
+
+def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
+    """How far an orbit is from a change of its word."""
+    arrays, nodes = rotor.system.arrays, rotor.system.amplitudes_of(links.start.nodes)
+    _, radial, slips, push, pull = local_motion(arrays, word.planes, nodes).T
+    heights, left, cones = [], [], []
+    for i, segment in enumerate(word):
+        friction = float(arrays.friction[segment.plane])
+        if segment.kind.is_impact:
+            taken = friction * (1.0 + float(arrays.restitution[segment.plane])) * radial[i]
+            if segment.kind is Kind.IMPACT_STOPPED:
+                left.append(taken - abs(slips[i]))
+            else:
+                left.append(SLIPS[segment.kind] * slips[i] - taken)
+        if segment.kind is Kind.ROLL:
+            cones.append(friction * push[i] - abs(pull[i]))
+        if segment.kind.flies:
+            after = departure(rotor, segment, nodes[i])
+            tops = [
+                highest_point(arrays, p, after, float(links.start.durations[i]))[0] for p in range(len(arrays.rows))
+            ]
+            heights += [top for top in tops if not np.isnan(top)]
+    rests = np.array([segment.kind.lasts for segment in word])
+    return Margins(
+        radius=-max(heights, default=-np.inf),
+        approach=float(radial[~rests & (word.kinds != Kind.LIFT)].min(initial=np.inf)),
+        slip=min(left, default=np.inf),
+        normal_force=float(push[rests].min(initial=np.inf)),
+        cone=min(cones, default=np.inf),
+    )
+
+
+def orbit_near(rotor: Model, word: Word, start: Start, name: OrbitName | CountedName | None = None) -> Orbit | None:
+    """Orbit of a word next to a start, by Newton's method; ``None`` if it does not converge.
+
+    An orbit that repeats a shorter word becomes the shorter one, and it begins at its fastest impact.
+
+    Parameters
+    ----------
+    word : Word
+    start : Start
+        Coordinates and rates at the beginning of each segment, and the durations.
+    name : OrbitName or CountedName, optional
+        By default that of the first orbit with as many impacts.
+    """
+    links = converged(rotor, word, start)
+    # A chatter that does not rebound at all takes no time.
+    if links is None or (links.start.durations < np.where(word.kinds == Kind.LAND, 0.0, SHORTEST)).any():
+        return None
+    return orbit_of_links(rotor, word, links, name)
+
+
+def orbit_of_links(rotor: Model, word: Word, links: Links, name: OrbitName | CountedName | None = None) -> Orbit:
+    """Orbit from converged equations, as short as it is and beginning at its fastest impact."""
+    nodes, durations = links.start
+    count = shortest(word, nodes)
+    first = beginning(rotor, Word(word[:count]), nodes[:count])
+    places = (np.arange(count) + first) % count
+    kept, start = Word(word[:count]).turned(first), Start(nodes[places], durations[places])
+    return Orbit.from_links(rotor, kept, links_of(rotor, kept, start), name or CountedName(kept.impacts, 1))
+
+
+def shortest(word: Word, nodes: np.ndarray) -> int:
+    """Number of segments after which an orbit repeats."""
+    for k in range(word.least, len(word), word.least):
+        apart = np.abs(nodes - np.roll(nodes, -k, axis=0)).max()
+        if len(word) % k == 0 and apart <= ALIKE * (1.0 + np.abs(nodes).max()):
+            return k
+    return len(word)
+
+
+def beginning(rotor: Model, word: Word, nodes: np.ndarray) -> int:
+    """Segment with which an orbit begins: that of the fastest impact; without impacts, the first flight."""
+    flights = [i for i, segment in enumerate(word) if segment.kind.is_impact]
+    if not flights:
+        return next((i for i, segment in enumerate(word) if segment.kind.flies), 0)
+    positions, velocities = rotor.system.at_planes(rotor.system.amplitudes_of(nodes[flights]), word.planes[flights])
+    return flights[int(np.argmax((positions.conj() * velocities).real))]
+
+
+def same_orbit(first: Orbit, second: Orbit) -> bool:
+    """Whether two orbits are the same, whichever segment they begin with."""
+    return any(np.abs(nodes - second.nodes).max() <= 1e2 * ALIKE for nodes in _turns(first, second.word))
+
+
+def _turns(orbit: Orbit, word: Word) -> Sequence[np.ndarray]:
+    """The nodes of an orbit, beginning with each segment from which it has this word."""
+    if len(word) != len(orbit.word):
+        return ()
+    places = range(len(word))
+    return [np.roll(orbit.nodes, -k, axis=0) for k in places if orbit.word.turned(k) == word]

@@ -1,0 +1,106 @@
+"""The orbit that a simulated motion repeats: its word is read from the events, and Newton's method closes it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.motions.trajectories import Trajectory, simulate
+from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits.shooting import Start
+from carom.orbits.word import Kind, Segment, Word
+from carom.outcome import Outcome, Phase
+
+PERIODIC = (Outcome.BOUNCING, Outcome.MIXED)
+MORE = 1.1
+"""Periods that are simulated to find a whole one between two lift-offs."""
+SAME_TIME = 1e-3
+"""Relative difference of the time between two lift-offs and the period, if they are the same lift-off."""
+
+
+def orbit_of_motion(motion: Trajectory) -> Orbit | None:
+    """Close the periodic orbit on which a motion has settled.
+
+    Parameters
+    ----------
+    motion : Trajectory
+        Settled to periodic bouncing, with or without lasting contact in the period (``settle=True``).
+
+    Returns
+    -------
+    Orbit or None
+        ``None`` if the motion has not settled to such an orbit, or if Newton's method does not close it.
+    """
+    count = motion.multiplicity
+    times = motion.segment_starts[1:][motion.is_impact]
+    if motion.outcome not in PERIODIC or count == 0 or len(times) < count:
+        return None
+    first = int(np.flatnonzero(motion.is_impact)[-count])
+    if motion.is_landing[first:].any():
+        # The last period may begin within a chatter: look for one from lift-off to lift-off.
+        period = motion.time - float(times[-count])
+        return _between_lift_offs(simulate(motion.rotor, motion.final, (1.0 + MORE) * period), period)
+    return orbit_near(motion.rotor, *segments_of(motion, first, len(motion.arrivals)))
+
+
+def _between_lift_offs(motion: Trajectory, period: float) -> Orbit | None:
+    """Orbit from the first lift-off of a motion to the one a period later."""
+    flying = motion.segment_phases == Phase.FLIGHT
+    events = np.arange(len(motion.event_planes))
+    lifts = np.flatnonzero(~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes])
+    times = motion.segment_starts[1:][lifts]
+    if not len(lifts):
+        return None
+    last = int(np.argmin(np.abs(times - times[0] - period)))
+    if abs(times[last] - times[0] - period) > SAME_TIME * period:
+        return None
+    return orbit_near(motion.rotor, *segments_of(motion, int(lifts[0]), int(lifts[last])))
+
+
+def segments_of(motion: Trajectory, first: int, last: int) -> tuple[Word, Start]:
+    """Word, nodes and durations of a motion from one event up to another, which the last segment reaches.
+
+    Impacts that lead to a landing without anything else in between become one chatter.
+    """
+    steps: list[tuple[Segment, np.ndarray, float]] = []
+    times = np.append(motion.segment_starts[1:], motion.time)
+    for event in range(first, last):
+        plane = int(motion.event_planes[event])
+        before, after = int(motion.segment_phases[event, plane]), int(motion.segment_phases[event + 1, plane])
+        node, kind = motion.segment_amplitudes[event + 1], Kind.of_phase(after)
+        if before == after == Phase.FLIGHT:
+            node, kind = motion.arrivals[event], _impact_kind(motion, event, plane)
+        elif before == after:
+            continue  # a long contact is logged in steps
+        elif before == Phase.FLIGHT:
+            bounces = next((k for k, step in enumerate(reversed(steps)) if not _bounces(step[0], plane)), len(steps))
+            chatter = steps[len(steps) - bounces :]
+            del steps[len(steps) - bounces :]
+            if chatter:
+                steps.append((Segment(Kind.LAND, plane), chatter[0][1], chatter[0][2]))
+        steps.append((Segment(kind, plane), node, float(times[event])))
+    segments, nodes, begins = zip(*steps, strict=True)
+    states = motion.rotor.system.states_of(np.array(nodes))
+    return Word(segments), Start(states, np.diff([*begins, float(times[last])]))
+
+
+def _bounces(segment: Segment, plane: int) -> bool:
+    return segment.kind.is_impact and segment.plane == plane
+
+
+def _impact_kind(motion: Trajectory, event: int, plane: int) -> Kind:
+    """Kind of an impact, from the state before it."""
+    system = motion.rotor.system
+    position, before = system.at_plane(motion.arrivals[event], plane)
+    slip = float(system.arrays.drive[plane]) + float((np.conj(position) * before).imag)
+    friction, d = float(system.arrays.friction[plane]), float(system.arrays.restitution[plane])
+    if friction * (1.0 + d) * float((np.conj(position) * before).real) >= abs(slip):
+        return Kind.IMPACT_STOPPED
+    return Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD
+
+
+def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:
+    """Word and start of some impacts in a row, from the impact of given number; ``None`` where the motion does else."""
+    impacts = np.flatnonzero(motion.is_impact)
+    if first + count >= len(impacts) or impacts[first + count] - impacts[first] != count:
+        return None
+    return segments_of(motion, int(impacts[first]), int(impacts[first + count]))

@@ -1,0 +1,240 @@
+"""Multiple shooting: the equations of an orbit of given word, their exact derivatives, and Newton's method.
+
+The unknowns are the nodes, that is the coordinates and rates at the beginning of each segment, and the durations.  The equations: each
+segment ends at the next node, and fulfils the condition at its end.  As the durations are unknowns, no time of impact has
+to be solved for.  So nothing is singular where an impact grazes, and a branch of orbits passes through it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.core.fate import memory
+from carom.core.layout import rub_workspace
+from carom.core.segments import carry_through_chatter, follow_contact, follow_flights
+from carom.models import Model
+from carom.motions.trajectories import EventLog, follow
+from carom.orbits.word import Kind, Segment, Word
+from carom.outcome import Outcome, Phase
+
+__all__ = ["Links", "Start", "converged", "links_of", "pack", "unpack"]
+
+MOST_BOUNCES = 4096
+"""Bounces of the longest chatter."""
+ITERATIONS = 25
+TOLERANCE = 1e-13
+"""Residual at which Newton's method stops, relative to one plus the size of the nodes."""
+STALLED = 1e-10
+"""The same, accepted where rounding lets the residual fall no further."""
+BACKTRACKS = 6
+LONGEST_STEP = 0.5
+"""Largest change of a duration in one step of Newton's method, relative to it."""
+
+
+class Start(NamedTuple):
+    """Coordinates and rates at the beginning of each segment, complex (m, N), and the durations (m,).
+
+    Unlike the amplitudes of modes they mean the same for rotors with other parameters.
+    """
+
+    nodes: np.ndarray
+    durations: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Links:
+    """The segments followed from their nodes, with derivatives.
+
+    Attributes
+    ----------
+    start : Start
+    arrivals : ndarray of complex, shape (m, N)
+        Coordinates and rates at the end of each segment.
+    values : ndarray, shape (m,)
+        The condition at its end; zero on an orbit.
+    slopes : ndarray, shape (m, 2N + 1, 2N + 1)
+        Derivative of real and imaginary parts of the arrival, then of the condition, by those of the node, then by the
+        duration.
+    """
+
+    start: Start
+    arrivals: np.ndarray
+    values: np.ndarray
+    slopes: np.ndarray
+
+    @property
+    def residual(self) -> np.ndarray:
+        """Left sides of the equations, shape (m (2N + 1),)."""
+        apart = self.arrivals - np.roll(self.start.nodes, -1, axis=0)
+        return pack(Start(apart, self.values))
+
+    @property
+    def size(self) -> float:
+        """Largest left side, relative to one plus the size of the nodes; ``nan`` or infinite if it is not defined."""
+        return float(np.abs(self.residual).max() / (1.0 + np.abs(self.start.nodes).max()))
+
+    @property
+    def jacobian(self) -> np.ndarray:
+        """Derivative of the residual, shape (m (2N + 1), m (2N + 1))."""
+        m, n, _ = self.slopes.shape
+        whole = np.zeros((m, n, m, n))
+        places, states = np.arange(m), np.arange(n - 1)
+        whole[places, :, places, :] = self.slopes
+        whole[places[:, None], states, np.roll(places, -1)[:, None], states] -= 1.0
+        return whole.reshape(m * n, m * n)
+
+    @property
+    def passages(self) -> np.ndarray:
+        """Derivative of each end by its node if the segment ends where its condition is fulfilled, shape (m, 2N, 2N)."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            delays = -self.slopes[:, -1, :-1] / self.slopes[:, -1, -1:]
+        carried: np.ndarray = self.slopes[:, :-1, :-1] + self.slopes[:, :-1, -1:] * delays[:, None, :]
+        return carried
+
+    @property
+    def monodromy(self) -> np.ndarray:
+        """Derivative of the first node after a period by the first node, shape (2N, 2N); one eigenvalue is zero."""
+        product = np.eye(self.slopes.shape[1] - 1)
+        for passage in self.passages:
+            product = passage @ product
+        return product
+
+
+def links_of(rotor: Model, word: Word, start: Start) -> Links:
+    """Follow each segment of a word from its node.
+
+    Parameters
+    ----------
+    rotor : Model
+    word : Word
+    start : Start
+
+    Returns
+    -------
+    Links
+        Its ``values`` are ``nan`` where a chatter does not end in the lasting contact that follows in the word.
+    """
+    system = rotor.system
+    arrays, nodes, durations = system.arrays, system.amplitudes_of(start.nodes), start.durations
+    m, modes = nodes.shape
+    arrivals, rates = np.empty_like(nodes), np.zeros_like(nodes)
+    changes = np.empty((m, 2 * modes, modes), complex)
+    values, normals = np.empty(m), np.zeros((m, 2 * modes + 1))
+    ends = arrivals, changes, rates, values, normals
+    follow_flights(arrays, word.kinds, word.planes, word.targets, nodes, durations, *ends)
+    if not word.flies:
+        rub = rub_workspace(modes, len(arrays.rows))
+        follow_contact(arrays, word.kinds, word.planes, word.conditions, nodes, durations, rub, *ends)
+    for i in np.flatnonzero(word.kinds == Kind.LAND):
+        taken = _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], changes[i], normals[i])
+        values[i] = durations[i] - taken
+    slopes = np.empty((m, 2 * modes + 1, 2 * modes + 1))
+    slopes[:, :modes, :-1], slopes[:, modes:-1, :-1] = changes.real.swapaxes(1, 2), changes.imag.swapaxes(1, 2)
+    slopes[:, :modes, -1], slopes[:, modes:-1, -1] = rates.real, rates.imag
+    slopes[:, -1] = normals
+    basis = _real(system.basis)
+    return Links(start, system.states_of(arrivals), values, basis @ slopes @ np.linalg.inv(basis))
+
+
+def _real(matrix: np.ndarray) -> np.ndarray:
+    """A complex matrix (N, N) as it acts on real and then imaginary parts, and on one more number, which it keeps."""
+    modes = len(matrix)
+    whole = np.zeros((2 * modes + 1, 2 * modes + 1))
+    whole[:modes, :modes] = whole[modes:-1, modes:-1] = matrix.real
+    whole[modes:-1, :modes], whole[:modes, modes:-1] = matrix.imag, -matrix.imag
+    whole[-1, -1] = 1.0
+    return whole
+
+
+def _land(
+    rotor: Model, following: Segment, node: np.ndarray, arrival: np.ndarray, changes: np.ndarray, normal: np.ndarray
+) -> float:
+    """Follow a chatter and write its end and derivatives; return its duration, ``nan`` if it does not end as it should."""
+    arrays, modes = rotor.system.arrays, len(arrival)
+    contact = np.full(len(arrays.rows), -1)
+    contact[following.plane] = Phase.FLIGHT
+    log = EventLog.empty(MOST_BOUNCES, modes, len(contact))
+    amplitudes = node.copy()
+    recollection = memory(modes, stop_at_landing=True)
+    outcome, time, count = follow(rotor, amplitudes, np.inf, contact, log, recollection)
+    changes[:] = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
+    if outcome is not Outcome.CHATTER or not count or (log.planes[:count] != following.plane).any():
+        return float("nan")
+    slip = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: -1}.get(following.kind, 0)
+    arrival[:] = amplitudes
+    bounces = log.first(count)
+    carry_through_chatter(
+        arrays, following.plane, bounces.before, np.diff(bounces.times), arrival, slip, changes, normal[:-1]
+    )
+    normal *= -1.0
+    normal[-1] = 1.0
+    return time
+
+
+def pack(start: Start) -> np.ndarray:
+    """Real and imaginary parts of each node and its duration, one segment after the other, shape (m (2N + 1),)."""
+    return np.concatenate([start.nodes.real, start.nodes.imag, start.durations[:, None]], axis=1).ravel()
+
+
+def unpack(unknowns: np.ndarray, segments: int) -> Start:
+    """Nodes and durations from the unknowns of :func:`pack`."""
+    rows = unknowns.reshape(segments, -1)
+    modes = rows.shape[1] // 2
+    return Start(rows[:, :modes] + 1j * rows[:, modes:-1], rows[:, -1].copy())
+
+
+def converged(rotor: Model, word: Word, start: Start, known: Sequence[np.ndarray] = ()) -> Links | None:
+    """Solve the equations of an orbit by Newton's method from a start nearby.
+
+    Parameters
+    ----------
+    rotor : Model
+    word : Word
+    start : Start
+    known : sequence of ndarray
+        Unknowns of orbits that the iteration has to avoid: the residual is multiplied by ``1 + 1/|u − u_k|²`` for each
+        (deflation, Farrell, Birkisson and Funke 2015), which only changes the length of the step.
+
+    Returns
+    -------
+    Links or None
+        ``None`` if the iteration does not converge.
+    """
+    here = links_of(rotor, word, start)
+    for _ in range(ITERATIONS):
+        size = here.size
+        if not np.isfinite(size):
+            return None
+        try:
+            change = np.linalg.solve(here.jacobian, -here.residual)
+        except np.linalg.LinAlgError:
+            return None
+        unknowns = pack(here.start)
+        if size <= TOLERANCE:
+            return links_of(rotor, word, unpack(unknowns + change, len(word)))
+        change *= _deflation(unknowns, change, known)
+        moved, durations = np.abs(change.reshape(len(word), -1)[:, -1]), np.abs(here.start.durations)
+        share = min(1.0, LONGEST_STEP * float((durations / np.maximum(moved, 1e-300))[word.kinds != Kind.LAND].min()))
+        for _ in range(BACKTRACKS):
+            there = links_of(rotor, word, unpack(unknowns + share * change, len(word)))
+            if there.size < size or known:
+                break
+            share *= 0.5
+        else:
+            return here if size <= STALLED else None
+        here = there
+    return here if here.size <= STALLED else None
+
+
+def _deflation(unknowns: np.ndarray, change: np.ndarray, known: Sequence[np.ndarray]) -> float:
+    """Factor by which deflation changes a step of Newton's method."""
+    if not known:
+        return 1.0
+    apart = unknowns - np.array(known)
+    squares = (apart**2).sum(axis=1)
+    slope = float((-2.0 * (apart @ change) / squares**2 / (1.0 + 1.0 / squares)).sum())
+    return 1.0 / (1.0 - slope)

@@ -1,0 +1,194 @@
+"""The word of an orbit: which segments follow one another in a period, and the condition at the end of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from functools import cached_property
+
+import numpy as np
+
+from carom.core import segments
+from carom.outcome import InputError, Phase
+
+__all__ = ["Kind", "Segment", "Word"]
+
+
+class Kind(IntEnum):
+    """Kind of a segment: what happens at its beginning, and how the motion goes on."""
+
+    IMPACT_FORWARD = segments.IMPACT_FORWARD
+    IMPACT_BACKWARD = segments.IMPACT_BACKWARD
+    IMPACT_STOPPED = segments.IMPACT_STOPPED
+    LIFT = segments.LIFT
+    LAND = segments.LAND
+    SLIDE_FORWARD = segments.SLIDE_FORWARD
+    SLIDE_BACKWARD = segments.SLIDE_BACKWARD
+    ROLL = segments.ROLL
+
+    @property
+    def is_impact(self) -> bool:
+        """Whether it is one impact and the flight that follows."""
+        return self <= Kind.IMPACT_STOPPED
+
+    @property
+    def flies(self) -> bool:
+        """Whether it is a flight, after an impact or from rest on the wall."""
+        return self <= Kind.LIFT
+
+    @property
+    def lasts(self) -> bool:
+        """Whether it is lasting contact."""
+        return self >= Kind.SLIDE_FORWARD
+
+    @property
+    def label(self) -> str:
+        """Name in texts and JSON."""
+        return _LABELS[self]
+
+    @classmethod
+    def of_phase(cls, phase: int) -> Kind:
+        """Kind of a segment of lasting contact, or of the flight that follows a lift-off."""
+        return {
+            Phase.FLIGHT: cls.LIFT,
+            Phase.FORWARD_SLIP: cls.SLIDE_FORWARD,
+            Phase.BACKWARD_SLIP: cls.SLIDE_BACKWARD,
+            Phase.ROLLING: cls.ROLL,
+        }[Phase(phase)]
+
+
+_LABELS = {
+    Kind.IMPACT_FORWARD: "impact+",
+    Kind.IMPACT_BACKWARD: "impact-",
+    Kind.IMPACT_STOPPED: "impact0",
+    Kind.LIFT: "lift",
+    Kind.LAND: "land",
+    Kind.SLIDE_FORWARD: "slide+",
+    Kind.SLIDE_BACKWARD: "slide-",
+    Kind.ROLL: "roll",
+}
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A part of an orbit.
+
+    Attributes
+    ----------
+    kind : Kind
+    plane : int
+        Contact plane of the impact or of the lasting contact, or the plane that lifts off.
+    """
+
+    kind: Kind
+    plane: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.kind.label}@{self.plane}" if self.plane else self.kind.label
+
+
+@dataclass(frozen=True)
+class Word(Sequence[Segment]):
+    """The segments of one period, in their order.
+
+    ``impact+``, ``impact-`` and ``impact0`` are one impact with forward slip, with backward slip, or one that stops the
+    slip, and the flight after it.  ``land`` is a chatter, from its first impact to lasting contact.  ``slide+``,
+    ``slide-`` and ``roll`` are lasting contact at one plane while no other touches, and ``lift`` is the flight after it.
+
+    Attributes
+    ----------
+    segments : tuple of Segment
+
+    Raises
+    ------
+    InputError
+        There are no segments, or one cannot follow another.
+    """
+
+    segments: tuple[Segment, ...]
+
+    def __post_init__(self) -> None:
+        if not self.segments:
+            raise InputError("word", "()", "at least one segment")
+        self.conditions  # noqa: B018  # raises where a segment cannot follow another
+
+    @classmethod
+    def of(cls, *kinds: Kind, plane: int = 0) -> Word:
+        """Word of segments at one plane."""
+        return cls(tuple(Segment(kind, plane) for kind in kinds))
+
+    def __len__(self) -> int:
+        return len(self.segments)
+
+    def __iter__(self) -> Iterator[Segment]:
+        return iter(self.segments)
+
+    def __getitem__(self, place):  # type: ignore[no-untyped-def]
+        return self.segments[place]
+
+    def __str__(self) -> str:
+        return " ".join(map(str, self.segments))
+
+    @property
+    def impacts(self) -> int:
+        """Number of impacts in a period, without those of a chatter."""
+        return sum(segment.kind.is_impact for segment in self)
+
+    @cached_property
+    def flies(self) -> bool:
+        """Whether all segments are impacts with the flight after them."""
+        return all(segment.kind.is_impact for segment in self)
+
+    @property
+    def least(self) -> int:
+        """Number of segments after which the word repeats."""
+        m = len(self)
+        return next(k for k in range(1, m + 1) if m % k == 0 and self.segments[k:] + self.segments[:k] == self.segments)
+
+    def repeated(self, times: int) -> Word:
+        """The word several times in a row."""
+        return Word(self.segments * times)
+
+    def turned(self, places: int) -> Word:
+        """The same cycle, beginning with another segment."""
+        return Word(self.segments[places:] + self.segments[:places])
+
+    @cached_property
+    def kinds(self) -> np.ndarray:
+        """Kinds as whole numbers, shape (m,)."""
+        return np.array([segment.kind for segment in self], np.int64)
+
+    @cached_property
+    def planes(self) -> np.ndarray:
+        """Contact planes, shape (m,)."""
+        return np.array([segment.plane for segment in self], np.int64)
+
+    @cached_property
+    def targets(self) -> np.ndarray:
+        """Plane to which the condition at the end of each segment refers, shape (m,)."""
+        return np.roll(self.planes, -1)
+
+    @cached_property
+    def conditions(self) -> np.ndarray:
+        """Condition at the end of each segment (:mod:`carom.core.segments`), shape (m,)."""
+        return np.array(
+            [_condition(*pair) for pair in zip(self, self.segments[1:] + self.segments[:1], strict=True)], np.int64
+        )
+
+
+def _condition(segment: Segment, following: Segment) -> int:
+    """Condition at which a segment ends, from the one that follows."""
+    kind, after = segment.kind, following.kind
+    touches = after.is_impact or after is Kind.LAND
+    if kind.flies and touches:
+        return segments.MEETS_WALL
+    if segment.plane == following.plane and kind is Kind.LAND and after.lasts:
+        return segments.NO_CONDITION
+    if segment.plane == following.plane and kind.lasts and kind is not after and not touches:
+        if after is Kind.LIFT:
+            return segments.NO_PUSH
+        if kind is not Kind.ROLL:
+            return segments.NO_SLIP
+        return segments.CONE_FORWARD if after is Kind.SLIDE_FORWARD else segments.CONE_BACKWARD
+    raise InputError("word", f"{segment} {following}", f"a segment that can follow {segment}")

@@ -1,0 +1,265 @@
+"""Orbits of any word: closure, multipliers, margins and admissibility, each against an independent route."""
+
+from __future__ import annotations
+
+import mpmath
+import numpy as np
+import pytest
+
+from carom.bifurcations.rubbing import rubbing_orbits
+from carom.models import Jeffcott, LinearRotor
+from carom.motions import State, simulate
+from carom.orbits import find_orbits, impact_map
+from carom.orbits.admissibility import why_virtual
+from carom.orbits.names import CountedName
+from carom.orbits.orbit import Orbit, orbit_near, same_orbit
+from carom.orbits.recognising import orbit_of_motion, segments_of
+from carom.orbits.shooting import Start, converged, links_of
+from carom.orbits.word import Kind, Word
+from carom.outcome import CaromError
+from tests.compilation import sized
+from tests.machines import PAPER, exact_matrix, random_parameters
+
+DOUBLED = PAPER.replace(gamma=0.083)
+CHATTERING = PAPER.replace(omega=0.334, rho=0.416, d=0.49, gamma=0.18, mu=0.287)
+
+
+def two_impacts() -> Orbit:
+    """The orbit of two impacts below the period doubling of the paper's machine, from a simulation."""
+    one = find_orbits(DOUBLED)["B1,d"]
+    start = State(0.999 * one.position, 1.001 * one.departure.velocity)
+    orbit = orbit_of_motion(simulate(DOUBLED, start, settle=True))
+    assert orbit is not None
+    return orbit
+
+
+def as_shot(orbit: Orbit) -> Orbit:
+    """A single-impact orbit of the closed form, solved again by shooting from a start beside it."""
+    rng = np.random.default_rng(0)
+    nudge = 1e-4 * (rng.normal(size=(*orbit.nodes.shape, 2)) @ [1.0, 1j])
+    shot = orbit_near(orbit.rotor, orbit.word, Start(orbit.nodes + nudge, orbit.durations * 1.0001), orbit.name)
+    assert shot is not None
+    return shot
+
+
+def test_single_impact_orbits_of_shooting_are_those_of_the_closed_form():
+    rng = np.random.default_rng(1)
+    compared = 0
+    for _ in range(sized(12, 2, 100)):
+        for orbit in find_orbits(random_parameters(rng)):
+            radius = orbit.multipliers.spectral_radius
+            # A start beside an orbit next to a fold may lead to the other one.
+            if abs(orbit.radial_speed) < 1e-2 or radius > 1e3 or np.abs(orbit.multipliers.values - 1.0).min() < 0.05:
+                continue
+            shot = as_shot(orbit)
+            compared += 1
+            assert abs(shot.period - orbit.period) < 1e-12 * (1.0 + orbit.period) / min(1.0, orbit.radial_speed**2)
+            size = (1.0 + np.abs(orbit.nodes).max()) * (1.0 + radius)
+            assert np.abs(shot.nodes - orbit.nodes).max() < 1e-12 * size / min(1.0, orbit.radial_speed**2)
+            assert np.abs(
+                np.sort_complex(shot.multipliers.values) - np.sort_complex(orbit.multipliers.values)
+            ).max() < (1e-9 * (1.0 + radius))
+            assert shot.reason == orbit.reason
+    assert compared > 0
+
+
+def test_multipliers_are_those_of_the_product_of_one_impact_derivatives():
+    orbit = two_impacts()
+    product = np.eye(3)
+    for section in orbit.sections:
+        product = impact_map(orbit.rotor, section).jacobian @ product
+    expected = sorted(np.linalg.eigvals(product), key=lambda value: (-abs(value), -value.imag))
+    assert np.abs(orbit.multipliers.values - expected).max() < 1e-10
+
+
+def test_multipliers_agree_with_differences_of_a_simulation():
+    orbit = two_impacts()
+    here = orbit.section
+
+    def image(change: np.ndarray) -> np.ndarray:
+        at = type(here)(here.angle + change[0], here.radial_speed + change[1], here.angular_speed + change[2])
+        for _ in range(2):
+            at = impact_map(orbit.rotor, at).image
+        return np.array([at.angle, at.radial_speed, at.angular_speed])
+
+    step = 1e-5
+    columns = [(image(step * unit) - image(-step * unit)) / (2.0 * step) for unit in np.eye(3)]
+    expected = sorted(np.linalg.eigvals(np.array(columns).T), key=lambda value: (-abs(value), -value.imag))
+    # Third derivatives of about 10² times the square of the step.
+    assert np.abs(orbit.multipliers.values - expected).max() < 1e-7
+
+
+def test_the_orbit_closes_in_thirty_digits():
+    """The flight by the matrix exponential, the law of impact and the time of arrival, all in 30 digits."""
+    orbit = two_impacts()
+    with mpmath.workdps(30):
+        matrix = exact_matrix(orbit.rotor.parameters)
+        state = exact_state(orbit.section)
+        first = state
+        for duration in orbit.durations:
+            state = exact_arrival(matrix, orbit.rotor, exact_rebound(orbit.rotor, state), mpmath.mpf(duration))
+        assert max(abs(a - b) for a, b in zip(first, state, strict=True)) < mpmath.mpf("1e-12")
+
+
+def exact_state(section) -> list:
+    normal = mpmath.expj(mpmath.mpf(section.angle))
+    return [normal, normal * mpmath.mpc(section.radial_speed, section.angular_speed)]
+
+
+def exact_rebound(rotor: Jeffcott, state: list) -> list:
+    position, velocity = state
+    local = mpmath.conj(position) * velocity
+    factor = (1 + mpmath.mpf(rotor.parameters.d)) * mpmath.mpc(1, rotor.parameters.mu)
+    return [position, velocity - factor * local.real * position]
+
+
+def exact_arrival(matrix, rotor: Jeffcott, state: list, guess) -> list:
+    """State where the flight meets the wall next to a time."""
+    parameters = rotor.parameters
+    rest = mpmath.mpf(parameters.rho) * mpmath.expj(mpmath.mpf(parameters.phi))
+    rest /= mpmath.mpc(mpmath.mpf(parameters.omega) ** 2 - 1, parameters.gamma)
+
+    def at(time) -> list:
+        moved = mpmath.expm(matrix * time) * mpmath.matrix([state[0] - rest, state[1]])
+        return [moved[0] + rest, moved[1]]
+
+    time = mpmath.findroot(lambda t: abs(at(t)[0]) - 1, (guess, guess * (1 + mpmath.mpf("1e-8"))))
+    return at(time)
+
+
+def test_a_stable_orbit_attracts_and_an_unstable_one_repels():
+    stable, unstable = two_impacts(), find_orbits(DOUBLED)["B1,d"]
+    assert stable.admissible
+    assert stable.stable
+    assert unstable.admissible
+    assert not unstable.stable
+    for orbit in (stable, unstable):
+        sections, start = [orbit.section], orbit.section
+        at = type(start)(start.angle + 1e-6, start.radial_speed, start.angular_speed)
+        apart = []
+        for _ in range(60 * orbit.impacts):
+            at = impact_map(orbit.rotor, at).image
+            sections.append(at)
+        apart = [abs(s.radial_speed - start.radial_speed) for s in sections[:: orbit.impacts]]
+        assert (apart[-1] < 0.9 * apart[10]) is orbit.stable
+
+
+def test_rubbing_orbits_are_those_of_the_map_of_lift_offs():
+    (known,) = rubbing_orbits(CHATTERING)
+    motion = known.trajectory(2.5)
+    flying = motion.segment_phases[:, 0] == 0
+    lifts = np.flatnonzero(~flying[:-1] & flying[1:])
+    word, start = segments_of(motion, int(lifts[0]), int(lifts[1]))
+    orbit = orbit_near(known_rotor := Jeffcott(CHATTERING), word, Start(start.nodes, start.durations * 1.00001))
+    assert orbit is not None
+    assert orbit.admissible
+    assert orbit.rotor is known_rotor
+    assert orbit.segments == "lift land slide+"
+    assert orbit.impacts == 0
+    assert orbit.period == pytest.approx(known.period, rel=1e-9)  # tolerance of the map's fixed point
+    # The other multiplier is a central difference of simulations; two directions do not survive the contact.
+    assert orbit.multipliers.values[0] == pytest.approx(known.multiplier, abs=1e-6)
+    assert np.abs(orbit.multipliers.values[1:]).max() < 1e-12
+    assert orbit.margins.normal_force > 0.0
+    assert np.isinf(orbit.margins.slip)
+    with pytest.raises(CaromError, match="trajectory"):
+        orbit.path(np.array([0.0]))
+
+
+def tilting_too(coupling: float) -> LinearRotor:
+    """The paper's machine with a tilt that stiffness couples to its motion, and a second plane that stays free."""
+    return LinearRotor.in_fixed_frame(
+        mass=np.diag([1.0, 0.5]),
+        damping=np.diag([PAPER.gamma, 0.08]),
+        stiffness=np.array([[PAPER.omega**2, coupling], [coupling, 0.9]]),
+        gyroscopic=np.diag([0.0, 0.2]),
+        forcing=np.array([PAPER.rho * np.exp(1j * PAPER.phi), 0.0]),
+        planes=np.array([[1.0, 0.0], [0.3, 0.4]]),
+        friction=[PAPER.mu] * 2,
+        restitution=[PAPER.d] * 2,
+        drive=[PAPER.radius_ratio + 1.0] * 2,
+    )
+
+
+def test_orbits_of_a_rotor_with_two_coordinates_and_two_planes():
+    planar = find_orbits(PAPER)["B1,d"]
+    before = planar.section.state
+    apart = tilting_too(0.0)
+    node = np.array([before.position, 0.0, before.velocity, 0.0])
+    alone = orbit_near(apart, planar.word, Start(node[None], planar.durations))
+    assert alone is not None
+    assert alone.admissible
+    assert alone.period == pytest.approx(planar.period, abs=1e-12)
+    values = alone.multipliers.values
+    assert len(values) == 7
+    for expected in planar.multipliers.values:
+        assert np.abs(values - expected).min() < 1e-10
+    coupled = tilting_too(0.005)
+    for impacts in (1, 3):
+        start = Start(np.repeat(node[None], impacts, 0), np.repeat(planar.durations, impacts))
+        orbit = orbit_near(coupled, planar.word.repeated(impacts), start)
+        assert orbit is not None
+        assert orbit.admissible
+        assert len(orbit.word) == 1
+        assert orbit.links.size < 1e-13
+        assert abs(orbit.period - planar.period) > 1e-6
+    # The simulation returns to it, and approaches it from beside.
+    motion = orbit.trajectory(5.0)
+    again, _ = motion.at_plane(np.array([motion.time]))
+    assert abs(again[0] - orbit.position) < 1e-9
+    assert orbit.stable
+    beside = simulate(coupled, State(orbit.departure.position, 1.0001 * orbit.departure.velocity), settle=True)
+    closed = orbit_of_motion(beside)
+    assert beside.multiplicity == 1
+    assert closed is not None
+    assert same_orbit(closed, orbit)
+
+
+def test_where_the_word_is_not_what_the_machine_does():
+    one = find_orbits(PAPER)["B1,d"]
+    start = Start(one.nodes, one.durations)
+    assert why_virtual(one.rotor, one.word, start) == ""
+    assert "other way" in why_virtual(one.rotor, Word.of(Kind.IMPACT_BACKWARD), start)
+    assert "not stop" in why_virtual(one.rotor, Word.of(Kind.IMPACT_STOPPED), start)
+    doubled = why_virtual(one.rotor, one.word, Start(one.nodes, 2.0 * one.durations))
+    assert "before its period is over" in doubled
+
+
+def test_a_repeated_orbit_is_told_as_the_short_one():
+    one = find_orbits(PAPER)["B1,d"]
+    again = orbit_near(one.rotor, one.word.repeated(3), Start(np.repeat(one.nodes, 3, 0), np.repeat(one.durations, 3)))
+    assert again is not None
+    assert len(again.word) == 1
+    assert same_orbit(again, one)
+    assert not same_orbit(again, two_impacts())
+    assert again.name == "P1,1"
+    assert again.name == CountedName(1, 1)
+
+
+def test_margins_of_the_doubled_orbit():
+    orbit = two_impacts()
+    assert orbit.margins.approach == pytest.approx(min(section.radial_speed for section in orbit.sections), rel=1e-12)
+    times = np.linspace(0.0, orbit.period, 40_001)
+    radii = np.abs(orbit.path(times))
+    begins = np.array([0.0, orbit.durations[0], orbit.period])
+    away = np.abs(times[1:-1, None] - begins).min(axis=1) > 0.01
+    inner = (radii[1:-1] > radii[:-2]) & (radii[1:-1] > radii[2:]) & away
+    assert orbit.margins.radius == pytest.approx(1.0 - radii[1:-1][inner].max() ** 2, abs=1e-6)
+    motion = orbit.trajectory(2.0)
+    assert np.abs(np.abs(motion.position(times)) - radii).max() < 1e-9
+
+
+def test_newton_fails_without_an_orbit():
+    one = find_orbits(PAPER)["B1,d"]
+    assert converged(one.rotor, one.word, Start(np.full((1, 2), np.nan + 0j), one.durations)) is None
+
+
+def test_the_jacobian_of_a_grazing_impact_is_regular():
+    """Where the multipliers are infinite the equations of the orbit are not singular."""
+    rotor = Jeffcott(PAPER)
+    one = find_orbits(rotor)["B1,d"]
+    flown = rotor.system.fly(rotor.system.amplitudes(one.departure.position, one.departure.velocity), np.array(0.3))
+    node = np.array(rotor.system.state(flown))
+    start = Start(np.array([one.nodes[0], node]), np.array([0.3, one.period - 0.3]))
+    links = links_of(rotor, one.word.repeated(2), start)
+    assert np.linalg.cond(links.jacobian) < 1e6
