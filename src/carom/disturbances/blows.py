@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
-from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, speed_coordinate
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
 from carom.parameters import Scales
@@ -129,14 +129,11 @@ class BaseShock(Disturbance):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""
         from carom.disturbances.shocks import states_after_shocks
-        from carom.models import jeffcott_of
 
         peaks, directions = np.broadcast_arrays(*values)
         if not _levitates(rotor):
-            return Starts.of(np.zeros(peaks.shape, complex), 0j, False)
-        positions, velocities, undecided, touched = states_after_shocks(
-            jeffcott_of(rotor), peaks, self.duration, directions
-        )
+            return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
+        positions, velocities, undecided, touched = states_after_shocks(rotor, peaks, self.duration, directions)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
 
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from carom.outcome import InputError
 from carom.parameters import UNITS, Scales
+
+if TYPE_CHECKING:
+    from carom.models import Model
 
 TURN = 2.0 * math.pi
 ON_WALL = 1e-12
@@ -89,6 +92,7 @@ class Starts(NamedTuple):
     Attributes
     ----------
     positions, velocities : ndarray of complex
+        For a rotor of ``n > 1`` coordinates with a last axis of that length.
     exists : ndarray of bool
         Whether the disturbance is possible: the start lies inside the wall, and the rotor could levitate before.
     undecided : ndarray of bool
@@ -120,10 +124,38 @@ class Starts(NamedTuple):
         return Starts(*(values[chosen] for values in self))
 
 
-def inside(positions: np.ndarray, velocities: np.ndarray) -> Starts:
-    """Starts inside the wall; those outside do not exist."""
-    inside = positions.real**2 + positions.imag**2 <= 1.0
-    return Starts.of(np.where(inside, positions, 0.0), velocities, inside)
+def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:
+    """Starts of a rotor that is displaced and moves as a whole.
+
+    Parameters
+    ----------
+    rotor : Model
+    positions : ndarray of complex
+        Displacement of the contact plane that moves farthest, in its clearance.
+    velocities : ndarray of complex
+        As those of kicks, in ``c_r Ω``.
+    exists : ndarray of bool
+        Where it is false there is no start.
+
+    Raises
+    ------
+    InputError
+        The translation of the rotor moves no contact plane.
+    """
+    system, whole = rotor.system, Starts.of(positions, velocities, exists)
+    if system.is_planar and system.translation is None:
+        return whole
+    if not system.carried.any():
+        raise InputError("translation", system.moves.tolist(), "one that moves a contact plane")
+    moves = system.moves if len(system.rest) > 1 else complex(system.moves[0])
+    places = np.multiply.outer(whole.positions, moves / system.carried.max())
+    return whole._replace(positions=places, velocities=np.multiply.outer(whole.velocities, moves))
+
+
+def within(positions: np.ndarray) -> np.ndarray:
+    """Whether displacements lie inside the wall."""
+    inside: np.ndarray = positions.real**2 + positions.imag**2 <= 1.0
+    return inside
 
 
 def complex_of(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:

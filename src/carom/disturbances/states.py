@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from carom.disturbances.coordinates import (
+    ON_WALL,
     Coordinate,
     Starts,
     angle_coordinate,
     complex_of,
-    inside,
+    displaced,
     length_coordinate,
     speed_coordinate,
+    within,
 )
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
@@ -30,8 +32,8 @@ Release = Literal["fixed", "rotating", "rolling"]
 class UnbalanceStep(Disturbance):
     """The unbalance jumps to that of the machine, for example by a lost blade or a shifted sleeve.
 
-    Before the step the rotor whirls without contact with another eccentricity and phase.  Its position and velocity at
-    the step are the start of the motion with the present unbalance.
+    Before the step the rotor whirls without contact with another eccentricity and phase, of all its masses along the
+    translation.  Its position and velocity at the step are the start of the motion with the present unbalance.
 
     Attributes
     ----------
@@ -54,20 +56,31 @@ class UnbalanceStep(Disturbance):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation with the old unbalance."""
         eccentricity, phase = values
-        from carom.models import jeffcott_of
-
-        numbers = jeffcott_of(rotor).parameters
-        response = cmath.rect(1.0, numbers.phi) / complex(numbers.omega**2 - 1.0, numbers.gamma)
+        mass, damping, gyroscopic, stiffness, _ = rotor.matrices
+        push = cmath.rect(1.0, rotor.unbalance_phase) * rotor.system.moves
+        response = np.linalg.solve(stiffness - mass + 1j * damping + gyroscopic, mass @ push)
+        reach = float(np.abs(rotor.system.planes @ response).max())
         cosine, sine = eccentricity * np.cos(phase), eccentricity * np.sin(phase)
+        there = np.hypot(cosine, sine) * reach <= 1.0
+        cosine, sine = np.where(there, cosine, 0.0), np.where(there, sine, 0.0)
+        if len(response) > 1:
+            cosine, sine = cosine[..., None], sine[..., None]
+        else:
+            response = response[0]
         positions = complex_of(
             response.real * cosine - response.imag * sine, response.imag * cosine + response.real * sine
         )
-        return inside(positions, np.zeros(positions.shape, complex))
+        none = np.zeros(there.shape, bool)
+        return Starts(
+            positions, np.zeros_like(positions), there, none, there & (np.hypot(cosine, sine) * reach >= 1.0 - ON_WALL)
+        )
 
 
 @dataclass(frozen=True)
 class ContactRelease(Disturbance):
     """Levitation is switched on with the rotor on the wall, at any angle.
+
+    A rotor of several coordinates or planes is displaced as a whole until the first plane touches.
 
     Attributes
     ----------
@@ -89,17 +102,19 @@ class ContactRelease(Disturbance):
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """States on the wall, moving along it."""
-        from carom.models import jeffcott_of
-
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
-        whirl = {"fixed": 0.0, "rotating": 1.0, "rolling": -jeffcott_of(rotor).parameters.radius_ratio}[self.motion]
-        return Starts.of(complex_of(cosine, sine), complex_of(-(whirl - 1.0) * sine, (whirl - 1.0) * cosine), True)
+        carried, drive = rotor.system.carried, rotor.system.arrays.drive
+        rate = {"fixed": -1.0, "rotating": 0.0, "rolling": -float(drive[carried.argmax()])}[self.motion]
+        speed = rate / carried.max() if carried.any() else rate
+        return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))
 
 
 @dataclass(frozen=True)
 class StateSlice(Disturbance):
     """Any position inside the wall, at one velocity in the co-rotating frame.
+
+    A rotor of several coordinates or planes is displaced as a whole; the position is that of the plane that moves farthest.
 
     Attributes
     ----------
@@ -120,12 +135,15 @@ class StateSlice(Disturbance):
         """All positions inside the wall."""
         x, y = np.broadcast_arrays(*values)
         positions = complex_of(x, y)
-        return inside(positions, np.full(positions.shape, self.velocity))
+        there = within(positions)
+        return displaced(rotor, np.where(there, positions, 0.0), np.full(positions.shape, self.velocity), there)
 
 
 @dataclass(frozen=True)
 class AnyState(Disturbance):
     """Any position inside the wall and any velocity up to a largest speed, both uniform over their discs.
+
+    A rotor of several coordinates or planes is displaced as a whole; the position is that of the plane that moves farthest.
 
     Attributes
     ----------
@@ -150,8 +168,8 @@ class AnyState(Disturbance):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """The given states."""
         radius, angle, speed, direction = np.broadcast_arrays(*values)
-        return Starts.of(
+        return displaced(
+            rotor,
             complex_of(radius * np.cos(angle), radius * np.sin(angle)),
             complex_of(speed * np.cos(direction), speed * np.sin(direction)),
-            True,
         )

@@ -12,6 +12,9 @@ from carom.core.layout import rotor_record
 from carom.core.table import flight_table
 from carom.results import Result
 
+ROUNDING = 1e-12
+"""Share of the sum of moduli below which the sum counts as zero."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class System(Result):
@@ -116,8 +119,7 @@ class System(Result):
 
     def kicked(self, push: complex | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and their rates, both (..., n), just after the levitating rotor gets velocities (...) as a whole."""
-        moves = np.ones(len(self.rest)) if self.translation is None else self.translation
-        velocities = np.multiply.outer(push, moves)
+        velocities = np.multiply.outer(push, self.moves)
         return np.broadcast_to(self.rest, velocities.shape), velocities
 
     def push_of(self, velocities: np.ndarray) -> np.ndarray:
@@ -127,6 +129,30 @@ class System(Result):
         moves = self.translation if len(self.rest) > 1 else self.translation[0]
         pushes: np.ndarray = np.dot(velocities, moves.conj()) / np.vdot(moves, moves)
         return pushes
+
+    @property
+    def moves(self) -> np.ndarray:
+        """Coordinates when the rotor as a whole is displaced by one, shape (n,)."""
+        return np.ones(len(self.rest)) if self.translation is None else self.translation
+
+    @cached_property
+    def planes(self) -> np.ndarray:
+        """Displacement of each contact plane per coordinate, shape (P, n)."""
+        planes: np.ndarray = self.arrays.rows @ self._inverse[:, : len(self.rest)]
+        return planes
+
+    @cached_property
+    def carried(self) -> np.ndarray:
+        """Distance by which each contact plane moves when the rotor as a whole moves by one, shape (P,)."""
+        carried: np.ndarray = np.abs(self.planes @ self.moves)
+        carried[carried <= ROUNDING * (np.abs(self.planes) @ np.abs(self.moves))] = 0.0
+        return carried
+
+    @cached_property
+    def accelerated(self) -> np.ndarray:
+        """Rates of change of the amplitudes when all masses are accelerated by one along the translation, shape (N,)."""
+        accelerated: np.ndarray = self._inverse[:, len(self.rest) :] @ self.moves
+        return accelerated
 
     @cached_property
     def is_planar(self) -> bool:

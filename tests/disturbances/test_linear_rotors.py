@@ -1,0 +1,207 @@
+"""Disturbances of any linear rotor: shocks against integration of its matrices in the fixed frame, starts against its planes."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from compilation import sized
+from linear_rotors import FixedFrame, random_rotor, single, tilting
+from scipy.integrate import solve_ivp
+
+import carom
+from carom.disturbances import AnyState, BaseShock, ContactRelease, Grid, Sample, StateSlice, UnbalanceStep
+from carom.disturbances.shocks import states_after_shocks
+from carom.models import Jeffcott
+from carom.outcome import InputError, Outcome
+
+
+@dataclass(frozen=True, eq=False)
+class Shaken(FixedFrame):
+    """Coordinates relative to a housing that is accelerated by a half-sine pulse."""
+
+    peak: float = 0.0
+    duration: float = 1.0
+    direction: float = 0.0
+
+    def free(self, time, position, velocity):
+        push = self.peak * math.sin(math.pi * time / self.duration) * cmath.rect(1.0, self.direction)
+        return super().free(time, position, velocity) - self.translation * push
+
+    def after(self):
+        """State in the co-rotating frame at the end of the pulse, and the number of impacts."""
+        start = self.model.system.rest
+        met = self.bounces(start, 1j * start, self.duration, 100)
+        time, position, velocity = 0.0, start, 1j * start
+        if met:
+            time, plane, position, velocity = met[-1]
+            velocity = self.struck(plane, position, velocity)
+        position, velocity = self.follow(time, self.duration, position, velocity)
+        turn = cmath.exp(-1j * self.duration)
+        return position * turn, (velocity - 1j * position) * turn, len(met)
+
+
+def shaken(rotor, peak, duration, direction):
+    return Shaken(**vars(rotor), peak=peak, duration=duration, direction=direction)
+
+
+def three_masses():
+    """Three coordinates that are not those of a chain, two planes; eight modes with those of the pulse."""
+    return FixedFrame(
+        mass=np.array([[1.0, 0.1, 0.0], [0.1, 0.6, 0.2], [0.0, 0.2, 0.8]]),
+        damping=0.1 * np.eye(3),
+        stiffness=np.array([[0.7, -0.1, 0.0], [-0.1, 0.9, -0.2], [0.0, -0.2, 0.5]]),
+        gyroscopic=np.diag([0.0, 0.0, 0.3]),
+        forcing=np.array([0.1, 0.05j, 0.02]),
+        planes=np.array([[1.0, 0.3, 0.0], [0.2, 1.0, 0.4]]),
+        friction=0.15,
+        restitution=0.7,
+        radius_ratio=12.0,
+        translation=np.array([1.0, 0.8, 0.0]),
+    )
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize(
+    "rotor",
+    [single(), three_masses(), pytest.param(tilting(), marks=pytest.mark.deep)],
+    ids=["one coordinate", "three coordinates", "two coordinates"],
+)
+@pytest.mark.parametrize(
+    ("peak", "duration", "direction"), [(0.1, 1.3, 0.3), (3.0, 1.5, 2.0), (1.5, 4.0, 4.0), (5.0, 0.7, 1.0)]
+)
+def test_state_after_a_shock_is_that_of_the_matrices(rotor, peak, duration, direction):
+    place, speed, impacts = shaken(rotor, peak, duration, direction).after()
+    positions, velocities, undecided, touched = states_after_shocks(
+        rotor.model, np.array([peak]), duration, np.array([direction])
+    )
+    assert not undecided[0]
+    assert touched[0] == (impacts > 0)
+    assert np.allclose(positions[0], place, rtol=0, atol=1e-9)
+    assert np.allclose(velocities[0], speed, rtol=0, atol=1e-9)
+
+
+@pytest.mark.jit_only
+def test_shocks_of_both_kinds_were_tried():
+    impacts = [shaken(three_masses(), peak, 1.5, 2.0).after()[2] for peak in (0.1, 3.0)]
+    assert impacts[0] == 0 < impacts[1]
+
+
+def test_only_the_translation_need_be_known():
+    """The same without contact from absolute coordinates: bearings on a housing that moves, gyroscopic moments on the shaft."""
+    rotor, peak, duration, direction = tilting(), 0.2, 2.5, 0.7
+    line, rate = cmath.rect(1.0, direction), math.pi / duration
+
+    def rates(time, state):
+        place, speed = (state[:2] + 1j * state[2:4]), (state[4:6] + 1j * state[6:])
+        moved = rotor.translation * line * peak * (time / rate - math.sin(rate * time) / rate**2)
+        moving = rotor.translation * line * peak * (1.0 - math.cos(rate * time)) / rate
+        force = rotor.forcing * cmath.exp(1j * time) - rotor.stiffness @ (place - moved)
+        force -= rotor.damping @ (speed - moving) - 1j * rotor.gyroscopic @ speed
+        push = np.linalg.solve(rotor.mass, force)
+        return np.concatenate([speed.real, speed.imag, push.real, push.imag])
+
+    start = rotor.model.system.rest
+    state = np.concatenate([start.real, start.imag, -start.imag, start.real])
+    end = solve_ivp(rates, (0.0, duration), state, "DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+    shift = rotor.translation * line * peak * duration / rate
+    expected = (end[:2] + 1j * end[2:4] - shift) * cmath.exp(-1j * duration)
+    place, _, impacts = shaken(rotor, peak, duration, direction).after()
+    assert impacts == 0
+    assert np.allclose(place, expected, rtol=0, atol=1e-9)
+
+
+@pytest.mark.jit_only
+def test_random_rotors_and_shocks():
+    checked = 0
+    for seed in range(sized(4, 1, 60)):
+        model = random_rotor(seed, n=3, planes=2, damping=0.2, friction=0.1)
+        fixed, random = model.matrices, np.random.default_rng(seed)
+        if np.abs(model.planes @ model.system.rest).max() >= 1.0:
+            model = model.replace(forcing=0.0 * model.forcing)
+            fixed = model.matrices
+        if np.ptp(model.restitution) or np.ptp(model.drive):
+            model = model.replace(restitution=[0.6, 0.6], drive=[9.0, 9.0])
+        rotor = FixedFrame(
+            *(part.real for part in (fixed.mass, fixed.damping, fixed.stiffness, fixed.gyroscopic)),
+            fixed.forcing,
+            model.planes.real,
+            0.1,
+            0.6,
+            8.0,
+            model.translation.real,
+        )
+        peak, duration, direction = random.uniform(0.5, 4.0), random.uniform(0.3, 2.0), random.uniform(0.0, 6.0)
+        place, speed, impacts = shaken(rotor, peak, duration, direction).after()
+        if impacts > 10:  # chatter, which the reference follows bounce by bounce
+            continue
+        positions, velocities, _, _ = states_after_shocks(model, np.array([peak]), duration, np.array([direction]))
+        assert np.allclose(positions[0], place, rtol=0, atol=1e-7), seed
+        assert np.allclose(velocities[0], speed, rtol=0, atol=1e-6), seed
+        checked += 1
+    assert checked > 0
+
+
+def test_an_undamped_rotor_in_resonance_is_refused():
+    rotor = tilting(damping=np.zeros((2, 2)), gyroscopic=np.zeros((2, 2))).model
+    frequency = np.abs(rotor.system.exponents.imag + 1.0).min()
+    with pytest.raises(InputError, match="duration"):
+        states_after_shocks(rotor, np.ones(1), math.pi / frequency, np.zeros(1))
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        single().model,
+        tilting().model,
+        three_masses().model,
+        Jeffcott(carom.load("examples/source-paper.toml").parameters),
+    ],
+)
+@pytest.mark.parametrize("release", ["fixed", "rotating", "rolling"])
+def test_displaced_rotors_touch_with_the_plane_that_moves_farthest(model, release):
+    starts = Grid(ContactRelease(release), (7,)).starts(model)
+    positions, velocities = (values.reshape(7, -1) for values in (starts.positions, starts.velocities))
+    places, speeds = positions @ model.system.planes.T, velocities @ model.system.planes.T
+    plane = int(np.abs(places[0]).argmax())
+    assert np.allclose(np.abs(places[:, plane]), 1.0, rtol=0, atol=1e-14)
+    assert (np.abs(places) <= 1.0 + 1e-14).all()
+    assert starts.touched.all()
+    fixed = speeds[:, plane] + 1j * places[:, plane]  # velocity of the plane in the fixed frame
+    expected = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - model.system.arrays.drive[plane]}[release]
+    assert np.allclose(fixed, 1j * expected * places[:, plane], rtol=0, atol=1e-12)
+    states = Sample(AnyState(), 50, 0).starts(model)
+    reached = np.abs(states.positions.reshape(50, -1) @ model.system.planes.T).max(axis=1)
+    assert 0.8 < reached.max() <= 1.0 + 1e-14
+    assert states.exists.all()
+    cells = Grid(StateSlice(0.1), (5, 5)).starts(model)
+    assert cells.exists.sum() == 21
+
+
+def test_an_unbalance_step_starts_from_the_whirl_with_the_old_unbalance():
+    for model in (tilting().model, three_masses().model):
+        starts = Sample(UnbalanceStep(0.9), 40, 1).starts(model)
+        values = [c.at(np.array(0.2)) for c in UnbalanceStep(0.9).coordinates]
+        (position,) = UnbalanceStep(0.9).starts(model, *(np.array([value]) for value in values)).positions
+        turn = cmath.exp(1j * (float(values[1]) + model.unbalance_phase))
+        before = model.replace(forcing=float(values[0]) * turn * (model.mass @ model.translation))
+        assert np.allclose(position, before.system.rest, rtol=1e-12, atol=0)
+        assert (np.abs(starts.positions @ model.planes.T).max(axis=1) <= 1.0 + 1e-14).all()
+
+
+def test_a_rotor_whose_translation_moves_no_plane_cannot_be_displaced():
+    model = tilting().model.replace(
+        translation=[0.7, 1.0], planes=[[1.0, -0.7]], friction=[0.1], restitution=[0.5], drive=[5.0]
+    )
+    with pytest.raises(InputError, match=r"^translation = .*moves a contact plane"):
+        Grid(StateSlice(), (3, 3)).starts(model)
+
+
+@pytest.mark.jit_only
+def test_basins_of_shocks():
+    basin = carom.map_basins(single().model, Grid(BaseShock(3.0, 1.5), (6, 8)))
+    assert Outcome.LEVITATED in basin.outcomes
+    assert len(set(basin.outcomes.ravel().tolist())) > 1
