@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal, localcontext
 from fractions import Fraction
+from itertools import takewhile
 from typing import Any
 
 from flint import arb, ctx, fmpq
 
 from carom.parameters.exact import ExactNumber
 
-_MOST_DIGITS = 60
+_MOST_DIGITS, _SHOWN = 60, 16
 
 
 @contextmanager
@@ -67,10 +68,13 @@ class Enclosure:
     Attributes
     ----------
     low, high : str
+    inner : tuple of Fraction
+        Ends of the ball that was computed, well inside.
     """
 
     low: str
     high: str
+    inner: tuple[Fraction, Fraction] = field(compare=False, repr=False)
 
     @property
     def value(self) -> float:
@@ -89,20 +93,34 @@ class Enclosure:
             ratio /= Decimal(size.numerator) / Decimal(size.denominator)
             return max(0, -ratio.adjusted() - 1)
 
+    def holds(self, other: Enclosure) -> bool:
+        """Whether the ball of another one lies between its numbers."""
+        return Fraction(self.low) <= other.inner[0] and other.inner[1] <= Fraction(self.high)
+
+    @property
+    def short(self) -> str:
+        """The digits that both have in common, at most :data:`_SHOWN`, or both numbers."""
+        pairs = zip(self.low, self.high, strict=False)
+        common = "".join(one for one, _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+        if not set(common) & set("123456789") or "E" in self.low + self.high:
+            return str(self)
+        return common if self.low == self.high and len(common) <= _SHOWN else f"{common[:_SHOWN]}…"
+
     def __str__(self) -> str:
         return self.low if self.low == self.high else f"[{self.low}, {self.high}]"
 
 
 def enclosure_of(ball: Any) -> Enclosure:
-    """Decimal enclosure of a real ball, rounded outward to the digits that it has."""
+    """Decimal enclosure of a real ball, a little wider on both sides, with the digits that it has.
+
+    The margin leaves room for a check by another version of the arithmetic.
+    """
     low, high = exact_ends(ball)
     width = high - low
-    if not width:
-        digits = _MOST_DIGITS
-    else:
-        size = max(abs(low), abs(high))
-        digits = min(_MOST_DIGITS, max(3, len(str(int(size / width))) + 2))
-    return Enclosure(_decimal(low, digits, ROUND_FLOOR), _decimal(high, digits, ROUND_CEILING))
+    size = max(abs(low), abs(high))
+    digits = min(_MOST_DIGITS, max(3, len(str(int(size / width))) + 2)) if width else _MOST_DIGITS
+    ends = _decimal(low - width, digits, ROUND_FLOOR), _decimal(high + width, digits, ROUND_CEILING)
+    return Enclosure(*ends, (low, high))
 
 
 def _decimal(number: Fraction, digits: int, rounding: str) -> str:

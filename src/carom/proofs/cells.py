@@ -16,7 +16,7 @@ from fractions import Fraction
 from typing import Any
 
 from carom.proofs.balls import decided, interval
-from carom.proofs.evidence import NotShownError
+from carom.proofs.evidence import NotShownError, rational_of
 
 ORDER = 10
 """Order of the Taylor formula: with fewer the cells are more, with more each costs more than it saves."""
@@ -46,7 +46,7 @@ class Cells:
     @classmethod
     def from_document(cls, document: dict[str, Any]) -> Cells:
         """Read what :meth:`document` gives."""
-        cells = cls(tuple(Fraction(text) for text in document["cuts"]), str(document["kinds"]))
+        cells = cls(tuple(rational_of(text) for text in document["cuts"]), str(document["kinds"]))
         if len(cells.cuts) != len(cells.kinds) + 1 or any(
             low >= high for low, high in zip(cells.cuts, cells.cuts[1:], strict=False)
         ):

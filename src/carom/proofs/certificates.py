@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from carom.files import write_whole
 from carom.outcome import CaromError, InputError, printable, shown
-from carom.proofs.claims import Proof
+from carom.proofs.balls import Enclosure
+from carom.proofs.claims import Claim, Proof
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.proving import MOST_BITS, proof_at
@@ -18,6 +21,7 @@ from carom.proofs.theorems import THEOREMS
 
 FORMAT = "carom proof 1"
 LARGEST_BYTES = 50_000_000
+_DECIMAL = re.compile(r"-?[0-9]{1,100}(?:\.[0-9]{1,100})?(?:E[+-][0-9]{1,4})?")
 _KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence")
 
 
@@ -44,7 +48,7 @@ def check(source: str | os.PathLike[str] | Mapping[str, Any]) -> Proof:
     """Verify a certificate by itself.
 
     All inequalities are evaluated again in ball arithmetic, from the numbers of the machine in the certificate and from its
-    evidence; nothing is searched.  Every word and digit of the claims must come out the same.
+    evidence; nothing is searched.  All words of the claims must come out the same, and all numbers must lie between those stated.
 
     Parameters
     ----------
@@ -79,19 +83,35 @@ def _proof_of(document: Mapping[str, Any]) -> Proof:
     proof = proof_at(bits, theorem, hypotheses, dict(document["options"]), evidence)
     found = certificate(proof)
     for key in _KEYS:
-        if found[key] != document[key]:
-            raise NotShownError(
-                f"its {key} are not what the evidence shows{_first_difference(found[key], document[key])}"
-            )
-    return proof
+        if key != "claims" and found[key] != document[key]:
+            raise NotShownError(f"its {key} are not those that the evidence belongs to")
+    return replace(proof, claims=_confirmed(proof.claims, document["claims"]))
 
 
-def _first_difference(found: Any, told: Any) -> str:
-    if isinstance(found, list) and isinstance(told, list):
-        for one, other in zip(found, told, strict=False):
-            if one != other and isinstance(one, dict):
-                return f": {one.get('about')} {one.get('kind')}"
-    return ""
+def _confirmed(found: Sequence[Claim], told: Sequence[Mapping[str, Any]]) -> tuple[Claim, ...]:
+    """Claims of a certificate whose words are those found and whose numbers enclose those found."""
+    if len(found) != len(told):
+        raise NotShownError("its claims are not those that the evidence shows")
+    claims = []
+    for claim, words in zip(found, told, strict=True):
+        if {**claim.document(), "enclosures": None} != {**words, "enclosures": None}:
+            raise NotShownError(f"its evidence does not show what it claims: {claim.name}")
+        stated = words["enclosures"]
+        if list(stated) != list(claim.enclosures):
+            raise NotShownError(f"its numbers are not those of the claim: {claim.name}")
+        held = {name: _held(entry, stated[name], claim.name) for name, entry in claim.enclosures.items()}
+        claims.append(replace(claim, enclosures=held))
+    return tuple(claims)
+
+
+def _held(found: Enclosure, stated: Sequence[str], name: str) -> Enclosure:
+    """The stated enclosure, if it holds the ball that was found."""
+    if len(stated) != 2 or not all(_DECIMAL.fullmatch(end) for end in stated):
+        raise NotShownError(f"a number is not a pair of decimal numbers: {name}")
+    told = Enclosure(stated[0], stated[1], found.inner)
+    if not told.holds(found):
+        raise NotShownError(f"a number is not between those stated: {name}")
+    return told
 
 
 def _read(path: str | os.PathLike[str]) -> dict[str, Any]:

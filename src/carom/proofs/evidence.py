@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any, TypeVar
 
 from carom.outcome import CaromError
 
 _Found = TypeVar("_Found")
+_RATIONAL = re.compile(r"-?[0-9]{1,2000}(?:/[0-9]{1,2000})?")
 
 
 class NotShownError(CaromError):
@@ -55,3 +58,16 @@ class Evidence:
     def document(self) -> dict[str, Any]:
         """All that was taken, as plain data for JSON."""
         return dict(self._used)
+
+
+def rational_of(text: object) -> Fraction:
+    """Rational number of evidence, ``"3/4"``.
+
+    Raises
+    ------
+    NotShownError
+        It is not one.
+    """
+    if not (isinstance(text, str) and _RATIONAL.fullmatch(text)) or text.endswith("/0"):
+        raise NotShownError("the certificate has a number that is no fraction of whole numbers")
+    return Fraction(text)

@@ -34,7 +34,7 @@ from carom.proofs.cells import (
     power_of_two_below,
     show,
 )
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.rotor import Rotor
 
 SHORTEST_CELL = 200
@@ -105,7 +105,7 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     """
     condition = Analytic(rotor.closing_series)
     known = evidence.take("no period beyond", lambda: _text(_longest_period(rotor)))
-    bound = None if known is None else Fraction(known)
+    bound = None if known is None else rational_of(known)
     if bound is not None and not _none_beyond(rotor, bound):
         raise NotShownError(f"the certificate does not show that there is no period beyond {bound}")
     width = power_of_two_below(2 / Fraction(rotor.fastest))
@@ -114,7 +114,7 @@ def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most
     first = evidence.take("first cell", lambda: _text(_first_cell(condition, lead, min(width, end))))
     if first is None:
         return Periods((), Fraction(0), False, ((Fraction(0), end),))
-    start = Fraction(first)
+    start = rational_of(first)
     sign = condition.sign_next_to(arb(0), start, lead, 1)
     if not sign:
         raise NotShownError("the certificate does not show the sign of F1 next to 0")
@@ -209,7 +209,7 @@ def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evide
             continue
         zeros += 1
         ends = evidence.take(f"root {zeros} of F1", _refined(condition, low, high))
-        near, far = (Fraction(text) for text in ends)
+        near, far = (rational_of(text) for text in ends)
         if not (low <= near < far <= high and condition.sign(near) == before and condition.sign(far) == after):
             raise NotShownError(f"the certificate does not show a root of F1 between {near} and {far}")
         period = interval(near, far)

@@ -27,7 +27,7 @@ from flint import arb
 from carom.proofs.balls import decided, enclosure_of, exact_ends
 from carom.proofs.cells import NEGATIVE, Analytic, Cells, cells_of, power_of_two_below, show
 from carom.proofs.claims import Claim, Status, claim_of
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.periods import Periods
 from carom.proofs.rotor import Impact, Rotor
 
@@ -149,10 +149,12 @@ def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
     order = 2 if rotor.hypotheses.rational("d") == (Fraction(0),) else 1
     found = evidence.take(f"flight of {orbit.name}", lambda: _flight(rotor, orbit.impact, radius, order))
     if found is None:
-        reason = f"no sign of |U| - 1 could be shown in {MOST_CELLS} cells"
+        reason = (
+            "neither could be shown: it comes too close to the wall for the precision or the width of the given numbers"
+        )
         return claim_of(orbit.name, "inside", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
     if "outside" in found:
-        time = Fraction(found["outside"])
+        time = rational_of(found["outside"])
         if time == 0:
             shown = order == 2 and radius.series(arb(0), 3)[2] > 0
             reason = "it would stay on the wall: it does not rebound and is pressed outward"

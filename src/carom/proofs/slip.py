@@ -19,7 +19,7 @@ from flint import arb
 
 from carom.proofs.balls import exact_ends, rational
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.rotor import Rotor
 
 STEPS = 64
@@ -40,7 +40,7 @@ def slip_claim(rotor: Rotor, evidence: Evidence) -> Claim:
         if not rotor.gamma >= 0:
             reason = "the argument needs damping that is not negative"
         return claim_of("machine", "slip", statement, 0, reason=reason, limited=False)
-    if not _out(rotor, Fraction(found)):
+    if not _out(rotor, rational_of(found)):
         raise NotShownError(f"the certificate does not show that the rotor is out of the clearance after {found}")
     return claim_of("machine", "slip", statement, 1)
 

@@ -18,7 +18,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.balls import Enclosure, decided, enclosure_of
+from carom.proofs.balls import decided, enclosure_of
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.rotor import Rotor
 
@@ -123,7 +123,7 @@ def _sign_of_square(rotor: Rotor, square: Any) -> int:
 
 def _kick_claim(rotor: Rotor) -> Claim:
     """Claim that kicks below a speed are harmless; without damping or with it, and refuted where no speed is small enough."""
-    statement = "The rotor levitates inside the wall, and no kick out of levitation slower than this speed brings it to the wall."
+    statement = "The rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall."
     room = 1 - rotor.levitation_squared.sqrt()
     damping = rotor.hypotheses.numbers["gamma"]
     if rotor.on_the_wall or room < 0 or damping.high < 0:
@@ -136,8 +136,7 @@ def _kick_claim(rotor: Rotor) -> Claim:
     if not (speed.is_finite() and speed > 0):
         reason = "the largest response to a kick could not be enclosed"
         return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
-    limit = enclosure_of(speed).low
-    return claim_of("kick", "harmless", statement, 1, enclosures={"speed": Enclosure(limit, limit)})
+    return claim_of("kick", "harmless", statement, 1, enclosures={"speed": enclosure_of(speed)})
 
 
 def _largest_response(rotor: Rotor) -> Any:

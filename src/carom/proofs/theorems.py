@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence
+from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.periods import Periods, all_periods
 from carom.proofs.rotor import Rotor
 from carom.proofs.single_impact import candidates, orbit_claims
@@ -39,7 +38,7 @@ class Theorem:
 def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[Claim]:
     """Equilibria, and all orbits with one impact a period."""
     longest = options.get("longest_period")
-    periods = all_periods(rotor, evidence, None if longest is None else Fraction(longest), int(options["cells"]))
+    periods = all_periods(rotor, evidence, None if longest is None else rational_of(longest), int(options["cells"]))
     slip = slip_claim(rotor, evidence)
     claims = [*steady_claims(rotor), _periods_claim(rotor, periods), slip]
     admissible, doubts = [], []

@@ -1,0 +1,85 @@
+"""``carom prove``: theorems about a machine, and the check of certificates."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, Settings, console, print_document
+from carom.outcome import InputError, shown
+
+if TYPE_CHECKING:
+    from carom.proofs import Claim, Proof
+
+CERTIFICATE = "proof.json"
+"""Name of the certificate in the directory given."""
+
+
+def prove(
+    machine: Annotated[str | None, typer.Argument(metavar="[MACHINE.toml]", help="The machine file.")] = None,
+    settings: Settings = None,
+    longest_period: Annotated[
+        str | None, typer.Option(metavar="T", help="Look only for periods up to T, in 1/Omega; by default for all.")
+    ] = None,
+    out: Annotated[
+        str | None, typer.Option(metavar="DIR", help=f"Write the certificate, {CERTIFICATE}, to this directory.")
+    ] = None,
+    check: Annotated[
+        str | None, typer.Option(metavar="FILE", help="Verify a certificate instead; no machine file is needed.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Prove equilibria and all orbits with one impact a period, in ball arithmetic.
+
+    The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
+    reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
+    """
+    from carom.proofs import certificate, save
+    from carom.proofs import check as verify
+    from carom.proofs import prove as prove_machine
+
+    if check is not None:
+        if machine is not None or settings or longest_period is not None or out is not None:
+            raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
+        proof = verify(check)
+    elif machine is None:
+        raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
+    else:
+        proof = prove_machine(machine, settings or (), longest_period=longest_period)
+    if out is not None:
+        directory = Path(out)
+        directory.mkdir(parents=True, exist_ok=True)
+        save(proof, directory / CERTIFICATE)
+    if as_json:
+        print_document(certificate(proof))
+        return
+    _print_proof(proof, checked=check is not None)
+    if out is not None:
+        console().print(f"Certificate: {Path(out) / CERTIFICATE}", soft_wrap=True)
+
+
+def _print_proof(proof: Proof, checked: bool) -> None:
+    """Print all claims, and what is not claimed."""
+    from carom.cli.fitting import fitted, plain_table
+
+    screen = console()
+    table = plain_table("Claims", "of", "claim", "status", "number, or reason")
+    for claim in proof:
+        table.add_row(claim.about, claim.kind, claim.status, claim.reason or _number(claim))
+    screen.print(fitted(screen, table))
+    how = "Verified from the certificate alone" if checked else "Proven"
+    screen.print(f"{how}, with balls of {proof.bits} bits. Exactly assumed: {_assumed(proof)}.", soft_wrap=True)
+    screen.print("Not claimed:")
+    for words in proof.not_claimed:
+        screen.print(f"- {words}", soft_wrap=True)
+
+
+def _number(claim: Claim) -> str:
+    return ", ".join(f"{name.replace('_', ' ')} {entry.short}" for name, entry in claim.enclosures.items())
+
+
+def _assumed(proof: Proof) -> str:
+    given = {**proof.hypotheses.values, **proof.hypotheses.settings}
+    return ", ".join(f"{name} = {text}" for name, text in given.items())

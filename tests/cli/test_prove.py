@@ -1,0 +1,67 @@
+"""``carom prove`` and ``carom prove --check``."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from carom.cli import main
+
+PAPER = "examples/source-paper.toml"
+
+
+def test_proof_is_printed_written_and_verified(capsys, tmp_path):
+    assert main(["prove", PAPER, "--set", "gamma=0.1", "--out", str(tmp_path / "new")]) == 0
+    printed = capsys.readouterr().out
+    assert "B1,d" in printed
+    assert "0.73323053408263" in printed
+    assert "Not claimed" in printed
+
+    assert main(["prove", "--check", str(tmp_path / "new" / "proof.json")]) == 0
+    assert "Verified from the certificate alone" in capsys.readouterr().out
+
+
+def test_json_is_the_certificate(capsys, tmp_path):
+    assert main(["prove", PAPER, "--json"]) == 0
+    (tmp_path / "proof.json").write_text(capsys.readouterr().out)
+    assert main(["prove", "--check", str(tmp_path / "proof.json"), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == json.loads((tmp_path / "proof.json").read_text())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], "give a machine file"),
+        ([PAPER, "--longest-period", "-1"], "a time above 0"),
+        ([PAPER, "--check", "proof.json"], "must stand alone"),
+        (["--check", "absent.json"], "cannot be read"),
+        (["absent.toml"], "there is no such file"),
+        ([PAPER, "--set", "stiffness=1"], "cannot be set"),
+    ],
+)
+def test_bad_input_is_one_line(capsys, arguments, words):
+    assert main(["prove", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert words in error
+    assert error.count("\n") == 1
+
+
+def test_changed_certificate_is_refused(capsys, tmp_path):
+    assert main(["prove", PAPER, "--out", str(tmp_path)]) == 0
+    path = tmp_path / "proof.json"
+    path.write_text(path.read_text().replace('"0.15"', '"0.16"'))
+    capsys.readouterr()
+
+    assert main(["prove", "--check", str(path)]) == 2
+    assert "is refused" in capsys.readouterr().err
+
+
+def test_without_flint_one_line_names_the_extra():
+    code = "import sys; sys.modules['flint'] = None; from carom.cli import main; sys.exit(main(['prove', 'examples/source-paper.toml']))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+
+    assert done.returncode == 2
+    assert done.stderr == 'carom: proofs need python-flint; install it with: pip install "carom[proof]"\n'

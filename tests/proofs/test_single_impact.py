@@ -1,0 +1,349 @@
+"""Claims about orbits with one impact a period beside arithmetic of fifty digits, simulation and the usual search."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from compilation import sized
+from machines import PAPER, ExactMotion, exact_return, path, random_parameters
+from precise_orbits import PreciseOrbit, number
+from scipy.optimize import brentq
+
+import carom as cm
+from carom.orbits import find_orbits, period_condition
+from carom.parameters import Parameters
+from carom.proofs import Proof, prove
+
+DECIMAL = {
+    "gamma": "0.1",
+    "omega": "0.76",
+    "rho": "3/7",
+    "phi": "0.21",
+    "mu": "0.15",
+    "d": "0.95",
+    "radius_ratio": "400/7",
+}
+
+
+def status(proof: Proof, name: str) -> str:
+    return proof[name].status
+
+
+def near_the_paper(random: np.random.Generator) -> Parameters:
+    """Machines of which one in four has a stable orbit."""
+    low, high = (0.02, 0.6, 0.3, 0.0, 0.8), (0.22, 0.9, 0.6, 0.3, 1.0)
+    names = ("gamma", "omega", "rho", "mu", "d")
+    return PAPER.replace(**dict(zip(names, random.uniform(low, high).tolist(), strict=True)))
+
+
+def assert_agrees(parameters: Parameters, proof: Proof) -> None:
+    """Compare with the usual search, whose tests share nothing with it."""
+    orbits = find_orbits(parameters) if parameters.gamma > 0 else ()
+    named = {orbit.name: orbit for orbit in orbits if orbit.slip > 0}
+    periods = proof["machine periods"]
+    if periods.status == "proven":
+        assert int(periods.statement.split()[3]) == len(orbits.periods)
+        assert set(named) == {claim.about for claim in proof if claim.kind == "admissible"}
+    for claim in proof:
+        orbit = named.get(claim.about)
+        if orbit is None or claim.status == "undecided":
+            continue
+        told = {"admissible": orbit.admissible, "stable": orbit.stable, "outward": orbit.radial_speed > 0}
+        assert told.get(claim.kind, claim.status == "proven") == (claim.status == "proven"), claim.name
+        for name in ("period", "radial_speed", "angular_speed"):
+            if name in claim.enclosures:
+                value = getattr(orbit, name)
+                assert claim.enclosures[name].value == pytest.approx(value, rel=1e-7, abs=1e-8)
+
+
+def assert_true(parameters: Parameters, proof: Proof) -> int:
+    """Compare with matrix exponentials and differences of the return map in fifty digits; number of comparisons."""
+    if parameters.gamma == 2 * parameters.omega:
+        return 0
+    count = 0
+    q = (1 + mpmath.mpf(parameters.d)) * mpmath.mpc(1, mpmath.mpf(parameters.mu))
+    motion = ExactMotion(parameters)
+    solutions = [claim for claim in proof if claim.kind == "solution" and "period" in claim.enclosures]
+    for solution in solutions[:4]:
+        ends = [number(text) for text in (solution.enclosures["period"].low, solution.enclosures["period"].high)]
+        values = [1 + (q * exact_return(parameters, end)[0][1, 1]).real for end in ends]
+        assert ends[1] - ends[0] > 1e-30 or values[0] * values[1] < 0
+        period = sum(ends) / 2
+        back, _ = exact_return(parameters, period)
+        speed = number(Fraction(solution.enclosures["radial_speed"].low))
+        rest = abs(motion.rest)
+        defect = abs(1 + q * back[0, 1] * speed) - rest
+        assert abs(defect) < 1e-12 * (1 + rest)
+        stable = proof[f"{solution.about} stable"]
+        if abs(speed) < 1e-6 or stable.status == "undecided":
+            continue
+        orbit = PreciseOrbit(parameters, period, speed)
+        jacobian = orbit.jacobian()
+        largest = np.abs(np.linalg.eigvals(jacobian)).max()
+        assert (largest < 1) == (stable.status == "proven") or abs(largest - 1) < 1e-7 * (1 + np.abs(jacobian).max())
+        assert stable.enclosures["trace"].value == pytest.approx(
+            np.trace(jacobian), abs=1e-7 * (1 + np.abs(jacobian).max())
+        )
+        count += 1
+        if speed > 0 and abs(motion.upper - motion.lower) > 1e-3:
+            times = np.linspace(0, float(period), 4001)[1:-1]
+            radius = np.abs(path(parameters, complex(orbit.position), complex(orbit.after), times)).max()
+            inside = status(proof, f"{solution.about} inside")
+            assert inside == "undecided" or (radius > 1) == (inside == "refuted") or abs(radius - 1) < 1e-7
+            count += 1
+    return count
+
+
+def test_claims_of_the_papers_machine():
+    proof = prove(DECIMAL)
+
+    assert not proof.with_status("undecided")
+    assert proof["machine periods"].statement == "F1 has exactly 2 roots T > 0, each of them simple."
+    assert "exactly these: B1,a, B1,c, B1,b, B1,d" in proof["machine orbits"].statement
+    stable = [claim.about for claim in proof if claim.kind == "stable" and claim.status == "proven"]
+    assert stable == ["levitation", "B1,d"]
+    period = proof["B1,d solution"].enclosures["period"]
+    assert period.digits > 30
+    # Of the design's figures to match.
+    assert period.low.startswith("2.8635671445")
+    assert proof["B1,d solution"].enclosures["radial_speed"].low.startswith("0.7332305340")
+
+
+def test_random_machines_beside_fifty_digits():
+    random, compared, undecided, claims = np.random.default_rng(14), 0, 0, 0
+    with mpmath.workdps(50):
+        for k in range(sized(4, 1, 200)):
+            parameters = near_the_paper(random) if k % 2 else random_parameters(random)
+            proof = prove(parameters)
+            compared += assert_true(parameters, proof)
+            if parameters.radius_ratio > 3:
+                undecided += len(proof.with_status("undecided"))
+                claims += len(proof)
+    assert compared > 2 * sized(4, 1, 200)
+    assert undecided <= 0.01 * claims
+
+
+def test_random_machines_beside_the_usual_search():
+    random, stable, undecided, claims = np.random.default_rng(15), 0, 0, 0
+    for k in range(sized(16, 2, 400)):
+        parameters = near_the_paper(random) if k % 4 else random_parameters(random)
+        proof = prove(parameters)
+        assert_agrees(parameters, proof)
+        names = [claim.about for claim in proof if claim.kind == "admissible" and claim.status == "proven"]
+        stable += any(status(proof, f"{name} stable") == "proven" for name in names)
+        if parameters.radius_ratio > 3:
+            undecided, claims = undecided + len(proof.with_status("undecided")), claims + len(proof)
+    assert stable >= sized(1, 0, 60)
+    assert undecided <= 0.01 * claims
+
+
+@pytest.mark.jit_only
+def test_proven_orbits_run_in_simulation():
+    random, followed = np.random.default_rng(16), 0
+    while followed < 3:
+        parameters = near_the_paper(random)
+        proof = prove(parameters)
+        for orbit in find_orbits(parameters):
+            proven = status(proof, f"{orbit.name} admissible") == "proven"
+            if proven and status(proof, f"{orbit.name} stable") == "proven":
+                assert abs(orbit.trajectory(20).final.position - orbit.position) < 1e-9
+                nudged = cm.State(orbit.departure.position * (1 - 1e-7), orbit.departure.velocity)
+                left = cm.simulate(parameters, nudged, 400 * orbit.period)
+                assert abs(left.contacts.radial_speed[-1] - orbit.radial_speed) < 1e-6
+                followed += 1
+
+
+# ------------------------------------------------------------------------------------------------ on both sides of a change
+
+
+def orbit_at(gamma: mpmath.mpf) -> PreciseOrbit:
+    known = find_orbits(PAPER.replace(gamma=float(gamma)))["B1,d"]
+    return PreciseOrbit(PAPER.replace(gamma=float(gamma)), known.period, known.radial_speed)
+
+
+def proofs_beside(gamma: float, distance: float) -> tuple[Proof, Proof]:
+    return prove(PAPER.replace(gamma=gamma - distance)), prove(PAPER.replace(gamma=gamma + distance))
+
+
+def zero(condition, low: float, high: float) -> float:
+    """Where a function changes sign, to the spacing of doubles."""
+    return brentq(lambda value: float(condition(value)), low, high, xtol=1e-17, rtol=1e-15)
+
+
+@pytest.mark.jit_only
+def test_grazing_is_seen_on_both_sides():
+    with mpmath.workdps(40):
+        top = float(find_top(PAPER.replace(gamma=0.0636105609)))
+        gamma = zero(lambda value: orbit_at(value).top(top) - 1, 0.06361055, 0.06361057)
+    assert gamma == pytest.approx(0.0636105609, abs=5e-11)
+
+    crossed, clear = proofs_beside(gamma, 1e-12)
+
+    assert (status(crossed, "B1,d inside"), status(clear, "B1,d inside")) == ("refuted", "proven")
+    assert (status(crossed, "B1,d admissible"), status(clear, "B1,d admissible")) == ("refuted", "proven")
+
+
+def find_top(parameters: Parameters) -> float:
+    """Time of the largest radius between the impacts."""
+    orbit = find_orbits(parameters)["B1,d"]
+    times = np.linspace(0.1, orbit.period - 0.1, 2001)
+    return times[np.abs(orbit.path(times)).argmax()]
+
+
+@pytest.mark.jit_only
+def test_period_doubling_is_seen_on_both_sides():
+    with mpmath.workdps(40):
+        gamma = zero(lambda value: np.linalg.det(orbit_at(value).jacobian() + np.eye(3)), 0.08338141, 0.08338142)
+    assert gamma == pytest.approx(0.0833814175, abs=5e-11)
+
+    below, above = proofs_beside(gamma, 1e-12)
+
+    assert (status(below, "B1,d stable"), status(above, "B1,d stable")) == ("refuted", "proven")
+    assert below["B1,d stable"].reason == "a multiplier is below -1"
+
+
+def test_fold_is_seen_within_a_spacing_of_doubles():
+    """At the fold ``F₁ = F₁' = 0``; two roots a distance of 1e-14 below it, none above."""
+    with mpmath.workdps(40):
+
+        def conditions(gamma, time):
+            at = PAPER.replace(gamma=float(gamma))
+            back, slope = exact_return(at, time)
+            q = (1 + mpmath.mpf(at.d)) * mpmath.mpc(1, mpmath.mpf(at.mu))
+            return 1 + (q * back[1, 1]).real, (q * slope[1, 1]).real
+
+        def least(gamma: float) -> mpmath.mpf:
+            time = mpmath.findroot(lambda moment: conditions(gamma, moment)[1], 1.6408219835)
+            return conditions(gamma, time)[0]
+
+        gamma = zero(least, 0.17802772, 0.17802773)
+    assert gamma == pytest.approx(0.1780277257, abs=5e-11)
+
+    below, above = proofs_beside(gamma, 1e-14)
+
+    assert below["machine periods"].statement.startswith("F1 has exactly 2 roots")
+    assert above["machine periods"].statement.startswith("F1 has exactly 0 roots")
+    assert status(below, "machine periods") == status(above, "machine periods") == "proven"
+
+
+def test_boundary_equilibrium_is_exact():
+    """``ρ = 0.5``, ``1 − ω² = 0.3``, ``γ = 0.4``: levitation on the wall, one of the two radial speeds zero."""
+    on_wall = {**DECIMAL, "rho": "0.5", "gamma": "0.4", "d": "1"}
+    proof = prove({**on_wall, "omega": "0.7"}, longest_period=20)
+    assert status(proof, "levitation inside") != "undecided"
+
+    exact = prove({**DECIMAL, "rho": "5/16", "gamma": "3/16", "omega": "3/4"})  # 1 − ω² = 7/16: outside
+    assert status(exact, "levitation inside") == "proven"
+    pythagoras = prove({**DECIMAL, "omega": "1/2", "rho": "5/4", "gamma": "1"})  # 1 − ω² = 3/4
+    assert status(pythagoras, "levitation inside") == "refuted"
+    assert pythagoras["levitation inside"].reason == "it lies on the wall"
+    assert status(pythagoras, "kick harmless") == "refuted"
+
+
+# ------------------------------------------------------------------------------------------------ hard cases
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"d": "1"},
+        {"d": "1", "gamma": "0.3"},  # γ = 2μ: F₁ vanishes to the third order at zero
+        {"d": "1", "gamma": "0.2", "mu": "0.3"},
+        {"d": "0"},
+        {"d": "1", "mu": "0"},
+        {"mu": "0"},
+        {"gamma": "1.52"},  # critical damping
+        {"gamma": "1.5200000000000001"},
+        {"gamma": "10"},
+        {"rho": "0.001"},
+        {"omega": "3"},
+    ],
+)
+def test_hard_machines_are_decided(changes):
+    proof = prove({**DECIMAL, **changes})
+
+    assert not proof.with_status("undecided")
+    assert_agrees(Parameters(**{name: float(Fraction(text)) for name, text in {**DECIMAL, **changes}.items()}), proof)
+
+
+def test_critical_damping_of_both_signs_of_the_split_agree():
+    proofs = [
+        prove({**DECIMAL, "gamma": gamma}) for gamma in ("1.52", "1.519999999999999999999", "1.520000000000000000001")
+    ]
+    speeds = [proof["kick harmless"].enclosures["speed"].value for proof in proofs]
+    assert speeds == pytest.approx([speeds[0]] * 3, rel=1e-15)
+    assert speeds[0] == pytest.approx(cm.closed_forms.harmless_kick(PAPER.replace(gamma=1.52)), rel=1e-8)
+
+
+def test_without_damping_the_periods_up_to_a_limit_are_proven():
+    proof = prove({**DECIMAL, "gamma": "0"}, longest_period=20)
+    periods = proof["machine periods"]
+
+    assert periods.status == "undecided"
+    assert "without damping there is no longest period" in periods.reason
+    found = find_orbits(PAPER.replace(gamma=0.0), 20.0)
+    assert int(periods.statement.split()[3]) == len(found.periods)
+    assert {claim.about for claim in proof if claim.kind == "admissible"} == {orbit.name for orbit in found}
+    assert status(proof, "machine orbits") == "undecided"
+
+
+def test_negative_damping_ends():
+    proof = prove({**DECIMAL, "gamma": "-0.1"})
+    assert status(proof, "machine periods") == "undecided"
+    assert status(proof, "levitation stable") == "refuted"
+
+
+def test_elastic_rotor_without_damping_is_not_stable():
+    """The product of all multipliers is exactly 1."""
+    proof = prove({**DECIMAL, "gamma": "0", "d": "1"}, longest_period=10)
+    stable = [claim for claim in proof if claim.kind == "stable" and claim.about.startswith("B")]
+    assert stable
+    assert {claim.status for claim in stable} == {"refuted"}
+
+
+def test_condition_that_vanishes_at_every_period_is_left_undecided():
+    """Without losses and friction ``F₁ = 0`` for all ``T``."""
+    assert np.abs(period_condition(PAPER.replace(gamma=0.0, d=1.0, mu=0.0), np.array([0.4, 1.3, 7.0]))).max() < 1e-14
+    proof = prove({**DECIMAL, "gamma": "0", "d": "1", "mu": "0"}, longest_period=10)
+    assert status(proof, "machine periods") == "undecided"
+    assert "F1 may have roots" in proof["machine periods"].reason
+
+
+@pytest.mark.parametrize("half", ["1/1000000000", "1/100000", "1/10"])
+def test_boxes_of_machines_are_never_wrong(half):
+    """What is proven for a box holds at its corners and in its middle."""
+    names = ("gamma", "omega", "rho", "mu")
+    box = {
+        name: (Fraction(DECIMAL[name]) * (1 - Fraction(half)), Fraction(DECIMAL[name]) * (1 + Fraction(half)))
+        for name in names
+    }
+    proof = prove({**DECIMAL, **box})
+    random = np.random.default_rng(3)
+    assert half != "1/1000000000" or status(proof, "B1,d stable") == "proven"
+
+    for shares in [*random.uniform(0, 1, (6, 4)), np.zeros(4), np.ones(4), np.full(4, 0.5)]:
+        values = {
+            name: low + (high - low) * Fraction(share)
+            for (name, (low, high)), share in zip(box.items(), shares, strict=True)
+        }
+        inside = prove({**DECIMAL, **values})
+        for claim in proof:
+            if claim.status != "undecided":
+                assert status(inside, claim.name) == claim.status, claim.name
+            for name, entry in claim.enclosures.items():
+                value = inside[claim.name].enclosures[name]
+                assert claim.kind == "harmless" or Fraction(entry.low) <= Fraction(value.low)
+                assert claim.kind == "harmless" or Fraction(value.high) <= Fraction(entry.high)
+
+
+def test_grid_sees_no_more_roots_than_are_proven():
+    random = np.random.default_rng(8)
+    for _ in range(sized(10, 2, 100)):
+        parameters = near_the_paper(random)
+        proof = prove(parameters)
+        times = np.linspace(1e-3, 60.0, 20_001)
+        changes = np.count_nonzero(np.diff(np.sign(period_condition(parameters, times))))
+        assert changes <= int(proof["machine periods"].statement.split()[3])
