@@ -14,7 +14,7 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import runaway_speed
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
 from carom.disturbances.following import require_start
-from carom.models import Jeffcott
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
@@ -170,7 +170,7 @@ def disturbances_of(
     return [Start("kick" if one else "start", State(place, speed)) for one, place, speed in states_of], whole
 
 
-def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
+def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
     """Starts next to every motion known in closed form, so that none is missed because its basin is small.
 
     Parameters
@@ -184,7 +184,7 @@ def known_starts(rotor: Jeffcott, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
         On both sides of every admissible orbit and synchronous rub, stable or not; in backward whirl just beyond the
         certain runaway speed, if sliding reaches it; and, with friction, in rolling.
     """
-    starts = []
+    rotor, starts = jeffcott_of(machine), []
     for orbit in orbits:
         if orbit.admissible:
             leaving = orbit.departure

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.models import Model
+from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
@@ -161,7 +161,7 @@ def follow_further(rotor: Model, endings: Endings, chosen: np.ndarray, **limits:
 
 
 def follow_out(
-    rotor: Model,
+    machine: Subject,
     endings: Endings,
     *,
     impacts: int,
@@ -189,7 +189,7 @@ def follow_out(
     Survival or None
         ``None`` if none of the motions is irregular.
     """
-    irregular = still_irregular(endings)
+    rotor, irregular = model_of(machine), still_irregular(endings)
     met, at = (irregular, endings) if irregular.any() or were is None else (still_irregular(were), were)
     if not met.any():
         return endings, None

@@ -10,9 +10,8 @@ from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
 from carom.closed_forms.thresholds import has_stable_rub
 from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName, combined, in_order
-from carom.parameters import Parameters
 
 
 @dataclass(frozen=True)
@@ -76,20 +75,20 @@ class Motions:
         return ", ".join(self.parts)
 
 
-def motions_at(parameters: Parameters) -> Motions:
-    """Count the simple motions at some parameters.
+def motions_at(machine: Subject) -> Motions:
+    """Count the simple motions of a machine.
 
     Only single-impact orbits with forward slip are counted.  Without damping, or with so little that there would be
     hundreds of pairs, only those with periods up to 60/Ω are counted.
     """
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott_of(machine)
     orbits = [orbit for orbit in forward_orbits(rotor) if is_admissible(*orbit[1:])]
     radii = [spectral_radius(*orbit[1:]) for orbit in orbits]
     return Motions(
         contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY),
         orbits=len(orbits),
         stable_orbits=sum(radius < 1.0 for radius in radii),
-        rub=has_stable_rub(parameters),
+        rub=has_stable_rub(rotor.parameters),
         rolling=rolling(rotor).holds,
         stable_names=in_order(orbit.name for orbit, radius in zip(orbits, radii, strict=True) if radius < 1.0),
         unstable_names=in_order(orbit.name for orbit, radius in zip(orbits, radii, strict=True) if radius >= 1.0),

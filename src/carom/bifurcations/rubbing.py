@@ -39,7 +39,7 @@ from carom.bifurcations.lift_offs import (
 from carom.bifurcations.points import Bifurcation, MotionKind
 from carom.continuation import Steps, Watch, continue_branch
 from carom.continuation.roots import bracketed_root, sign_change
-from carom.models import Jeffcott
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import CaromError, InputError
@@ -150,9 +150,7 @@ class RubbingBranch(Result):
         return np.abs(self.multiplier) < 1.0
 
 
-def rubbing_orbits(
-    parameters: Parameters, longest: float = LONGEST, samples: int = SAMPLES
-) -> tuple[RubbingOrbit, ...]:
+def rubbing_orbits(machine: Subject, longest: float = LONGEST, samples: int = SAMPLES) -> tuple[RubbingOrbit, ...]:
     """Periodic motions with one stretch of lasting contact a period, found from evenly spaced angles of lift-off.
 
     Stable and unstable ones are found; two whose angles lie closer than ``2π/samples`` may be missed.
@@ -164,7 +162,7 @@ def rubbing_orbits(
     samples : int
         Number of angles tried in each direction of whirl.
     """
-    rotor = Jeffcott(parameters)
+    rotor = jeffcott_of(machine)
     angles = np.linspace(-math.pi, math.pi, samples + 1).tolist()
     found = []
     whirls: tuple[Whirl, Whirl] = (1, -1)
@@ -185,7 +183,7 @@ def rubbing_orbits(
                 continue
             here = next_lift_off(rotor, whirl, angle, longest)
             if here is not None and abs(shift_of(here, whirl, angle)) < TOLERANCE:
-                found.append(RubbingOrbit(parameters, whirl, angle, here, 1.0 + slope(shift, angle)))
+                found.append(RubbingOrbit(rotor.parameters, whirl, angle, here, 1.0 + slope(shift, angle)))
     return tuple(found)
 
 

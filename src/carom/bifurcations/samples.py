@@ -8,11 +8,11 @@ import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
 from carom.disturbances import Plan
-from carom.models import Jeffcott
+from carom.models import Model, Subject, model_of
+from carom.models.axes import Ends, axis, read_interval
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
-from carom.parameters import Parameters
 from carom.progress import Reporter, Wish
 from carom.results import Result
 
@@ -77,9 +77,9 @@ class AttractorSample(Result):
 
 
 def sample_attractors(
-    parameters: Parameters,
+    machine: Subject,
     parameter: str,
-    interval: tuple[float, float],
+    interval: Ends,
     disturbances: DisturbanceSet | Plan,
     *,
     values: int = VALUES,
@@ -99,10 +99,11 @@ def sample_attractors(
         In ascending order of the parameter.  Motions that were given up are left out.  Irregular bouncing that ends is
         an ``"irregular transient"``, with the share of the disturbances that were in it for 1000 impacts or more.
     """
-    tell = Reporter.of(progress, "following disturbances")
+    model, tell = model_of(machine), Reporter.of(progress, "following disturbances")
+    along = axis(model, parameter)
     found: list[AttractorSample] = []
-    for done, value in enumerate(np.linspace(*interval, values).tolist()):
-        rotor = Jeffcott(parameters.replace(**{parameter: value}))
+    for done, value in enumerate(np.linspace(*read_interval(along, interval), values).tolist()):
+        rotor = along.move(model, value)
         attractors = find_attractors(rotor, disturbances)
         found += [_sample(value, rotor, each) for each in attractors if each.settled]
         found += _transient(value, attractors)
@@ -110,7 +111,7 @@ def sample_attractors(
     return tuple(found)
 
 
-def _sample(value: float, rotor: Jeffcott, found: Attractor) -> AttractorSample:
+def _sample(value: float, rotor: Model, found: Attractor) -> AttractorSample:
     return AttractorSample(
         value,
         found.name,
@@ -135,7 +136,7 @@ def _transient(value: float, found: AttractorSet) -> list[AttractorSample]:
     return [AttractorSample(value, TRANSIENT, label, "none", through, share, known, np.empty(0), found.transient)]
 
 
-def _impacts(rotor: Jeffcott, attractor: Attractor) -> np.ndarray:
+def _impacts(rotor: Model, attractor: Attractor) -> np.ndarray:
     """Radial speeds of the impacts on an attractor; for a periodic one those of one period."""
     if attractor.name.outcome not in REPEATING:
         return np.empty(0)

@@ -25,11 +25,11 @@ from carom.bifurcations.conditions import (
     spectral_radius,
 )
 from carom.bifurcations.solutions import Solution, orbit_solutions
-from carom.models import Jeffcott
+from carom.models import Jeffcott, Subject, axis, jeffcott_of
 from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach
 from carom.outcome import CaromError
-from carom.parameters import Numbers, Parameters
+from carom.parameters import Numbers
 from carom.progress import Reporter, Wish
 
 SAME = 1e-6
@@ -114,9 +114,7 @@ class _Arc(NamedTuple):
     stable: bool
 
 
-def orbit_windows(
-    parameters: Parameters, parameter: str, values: Sequence[float], progress: Wish = None
-) -> OrbitWindows:
+def orbit_windows(machine: Subject, parameter: str, values: Sequence[float], progress: Wish = None) -> OrbitWindows:
     """Find where along a parameter single-impact orbits are motions of the machine.
 
     Parameters
@@ -130,10 +128,11 @@ def orbit_windows(
         (:func:`~carom.orbits.single_impact.orbits_within_reach`).  A window between two of them is found if its orbit
         is admissible, or nearly so, at one of them.
     """
-    tell = Reporter.of(progress, "following orbits")
+    rotor, tell = jeffcott_of(machine), Reporter.of(progress, "following orbits")
+    along = axis(rotor, parameter)
     columns: list[list[_Member]] = []
     for done, value in enumerate(values):
-        columns.append(_members(parameters.replace(**{parameter: value})))
+        columns.append(_members(along.move(rotor, value)))
         tell(0.7 * (done + 1) / len(values))
     cells = list(pairwise(values))
     partners = [_partners(*pair) for pair in pairwise(columns)]
@@ -159,12 +158,11 @@ def orbit_windows(
 _LEVELS: tuple[Level, ...] = ("possible", "stable")
 
 
-def _members(parameters: Parameters) -> list[_Member]:
-    rotor = Jeffcott(parameters)
+def _members(rotor: Jeffcott) -> list[_Member]:
     longest = longest_within_reach(rotor)
-    solutions = orbit_solutions(parameters, longest)
+    solutions = orbit_solutions(rotor, longest)
     if not slip_stays_forward(rotor):
-        solutions += orbit_solutions(parameters, longest, backward=True)
+        solutions += orbit_solutions(rotor, longest, backward=True)
     return [_member(solution) for solution in solutions]
 
 

@@ -27,9 +27,8 @@ import numpy as np
 
 from carom.closed_forms.periods import PeriodCondition
 from carom.core.flow import fly_all
-from carom.models import System, second_order_system
+from carom.models import Subject, System, jeffcott_of, second_order_system
 from carom.outcome import InputError
-from carom.parameters import Parameters
 
 ON_WALL = 1e-9
 """Distance from the wall, in clearances, at which the equilibrium counts as on it."""
@@ -57,8 +56,9 @@ class ContactSystem:
     restitution: float = 1.0
 
     @classmethod
-    def of_rotor(cls, parameters: Parameters) -> ContactSystem:
+    def of_rotor(cls, machine: Subject) -> ContactSystem:
         """Return the planar rotor in the co-rotating frame, ``α = γ + 2i``, ``β = ω² − 1 + iγ``, ``Γ = ρe^{iφ}``."""
+        parameters = jeffcott_of(machine).parameters
         return cls(
             complex(parameters.gamma, 2.0),
             complex(parameters.omega**2 - 1.0, parameters.gamma),

@@ -15,7 +15,7 @@ from carom.outcome import InputError
 from carom.parameters import Scales
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Model, Subject
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
@@ -137,8 +137,11 @@ class BaseShock(Disturbance):
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
 
 
-def outward_from(rotor: Model) -> complex:
+def outward_from(machine: Subject) -> complex:
     """Direction from the bearing centre to the levitating rotor; that of the unbalance if the rotor is centred."""
+    from carom.models import model_of
+
+    rotor = model_of(machine)
     rest = complex(rotor.system.arrays.offsets[0])
     return rest / abs(rest) if rest else cmath.rect(1.0, rotor.unbalance_phase)
 

@@ -11,7 +11,7 @@ from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.closing import ATTRACTS, OPEN, PASSES, close, least_period
 from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
-from carom.models import Model
+from carom.models import Model, Subject, model_of
 from carom.outcome import Outcome
 from carom.results import Result
 
@@ -122,8 +122,9 @@ def _is_at_rest(rotor: Model, amplitudes: np.ndarray) -> bool:
     return bool(np.max(np.abs(velocity)) < AT_REST)
 
 
-def closed_orbit(rotor: Model, position: complex, velocity: complex, impacts: int) -> ClosedOrbit | None:
+def closed_orbit(machine: Subject, position: complex, velocity: complex, impacts: int) -> ClosedOrbit | None:
     """Find the periodic orbit of a given number of impacts near a state just before an impact, or ``None``."""
+    rotor = model_of(machine)
     if not rotor.system.is_planar:
         return None
     states, durations = np.empty((impacts + 1, MODES), complex), np.empty(impacts)

@@ -9,10 +9,10 @@ import numpy as np
 
 from carom.core import variation
 from carom.core.fate import memory
-from carom.models import Jeffcott, Subject, model_of
+from carom.models import Subject, jeffcott_of, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import EventLog, Trajectory, follow, simulate
-from carom.outcome import InputError, Outcome, Phase
+from carom.outcome import InputError, Outcome, Phase, shown
 from carom.results import Result
 
 
@@ -97,9 +97,11 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
     Raises
     ------
     InputError
-        The rotor does not move toward the wall.
+        The rotor does not move toward the wall, or has several coordinates, of which the section is no state.
     """
     rotor = model_of(machine)
+    if len(rotor.system.rest) > 1:
+        raise InputError("machine", shown(machine), "a rotor of one coordinate, whose state the section is")
     if not section.radial_speed > 0.0:
         raise InputError("radial speed", section.radial_speed, "above 0: the rotor must be about to strike the wall")
     state = section.state
@@ -117,7 +119,7 @@ def impact_map(machine: Subject, section: Section, longest_flight: float = 1000.
     return ImpactMap(Outcome.CONTACT, image, time, jacobian)
 
 
-def stroboscopic_map(rotor: Jeffcott, state: State, period: float) -> StroboscopicMap:
+def stroboscopic_map(machine: Subject, state: State, period: float) -> StroboscopicMap:
     """State after a fixed time and its derivative, through any number of impacts.
 
     Parameters
@@ -132,6 +134,7 @@ def stroboscopic_map(rotor: Jeffcott, state: State, period: float) -> Stroboscop
     StroboscopicMap
         Its derivative is meaningless if the trajectory ends in ``CHATTER`` or ``GRAZING``.
     """
+    rotor = jeffcott_of(machine)
     trajectory = simulate(rotor, state, period, stop_at_chatter=True)
     units = ((1.0, 0.0), (1j, 0.0), (0.0, 1.0), (0.0, 1j))
     directions = np.array([rotor.system.amplitude_change(*unit) for unit in units])

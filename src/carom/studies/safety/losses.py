@@ -16,7 +16,7 @@ from carom.attractors import DisturbanceSet, MotionName
 from carom.attractors.naming import name_motions
 from carom.basins.shares import CONFIDENCE, Share
 from carom.disturbances.following import follow
-from carom.models import Jeffcott
+from carom.models import Jeffcott, Subject, jeffcott_of
 from carom.motions.ensembles import Endings, settle
 from carom.motions.settling import PATIENCE
 from carom.outcome import Outcome
@@ -67,9 +67,10 @@ class DampingCheck:
 
 
 def try_disturbances(
-    rotor: Jeffcott, sample: DisturbanceSet, threads: int | None = None, patience: int = PATIENCE
+    machine: Subject, sample: DisturbanceSet, threads: int | None = None, patience: int = PATIENCE
 ) -> DampingCheck:
     """Follow all disturbances of a sample, and count those that do not come back."""
+    rotor = jeffcott_of(machine)
     endings = follow(rotor, sample.starts(rotor), patience=patience, threads=threads)
     return DampingCheck(rotor.parameters.gamma, sample.count - endings.count(Outcome.LEVITATED), sample)
 

@@ -1,0 +1,177 @@
+"""Every function on a rotor takes a machine, a case, parameters or a model, and gives the same for each of them."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+
+import numpy as np
+import pytest
+import xarray
+from compilation import sized
+from linear_rotors import tilting
+from machines import PAPER
+
+import carom as cm
+from carom.attractors import DisturbanceSet
+from carom.disturbances import Grid, Sample, VelocityKick
+from carom.models import Jeffcott
+from carom.outcome import InputError
+from carom.parameters import Case, Machine, Scales, Zones
+from carom.studies.safety import least_safe_damping, try_disturbances
+from carom.sweeps import GridAxis
+
+MACHINE = Machine.from_parameters(PAPER.replace(gamma=0.4), Scales(50.0, 0.7e-3, 184.2))
+SUBJECTS = {
+    "machine": MACHINE,
+    "case": Case("name", MACHINE.parameters, MACHINE, Zones()),
+    "parameters": MACHINE.parameters,
+    "model": Jeffcott(MACHINE.parameters),
+}
+KICKS = Grid(VelocityKick(fastest=0.5), (2, 2))
+FEW = Sample(VelocityKick(fastest=0.5), 2)
+START = cm.State(0.4 + 0.1j, 0.2j)
+SPEED = 0.5 + 0.5j
+
+
+def settled(machine):
+    """Two starts next to levitation, followed."""
+    system = cm.models.model_of(machine).system
+    states = system.kicked(np.array([0.1, 0.2j]))
+    return cm.settle(machine, *(states if len(system.rest) > 1 else (part[:, 0] for part in states)))
+
+
+CALLS = {
+    "attractors.find_attractors": lambda m: cm.find_attractors(m, FEW, known=False),
+    "attractors.follow_out": lambda m: cm.attractors.follow_out(m, settled(m), impacts=100),
+    "attractors.known_starts": lambda m: cm.attractors.known_starts(m, []),
+    "basins.map_basins": lambda m: cm.map_basins(m, KICKS),
+    "basins.map_gains": lambda m: cm.map_gains(m, KICKS, ("gamma", "omega"), shape=(2, 2)),
+    "basins.smallest_loss": lambda m: cm.basins.smallest_loss(m, VelocityKick(fastest=0.5)),
+    "bifurcations.boundary_equilibria": lambda m: cm.bifurcations.boundary_equilibria(m, "gamma"),
+    "bifurcations.find_bifurcations": lambda m: cm.find_bifurcations(m, "gamma", (0.39, 0.41)),
+    "bifurcations.map_regions": lambda m: cm.map_regions(
+        m, cm.bifurcations.Plane("gamma", "omega", (0.39, 0.41), (0.75, 0.77)), grid=2
+    ),
+    "bifurcations.motions_at": cm.bifurcations.motions_at,
+    "bifurcations.orbit_windows": lambda m: cm.bifurcations.orbit_windows(m, "damping", [3600.0, 3700.0]),
+    "bifurcations.rubbing_orbits": lambda m: cm.bifurcations.rubbing_orbits(m, longest=10.0, samples=2),
+    "bifurcations.sample_attractors": lambda m: cm.bifurcations.sample_attractors(
+        m, "gamma", (0.4, 0.5), FEW, values=1
+    ),
+    "closed_forms.find_equilibria": cm.find_equilibria,
+    "closed_forms.harmless_kick": cm.closed_forms.harmless_kick,
+    "closed_forms.harmless_shock": lambda m: cm.closed_forms.harmless_shock(m, 0.5),
+    "closed_forms.harmless_step": cm.closed_forms.harmless_step,
+    "closed_forms.rolling": cm.closed_forms.rolling,
+    "closed_forms.rub_limit": cm.closed_forms.rub_limit,
+    "closed_forms.rub_neighbourhood": cm.closed_forms.rub_neighbourhood,
+    "closed_forms.runaway_speed": cm.closed_forms.runaway_speed,
+    "disturbances.outward_from": cm.disturbances.outward_from,
+    "models.axis": lambda m: cm.models.axis(m, "gamma"),
+    "models.case_of": lambda m: cm.models.case_of(m).parameters,
+    "models.jeffcott_of": cm.models.jeffcott_of,
+    "models.model_of": cm.models.model_of,
+    "motions.closed_orbit": lambda m: cm.motions.closed_orbit(m, 1.0 + 0j, SPEED, 1),
+    "motions.settle": lambda m: settled(m),
+    "motions.simulate": lambda m: cm.simulate(m, cm.kick(0.3), 5.0),
+    "orbits.find_orbits": lambda m: cm.find_orbits(m, 10.0),
+    "orbits.impact_map": lambda m: cm.orbits.impact_map(m, cm.orbits.Section(0.3, 0.7, -1.0)),
+    "orbits.orbits_within_reach": cm.orbits.orbits_within_reach,
+    "orbits.period_condition": lambda m: cm.orbits.period_condition(m, np.array([1.0, 2.0])),
+    "orbits.stroboscopic_map": lambda m: cm.orbits.stroboscopic_map(m, START, 1.0),
+    "studies.safety.try_disturbances": lambda m: try_disturbances(m, DisturbanceSet(3)),
+    "studies.safety.least_safe_damping": lambda m: least_safe_damping(m, count=2, highest=0.7),
+    "studies.study": lambda m: dataclasses.replace(cm.study(m, FEW), case=None),
+    "sweeps.plan_sweep": lambda m: cm.sweeps.plan_sweep(m, [GridAxis.of("gamma", [0.4])], KICKS).case_at((0,)),
+}
+"""A small call of each function that takes a rotor."""
+GENERAL = {
+    "attractors.follow_out",
+    "basins.map_basins",
+    "basins.map_gains",
+    "closed_forms.find_equilibria",
+    "disturbances.outward_from",
+    "models.axis",
+    "models.model_of",
+    "motions.closed_orbit",
+    "motions.settle",
+    "motions.simulate",
+    "sweeps.plan_sweep",
+}
+"""Those that take any linear rotor."""
+SLOW = {"studies.study": sized(False, False, True), "studies.safety.least_safe_damping": sized(False, False, True)}
+"""Those that take seconds, and whether they are called here."""
+NAMES = [name for name in CALLS if SLOW.get(name, True)]
+PACKAGES = [name for name, home in cm._HOMES.items() if home == "carom" and name != "proofs"] + ["studies.safety"]
+"""Public packages; ``proofs`` needs a library that may be missing."""
+
+
+def public():
+    """Functions of the public packages, and the annotation of their first parameter."""
+    for package in PACKAGES:
+        module = import_module(f"carom.{package}")
+        for name in getattr(module, "__all__", []):
+            value = getattr(module, name)
+            if inspect.isfunction(value) and inspect.signature(value).parameters:
+                first = next(iter(inspect.signature(value).parameters.values()))
+                yield f"{package}.{name}", first.name, str(first.annotation)
+
+
+def alike(one, other) -> bool:
+    """Whether two results are equal in all that they hold."""
+    if isinstance(one, xarray.Dataset):
+        return one.equals(other)
+    if isinstance(one, np.ndarray):
+        return one.dtype.names is not None or np.array_equal(one, other, equal_nan=one.dtype.kind in "fc")
+    if isinstance(one, Jeffcott | Case):
+        return cm.models.model_of(one).parameters == cm.models.model_of(other).parameters
+    if dataclasses.is_dataclass(one):
+        fields = (field.name for field in dataclasses.fields(one))
+        return type(one) is type(other) and all(alike(getattr(one, name), getattr(other, name)) for name in fields)
+    if isinstance(one, Mapping):
+        return one.keys() == other.keys() and all(alike(one[key], other[key]) for key in one)
+    if isinstance(one, Sequence) and not isinstance(one, str):
+        return len(one) == len(other) and all(map(alike, one, other))
+    return bool(one == other or (one != one and other != other))
+
+
+def test_every_function_on_a_rotor_takes_any_description():
+    found = {name: (first, kind) for name, first, kind in public()}
+    assert {name for name, (_, kind) in found.items() if kind.startswith("Subject")} == set(CALLS)
+    assert {name for name, (first, _) in found.items() if first in ("machine", "rotor", "subject", "parameters")} - set(
+        CALLS
+    ) == {"studies.orbits_document"}, "writes parameters, equilibria and orbits"
+
+
+def test_results_that_differ_are_told_apart():
+    one, other = (cm.find_orbits(MACHINE.replace(gamma=gamma), 10.0) for gamma in (0.1, 0.1000001))
+    assert alike(one, one)
+    assert not alike(one, other)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_descriptions_give_the_same(name):
+    results = {kind: CALLS[name](subject) for kind, subject in SUBJECTS.items()}
+    for kind, result in results.items():
+        assert alike(result, results["model"]), kind
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("name", sorted(GENERAL))
+def test_general_functions_take_any_linear_rotor(name):
+    CALLS[name](tilting().model)
+
+
+@pytest.mark.parametrize("name", sorted(set(CALLS) - GENERAL))
+def test_what_is_known_of_one_model_refuses_others_in_one_line(name):
+    try:
+        CALLS[name](tilting().model)
+    except InputError as problem:
+        words = str(problem)
+    else:
+        words = "the planar rotor"  # it has learned to take them
+    assert "\n" not in words
+    assert "the planar rotor" in words or "one coordinate" in words
