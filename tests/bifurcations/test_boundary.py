@@ -73,7 +73,7 @@ def test_equilibria_on_both_sides_are_as_classified(parameters, gain):
 @given(parameters=machines)
 def test_side_of_small_orbits_follows_from_the_linearised_condition(parameters):
     for boundary in boundary_equilibria(Jeffcott(parameters.replace(gamma=0.3 * parameters.gamma)), "omega"):
-        condition = PeriodCondition(Jeffcott(boundary.parameters).system)
+        condition = PeriodCondition.of(Jeffcott(boundary.parameters).system)
         for orbit in boundary.orbits:
             lever = condition.factor * complex(condition.a12(orbit.period))
             # The next order of |1 + q a₁₂ ṙ| = |U*|, relative to the first.

@@ -67,7 +67,7 @@ def test_fold_by_counting_roots(upper):
     (fold,) = value(upper, "fold")
 
     def count(gamma):
-        return len(PeriodCondition(Jeffcott(PAPER.replace(gamma=gamma)).system).roots().periods)
+        return len(PeriodCondition.of(Jeffcott(PAPER.replace(gamma=gamma)).system).roots().periods)
 
     assert (count(fold - 1e-10), count(fold + 1e-10)) == (2, 0)
 
@@ -114,7 +114,7 @@ def test_non_smooth_hopf_where_the_orbit_shrinks_into_the_equilibrium(lower):
         if point.kind == "non-smooth-hopf":
             rotor = Jeffcott(point.numbers.parameters)
             assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-11)
-            assert PeriodCondition(rotor.system).value(np.array([point.period])) == pytest.approx(0.0, abs=1e-11)
+            assert PeriodCondition.of(rotor.system).value(np.array([point.period])) == pytest.approx(0.0, abs=1e-11)
             assert point.radial_speed == pytest.approx(0.0, abs=1e-11)
 
 
@@ -158,7 +158,7 @@ def test_physical_parameters_pass_the_same_points():
         if point.kind == "fold":
             roots = [
                 len(
-                    PeriodCondition(Jeffcott(machine.replace(speed=point.value + shift).parameters).system)
+                    PeriodCondition.of(Jeffcott(machine.replace(speed=point.value + shift).parameters).system)
                     .roots()
                     .periods
                 )

@@ -42,7 +42,7 @@ def test_all_curves_are_there_and_end_at_the_edge(curves):
 def test_fold_curve_is_where_roots_appear(curves):
     for x, y in curves["fold"].points[1:-1:4]:
         counts = [
-            len(PeriodCondition(Jeffcott(PAPER.replace(gamma=x + shift, omega=y)).system).roots().periods)
+            len(PeriodCondition.of(Jeffcott(PAPER.replace(gamma=x + shift, omega=y)).system).roots().periods)
             for shift in (-1e-9, 1e-9)
         ]
         assert counts[0] - counts[1] == 2
@@ -84,7 +84,7 @@ def test_fold_meets_the_boundary_equilibrium(curves):
     assert point.value == pytest.approx((0.1779723, 0.7811076), abs=5e-8)
     rotor = Jeffcott(PAPER.replace(gamma=point.value[0], omega=point.value[1]))
     assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-11)
-    condition = PeriodCondition(rotor.system)
+    condition = PeriodCondition.of(rotor.system)
     assert condition.value(np.array([point.period])) == pytest.approx(0.0, abs=1e-11)
     assert condition.slope(np.array([point.period])) == pytest.approx(0.0, abs=1e-10)
 
@@ -97,7 +97,7 @@ def test_non_smooth_hopf_curve_turns_back_where_the_two_cycles_meet():
     for (x, y), period in zip(curve.points, curve.periods, strict=True):
         rotor = Jeffcott(PAPER.replace(gamma=x, omega=y))
         assert abs(rotor.equilibrium) == pytest.approx(1.0, abs=1e-10)
-        roots = PeriodCondition(rotor.system).roots(20.0).periods
+        roots = PeriodCondition.of(rotor.system).roots(20.0).periods
         assert np.abs(roots - period).min() < 1e-7
     (meeting,) = [point for point in curve.codimension2 if point.kind == "non-smooth-hopf + fold"]
     assert meeting.value == pytest.approx((0.1779723, 0.7811076), abs=5e-8)
@@ -115,9 +115,9 @@ def test_every_pair_of_parameters():
         curve = continue_curve(fold, Plane("gamma", name, (0.01, 0.6), limits))
         x, y = curve.points[len(curve.points) // 2]
         rotor = Jeffcott(at.replace(gamma=x, **{name: y}))
-        count = len(PeriodCondition(Jeffcott(rotor.parameters.replace(gamma=x - 1e-9)).system).roots().periods)
+        count = len(PeriodCondition.of(Jeffcott(rotor.parameters.replace(gamma=x - 1e-9)).system).roots().periods)
         assert (
-            count - len(PeriodCondition(Jeffcott(rotor.parameters.replace(gamma=x + 1e-9)).system).roots().periods) == 2
+            count - len(PeriodCondition.of(Jeffcott(rotor.parameters.replace(gamma=x + 1e-9)).system).roots().periods) == 2
         )
     flat = continue_curve(fold, Plane("gamma", "rho", (0.01, 0.6), (0.42, 0.6)))
     assert np.ptp(flat.points[:, 0]) < 1e-12

@@ -77,7 +77,7 @@ def simulated_multipliers(parameters: Parameters, point: Bifurcation) -> np.ndar
 
 
 def count_roots(parameters: Parameters, point: Bifurcation) -> int:
-    return len(PeriodCondition(Jeffcott(parameters).system).roots(longest(point)).periods)
+    return len(PeriodCondition.of(Jeffcott(parameters).system).roots(longest(point)).periods)
 
 
 def count_orbits(parameters: Parameters, point: Bifurcation) -> int:
@@ -121,7 +121,7 @@ def check(base: Parameters, point: Bifurcation, width: float) -> None:
         assert abs(counts[0] - counts[1]) == 2
     elif point.kind == "non-smooth-hopf":
         assert abs(Jeffcott(at).equilibrium) == pytest.approx(1.0, abs=1e-10)
-        assert float(PeriodCondition(Jeffcott(at).system).value(np.array([point.period]))[0]) == pytest.approx(
+        assert float(PeriodCondition.of(Jeffcott(at).system).value(np.array([point.period]))[0]) == pytest.approx(
             0.0, abs=1e-9
         )
     elif point.kind == "boundary-equilibrium":
@@ -175,7 +175,7 @@ def vanishes(kind: str, parameters: Parameters, point) -> bool:
         eigenvalues = [abs(rub.eigenvalues).min() for rub in find_equilibria(rotor)[1:]]
         moved = find_equilibria(Jeffcott(parameters.replace(rho=parameters.rho * (1.0 + 1e-12))))
         return min(eigenvalues or [abs(rub.eigenvalues).min() for rub in moved[1:]]) < 1e-4
-    condition, period = PeriodCondition(rotor.system), np.array([point.period])
+    condition, period = PeriodCondition.of(rotor.system), np.array([point.period])
     if kind == "fold":
         return abs(float(condition.slope(period)[0])) < 1e-7
     lever = complex(condition.factor * condition.a12(period)[0])

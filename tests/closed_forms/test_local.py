@@ -100,7 +100,7 @@ def test_equilibrium_must_be_on_the_wall():
 
 def test_determinant_of_the_planar_rotor():
     rotor = Jeffcott(BOUNDARY)
-    condition = PeriodCondition(rotor.system)
+    condition = PeriodCondition.of(rotor.system)
     for period in (0.4, 1.0, 2.5, 7.0):
         free = abs(np.linalg.det(expm(flight_matrix(BOUNDARY) * period) - np.eye(2))) ** 2
         for direction in (1.0, cmath.exp(0.3j), cmath.exp(2j)):
@@ -145,7 +145,7 @@ def test_determinant_of_a_rotor_with_four_modes():
     speed = np.concatenate([reader.real, -reader.imag])
     kick = column * 1.8 * (1 + 0.2j) * direction
     reset = np.eye(8) - np.outer(np.concatenate([kick.real, kick.imag]), speed)
-    condition = PeriodCondition(system)
+    condition = PeriodCondition.of(system)
     for period in (0.3, 1.1, 4.0):
         flown = real(expm(generator * period))
         expected = np.linalg.det(reset @ flown - np.eye(8))
@@ -163,7 +163,7 @@ def test_cycles_of_a_rotor_with_four_modes():
     row, column = system.arrays.rows[0], system.arrays.columns[:, 0]
     generator = np.diag(system.arrays.exponents)
     generator[1, 0] = 1.0
-    periods = PeriodCondition(system).roots(20.0).periods
+    periods = PeriodCondition.of(system).roots(20.0).periods
     assert len(periods) >= 2
     for period in periods:
         low, high = (cycle_determinant(system, period * (1.0 + shift)) for shift in (-1e-8, 1e-8))

@@ -33,7 +33,7 @@ DAMPINGS = {
 
 
 def condition_of(parameters: Parameters, slip: int = 1) -> PeriodCondition:
-    return PeriodCondition(Jeffcott(parameters).system, slip)
+    return PeriodCondition.of(Jeffcott(parameters).system, slip)
 
 
 def slip_factor(parameters: Parameters) -> complex:

@@ -51,7 +51,7 @@ def boundary_damping(omega: float = PAPER.omega) -> float:
 
 def dip(gamma: float, omega: float = PAPER.omega) -> tuple[float, float]:
     """Minimum of ``F₁`` near ``T = 1.6``: its value and place."""
-    condition = PeriodCondition(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)).system)
+    condition = PeriodCondition.of(Jeffcott(PAPER.replace(gamma=gamma, omega=omega)).system)
     place = brentq(lambda period: float(condition.slope(np.asarray(period))), 1.2, 2.2, **FINE)
     return float(condition.value(np.asarray(place))), place
 
@@ -253,7 +253,7 @@ def test_matrix_after_4_1(period):
     exact = np.linalg.inv(expm(-flight_matrix(PAPER) * period) - np.eye(2))
     np.testing.assert_allclose(matrix((v_lower - v_upper) * up * down), exact, atol=1e-12)
     assert np.abs(matrix(up * down) - exact).max() > 0.1
-    condition = PeriodCondition(Jeffcott(PAPER).system)
+    condition = PeriodCondition.of(Jeffcott(PAPER).system)
     found = [condition.a12(np.asarray(period)), condition.a22(np.asarray(period))]
     np.testing.assert_allclose(found, exact[:, 1], atol=1e-12)
 
@@ -319,7 +319,7 @@ def test_number_of_orbits_in_proposition_4_1():
 def test_speeds_of_4_9_and_admissibility_of_proposition_4_1():
     """Below ``γ*`` the two speeds of each period have opposite signs; they are (4.9)."""
     orbits = orbits_at(0.05)
-    condition = PeriodCondition(orbits.rotor.system)
+    condition = PeriodCondition.of(orbits.rotor.system)
     rest = abs(rest_position(PAPER.replace(gamma=0.05)))
     for low, high in ((orbits[f"B{n},{a}"], orbits[f"B{n},{c}"]) for n in (1, 2) for a, c in ("ac", "bd")):
         a12 = complex(condition.a12(np.asarray(low.period)))

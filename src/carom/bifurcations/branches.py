@@ -20,6 +20,7 @@ from carom.bifurcations.conditions import (
     name_of,
     orbit_of,
     profile_at,
+    relative_to_speed,
 )
 from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.naming import meeting_at
@@ -182,6 +183,7 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         watches=[*map(watch, WATCHED), Watch(BOUNDLESS, lambda u, _: fastest - abs(u[1]), ends_branch=True)],
         steps=steps or STEPS,
         scales=np.array([1.0, 1.0, size]),
+        reach=relative_to_speed,
     )
     special = (_bifurcation(point, along.name, numbers_at(point.parameter), pair) for point in branch.special)
     return OrbitBranch(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -69,6 +69,11 @@ def profile_at(numbers: Numbers, period: float, speed: float) -> RadialProfile:
     return RadialProfile(*planar.radial_profile(gamma, omega, mu, d, period, speed))
 
 
+def relative_to_speed(unknowns: np.ndarray) -> float:
+    """Factor by which steps along orbits may grow: a branch whose radial speed grows without bound becomes straight."""
+    return max(1.0, abs(float(unknowns[1])))
+
+
 def grazing_equations(numbers: Numbers, period: float, speed: float, time: float) -> tuple[float, float]:
     """``Re(Ū U̇)`` and ``r² − 1`` at a time after the impact; both vanish where the orbit grazes the wall."""
     gamma, omega, _, _, mu, d, *_ = numbers
@@ -81,9 +86,12 @@ def jacobian_at(numbers: Numbers, period: float, speed: float) -> np.ndarray:
     return planar.impact_jacobian(gamma, omega, mu, d, period, speed)
 
 
-def spectral_radius(numbers: Numbers, period: float, speed: float) -> float:
-    """Largest modulus of the non-trivial multipliers; the orbit is stable where it is below 1."""
-    return float(np.abs(np.linalg.eigvals(jacobian_at(numbers, period, speed))).max())
+def spectral_radii(orbits: Sequence[tuple[Numbers, float, float]]) -> list[float]:
+    """Largest modulus of the non-trivial multipliers of each orbit; it is stable where that is below 1."""
+    if not orbits:
+        return []
+    radii: list[float] = np.abs(np.linalg.eigvals([jacobian_at(*orbit) for orbit in orbits])).max(axis=1).tolist()
+    return radii
 
 
 def margins_of(numbers: Numbers, period: float, speed: float) -> dict[str, float]:

@@ -18,6 +18,7 @@ from carom.bifurcations.conditions import (
     conditions_at,
     grazing_equations,
     profile_at,
+    relative_to_speed,
 )
 from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
@@ -150,7 +151,8 @@ KINDS: dict[str, _Kind] = {
     "grazing": _Kind(3, ("fold", "speed-fold", "period-doubling", "boundary-equilibrium", "slip-stop")),
     "slip-stop": _Kind(2, ("fold", "period-doubling", "grazing")),
     "contact-onset": _Kind(2, ("fold", "period-doubling", "grazing", "slip-stop")),
-    "non-smooth-hopf": _Kind(2, ("fold", "period-doubling", "neimark-sacker", "grazing", "slip-stop")),
+    # Not grazing: the orbit is a point on the wall here, and the height of its radius is rounding.
+    "non-smooth-hopf": _Kind(2, ("fold", "period-doubling", "neimark-sacker", "slip-stop")),
     "boundary-equilibrium": _Kind(0, ("rub-fold",)),
     "rub-fold": _Kind(0, ("boundary-equilibrium",)),
     "rolling-limit": _Kind(0, ("boundary-equilibrium", "rub-fold")),
@@ -230,6 +232,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         watches=[edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=scales,
+        reach=relative_to_speed if definition.unknowns else None,
         # A fold in the second parameter is only a turning point of the curve.
         folds="turning point",
     )

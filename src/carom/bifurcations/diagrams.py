@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -135,30 +135,16 @@ def find_bifurcations(
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     followed = 1.0 if not attractors else FOLLOWING_SHARE
-    branches: list[OrbitBranch] = []
-    rubbing: list[RubbingBranch] = []
-    for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
-        here = parameters.replace(**{parameter: value})
-        for orbit in _orbits(here):
-            wanted = virtual or orbit.admissible or orbit.name.pair == 1
-            if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
-                branches.append(continue_orbit(orbit, parameter, limits))
-        for motion in rubbing_orbits(here) if lasting else ():
-            if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
-                rubbing.append(continue_rubbing(motion, parameter, limits))
-        tell(followed * (done + 1) / SAMPLES)
+    found = _follow(parameters, along, limits, virtual, lasting, tell.part(0.0, followed))
     disturbances = DisturbanceSet(attractors, seed) if attractors else None
-    points = [*steady_points(parameters, along, limits), *(point for branch in branches for point in branch.special)]
-    for number, each in enumerate(rubbing, start=1):
-        points += [replace(point, name=f"rubbing {number}") for point in each.special]
     return Diagram(
         axis=along,
         interval=limits,
         equilibria=equilibrium_branches(parameters, along, limits),
         rolling=rolling_branch(parameters, along, limits),
-        orbits=tuple(branches),
-        rubbing=tuple(rubbing),
-        points=tuple(sorted(points, key=lambda point: point.value)),
+        orbits=found.orbits,
+        rubbing=found.rubbing,
+        points=found.points,
         attractors=sample_attractors(
             parameters,
             parameter,
@@ -170,6 +156,42 @@ def find_bifurcations(
         else (),
         disturbances=disturbances,
     )
+
+
+def special_points(
+    parameters: Parameters, parameter: str, interval: tuple[float, float], *, virtual: bool, lasting: bool
+) -> tuple[Bifurcation, ...]:
+    """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
+    return _follow(parameters, axis(parameters, parameter), interval, virtual, lasting, Reporter()).points
+
+
+class _Followed(NamedTuple):
+    """Branches of orbits and of motions with lasting contact, and the special points of all motions."""
+
+    orbits: tuple[OrbitBranch, ...]
+    rubbing: tuple[RubbingBranch, ...]
+    points: tuple[Bifurcation, ...]
+
+
+def _follow(
+    parameters: Parameters, along: Axis, limits: tuple[float, float], virtual: bool, lasting: bool, tell: Reporter
+) -> _Followed:
+    branches: list[OrbitBranch] = []
+    rubbing: list[RubbingBranch] = []
+    for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
+        here = parameters.replace(**{along.name: value})
+        for orbit in _orbits(here):
+            wanted = virtual or orbit.admissible or orbit.name.pair == 1
+            if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
+                branches.append(continue_orbit(orbit, along.name, limits))
+        for motion in rubbing_orbits(here) if lasting else ():
+            if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
+                rubbing.append(continue_rubbing(motion, along.name, limits))
+        tell((done + 1) / SAMPLES)
+    points = [*steady_points(parameters, along, limits), *(point for branch in branches for point in branch.special)]
+    for number, each in enumerate(rubbing, start=1):
+        points += [replace(point, name=f"rubbing {number}") for point in each.special]
+    return _Followed(tuple(branches), tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
 
 
 def _orbits(parameters: Parameters) -> Iterator[Orbit]:

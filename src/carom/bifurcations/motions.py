@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from carom.bifurcations.conditions import is_admissible, spectral_radius
+from carom.bifurcations.conditions import is_admissible, spectral_radii
 from carom.bifurcations.diagrams import LONGEST_PERIOD
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.closed_forms.equilibria import BOUNDARY
@@ -83,7 +83,7 @@ def motions_at(machine: Subject) -> Motions:
     """
     rotor = jeffcott_of(machine)
     orbits = [orbit for orbit in forward_orbits(rotor) if is_admissible(*orbit[1:])]
-    radii = [spectral_radius(*orbit[1:]) for orbit in orbits]
+    radii = spectral_radii([orbit[1:] for orbit in orbits])
     return Motions(
         contact_free=bool(abs(rotor.equilibrium) < 1.0 - BOUNDARY),
         orbits=len(orbits),

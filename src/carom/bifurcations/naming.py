@@ -9,7 +9,6 @@ import numpy as np
 
 from carom.bifurcations.conditions import name_of
 from carom.closed_forms.periods import PeriodCondition
-from carom.models import Jeffcott
 from carom.orbits.names import OrbitName, in_order
 from carom.parameters import Numbers
 
@@ -41,5 +40,5 @@ def orbits_on_curve(kind: str, points: Sequence[tuple[Numbers, float, float]]) -
 
 def _pair(numbers: Numbers, period: float) -> int:
     """Number of the pair of periods, counted by the shorter roots of ``F₁``."""
-    shorter = PeriodCondition(Jeffcott(numbers.parameters).system).roots((1.0 - BELOW) * period)
+    shorter = PeriodCondition.planar(numbers.parameters).roots((1.0 - BELOW) * period)
     return (len(shorter.periods) + int(shorter.starts_below)) // 2 + 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -10,10 +11,11 @@ import numpy as np
 from carom.bifurcations.cells import Region, regions_between
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import Codimension2Point, Curve, can_be_followed, continue_curve
-from carom.bifurcations.diagrams import Diagram, find_bifurcations
+from carom.bifurcations.diagrams import special_points
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
+from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.rubbing import RubbingPoint
 from carom.bifurcations.survey import Survey
 from carom.models import Axis, Subject, jeffcott_of
@@ -176,8 +178,8 @@ def map_regions(
     curves: list[Curve] = []
     lost: list[str] = []
     for share, name, interval in ((0.15, plane.first, plane.first_range), (0.3, plane.second, plane.second_range)):
-        diagram = find_bifurcations(base, name, interval, virtual=virtual, lasting=lasting)
-        curves = _through_diagram(plane, diagram, virtual, curves, lost)
+        points = special_points(base, name, interval, virtual=virtual, lasting=lasting)
+        curves = _through_points(plane, points, virtual, curves, lost)
         tell(share)
     survey = Survey(base, plane, curves)
     stands = []
@@ -203,11 +205,11 @@ def map_regions(
     )
 
 
-def _through_diagram(
-    plane: Plane, diagram: Diagram, virtual: bool, curves: list[Curve], lost: list[str]
+def _through_points(
+    plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str]
 ) -> list[Curve]:
-    """Add to the known curves those through the special points of a diagram; failures are appended to ``lost``."""
-    for point in sorted(diagram.points, key=lambda point: isinstance(point, RubbingPoint)):
+    """Add to the known curves those through special points; failures are appended to ``lost``."""
+    for point in sorted(points, key=lambda point: isinstance(point, RubbingPoint)):
         wanted = can_be_followed(point) and (virtual or point.admissible)
         if wanted and not any(passes(curve, point) for curve in curves):
             try:

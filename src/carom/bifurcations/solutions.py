@@ -35,7 +35,7 @@ def orbit_solutions(machine: Subject, longest_period: float | None = None, *, ba
     numbers = Numbers.of(rotor.parameters)
     if backward:
         numbers = numbers._replace(mu=-numbers.mu)
-    roots = PeriodCondition(rotor.system, -1 if backward else 1).roots(longest_period)
+    roots = PeriodCondition.planar(rotor.parameters, -1 if backward else 1).roots(longest_period)
     periods: list[float] = roots.periods.tolist()
     levers = [conditions_at(numbers, period, 0.0).lever for period in periods]
     orbits = orbits_of_roots(rotor, roots, levers, -1 if backward else 1)

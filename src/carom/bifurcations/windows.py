@@ -22,7 +22,7 @@ from carom.bifurcations.conditions import (
     is_admissible,
     margins_of,
     orbit_of,
-    spectral_radius,
+    spectral_radii,
 )
 from carom.bifurcations.solutions import Solution, orbit_solutions
 from carom.models import Jeffcott, Subject, axis, jeffcott_of
@@ -173,7 +173,7 @@ def _member(solution: Solution) -> _Member:
     possible = min(margins_of(*at).values())
     if possible <= 0.0:
         return _Member(solution, possible, possible)
-    radius = spectral_radius(*at)
+    radius = spectral_radii([at])[0]
     return _Member(solution, possible, min(possible, 1.0 - radius))
 
 
@@ -308,7 +308,7 @@ def _arcs(branch: OrbitBranch) -> list[_Arc]:
         halfway = _halfway(branch, course[start : end + 1])
         if halfway is not None:
             possible = is_admissible(*halfway)
-            stable = possible and spectral_radius(*halfway) < 1.0
+            stable = possible and spectral_radii([halfway])[0] < 1.0
             arcs.append(_Arc(low, high, possible, stable))
     return arcs
 

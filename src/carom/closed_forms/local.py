@@ -157,7 +157,7 @@ def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoo
     if abs(distance) > ON_WALL:
         raise InputError("equilibrium", system.equilibrium, f"on the wall |u| = {system.wall:g}")
     rate = equilibrium_rate / system.equilibrium
-    condition = PeriodCondition(system.system)
+    condition = PeriodCondition.of(system.system)
     periods = condition.roots().periods
     levers = condition.factor * condition.a12(periods)
     turns = condition.factor * condition.a22(periods)

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.core import periods
+from carom.core.planar import planar_exponents
 from carom.models import System
 from carom.outcome import CaromError, InputError
+from carom.parameters import Parameters
 from carom.results import Result
 
 FIRST_WIDTH = 0.25
@@ -38,29 +40,37 @@ class PeriodRoots(Result):
     starts_below: bool
 
 
+@dataclass(frozen=True, eq=False)
 class PeriodCondition:
-    """``F₁`` of a system and its roots.
-
-    Parameters
-    ----------
-    slip : {1, -1}
-        Direction of the slip during impacts.
+    """``F₁`` of a rotor and its roots.
 
     Attributes
     ----------
-    factor : complex
-        ``q = (1 + d)(1 ± iμ)``.
     modes : ndarray of complex, shape (N, 3)
         Exponents and residues, as :mod:`carom.core.periods` takes them.
+    factor : complex
+        ``q = (1 + d)(1 ± iμ)``, with the sign of the slip during impacts.
     """
 
-    def __init__(self, system: System, slip: int = 1) -> None:
+    modes: np.ndarray
+    factor: complex
+
+    @classmethod
+    def of(cls, system: System, slip: int = 1) -> PeriodCondition:
+        """Return the condition for orbits with impacts at the first plane of a system and this direction of slip."""
         arrays = system.arrays
         row, column = arrays.rows[0], arrays.columns[:, 0]
-        self.factor = complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0])
-        self.modes = np.zeros((len(row), 3), complex)
-        self.modes[:, 0], self.modes[:, 1] = system.exponents, row * column
-        self.modes[1:, 2] = row[1:] * column[:-1] * arrays.driven[1:]
+        modes = np.zeros((len(row), 3), complex)
+        modes[:, 0], modes[:, 1] = system.exponents, row * column
+        modes[1:, 2] = row[1:] * column[:-1] * arrays.driven[1:]
+        return cls(modes, complex(1.0 + arrays.restitution[0]) * complex(1.0, slip * arrays.friction[0]))
+
+    @classmethod
+    def planar(cls, parameters: Parameters, slip: int = 1) -> PeriodCondition:
+        """Return the condition for orbits of the planar rotor; its system need not be built."""
+        driving, driven = planar_exponents(parameters.gamma, parameters.omega)
+        modes = np.array([[driving, 0.0, 0.0], [driven, 0.0, 1.0]])
+        return cls(modes, complex(1.0 + parameters.d) * complex(1.0, slip * parameters.mu))
 
     def a12(self, periods: np.ndarray) -> np.ndarray:
         """``a₁₂(T)``, complex, of the shape of ``periods``."""

@@ -12,8 +12,10 @@ References
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -47,6 +49,7 @@ def continue_branch(
     watches: Sequence[Watch] = (),
     steps: Steps | None = None,
     scales: np.ndarray | None = None,
+    reach: Callable[[np.ndarray], float] | None = None,
     folds: str = "fold",
 ) -> Branch:
     """Follow the branch of solutions through a point, in both directions.
@@ -67,6 +70,8 @@ def continue_branch(
         Functions whose zeros are located.
     scales : ndarray, shape (n + 1,), optional
         Typical sizes of the unknowns and the parameter, in which arclength is measured; ones by default.
+    reach : callable, optional
+        Of ``u``: the factor by which the largest step grows there; 1 by default.
     folds : str
         Kind under which turning points of the parameter are listed; branch points are listed as ``"branch point"``.
 
@@ -81,7 +86,7 @@ def continue_branch(
         raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
     start = np.append(np.asarray(unknowns, float), parameter)
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
-    tracer = _Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds)
+    tracer = _Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, reach)
     first, tangent = tracer.begin(start / sizes)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
@@ -126,8 +131,11 @@ def refined_points(
 
     def between(first: np.ndarray, last: np.ndarray, halvings: int) -> list[np.ndarray]:
         chord, middle = last - first, 0.5 * (first + last)
+        if not halvings:
+            return []
         length = float(np.linalg.norm(chord))
-        found = tracer.correct(middle, chord / length, tracer.jacobian(middle)) if halvings else None
+        normal = chord / length
+        found = tracer.correct(middle, normal, _applied(np.linalg.inv, tracer.jacobian(middle), normal))
         if found is None or np.linalg.norm(found - middle) > 0.5 * length:
             return []
         if np.linalg.norm((found - middle) * scales / widths) <= bend:
@@ -161,6 +169,11 @@ class _Stand:
     tangent: np.ndarray
     watched: np.ndarray = field(default_factory=lambda: np.empty(0))
 
+    @cached_property
+    def inverse(self) -> np.ndarray | None:
+        """Inverse of the Jacobian bordered by the tangent."""
+        return _applied(np.linalg.inv, self.jacobian, self.tangent)
+
 
 @dataclass(eq=False)
 class _Tracer:
@@ -173,6 +186,7 @@ class _Tracer:
     watches: Sequence[Watch]
     steps: Steps
     folds: str
+    reach: Callable[[np.ndarray], float] | None = None
 
     def plain(self, x: np.ndarray) -> tuple[np.ndarray, float]:
         """Unknowns and parameter without scaling."""
@@ -197,33 +211,36 @@ class _Tracer:
             level[-1] = 1.0
             # At a fold the parameter cannot be held fixed.
             for normal in (level, np.linalg.svd(jacobian)[2][-1]):
-                first = self.correct(guess, normal, jacobian)
+                first = self.correct(guess, normal, _applied(np.linalg.inv, jacobian, normal))
                 if first is not None and self._margin(self.plain(first)[1]) >= -1e-9:
                     tangent = np.linalg.svd(self.jacobian(first))[2][-1]
                     return first, tangent if tangent[-1] >= 0.0 else -tangent
         u, p = self.plain(guess)
         raise CaromError(f"no solution near the start {u} at parameter {p:g}; give a closer one")
 
-    def correct(self, guess: np.ndarray, normal: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
+    def correct(self, guess: np.ndarray, normal: np.ndarray, inverse: np.ndarray | None) -> np.ndarray | None:
         """Point of the branch in the hyperplane through ``guess``; ``None`` if the iteration does not converge.
 
-        A Jacobian from nearby is kept as long as the residual falls by a factor of 30 in each iteration.
+        The inverse of a bordered Jacobian nearby is kept as long as the residual falls by a factor of 30 in each iteration.
         """
-        x, previous, correction, inverse = guess, np.inf, np.inf, _applied(np.linalg.inv, jacobian, normal)
+        x, previous, correction = guess, np.inf, np.inf
+        right = np.empty(len(guess))
         for _ in range(self.steps.iterations):
             value = self.value(x)
-            size = float(np.abs(value).max())
-            if not np.isfinite(size):
+            sizes = [abs(entry) for entry in value.tolist()]
+            if not all(map(math.isfinite, sizes)):
                 return None
+            size = max(sizes)
             good = size <= self.steps.tolerance or correction <= self.steps.tolerance
             if size > previous / 30.0 and not good:
                 inverse = _applied(np.linalg.inv, self.jacobian(x), normal)
             if inverse is None:
                 return x if good else None
-            change = inverse @ np.array([*-value, normal @ (guess - x)])
+            right[:-1], right[-1] = -value, normal @ (guess - x)
+            change = inverse @ right
             if good:
                 return x if size > self.steps.tolerance else x + change
-            x, previous, correction = x + change, size, float(np.abs(change).max())
+            x, previous, correction = x + change, size, max(map(abs, change.tolist()))
         return None
 
     def walk(self, start: np.ndarray, heading: np.ndarray) -> _Path:
@@ -255,14 +272,19 @@ class _Tracer:
                 return path
             path.points.append(there.x)
             if here.tangent @ there.tangent > np.cos(0.5 * self.steps.sharpest_turn):
-                length = min(1.5 * length, self.steps.largest)
+                length *= 1.5
+            length = min(length, self._largest(there.x))
             here = there
         return path
+
+    def _largest(self, x: np.ndarray) -> float:
+        """Length of the largest step at a point."""
+        return self.steps.largest * (1.0 if self.reach is None else self.reach(self.plain(x)[0]))
 
     def _step(self, here: _Stand, length: float) -> _Stand | None:
         """Next point; ``None`` if the step is too long."""
         guess = here.x + length * here.tangent
-        x = self.correct(guess, here.tangent, here.jacobian)
+        x = self.correct(guess, here.tangent, here.inverse)
         if x is None or np.linalg.norm(x - guess) > STRAY * length:
             return None
         jacobian = self.jacobian(x)
@@ -306,7 +328,7 @@ class _Tracer:
 
     def _crossing(self, stand: _Stand) -> float:
         """Determinant of the bordered Jacobian; it changes sign where another branch crosses."""
-        return float(np.linalg.det(np.vstack([stand.jacobian, stand.tangent])))
+        return float(np.linalg.det(_bordered(stand.jacobian, stand.tangent)))
 
     def _locate(self, path: _Path, here: _Stand, there: _Stand, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
@@ -337,7 +359,7 @@ class _Tracer:
         def value(distance: float) -> float:
             if distance not in values:
                 guess = here.x + distance / length * (there.x - here.x)
-                x = self.correct(guess, here.tangent, here.jacobian)
+                x = self.correct(guess, here.tangent, here.inverse)
                 at[distance] = here.x if x is None else x
                 values[distance] = np.nan if x is None else self._watched_value(which, x, here)
             return values[distance]
@@ -386,7 +408,14 @@ def _applied(
 ) -> np.ndarray | None:
     """Solution or inverse of the bordered Jacobian; ``None`` if it is singular."""
     try:
-        found = method(np.vstack([jacobian, normal]), *right)
+        found = method(_bordered(jacobian, normal), *right)
     except np.linalg.LinAlgError:
         return None
     return found if np.isfinite(found).all() else None
+
+
+def _bordered(jacobian: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """The Jacobian with one more row."""
+    matrix = np.empty((len(normal), len(normal)))
+    matrix[:-1], matrix[-1] = jacobian, normal
+    return matrix

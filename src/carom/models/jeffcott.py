@@ -52,8 +52,7 @@ class Jeffcott:
         gamma, omega = parameters.gamma, parameters.omega
         return second_order_system(
             exponents=planar_exponents(gamma, omega),
-            # Adding zero turns a negative zero, the quotient for a balanced rotor, into zero.
-            equilibrium=cmath.rect(parameters.rho, parameters.phi) / complex(omega**2 - 1.0, gamma) + 0j,
+            equilibrium=self.equilibrium,
             friction=parameters.mu,
             restitution=parameters.d,
             drive=parameters.radius_ratio + 1.0,
@@ -76,10 +75,12 @@ class Jeffcott:
         """Angle of the unbalance in the co-rotating frame, in rad."""
         return self.parameters.phi
 
-    @property
+    @cached_property
     def equilibrium(self) -> complex:
         """Contact-free equilibrium position ``U*``; it may lie outside the clearance."""
-        return complex(self.system.rest[0])
+        at = self.parameters
+        # Adding zero turns a negative zero, the quotient for a balanced rotor, into zero.
+        return cmath.rect(at.rho, at.phi) / complex(at.omega**2 - 1.0, at.gamma) + 0j
 
     @property
     def varied(self) -> Mapping[str, Field]:

@@ -103,7 +103,7 @@ class OrbitSet(Result, Sequence[Orbit]):
 def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
     """``F₁(T) = 1 + Re(q a₂₂(T))``, whose roots are the periods of single-impact orbits (source paper (4.4))."""
     rotor = jeffcott_of(machine)
-    return PeriodCondition(rotor.system).value(np.asarray(periods, float))
+    return PeriodCondition.planar(rotor.parameters).value(np.asarray(periods, float))
 
 
 def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet:
@@ -133,12 +133,12 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
         Without damping there are infinitely many; give ``longest_period``.
     """
     rotor = jeffcott_of(machine)
-    condition = PeriodCondition(rotor.system)
+    condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)
     orbits = _orbits_at(rotor, condition, roots, 1)
     forward_only = slip_stays_forward(rotor)
     if not forward_only:
-        backward = PeriodCondition(rotor.system, slip=-1)
+        backward = PeriodCondition.planar(rotor.parameters, slip=-1)
         reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
         orbits += [
             orbit
@@ -162,7 +162,7 @@ def orbits_within_reach(machine: Subject) -> OrbitSet:
 
 def longest_within_reach(rotor: Jeffcott) -> float | None:
     """Period up to which :func:`orbits_within_reach` looks, in ``1/Ω``; ``None`` where it looks for all orbits."""
-    condition = PeriodCondition(rotor.system)
+    condition = PeriodCondition.planar(rotor.parameters)
     limit = MOST_RADIANS / float(abs(rotor.system.exponents).max())
     return None if condition.longest_period() <= limit else limit
 

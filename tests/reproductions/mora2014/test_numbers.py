@@ -123,7 +123,7 @@ def test_folds_of_all_pairs_by_counting_roots(found):
         gamma, period = pair.fold
         counts = [
             np.count_nonzero(
-                np.abs(PeriodCondition(Jeffcott(PAPER.replace(gamma=gamma + s)).system).roots(32.0).periods - period)
+                np.abs(PeriodCondition.of(Jeffcott(PAPER.replace(gamma=gamma + s)).system).roots(32.0).periods - period)
                 < 0.02
             )
             for s in (-1e-9, 1e-9)

@@ -268,7 +268,7 @@ def _local_theory(branches: FirstPair) -> Iterator[Misprint]:
         0.5 * math.pi,
         turn,
     )
-    condition = PeriodCondition(rotor.system)
+    condition = PeriodCondition.of(rotor.system)
     change = float((condition.factor * condition.a22(np.array([cycle.period]))[0]).real)
     yield Misprint(
         "(5.4)",
@@ -304,7 +304,7 @@ def _letters_of_section_5(branches: FirstPair) -> Iterator[Misprint]:
         abs(shift / abs(shift) + abs(shift) * across),
         abs(rest + SMALL * across),
     )
-    condition = PeriodCondition(system.system)
+    condition = PeriodCondition.of(system.system)
     # From ṙ = −ε r₁,₀θ̇₁,₀ at the impact; the normal is e^{iΨ}.
     lever = complex((condition.factor * condition.a12(np.array([cycle.period])))[0]) * cycle.radial_slope * rest
     yield Misprint(

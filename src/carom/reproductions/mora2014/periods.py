@@ -88,7 +88,7 @@ def period_functions(dampings: tuple[float, ...] = (0.1, 0.05)) -> tuple[PeriodF
     periods = np.linspace(0.02, LONGEST, 1500)
     found = []
     for gamma in dampings:
-        condition = PeriodCondition(Jeffcott(machine_at(gamma)).system)
+        condition = PeriodCondition.planar(machine_at(gamma))
         found.append(PeriodFunction(gamma, periods, condition.value(periods), condition.roots().periods))
     return tuple(found)
 
@@ -111,7 +111,7 @@ def period_pairs() -> tuple[PeriodPair, ...]:
     def jacobian(u: np.ndarray, gamma: float) -> np.ndarray:
         return orbit_jacobian(lambda x: base._replace(gamma=x), (gamma,), float(u[0]), 0.0)[:1, [0, 2]]
 
-    roots = PeriodCondition(Jeffcott(machine_at(DAMPINGS[0])).system).roots(LONGEST).periods
+    roots = PeriodCondition.planar(machine_at(DAMPINGS[0])).roots(LONGEST).periods
     pairs = []
     for pair, start in enumerate(roots[::2].tolist(), start=1):
         branch = continue_branch(
