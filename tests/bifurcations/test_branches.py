@@ -8,7 +8,7 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import find_orbits, simulate
-from carom.bifurcations import OrbitBranch, continue_orbit
+from carom.bifurcations import OrbitBranch, branches, conditions, continue_orbit
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
 from carom.models import Jeffcott
@@ -207,3 +207,30 @@ def test_a_branch_ends_where_the_radial_speed_grows_without_bound():
     assert branch.stops == ("parameter limit", "radial speed without bound")
     assert np.abs(branch.radial_speed).max() == pytest.approx(30.0, rel=1e-3)
     assert 1.40 < branch.values[-1] < 1.42
+
+
+def test_steps_that_grow_with_the_radial_speed_miss_no_bifurcation(monkeypatch):
+    random = np.random.default_rng(41)
+    points = missed = 0
+    saved = 0.0
+    for _ in range(sized(6, 2, 150)):
+        parameters = random_parameters(random)
+        parameter = str(random.choice(["gamma", "omega", "rho", "mu"]))
+        present = getattr(parameters, parameter)
+        for orbit in [orbit for orbit in find_orbits(parameters, 20.0) if orbit.slip > 0][:2]:
+            found = []
+            for factor in (conditions.relative_to_speed, lambda unknowns: 1.0):
+                monkeypatch.setattr(branches, "relative_to_speed", factor)
+                found.append(continue_orbit(orbit, parameter, (0.5 * present, 2.0 * present + 0.1)))
+            grown, even = found
+            saved += len(even) - len(grown)
+            # Where a motion gains extrema of its radius is found less precisely, and says nothing about stability.
+            for point in (point for point in even.special if point.kind != "radius-extremum"):
+                points += 1
+                missed += not any(
+                    other.kind == point.kind and other.value == pytest.approx(point.value, rel=1e-7)
+                    for other in grown.special
+                )
+    assert points > sized(10, 1, 400)
+    assert missed == 0
+    assert saved > 0

@@ -402,3 +402,12 @@ def test_a_search_that_resonance_makes_endless_is_refused_in_bounded_work(d):
     """Without damping and friction ``F₁`` is ``(1 − d)/2`` throughout, though its parts have poles."""
     with pytest.raises(CaromError, match="too near resonance; give a shorter longest_period"):
         condition_of(PAPER.replace(gamma=0.0, mu=0.0, d=d)).roots(593.0)
+
+
+def test_condition_of_the_planar_rotor_is_that_of_its_system():
+    random = np.random.default_rng(8)
+    for parameters in [PAPER.replace(d=1.0), *(random_parameters(random) for _ in range(20))]:
+        for slip in (1, -1):
+            short, general = PeriodCondition.planar(parameters, slip), condition_of(parameters, slip)
+            assert short.modes.tolist() == general.modes.tolist()
+            assert short.factor == general.factor

@@ -250,3 +250,23 @@ def test_a_limit_that_cannot_be_located_is_not_stepped_over():
     assert branch.parameters.max() <= 1.0
     assert branch.unknowns[:, 0] == pytest.approx(branch.parameters**2, abs=1e-9)
     assert branch.stops == ("parameter limit", "end of domain")
+
+
+def test_steps_may_grow_along_an_asymptote():
+    """``u p = 1`` up to ``u = 100``: in proportion to ``u`` the steps are few, and special points are where they were."""
+
+    def reach(u):
+        return max(1.0, abs(float(u[0])))
+
+    watch = Watch("thirty", lambda u, p: float(u[0]) - 30.0)
+    found = [
+        continue_branch(
+            lambda u, p: np.array([u[0] * p - 1.0]), np.array([1.0]), 1.0, (0.01, 2.0), watches=[watch], reach=grows
+        )
+        for grows in (None, reach)
+    ]
+    even, grown = found
+    assert len(grown) < 0.2 * len(even)
+    assert places(grown, "thirty") == pytest.approx([1.0 / 30.0], abs=1e-14)
+    largest = Steps().largest * np.maximum(1.0, grown.unknowns[:, 0])
+    assert (gaps(grown) <= 1.05 * np.maximum(largest[:-1], largest[1:])).all()

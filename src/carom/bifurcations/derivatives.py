@@ -166,11 +166,12 @@ class OrbitChange:
         self.sum = complex(-direction.gamma)
         self.product = complex(2.0 * numbers.omega * direction.omega, direction.gamma)
         self.split = 0.5 * numbers.gamma * direction.gamma - 2.0 * numbers.omega * direction.omega
-        self.flight = self._flight(values.flight, direction.period)
-        still, decay = self._flight(values.flight, 0.0), values.decay * self.sum * values.period
-        gap = decay - 2.0 * still.even
-        self.a12 = (still.right - values.a12 * gap) / values.gap + values.a12_rate * direction.period
-        self.a22 = (still.lower - decay - values.a22 * gap) / values.gap + values.a22_rate * direction.period
+        self.a12, self.a22 = values.a12_rate * direction.period, values.a22_rate * direction.period
+        if direction.gamma or direction.omega:
+            still, decay = self._flight(values.flight, 0.0), values.decay * self.sum * values.period
+            gap = decay - 2.0 * still.even
+            self.a12 += (still.right - values.a12 * gap) / values.gap
+            self.a22 += (still.lower - decay - values.a22 * gap) / values.gap
         grip = complex(1.0, numbers.mu)
         self.factor = grip * direction.d + complex(0.0, (1.0 + numbers.d) * direction.mu)
         self.lever = self.factor * values.a12 + values.factor * self.a12
@@ -179,6 +180,11 @@ class OrbitChange:
         self.leaving = (self.approach - self.factor) * values.speed + (
             values.approach - values.factor
         ) * direction.speed
+
+    @cached_property
+    def flight(self) -> _FlightChange:
+        """Change of the flight over the period."""
+        return self._flight(self.values.flight, self.direction.period)
 
     def _flight(self, flight: _Flight, time: float) -> _FlightChange:
         """Change of a flight whose time changes at this rate."""
