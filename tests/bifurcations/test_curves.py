@@ -117,7 +117,8 @@ def test_every_pair_of_parameters():
         rotor = Jeffcott(at.replace(gamma=x, **{name: y}))
         count = len(PeriodCondition.of(Jeffcott(rotor.parameters.replace(gamma=x - 1e-9)).system).roots().periods)
         assert (
-            count - len(PeriodCondition.of(Jeffcott(rotor.parameters.replace(gamma=x + 1e-9)).system).roots().periods) == 2
+            count - len(PeriodCondition.of(Jeffcott(rotor.parameters.replace(gamma=x + 1e-9)).system).roots().periods)
+            == 2
         )
     flat = continue_curve(fold, Plane("gamma", "rho", (0.01, 0.6), (0.42, 0.6)))
     assert np.ptp(flat.points[:, 0]) < 1e-12

@@ -16,7 +16,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 
@@ -35,8 +34,6 @@ JUMP = 1e-4
 
 At a jump more remains.
 """
-HALVINGS = 6
-"""Largest number of times that a step is halved to insert points."""
 
 
 def continue_branch(
@@ -86,69 +83,13 @@ def continue_branch(
         raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
     start = np.append(np.asarray(unknowns, float), parameter)
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
-    tracer = _Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, reach)
+    tracer = Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, reach)
     first, tangent = tracer.begin(start / sizes)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
     if ahead.stop != "closed loop":
         behind = tracer.walk(first, -tangent)
     return tracer.joined(behind, ahead)
-
-
-def refined_points(
-    residual: Function,
-    branch: Branch,
-    *,
-    jacobian: Function | None = None,
-    scales: np.ndarray,
-    widths: np.ndarray,
-    bend: float,
-    steps: Steps | None = None,
-) -> np.ndarray:
-    """Points and special points of a branch, and as many points in between as needed to draw it with straight lines.
-
-    Parameters
-    ----------
-    residual : callable
-        As for :func:`continue_branch`, and ``jacobian`` too.
-    scales : ndarray, shape (n + 1,)
-        Typical sizes of the unknowns and the parameter.
-    widths : ndarray, shape (n + 1,)
-        Ranges of the picture; ``inf`` for a quantity it does not show.
-    bend : float
-        Largest distance of the branch from the straight line half way between neighbouring points, in ``widths``.
-
-    Returns
-    -------
-    ndarray, shape (m, n + 1)
-        Unknowns and parameter, in the order of the branch.
-    """
-    tracer = _Tracer(residual, jacobian, scales, (-np.inf, np.inf), (), steps or Steps(), "")
-    places = np.concatenate([np.arange(len(branch.parameters)), [point.place for point in branch.special]])
-    own = np.column_stack([branch.unknowns, branch.parameters])
-    special = np.array([[*point.unknowns, point.parameter] for point in branch.special]).reshape(-1, own.shape[1])
-    points = np.concatenate([own, special])[np.argsort(places, kind="stable")] / scales
-
-    def between(first: np.ndarray, last: np.ndarray, halvings: int) -> list[np.ndarray]:
-        chord, middle = last - first, 0.5 * (first + last)
-        if not halvings:
-            return []
-        length = float(np.linalg.norm(chord))
-        normal = chord / length
-        found = tracer.correct(middle, normal, _applied(np.linalg.inv, tracer.jacobian(middle), normal))
-        if found is None or np.linalg.norm(found - middle) > 0.5 * length:
-            return []
-        if np.linalg.norm((found - middle) * scales / widths) <= bend:
-            return []
-        return [*between(first, found, halvings - 1), found, *between(found, last, halvings - 1)]
-
-    # A special point that ends the branch is listed twice.
-    apart = np.linalg.norm(np.diff(points, axis=0), axis=1) > tracer.steps.smallest
-    points = points[np.append(True, apart)]
-    rows = [points[0]]
-    for first, last in pairwise(points):
-        rows += [*between(first, last, HALVINGS), last]
-    return np.array(rows) * scales
 
 
 @dataclass(eq=False)
@@ -172,11 +113,11 @@ class _Stand:
     @cached_property
     def inverse(self) -> np.ndarray | None:
         """Inverse of the Jacobian bordered by the tangent."""
-        return _applied(np.linalg.inv, self.jacobian, self.tangent)
+        return applied(np.linalg.inv, self.jacobian, self.tangent)
 
 
 @dataclass(eq=False)
-class _Tracer:
+class Tracer:
     """Steps along a branch in scaled unknowns ``x``."""
 
     residual: Function
@@ -194,6 +135,7 @@ class _Tracer:
         return y[:-1], float(y[-1])
 
     def value(self, x: np.ndarray) -> np.ndarray:
+        """Residual."""
         return np.asarray(self.residual(*self.plain(x)), float)
 
     def jacobian(self, x: np.ndarray) -> np.ndarray:
@@ -211,7 +153,7 @@ class _Tracer:
             level[-1] = 1.0
             # At a fold the parameter cannot be held fixed.
             for normal in (level, np.linalg.svd(jacobian)[2][-1]):
-                first = self.correct(guess, normal, _applied(np.linalg.inv, jacobian, normal))
+                first = self.correct(guess, normal, applied(np.linalg.inv, jacobian, normal))
                 if first is not None and self._margin(self.plain(first)[1]) >= -1e-9:
                     tangent = np.linalg.svd(self.jacobian(first))[2][-1]
                     return first, tangent if tangent[-1] >= 0.0 else -tangent
@@ -233,7 +175,7 @@ class _Tracer:
             size = max(sizes)
             good = size <= self.steps.tolerance or correction <= self.steps.tolerance
             if size > previous / 30.0 and not good:
-                inverse = _applied(np.linalg.inv, self.jacobian(x), normal)
+                inverse = applied(np.linalg.inv, self.jacobian(x), normal)
             if inverse is None:
                 return x if good else None
             right[:-1], right[-1] = -value, normal @ (guess - x)
@@ -295,7 +237,7 @@ class _Tracer:
 
     def _tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
         """Unit tangent on the side of ``along``."""
-        direction = _applied(np.linalg.solve, jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
+        direction = applied(np.linalg.solve, jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
         return None if direction is None else direction / np.linalg.norm(direction)
 
     def _stuck(self, here: _Stand) -> str:
@@ -403,7 +345,7 @@ class _Tracer:
         )
 
 
-def _applied(
+def applied(
     method: Callable[..., np.ndarray], jacobian: np.ndarray, normal: np.ndarray, *right: np.ndarray
 ) -> np.ndarray | None:
     """Solution or inverse of the bordered Jacobian; ``None`` if it is singular."""
