@@ -13,7 +13,7 @@ from compilation import sized
 from machines import PAPER
 
 from carom.outcome import InputError
-from carom.proofs import certificate, check, prove, save
+from carom.proofs import check, prove
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 
 DECIMAL = {
@@ -29,7 +29,7 @@ DECIMAL = {
 
 @pytest.fixture(scope="module")
 def document():
-    return json.loads(json.dumps(certificate(prove(DECIMAL))))
+    return json.loads(json.dumps(prove(DECIMAL).document()))
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def document():
 )
 def test_certificate_is_verified(machine, tmp_path):
     proof = prove(machine)
-    save(proof, tmp_path / "proof.json")
+    proof.save(tmp_path / "proof.json")
 
     assert check(tmp_path / "proof.json").claims == proof.claims
 

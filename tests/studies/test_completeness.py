@@ -13,7 +13,7 @@ from carom.studies.findings import _bouncing
 @pytest.mark.parametrize(
     ("radius_ratio", "longest", "words"),
     [
-        (400 / 7, None, "it is proven that no other orbit with one impact a period exists"),
+        (400 / 7, None, "bounds exclude any other orbit with one impact a period"),
         (0.5, None, "orbits whose impacts stop it"),
         (400 / 7, 5.0, "there may be more such orbits"),
     ],

@@ -36,7 +36,6 @@ def prove(
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
-    from carom.proofs import certificate, save
     from carom.proofs import check as verify
     from carom.proofs import prove as prove_machine
 
@@ -51,9 +50,9 @@ def prove(
     if out is not None:
         directory = Path(out)
         directory.mkdir(parents=True, exist_ok=True)
-        save(proof, directory / CERTIFICATE)
+        proof.save(directory / CERTIFICATE)
     if as_json:
-        print_document(certificate(proof))
+        print_document(proof.document())
         return
     _print_proof(proof, checked=check is not None)
     if out is not None:

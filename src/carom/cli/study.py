@@ -16,6 +16,9 @@ def study(
         str | None,
         typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory."),
     ] = None,
+    prove: Annotated[
+        bool, typer.Option("--prove", help="Prove equilibria and orbits too; needs the extra carom[proof].")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Study a machine: the verdict in words and numbers, and a report.
@@ -34,7 +37,7 @@ def study(
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4
-        result = study_case(case, progress=tell.part(0.0, share_of_study))
+        result = study_case(case, proofs=prove, progress=tell.part(0.0, share_of_study))
         report = None
         if out is not None:
             from carom.report import write_report

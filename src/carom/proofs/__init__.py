@@ -25,9 +25,9 @@ except ImportError:
     raise CaromError('proofs need python-flint; install it with: pip install "carom[proof]"') from None
 
 from carom.proofs.balls import Enclosure
-from carom.proofs.certificates import certificate, check, save
+from carom.proofs.certificates import check
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import Hypotheses, hypotheses_of
 from carom.proofs.proving import prove
 
-__all__ = ["Claim", "Enclosure", "Hypotheses", "Proof", "certificate", "check", "hypotheses_of", "prove", "save"]
+__all__ = ["Claim", "Enclosure", "Hypotheses", "Proof", "check", "hypotheses_of", "prove"]

@@ -1,4 +1,4 @@
-"""Certificates: proofs as JSON, and their check, which trusts no search."""
+"""The check of certificates, which trusts no search."""
 
 from __future__ import annotations
 
@@ -10,38 +10,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from carom.files import write_whole
 from carom.outcome import CaromError, InputError, printable, shown
 from carom.proofs.balls import Enclosure
-from carom.proofs.claims import Claim, Proof
+from carom.proofs.claims import FORMAT, Claim, Proof
 from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.proving import MOST_BITS, proof_at
 from carom.proofs.theorems import THEOREMS
 
-FORMAT = "carom proof 1"
 LARGEST_BYTES = 50_000_000
 _DECIMAL = re.compile(r"-?[0-9]{1,100}(?:\.[0-9]{1,100})?(?:E[+-][0-9]{1,4})?")
 _KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence")
-
-
-def certificate(proof: Proof) -> dict[str, Any]:
-    """A proof as plain data for JSON."""
-    return {
-        "format": FORMAT,
-        "theorem": proof.theorem,
-        "options": dict(proof.options),
-        "hypotheses": proof.hypotheses.document(),
-        "bits": proof.bits,
-        "claims": [claim.document() for claim in proof.claims],
-        "not_claimed": list(proof.not_claimed),
-        "evidence": dict(proof.evidence),
-    }
-
-
-def save(proof: Proof, path: str | os.PathLike[str]) -> None:
-    """Write a proof as a certificate."""
-    write_whole(Path(path), json.dumps(certificate(proof), indent=1, ensure_ascii=False).encode())
 
 
 def check(source: str | os.PathLike[str] | Mapping[str, Any]) -> Proof:
@@ -53,7 +32,7 @@ def check(source: str | os.PathLike[str] | Mapping[str, Any]) -> Proof:
     Parameters
     ----------
     source : path or mapping
-        A file, or what :func:`certificate` gives.
+        A file, or what :meth:`Proof.document <carom.proofs.Proof.document>` gives.
 
     Returns
     -------
@@ -81,7 +60,7 @@ def _proof_of(document: Mapping[str, Any]) -> Proof:
     evidence = Evidence(document["evidence"])
     hypotheses = Hypotheses.from_document(document["hypotheses"])
     proof = proof_at(bits, theorem, hypotheses, dict(document["options"]), evidence)
-    found = certificate(proof)
+    found = proof.document()
     for key in _KEYS:
         if key != "claims" and found[key] != document[key]:
             raise NotShownError(f"its {key} are not those that the evidence belongs to")

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import json
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal, overload
 
+from carom.files import write_whole
 from carom.outcome import InputError
 from carom.proofs.balls import Enclosure
 from carom.proofs.hypotheses import Hypotheses
 from carom.results import Result
 
+FORMAT = "carom proof 1"
 Status = Literal["proven", "refuted", "undecided"]
 
 
@@ -121,6 +126,23 @@ class Proof(Result, Sequence[Claim]):
         """Each claim with its status, and the reason where it is not proven."""
         told = [(claim.name, ": ".join(filter(None, (claim.status, claim.reason)))) for claim in self.claims]
         return [*told, ("precision", f"{self.bits} bits")]
+
+    def document(self) -> dict[str, Any]:
+        """The certificate: plain data for JSON, which :func:`~carom.proofs.check` verifies."""
+        return {
+            "format": FORMAT,
+            "theorem": self.theorem,
+            "options": dict(self.options),
+            "hypotheses": self.hypotheses.document(),
+            "bits": self.bits,
+            "claims": [claim.document() for claim in self.claims],
+            "not_claimed": list(self.not_claimed),
+            "evidence": dict(self.evidence),
+        }
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the certificate to a file."""
+        write_whole(Path(path), json.dumps(self.document(), indent=1, ensure_ascii=False).encode())
 
     def __len__(self) -> int:
         return len(self.claims)

@@ -9,6 +9,7 @@
 ``endings``         where simulated disturbances ended
 ``verdict``         the results in words
 ``findings``        the paragraphs of the verdict
+``proven``          what a proof has decided, in words
 ``remedies``        which changes would help, in words
 ``wording``         numbers with units
 ``summaries``       the tables of a study, as text

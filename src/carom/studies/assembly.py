@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, get_args
 
 from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
@@ -26,6 +26,9 @@ from carom.studies.ranges import Motion, MotionRange, Threshold, steady_range
 from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
+
+if TYPE_CHECKING:
+    from carom.proofs import Proof
 
 Progress = Callable[[float, str], None]
 
@@ -54,6 +57,8 @@ class Study(Result):
         The damping above which all disturbances came back, found by simulation at other dampings too.
     fresh : DampingCheck or None
         If all disturbances of the standard set came back: how many of a larger sample do, at the machine's own damping.
+    proof : Proof or None
+        Theorems about equilibria and orbits, if they were asked for.
     """
 
     figure: ClassVar[str] = "overview"
@@ -69,6 +74,7 @@ class Study(Result):
     attractors: AttractorSet
     safe_damping: SafeDamping
     fresh: DampingCheck | None
+    proof: Proof | None = None
 
     def rows(self) -> list[tuple[str, str]]:
         """The machine, its motions, and the first sentences of the verdict."""
@@ -136,7 +142,13 @@ class Study(Result):
 
 
 @shows_progress
-def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, progress: Wish = None) -> Study:
+def study(
+    machine: Subject,
+    disturbances: Plan | Disturbance | None = None,
+    *,
+    proofs: bool = False,
+    progress: Wish = None,
+) -> Study:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
 
     Parameters
@@ -145,6 +157,8 @@ def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, p
     disturbances : Grid, Sample or Disturbance, optional
         The disturbances followed at the machine's own damping and stiffness instead of the standard set, as in
         :func:`~carom.attractors.find_attractors`.  At other values the standard kinds are tried.
+    proofs : bool
+        Prove equilibria and orbits too, by :func:`carom.proofs.prove`; needs the extra ``carom[proof]``.
 
     Raises
     ------
@@ -161,6 +175,7 @@ def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, p
     case = case_of(machine)
     tell = Reporter.of(progress, "study")
     parameters = case.parameters
+    proof = _proof_of(parameters) if proofs else None
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     rotor = Jeffcott(parameters)
     orbits = orbits_within_reach(rotor)
@@ -178,9 +193,14 @@ def study(machine: Subject, disturbances: Plan | Disturbance | None = None, *, p
     )
     safe = least_safe_damping(parameters, progress=tell.part(0.55, 1.0, "disturbances at other dampings"))
     advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
-    return Study(
-        case, rotor, find_equilibria(rotor).members, orbits, ranges, boundaries, alone, advice, found, safe, fresh
-    )
+    steady = find_equilibria(rotor).members
+    return Study(case, rotor, steady, orbits, ranges, boundaries, alone, advice, found, safe, fresh, proof)
+
+
+def _proof_of(parameters: Parameters) -> Proof:
+    from carom.proofs import prove  # only here: it needs an extra
+
+    return prove(parameters)
 
 
 def _ranges(parameters: Parameters, tell: Reporter) -> tuple[MotionRange, ...]:

@@ -101,6 +101,7 @@ def study_document(study: Study) -> dict[str, Any]:
         | {"fresh": _check(study.fresh) if study.fresh else None},
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
         "not_covered": list(NOT_COVERED),
+        "proof": study.proof.document() if study.proof else None,
     }
 
 

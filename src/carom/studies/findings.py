@@ -139,7 +139,7 @@ def _bouncing(study: Study) -> str:
     if not len(orbits):
         sentences.append("There is no orbit with one impact a period.")
     if orbits.complete and orbits.slip_stays_forward:
-        sentences.append("The list is complete: it is proven that no other orbit with one impact a period exists.")
+        sentences.append("The list is complete: bounds exclude any other orbit with one impact a period.")
     elif orbits.complete:
         sentences.append(
             "The list is complete for impacts that do not stop the slip; orbits whose impacts stop it, which only a rotor "

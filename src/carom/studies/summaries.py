@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
@@ -12,6 +12,7 @@ from carom.orbits.single_impact import OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import ending_words, kick_sizes
+from carom.studies.proven import is_proven
 from carom.studies.ranges import Motion
 from carom.studies.remedies import check_words
 from carom.studies.wording import Wording, no_rigid_wall, number
@@ -111,6 +112,11 @@ def dimensionless_rows(case: Case) -> list[ValueRow]:
 def motion_rows(study: Study) -> list[MotionRow]:
     """Return the rows of all motions: steady ones, orbits, and other motions in which disturbances ended."""
     rows = simple_motion_rows(study.equilibria, study.orbits, study.wording, study.attractors)
+    proven = {f"orbit {orbit.name}" for orbit in study.orbits if is_proven(study.proof, orbit)}
+    rows = [
+        replace(row, remark="; ".join(filter(None, ("proven", row.remark)))) if row.name in proven else row
+        for row in rows
+    ]
     simple = {LEVITATION, SYNCHRONOUS_RUB, *(orbit.name for orbit in study.orbits)}
     others = [member for member in study.attractors if member.name not in simple]
     return rows + [_seen(study.wording, member, study.attractors, study.rotor.parameters) for member in others]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 from carom.closed_forms.whirl import rolling
 from carom.studies.endings import came_back
 from carom.studies.findings import FINDINGS, names_of, stable_rub
+from carom.studies.proven import proven_words
 from carom.studies.wording import listed
 
 if TYPE_CHECKING:
@@ -62,6 +63,8 @@ class Verdict:
 def verdict(study: Study) -> Verdict:
     """Write the verdict of a study."""
     findings = [Finding(topic, write(study)) for topic, write in FINDINGS.items()]
+    if study.proof is not None:
+        findings.append(Finding("Proven", proven_words(study.proof)))
     findings.append(Finding("Not covered", "\n".join(NOT_COVERED)))
     level, headline = _headline(study)
     return Verdict(level, headline, tuple(findings))

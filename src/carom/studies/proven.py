@@ -1,0 +1,45 @@
+"""What of a study is proven, in words: only what a :class:`~carom.proofs.Proof` has decided is called proven."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from carom.studies.wording import counted, listed
+
+if TYPE_CHECKING:
+    from carom.orbits.orbit import Orbit
+    from carom.proofs import Proof
+
+
+def proven_words(proof: Proof) -> str:
+    """What a proof has decided, and what it has not."""
+    admissible = _names(proof, "admissible", "proven")
+    stable = [name for name in admissible if name in _names(proof, "stable", "proven")]
+    unstable = [name for name in admissible if name in _names(proof, "stable", "refuted")]
+    facts = [
+        f"levitation lies {'inside' if proof['levitation inside'].status == 'proven' else 'not inside'} the wall"
+        if proof["levitation inside"].status != "undecided"
+        else "",
+        proof["machine orbits"].statement[:-1] if proof["machine orbits"].status == "proven" else "",
+        f"stable are {listed(stable)}" if stable else "",
+        f"unstable are {listed(unstable)}" if unstable else "",
+    ]
+    told = "; ".join(filter(None, facts))
+    text = f"In ball arithmetic, for the numbers of the machine as doubles: {told}."
+    undecided = proof.with_status("undecided")
+    if undecided:
+        text += f" {counted(len(undecided), 'claim')} could not be decided: {listed([claim.name for claim in undecided[:4]])}."
+    return text
+
+
+def is_proven(proof: Proof | None, orbit: Orbit) -> bool:
+    """Whether what a study says of an orbit is proven: that it is a motion or not, and stable or not."""
+    if proof is None:
+        return False
+    told = {f"{orbit.name} admissible": orbit.admissible, f"{orbit.name} stable": orbit.stable}
+    known = {claim.name: claim.status for claim in proof if claim.name in told}
+    return all(known.get(name) == ("proven" if holds else "refuted") for name, holds in told.items())
+
+
+def _names(proof: Proof, kind: str, status: str) -> list[str]:
+    return [claim.about for claim in proof if claim.kind == kind and claim.status == status]
