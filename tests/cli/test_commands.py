@@ -52,6 +52,21 @@ def test_orbits_as_json(carom, machine):
     assert value["complete"] is True
 
 
+def test_orbits_with_several_impacts(carom, dimensionless):
+    asked = ("orbits", dimensionless, "--set", "gamma=0.083", "--impacts", "2", "--starts", "25")
+    value = document(carom(*asked, "--json"))
+    assert value["impacts"] == 2
+    assert value["search"]["starts"] == 25
+    assert any(entry["stable"] and abs(entry["period"] - 5.9738) < 1e-4 for entry in value["orbits"])
+    for entry in value["orbits"]:
+        assert set(entry) >= ORBIT_KEYS | {"segments", "durations"}
+        assert sum(entry["durations"]) == pytest.approx(entry["period"])
+    code, out, err = carom(*asked[:-1], "4")
+    assert (code, err) == (0, "")
+    for words in ("P2,1", "impact+ impact+", "4 simulated starts", "stable"):
+        assert words in out
+
+
 @pytest.mark.parametrize("command", ["orbits", "study"])
 def test_of_a_balanced_machine_no_negative_zero_is_printed(carom, machine, command):
     code, out, _ = carom(command, machine, "--set", "eccentricity=0 mm", "--json")

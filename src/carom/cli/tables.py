@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -30,6 +31,8 @@ from carom.studies.wording import counted, no_rigid_wall, number
 
 if TYPE_CHECKING:
     from carom.closed_forms.equilibria import Equilibrium
+    from carom.orbits.orbit import Orbit
+    from carom.orbits.search import FoundOrbits
     from carom.orbits.single_impact import OrbitSet
     from carom.parameters import Case
 
@@ -94,12 +97,38 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
     motions = _motions(rows, "Equilibria and orbits with one impact a period", console.width)
     console.print(fitted(console, motions))
     _print_left_out(console, orbits, most_virtual=40)
-    shown = [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS]
+    _print_numbers(console, [orbit for orbit in orbits if orbit.admissible or len(orbits) <= MOST_NUMBERS])
+    console.print()
+    console.print(orbits.argument)
+
+
+def print_found_orbits(console: Console, case: Case, found: FoundOrbits) -> None:
+    """Print the orbits with a number of impacts that a search has found."""
+    parameters = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
+    console.print(Text(f"{case.name}: {parameters}"))
+    console.print()
+    if len(found):
+        title = f"Orbits with {counted(found.impacts, 'impact')} a period"
+        motions = plain_table(title, "orbit", "period", "state", "segments", no_wrap=("orbit", "period"))
+        say = Wording(case.parameters.scales)
+        for orbit in found:
+            state = "stable" if orbit.stable else "unstable"
+            motions.add_row(orbit.name, say.time(orbit.period), state, orbit.segments)
+        console.print(fitted(console, motions))
+    else:
+        console.print(f"No orbit with {counted(found.impacts, 'impact')} a period was found.")
+    _print_numbers(console, list(found))
+    console.print()
+    console.print(found.argument)
+
+
+def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:
+    """Print states and multipliers of orbits."""
     if shown:
         columns, size = ("period T", "ṙ", "θ", "θ̇"), "largest modulus"
-        title = "Orbits in the units of the equations, just before the impact"
+        title = "Orbits in the units of the equations, just before the first impact"
         values = plain_table(title, "orbit", *columns, right=columns, no_wrap=("orbit", *columns))
-        title = "Multipliers: a small disturbance is multiplied by these from impact to impact"
+        title = "Multipliers: a small disturbance is multiplied by these in a period"
         multipliers = plain_table(title, "orbit", size, "multipliers", right=[size])
         for orbit in shown:
             style = "" if orbit.admissible else "dim"
@@ -110,8 +139,6 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
         for table in (values, multipliers):
             console.print()
             console.print(fitted(console, table))
-    console.print()
-    console.print(orbits.argument)
 
 
 def print_motion(console: Console, case: Case, motion: Trajectory) -> None:

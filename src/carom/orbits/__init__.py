@@ -6,6 +6,8 @@
 ``shooting``        its equations and Newton's method
 ``admissibility``   whether it is a motion of the machine
 ``single_impact``   all orbits with one impact a period
+``search``          orbits with any number of impacts, from simulated starts
+``recognising``     the orbit that a simulated motion repeats
 ``names``           names of orbits
 ``maps``            impact map and stroboscopic map, with their derivatives
 ``stability``       multipliers of an orbit
@@ -14,11 +16,14 @@
 
 from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, stroboscopic_map
 from carom.orbits.orbit import Margins, Orbit
+from carom.orbits.recognising import orbit_of_motion
+from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
 from carom.orbits.stability import Multipliers, multipliers
 from carom.orbits.word import Kind, Segment, Word
 
 __all__ = [
+    "FoundOrbits",
     "ImpactMap",
     "Kind",
     "Margins",
@@ -32,6 +37,7 @@ __all__ = [
     "find_orbits",
     "impact_map",
     "multipliers",
+    "orbit_of_motion",
     "orbits_within_reach",
     "period_condition",
     "stroboscopic_map",

@@ -12,15 +12,17 @@ import numpy as np
 
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.core.planar import impact_jacobian
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Jeffcott, Subject, jeffcott_of, model_of
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit
+from carom.orbits.search import STARTS, FoundOrbits, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers
 from carom.orbits.word import Kind, Word
 from carom.outcome import InputError
+from carom.progress import Reporter, Wish, shows_progress
 from carom.results import Result, in_a_line
 
 MOST_RADIANS = 1500.0
@@ -106,8 +108,23 @@ def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
     return PeriodCondition.planar(rotor.parameters).value(np.asarray(periods, float))
 
 
-def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet:
-    """All orbits with one impact a period, synchronous with the shaft.
+@overload
+def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet: ...
+@overload
+def find_orbits(
+    machine: Subject, *, impacts: int, starts: int = STARTS, seed: int = 0, progress: Wish = None
+) -> FoundOrbits: ...
+@shows_progress
+def find_orbits(
+    machine: Subject,
+    longest_period: float | None = None,
+    *,
+    impacts: int | None = None,
+    starts: int = STARTS,
+    seed: int = 0,
+    progress: Wish = None,
+) -> OrbitSet | FoundOrbits:
+    """All orbits with one impact a period, synchronous with the shaft, or a search for those with several.
 
     With ``q = (1 + d)(1 + iμ)`` and the return of the flight to its start, ``a₁₂`` and ``a₂₂`` of
     :mod:`carom.closed_forms.periods`, the conditions of the source paper (4.3)–(4.5) are: the period is a root of
@@ -118,20 +135,29 @@ def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitS
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        With positive damping, or with ``longest_period``.
+        With positive damping, or with ``longest_period``.  With ``impacts`` any model, otherwise the planar rotor.
     longest_period : float, optional
         Search only periods up to this, in ``1/Ω``.
+    impacts : int, optional
+        Search orbits with this many impacts a period instead, by Newton's method from stretches of simulated motions; what is
+        found is exact, but nothing proves that it is all.
+    starts, seed : int
+        Number of motions that this search simulates, and the seed of their random starts.
+    progress : callable or bool, optional
+        See :func:`~carom.motions.simulate`.
 
     Returns
     -------
-    OrbitSet
-        Virtual orbits included, each with its reason.
+    OrbitSet or FoundOrbits
+        All orbits with one impact, virtual ones included, each with its reason; or the admissible orbits that the search found.
 
     Raises
     ------
     InputError
-        Without damping there are infinitely many; give ``longest_period``.
+        Without damping there are infinitely many with one impact; give ``longest_period``.
     """
+    if impacts is not None:
+        return search_orbits(model_of(machine), impacts, starts, seed, Reporter.of(progress, "searching orbits"))
     rotor = jeffcott_of(machine)
     condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)

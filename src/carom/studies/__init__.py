@@ -20,7 +20,7 @@
 from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone, Met
 from carom.studies.assembly import Study, study
-from carom.studies.document import orbits_document, trajectory_document
+from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
 from carom.studies.ranges import Edge, MotionRange, Span, Threshold, free_spans
 from carom.studies.verdict import NOT_COVERED, Finding, Verdict
 from carom.studies.wording import Wording
@@ -38,6 +38,7 @@ __all__ = [
     "Threshold",
     "Verdict",
     "Wording",
+    "found_orbits_document",
     "free_spans",
     "orbits_document",
     "study",

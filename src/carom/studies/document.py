@@ -19,6 +19,7 @@ from carom.models import Jeffcott, jeffcott_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
+from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet
 from carom.parameters import MACHINE_FIELDS, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
@@ -46,6 +47,21 @@ def orbits_document(
         "equilibria": [_equilibrium(entry, parameters) for entry in equilibria],
         "orbits": [_orbit(entry, scales) for entry in orbits],
         **fields_of(orbits, "complete", "longest_period", "argument"),
+    }
+
+
+def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[str, Any]:
+    """Return the document of a search for orbits with a number of impacts."""
+    searched = fields_of(found, "starts", "guesses", "repeats", "failures", "last_new", "virtual")
+    return {
+        "parameters": parameters.as_dict(),
+        "impacts": found.impacts,
+        "orbits": [
+            {**_orbit(entry, parameters.scales), "segments": entry.segments, "durations": entry.durations.tolist()}
+            for entry in found
+        ],
+        "search": searched,
+        "argument": found.argument,
     }
 
 

@@ -1,0 +1,71 @@
+"""The search for orbits with any number of impacts: what it finds is right, and what is known it finds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carom.motions import State, simulate
+from carom.orbits import find_orbits
+from carom.orbits.orbit import same_orbit
+from carom.orbits.recognising import orbit_of_motion
+from carom.outcome import InputError, Outcome
+from tests.compilation import sized
+from tests.machines import PAPER
+
+DOUBLED = PAPER.replace(gamma=0.083)
+STARTS = sized(40, 2, 200)
+
+
+@pytest.mark.jit_only
+def test_the_search_finds_the_orbits_that_are_proven_to_exist():
+    for gamma, starts in ((0.083, 12), (0.15, 60)):
+        machine = PAPER.replace(gamma=gamma)
+        found = find_orbits(machine, impacts=1, starts=starts)
+        proven = [orbit for orbit in find_orbits(machine) if orbit.admissible]
+        assert len(found) == len(proven) == 4
+        for orbit in proven:
+            assert sum(same_orbit(orbit, other) for other in found) == 1
+
+
+@pytest.mark.jit_only
+def test_orbits_of_two_impacts():
+    found = find_orbits(DOUBLED, impacts=2, starts=STARTS)
+    assert [orbit.name for orbit in found] == [f"P2,{k + 1}" for k in range(len(found))]
+    assert np.all(np.diff([orbit.period for orbit in found]) > 0.0)
+    for orbit in found:
+        assert orbit.admissible
+        assert orbit.links.size < 1e-12
+        # The simulation makes the same impacts.
+        motion = simulate(DOUBLED, orbit.departure, 1.001 * orbit.period)
+        assert len(motion.contacts) == 2
+        assert np.abs(motion.contacts.time - np.cumsum(orbit.durations)).max() < 1e-8
+    (stable,) = [orbit for orbit in found if orbit.stable]
+    one = find_orbits(DOUBLED)["B1,d"]
+    settled = simulate(DOUBLED, State(0.999 * one.position, 1.001 * one.departure.velocity), settle=True)
+    assert settled.outcome is Outcome.BOUNCING
+    assert same_orbit(orbit_of_motion(settled), stable)
+    assert found[stable.name] is stable
+    assert 0 < found.last_new <= found.starts == STARTS
+    assert found.guesses >= found.repeats + found.failures + len(found)
+    assert str(STARTS) in found.argument
+    assert "proves nothing" in repr(found)
+
+
+def test_the_same_seed_finds_the_same():
+    first, second = (find_orbits(DOUBLED, impacts=2, starts=sized(4, 1), seed=3) for _ in range(2))
+    assert [orbit.period for orbit in first] == [orbit.period for orbit in second]
+    assert first.guesses == second.guesses
+
+
+def test_bad_numbers_and_names():
+    with pytest.raises(InputError, match="impacts"):
+        find_orbits(DOUBLED, impacts=0)
+    with pytest.raises(InputError, match="starts"):
+        find_orbits(DOUBLED, impacts=2, starts=0)
+    with pytest.raises(InputError, match="orbit"):
+        find_orbits(DOUBLED, impacts=9, starts=1)["P9,77"]
+
+
+def test_motions_without_an_orbit():
+    assert orbit_of_motion(simulate(PAPER, State(0.1, 0.0), 5.0)) is None
