@@ -1,0 +1,255 @@
+"""Single-impact orbits for balls and power series of balls: closing conditions, course, derivative of the impact map.
+
+The frame is turned such that the impact is at ``U = 1``.  With ``S = −γ − 2i``, ``P = ω² − 1 + iγ`` and the real
+``D = S²/4 − P = γ²/4 − ω²``, a flight changes position and velocity relative to the contact-free equilibrium by
+
+    [[e − S/2 o, o], [−P o, e + S/2 o]],      e = e^{St/2} cosh(√D t),      o = e^{St/2} sinh(√D t)/√D .
+
+The levers ``a₁₂`` and ``a₂₂`` of the return after a period are computed from whichever form loses least on wide balls: by
+Bernoulli numbers at short periods, by the exponents ``λ± = S/2 ± √D`` where these are well apart, by ``e`` and ``o`` otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+from flint import acb, arb
+
+from carom.proofs.lines import Numbers
+from carom.proofs.series import I, first, hyperbolic, imaginary, real, short_return, squared
+
+__all__ = ["Course", "Return", "period_condition"]
+
+_SHORT = 2.7
+"""Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
+
+
+def period_condition(whole: Numbers, period: Any) -> Callable[[Numbers, Any], Any]:
+    """A function of numbers and period that has the zeros of ``F₁`` and its signs, suited to a range of periods.
+
+    At short periods ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
+
+    Parameters
+    ----------
+    whole : Numbers
+        Balls.
+    period : arb
+    """
+    apart = abs(whole.gamma * whole.gamma * 0.25 - whole.omega_squared).sqrt()
+    return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else _entire_condition
+
+
+def _short_condition(n: Numbers, period: Any) -> Any:
+    found = short_return(n.gamma * -0.5 - I, n.gamma * n.gamma * 0.25 - n.omega_squared, period)
+    if found is None:
+        return first(period) * arb.nan()
+    return 1 + real(_grip(n) * found[1])
+
+
+def _entire_condition(n: Numbers, period: Any) -> Any:
+    half = n.gamma * -0.5 - I
+    even, odd = hyperbolic(n.gamma * n.gamma * 0.25 - n.omega_squared, period)
+    growth = (half * period).exp()
+    even, odd, decay = even * growth, odd * growth, growth * growth
+    gap = 1 - even * 2 + decay
+    other = gap + _grip(n) * (even + half * odd - decay)
+    return real(other) * real(gap) + imaginary(other) * imaginary(gap)
+
+
+def _grip(n: Numbers) -> Any:
+    """``q = (1 + d)(1 + iμ)``."""
+    return (1 + n.d) * (1 + n.mu * I)
+
+
+class Return:
+    """What a period and the numbers of a machine say of an orbit before its radial speed is known.
+
+    Parameters
+    ----------
+    numbers : Numbers
+    period : arb or arb_series
+
+    Attributes
+    ----------
+    half, split, product : acb or acb_series, arb or arb_series
+        ``S/2``, ``D`` and ``P``.
+    q, lever, turn : acb or acb_series
+        ``(1 + d)(1 + iμ)``, ``q a₁₂`` and ``q a₂₂``.
+    closing : arb or arb_series
+        ``F₁``.
+    levitation : arb or arb_series
+        ``|U*|²``.
+    """
+
+    def __init__(self, numbers: Numbers, period: Any) -> None:
+        n = self.numbers = numbers
+        self.period = period
+        self.half = n.gamma * -0.5 - I
+        self.split = n.gamma * n.gamma * 0.25 - n.omega_squared
+        self.product = n.omega_squared - 1 + n.gamma * I
+        self.q = _grip(n)
+        place, turn = self._levers()
+        self.a12, self.a22 = place, turn
+        self.lever, self.turn = self.q * place, self.q * turn
+        self.closing = 1 + real(self.turn)
+        self.levitation = n.rho * n.rho / squared(self.product)
+
+    def _levers(self) -> tuple[Any, Any]:
+        short = short_return(self.half, self.split, self.period)
+        if short is not None:
+            return short
+        if first(self.split * self.period * self.period).abs_lower() > 1:
+            root = (acb(1) * self.split).sqrt()
+            up, down = self.half + root, self.half - root
+            one, other = 1 / ((-up * self.period).exp() - 1), 1 / ((-down * self.period).exp() - 1)
+            return (one - other) / (root * 2), (up * one - down * other) / (root * 2)
+        even, odd, growth = self.flight(self.period)
+        decay = growth * growth
+        gap = 1 - even * 2 + decay
+        return odd / gap, (even + self.half * odd - decay) / gap
+
+    def flight(self, time: Any) -> tuple[Any, Any, Any]:
+        """``e``, ``o`` and ``e^{St/2}`` at a time."""
+        even, odd = hyperbolic(self.split, time)
+        growth = (self.half * time).exp()
+        return even * growth, odd * growth, growth
+
+    @cached_property
+    def over(self) -> tuple[Any, Any, Any]:
+        """The flight over the period."""
+        return self.flight(self.period)
+
+    @cached_property
+    def closing_rate(self) -> Any:
+        """``∂F₁/∂T``, from ``∂a₂₂/∂T = S a₂₂(1 + a₂₂) − P a₁₂(1 + 2a₂₂)``."""
+        rate = self.half * 2 * self.a22 * (1 + self.a22) - self.product * self.a12 * (1 + self.a22 * 2)
+        return real(self.q * rate)
+
+    @cached_property
+    def lever_squared(self) -> Any:
+        """``|q a₁₂|²``."""
+        return squared(self.lever)
+
+    @cached_property
+    def discriminant(self) -> Any:
+        """A quarter of the discriminant of ``|q a₁₂|²ṙ² + 2 Re(q a₁₂)ṙ + 1 − |U*|² = 0``."""
+        half = real(self.lever)
+        return half * half - self.lever_squared * (1 - self.levitation)
+
+    @cached_property
+    def determinant(self) -> Any:
+        """Product of the multipliers, ``d²e^{−2γT}``."""
+        return self.numbers.d * self.numbers.d * (self.numbers.gamma * self.period * -2).exp()
+
+    def speeds(self) -> tuple[Any, Any]:
+        """Both radial speeds, the lower first, in forms without cancellation; the discriminant must be positive."""
+        half, rest, root = real(self.lever), 1 - self.levitation, self.discriminant.sqrt()
+        if first(half) > 0:
+            larger = -(half + root)
+            return larger / self.lever_squared, rest / larger
+        if first(half) < 0:
+            larger = root - half
+            return rest / larger, larger / self.lever_squared
+        return -(half + root) / self.lever_squared, (root - half) / self.lever_squared
+
+
+class Course:
+    """A single-impact orbit.
+
+    Parameters
+    ----------
+    back : Return
+        At the period of the orbit.
+    speed : arb or arb_series
+        ``ṙ`` before the impact.
+    """
+
+    def __init__(self, back: Return, speed: Any) -> None:
+        self.back, self.speed = back, speed
+        # Velocities before and after the impact, over the radial speed.
+        self.approach = 1 - imaginary(back.turn) * I
+        self.leaving = self.approach - back.q
+
+    @property
+    def balance(self) -> Any:
+        """``|1 + q a₁₂ṙ|² − |U*|²``: zero on an orbit."""
+        back, speed = self.back, self.speed
+        return 1 + real(back.lever) * speed * 2 + back.lever_squared * speed * speed - back.levitation
+
+    @property
+    def speed_fold(self) -> Any:
+        """Half of the derivative of ``balance`` by ``ṙ``."""
+        return real(self.back.lever) + self.back.lever_squared * self.speed
+
+    @property
+    def angular_speed(self) -> Any:
+        """``θ̇`` before the impact."""
+        return -imaginary(self.back.turn) * self.speed
+
+    @property
+    def slip_after(self) -> Any:
+        """Slip velocity just after the impact."""
+        return self.back.numbers.radius_ratio + 1 + imaginary(self.leaving) * self.speed
+
+    def height(self, time: Any, backward: bool = False) -> tuple[Any, Any]:
+        """``(|U|² − 1)/ṙ`` and half of its rate, which are regular where the orbit shrinks to a point.
+
+        Parameters
+        ----------
+        time : arb or arb_series
+            After the impact; with ``backward`` the negative time before the next one.
+        backward : bool
+            Start from the state at the next impact: exact there, as that state does not depend on the period.
+        """
+        back = self.back
+        even, odd, _ = back.flight(time)
+        share = back.half * odd
+        start = self.approach if backward else self.leaving
+        # The contact-free equilibrium is at 1 + q a₁₂ṙ.
+        place = back.lever * (1 - even + share) + odd * start
+        rate = back.product * odd * back.lever + (even + share) * start
+        across = real(place)
+        height = across * 2 + squared(place) * self.speed
+        return height, real(rate) + (across * real(rate) + imaginary(place) * imaginary(rate)) * self.speed
+
+    def jacobian(self) -> list[list[Any]]:
+        """Derivative of the impact map over ``(θ, ṙ, θ̇)``, by rows; regular for ``ṙ = 0``."""
+        back, speed = self.back, self.speed
+        even, odd, _ = back.over
+        upper, lower, left = even - back.half * odd, even + back.half * odd, -back.product * odd
+        force = back.half * 2 * self.approach + back.product * back.lever
+        sweep = imaginary(self.approach) * speed
+        columns = []
+        for place, start in ((I, I * self.leaving * speed), (acb(0), 1 - back.q), (acb(0), I)):
+            position = upper * place + odd * start
+            late = -real(position)
+            turned = imaginary(position + self.approach * late)
+            velocity = left * place + lower * start + force * late
+            columns.append((turned, real(velocity) + turned * sweep, imaginary(velocity) - turned * speed))
+        return [[column[row] for column in columns] for row in range(3)]
+
+    @cached_property
+    def invariants(self) -> tuple[Any, Any, Any]:
+        """Trace, sum of principal minors and determinant of the derivative of the impact map."""
+        (a, b, c), (d, e, f), (g, h, i) = self.jacobian()
+        return a + e + i, a * e - b * d + a * i - c * g + e * i - f * h, self.back.determinant
+
+    @property
+    def flip(self) -> Any:
+        """``det(J + 1)``: zero at a period doubling."""
+        trace, minors, determinant = self.invariants
+        return 1 + trace + minors + determinant
+
+    @property
+    def torus(self) -> Any:
+        """Product of ``1 − λⱼλₖ`` over the pairs of multipliers: zero at a Neimark–Sacker bifurcation."""
+        trace, minors, determinant = self.invariants
+        return 1 - minors + determinant * (trace - determinant)
+
+    @property
+    def crowding(self) -> Any:
+        """``3 − 2τ + m``, the derivative of the characteristic polynomial at 1: positive if all multipliers are inside."""
+        trace, minors, _ = self.invariants
+        return 3 - trace * 2 + minors

@@ -1,0 +1,145 @@
+"""Machines that differ in one number: their dimensionless numbers as functions of it, for balls and power series."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from flint import ctx
+
+from carom.outcome import InputError
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
+from carom.parameters.exact import read_exact
+from carom.parameters.fields import unknown_name
+from carom.proofs.balls import ball_of
+from carom.proofs.hypotheses import NUMBERS, Hypotheses
+from carom.proofs.series import hull
+
+__all__ = ["Line", "Numbers", "line_of"]
+
+
+class Numbers(NamedTuple):
+    """The numbers of the equations; balls or power series of balls."""
+
+    gamma: Any
+    omega_squared: Any
+    rho: Any
+    mu: Any
+    d: Any
+    radius_ratio: Any
+
+
+@dataclass(frozen=True)
+class Line:
+    """All machines whose parameter lies in an interval, the other numbers those of the hypotheses.
+
+    Attributes
+    ----------
+    hypotheses : Hypotheses
+    name : str
+        Dimensionless or physical.
+    start, stop : str
+        Ends of the interval as they were given.
+    """
+
+    hypotheses: Hypotheses
+    name: str
+    start: str
+    stop: str
+
+    @property
+    def physical(self) -> bool:
+        """Whether the parameter is one of the machine's table in SI units."""
+        return self.name not in DIMENSIONLESS_FIELDS
+
+    @cached_property
+    def ends(self) -> tuple[Any, Any]:
+        """Exact balls between which the interval lies; they may be a rounding error further apart."""
+        field = MACHINE_FIELDS[self.name] if self.physical else DIMENSIONLESS_FIELDS[self.name]
+        start, stop = (ball_of(read_exact(field, text)) for text in (self.start, self.stop))
+        return start.lower(), stop.upper()
+
+    @property
+    def words(self) -> str:
+        """The interval in words."""
+        return f"{self.start} <= {self.name} <= {self.stop}"
+
+    def at(self, value: Any) -> Numbers:
+        """Numbers at a value of the parameter: a ball or a power series."""
+        found = dict(self._balls)
+        if not self.physical:
+            found |= {"omega_squared": value * value} if self.name == "omega" else {self.name: value}
+        else:
+            found |= {**self._of_machine({**self._machine, self.name: value}), **self._set}
+        return Numbers(*(found[name] for name in NUMBERS))
+
+    @property
+    def _balls(self) -> dict[str, Any]:
+        return self._remembered("numbers", lambda: {n: ball_of(self.hypotheses.numbers[n]) for n in NUMBERS})
+
+    @property
+    def _set(self) -> dict[str, Any]:
+        """Numbers that do not follow from the machine's table."""
+        names = {"omega_squared" if name == "omega" else name for name in self.hypotheses.settings}
+        return {name: ball for name, ball in self._balls.items() if name in names}
+
+    @property
+    def _machine(self) -> dict[str, Any]:
+        values = self.hypotheses.values.items()
+        return self._remembered(
+            "machine", lambda: {name: ball_of(read_exact(MACHINE_FIELDS[name], text)) for name, text in values}
+        )
+
+    @staticmethod
+    def _of_machine(given: dict[str, Any]) -> dict[str, Any]:
+        speed = given["speed"]
+        return {
+            "gamma": given["damping"] / (given["mass"] * speed),
+            "omega_squared": given["stiffness"] / (given["mass"] * speed * speed),
+            "rho": given["eccentricity"] / given["clearance"],
+            "mu": given["friction"],
+            "d": given["restitution"],
+            "radius_ratio": given["rotor_radius"] / given["clearance"],
+        }
+
+    def _remembered(self, name: str, make: Any) -> dict[str, Any]:
+        """What is made once at each precision."""
+        key = name, ctx.prec
+        if key not in self._memory:
+            self._memory[key] = make()
+        return self._memory[key]
+
+    @cached_property
+    def _memory(self) -> dict[tuple[str, int], dict[str, Any]]:
+        return {}
+
+
+def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:
+    """Machines along one parameter.
+
+    Parameters
+    ----------
+    hypotheses : Hypotheses
+        Its own value of the parameter does not matter.
+    name : str
+        Dimensionless, or one of the machine's table.
+    start, stop : str
+        Decimal numbers or fractions, perhaps with a unit.
+
+    Raises
+    ------
+    InputError
+        There is no such parameter, it changes nothing, or the interval is empty.
+    """
+    known = {**DIMENSIONLESS_FIELDS, **(MACHINE_FIELDS if hypotheses.table == "machine" else {})}
+    if name not in known:
+        raise unknown_name(name, f"{start} to {stop}", known, "parameter")
+    if name in ("phi", "unbalance_phase"):
+        raise InputError("parameter", name, "only turns motions: no claim depends on it")
+    line = Line(hypotheses, name, start, stop)
+    low, high = line.ends
+    if not low <= high:
+        raise InputError(name, f"{start} to {stop}", "the interval must begin below its end")
+    line.at(hull(low, high))
+    return line
