@@ -15,8 +15,8 @@ from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.theorems import THEOREMS, Options
 
-FIRST_BITS, MOST_BITS = 128, 1024
-"""Precision to begin with, and beyond which a claim is left undecided."""
+MOST_BITS = 1024
+"""Precision beyond which a claim is left undecided."""
 MOST_CELLS = 2000
 """Cells of the periods after which the search ends."""
 
@@ -54,7 +54,7 @@ def prove(
 
 def proof_of(theorem: str, hypotheses: Hypotheses, options: Options) -> Proof:
     """Prove the claims of a theorem, with more bits as long as more bits may decide a claim."""
-    bits = FIRST_BITS
+    bits = THEOREMS[theorem].first_bits
     while True:
         try:
             proof = proof_at(bits, theorem, hypotheses, options, Evidence())

@@ -20,6 +20,7 @@ from flint import arb
 from carom.proofs.balls import exact_ends, rational
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
+from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
 
 STEPS = 64
@@ -34,18 +35,18 @@ def slip_claim(rotor: Rotor, evidence: Evidence) -> Claim:
     if rotor.hypotheses.rational("mu") == (Fraction(0),):
         statement = "There is no friction: slip changes nothing."
         return claim_of("machine", "slip", statement, 1)
-    found = evidence.take("out of the clearance after", lambda: _time_out(rotor))
+    found = evidence.take("out of the clearance after", lambda: time_out(rotor))
     if found is None:
         reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
         if not rotor.gamma >= 0:
             reason = "the argument needs damping that is not negative"
         return claim_of("machine", "slip", statement, 0, reason=reason, limited=False)
-    if not _out(rotor, rational_of(found)):
+    if not out_of_clearance(rotor, rational_of(found)):
         raise NotShownError(f"the certificate does not show that the rotor is out of the clearance after {found}")
     return claim_of("machine", "slip", statement, 1)
 
 
-def _out(rotor: Rotor, time: Fraction) -> bool:
+def out_of_clearance(rotor: Rotor | Numbers, time: Fraction) -> bool:
     """Whether ``b > 1`` at a time of at most half a turn."""
     moment = rational(time)
     if not (time > 0 and moment <= arb.pi() and rotor.gamma >= 0):
@@ -56,9 +57,10 @@ def _out(rotor: Rotor, time: Fraction) -> bool:
     return bool(rotor.radius_ratio * way - (rotor.omega_squared + rotor.rho) * moment**2 / 2 > 1)
 
 
-def _time_out(rotor: Rotor) -> str | None:
+def time_out(rotor: Rotor | Numbers) -> str | None:
+    """A time at which ``b > 1``; ``None`` if none is found."""
     for k in range(1, STEPS + 1):
         time = Fraction(314 * k, 100 * STEPS)
-        if _out(rotor, time):
+        if out_of_clearance(rotor, time):
             return str(time)
     return None

@@ -12,6 +12,7 @@ from typing import Any
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.periods import Periods, all_periods
+from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import Rotor
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.slip import slip_claim
@@ -29,10 +30,13 @@ class Theorem:
     claims : callable
         Takes a :class:`~carom.proofs.rotor.Rotor`, :class:`~carom.proofs.evidence.Evidence` and options.
     not_claimed : tuple of str
+    first_bits : int
+        Precision to begin with.
     """
 
     claims: Callable[[Rotor, Evidence, Options], list[Claim]]
     not_claimed: tuple[str, ...]
+    first_bits: int = 128
 
 
 def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[Claim]:
@@ -96,6 +100,15 @@ THEOREMS: Mapping[str, Theorem] = {
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
             "that a rub attracts motions that bounce, not only those that slide",
         ),
+    ),
+    "ranges of orbits": Theorem(
+        range_claims,
+        (
+            "anything on the intervals that are left open",
+            "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
+            "which disturbances lead to an orbit or to levitation",
+        ),
+        first_bits=64,
     ),
 }
 """Theorems by their names in certificates."""

@@ -1,0 +1,328 @@
+"""All orbits with one impact a period for every value of a parameter in a narrow interval.
+
+**All periods.**  ``F₁ > 0`` beyond the bound of :mod:`carom.proofs.periods` and next to zero, where for ``d < 1`` it tends to
+``(1 − d)/2`` and for ``d = 1`` the next term decides.  In between, cells on which its sign or the sign of its slope is known tile the periods.  On neighbouring cells
+of one sign of slope lies at most one root, as the slopes at consecutive simple roots alternate; the signs at both ends say
+whether there is one.
+
+**Stability.**  With the closing conditions the characteristic polynomial of the derivative ``J`` of the impact map is at 1
+
+    det(1 − J) = |det(1 − e^{MT})|² F₁'(T) (Re(q a₁₂) + |q a₁₂|²ṙ),
+
+positive for the orbits ``a`` and ``d`` and negative for ``b`` and ``c``, which have a multiplier above 1 and are unstable, always.
+For ``a`` and ``d`` the conditions of Schur and Cohn decide, or ``3 − 2τ + m < 0``: if all multipliers are inside the unit circle,
+so are the zeros of the derivative of the characteristic polynomial (Gauss, Lucas), and this is positive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import acb, arb, arb_series
+
+from carom.proofs.blocks import Block, Branch, OpenError, OrbitBranch, slopes_on
+from carom.proofs.courses import Course, period_condition
+from carom.proofs.lines import Numbers
+from carom.proofs.series import hull, terms
+
+__all__ = ["Cell", "OrbitFact", "branches_on", "first_cells", "inside", "orbits_on"]
+
+Cell = tuple[float, float]
+_ORDER = 4
+"""Order of Taylor's formula on a cell of periods or times."""
+_NARROWEST_PERIODS, _NARROWEST_TIMES = 0.004, 1e-4
+"""Widths of cells of periods (1/Ω) and of times (share of the flight) at which a block is given up."""
+_SAMPLES = 16
+
+
+@dataclass(frozen=True)
+class OrbitFact:
+    """What holds for an orbit on all of a block.
+
+    Attributes
+    ----------
+    name : str
+    admissible, stable : bool
+    reason : str
+        Why it is not admissible.
+    instability : str
+        Why it is not stable.
+    period, speed : arb
+        Enclosures of ``T`` and ``ṙ``.
+    """
+
+    name: str
+    admissible: bool
+    stable: bool
+    reason: str
+    instability: str
+    period: Any
+    speed: Any
+
+    @property
+    def signature(self) -> tuple[Any, ...]:
+        """What is the same along a stretch of the parameter."""
+        return self.name, self.admissible, self.stable, self.reason, self.instability
+
+
+# ------------------------------------------------------------------------------------------------ periods
+
+
+def first_cells(block: Block) -> list[Cell]:
+    """Cells that tile all periods at which ``F₁`` may have roots on a block, or on any part of it.
+
+    Raises
+    ------
+    OpenError
+        Nothing bounds these periods, or ``F₁`` may vanish next to zero.
+    """
+    start, end = _start(block.whole)[0], _longest(block.whole)
+    if end <= start:
+        return []
+    count = max(4, int((end - start) / 0.5))
+    edges = [start + (end - start) * (k / count) ** 1.5 for k in range(count)] + [end]
+    return list(zip(edges, edges[1:], strict=False))
+
+
+def _longest(n: Numbers) -> float:
+    """Period beyond which ``F₁ > 0``; see :mod:`carom.proofs.periods` for the bound."""
+    split, half = n.gamma * n.gamma / 4 - n.omega_squared, n.gamma / 2
+    slow = half if split < 0 else n.omega_squared / (half + split.nonnegative_part().sqrt())
+    rate = arb(slow.lower())
+    if not rate > 0:
+        raise OpenError("without damping there are infinitely many periods")
+    size, swing = (1 + n.d) * (1 + n.mu * n.mu).sqrt(), (half * half + 1).sqrt()
+    end = float((1 / rate).upper()) * 1.001
+    while True:
+        time = arb(end)
+        decay = (-rate * time).exp()
+        if rate * time >= 1 and size * (decay * (1 + swing * time) + decay * decay) < (1 - decay) ** 2:
+            return end
+        if end > 1e5:
+            raise OpenError("the damping is too weak: the longest period is beyond 100,000/Omega")
+        end *= 1.05
+
+
+def _start(n: Numbers) -> tuple[float, int]:
+    """Period up to which ``F₁`` keeps the sign that it has next to zero, and this sign.
+
+    ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + …``, and by the series of :func:`~carom.proofs.series.short_return` the terms from
+    the ``k``-th on are at most ``8k x^k/((1 − x)²LT)`` times ``|q|``, ``x = (LT/6)²``.
+    """
+    base, slope = (1 - n.d) / 2, (1 + n.d) * (n.gamma - 2 * n.mu) / 12
+    longest = abs(n.gamma) / 2 + 1 + abs(n.gamma * n.gamma * 0.25 - n.omega_squared).sqrt()
+    grip, elastic = abs((1 + n.d) * acb(1, n.mu)), base.is_zero()
+    time = 0.5
+    while time > 1e-9:
+        share = (longest * time / 6) ** 2
+        rest = grip * 8 * (2 if elastic else 1) * share ** (2 if elastic else 1) / (1 - share) ** 2 / (longest * time)
+        if share < 0.3 and (abs(slope) * time > rest if elastic else base > rest):
+            return time, _sign(slope) if elastic else 1
+        time /= 2
+    raise OpenError("F1 may vanish next to T = 0")
+
+
+def _sign_and_slope(block: Block, low: float, high: float) -> tuple[int, int]:
+    """Signs of the period condition and of its slope on a cell; 0 where none is shown."""
+    period = hull(low, high)
+    condition = period_condition(block.whole, period)
+    plain = condition(block.whole, period)
+    if not plain.is_finite():
+        return 0, 0
+    if not plain.contains(0):
+        return (1 if plain > 0 else -1), 0
+    middle = period.mid()
+    late = period - middle
+    with terms(_ORDER + 1):
+        far = condition(block.whole, arb_series([period, 1]))[_ORDER]
+    with terms(_ORDER):
+        near = condition(block.whole, arb_series([middle, 1]))
+    with terms(2):
+        across = condition(block.moving(block.ball), arb_series([middle]))[1]
+    rate, value = _ORDER * far, far
+    for k in range(_ORDER - 1, 0, -1):
+        rate, value = k * near[k] + late * rate, near[k] + late * value
+    value = condition(block.centre, middle) + across * block.off + late * value
+    return _sign(value), _sign(rate)
+
+
+def _sign(ball: Any) -> int:
+    return 1 if ball > 0 else -1 if ball < 0 else 0
+
+
+def remaining(block: Block, cells: Sequence[Cell]) -> list[tuple[float, float, int]]:
+    """Cells on which the period condition is not shown to differ from zero, with the sign of its slope or 0."""
+    left, stack = [], list(reversed(cells))
+    while stack:
+        low, high = stack.pop()
+        sign, slope = _sign_and_slope(block, low, high)
+        if sign:
+            continue
+        narrow = high - low <= _NARROWEST_PERIODS
+        if not slope and high - low <= 16 * _NARROWEST_PERIODS:
+            found = slopes_on(block, hull(low, high))
+            slope = 0 if found is None else _sign(found.rate)
+        if slope or narrow:
+            left.append((low, high, slope))
+            continue
+        middle = 0.5 * (low + high)
+        stack += [(middle, high), (low, middle)]
+    return left
+
+
+def branches_on(block: Block, cells: Sequence[Cell]) -> list[Branch]:
+    """All roots of ``F₁`` in the cells, the period as a function of the parameter.
+
+    Raises
+    ------
+    OpenError
+        Their number is not decided on this block.
+    """
+    # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
+    before_all = _start(block.whole)[1] < 0
+    groups: list[tuple[float, float, set[int]]] = []
+    for low, high, slope in remaining(block, cells):
+        if groups and groups[-1][1] == low:
+            groups[-1] = (groups[-1][0], high, groups[-1][2] | {slope})
+        else:
+            groups.append((low, high, {slope}))
+    found = []
+    for low, high, slopes in groups:
+        before, after = (_sign_and_slope(block, end, end)[0] for end in (low, high))
+        if len(slopes) > 1 or 0 in slopes or not (before and after):
+            raise OpenError(f"the number of periods next to {0.5 * (low + high):.4g} is open")
+        if before != after:
+            found.append(Branch(block, low, high, after > 0))
+    for count, branch in enumerate(found, before_all):
+        if branch.rising is not bool(count % 2):
+            raise OpenError("the slopes at the periods do not alternate")
+    return found
+
+
+# ------------------------------------------------------------------------------------------------ orbits
+
+
+def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
+    """All orbits on a block, with what holds for each on all of it.
+
+    Raises
+    ------
+    OpenError
+        Something is not decided.
+    """
+    facts = []
+    branches = branches_on(block, cells)
+    for count, branch in enumerate(branches, bool(branches) and branches[0].rising):
+        discriminant = branch.along(lambda back: back.discriminant)
+        if discriminant < 0:
+            continue
+        if not (discriminant > 0 and branch.far.discriminant[0] > 0):
+            raise OpenError("two radial speeds of one period may meet")
+        for faster in (False, True):
+            name = f"B{count // 2 + 1},{'abcd'[branch.rising + 2 * faster]}"
+            facts.append(_fact(name, OrbitBranch(branch, faster), branch.rising is faster))
+    return facts
+
+
+def _fact(name: str, orbit: OrbitBranch, positive: bool) -> OrbitFact:
+    instability = instability_of(orbit, positive)
+    if instability is None:
+        raise OpenError(f"the stability of {name} is open")
+    reason = why_virtual(orbit)
+    if reason is None:
+        raise OpenError(f"it is open whether {name} is a motion")
+    return OrbitFact(name, not reason, not instability, reason, instability, orbit.branch.period, orbit.speed)
+
+
+def instability_of(orbit: OrbitBranch, positive: bool) -> str | None:
+    """Why an orbit is unstable; empty if it is stable, ``None`` if this is open.
+
+    Parameters
+    ----------
+    orbit : OrbitBranch
+    positive : bool
+        Whether ``det(1 − J)`` is positive.
+    """
+    if not positive:
+        return "a multiplier is above 1"
+    if orbit.along(lambda course: course.crowding) < 0:
+        return "two multipliers are above 1"
+    flip = orbit.along(lambda course: course.flip)
+    if flip < 0:
+        return "a multiplier is below -1"
+    torus = orbit.along(lambda course: course.torus)
+    if torus < 0:
+        return "the product of two multipliers is above 1"
+    if flip > 0 and torus > 0 and orbit.branch.along(lambda back: back.determinant) < 1:
+        return ""
+    return None
+
+
+def why_virtual(orbit: OrbitBranch) -> str | None:
+    """Why an orbit is not a motion of the machine; empty if it is one, ``None`` if this is open."""
+    if orbit.speed < 0:
+        return "it would meet the wall from outside"
+    if not orbit.speed > 0:
+        return None
+    slip = orbit.along(lambda course: course.slip_after)
+    if slip < 0 and orbit.branch.block.whole.mu > 0:
+        return "friction would stop its slip, or its slip is backward"
+    stays = inside(orbit)
+    if stays is None or not (slip > 0 or orbit.branch.block.whole.mu.is_zero()):
+        return "it would cross the wall between its impacts" if stays is False else None
+    return "" if stays else "it would cross the wall between its impacts"
+
+
+# ------------------------------------------------------------------------------------------------ between the impacts
+
+
+def inside(orbit: OrbitBranch) -> bool | None:
+    """Whether an orbit with ``ṙ > 0`` stays inside the wall between its impacts; ``None`` if this is open.
+
+    ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.
+    """
+    period = orbit.branch.period
+    half = 0.5 * float(period.mid())
+    times = [half * 2 * k / _SAMPLES for k in range(1, _SAMPLES)]
+    top, at = max((float(orbit.plain.height(arb(time))[0].mid()), time) for time in times)
+    if top > 0:
+        height = orbit.along(_height_at(arb(at), False))
+        return False if height > 0 and at < period else None
+    for backward, end in ((False, half), (True, float((period - half).upper()) * (1 + 1e-15))):
+        stack = [(end * k / 3, end * (k + 1) / 3) for k in range(3)]
+        while stack:
+            low, high = stack.pop()
+            if _below(orbit, low, high, backward):
+                continue
+            if high - low < _NARROWEST_TIMES * end:
+                return None
+            middle = 0.5 * (low + high)
+            stack += [(middle, high), (low, middle)]
+    return True
+
+
+def _below(orbit: OrbitBranch, low: float, high: float, backward: bool) -> bool:
+    """Whether the height is negative on a cell of times; at time zero itself it vanishes."""
+    time, sign = hull(low, high), -1 if backward else 1
+    middle = time.mid()
+    late = (time - middle) * sign
+    with terms(_ORDER + 1):
+        far = orbit.plain.height(arb_series([time * sign, 1]), backward)[0]
+    if low == 0.0:
+        # The height is −2t, or −2dt, and at most curve·t² more.
+        fall, curve = 2 * (1 if backward else orbit.branch.block.whole.d), far[2]
+        return bool(curve < 0 or curve * high < fall)
+    if far[0] < 0:
+        return True
+    with terms(_ORDER):
+        near = orbit.plain.height(arb_series([middle * sign, 1]), backward)[0]
+    value = far[_ORDER]
+    for k in range(_ORDER - 1, 0, -1):
+        value = near[k] + value * late
+    return bool(orbit.along(_height_at(middle * sign, backward)) + value * late < 0)
+
+
+def _height_at(time: Any, backward: bool) -> Callable[[Course], Any]:
+    return lambda course: course.height(arb_series([time]), backward)[0]

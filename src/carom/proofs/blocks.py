@@ -1,0 +1,278 @@
+"""Orbits with one impact a period on an interval of a parameter, by the mean value form.
+
+On an interval with middle ``m`` and half width ``h`` a function of the parameter is enclosed by
+``f(m) + (f'(m) + ½f''(ξ)h)h``, where the last derivative holds for every ``ξ`` of the interval.  The period ``T`` is such a
+function, with ``T' = −F_p/F_T`` and ``T'' = −(F_TT T'² + 2F_Tp T' + F_pp)/F_T``, and with it everything else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from flint import arb, arb_series
+
+from carom.outcome import CaromError
+from carom.proofs.courses import Course, Return, period_condition
+from carom.proofs.lines import Line, Numbers
+from carom.proofs.series import hull, narrower, terms
+
+__all__ = ["Block", "Branch", "OpenError", "OrbitBranch", "Slopes", "slopes_on"]
+
+
+class OpenError(CaromError):
+    """Something is not decided on a block; on a narrower one it may be."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """An interval of the parameter.
+
+    Attributes
+    ----------
+    line : Line
+    low, high : arb
+        Exact.
+    """
+
+    line: Line
+    low: Any
+    high: Any
+
+    @cached_property
+    def ball(self) -> Any:
+        """All its values."""
+        return hull(self.low, self.high)
+
+    @cached_property
+    def middle(self) -> Any:
+        """Exact value in the middle."""
+        return self.ball.mid()
+
+    @cached_property
+    def off(self) -> Any:
+        """Distance from the middle."""
+        return self.ball - self.middle
+
+    @cached_property
+    def whole(self) -> Numbers:
+        """Numbers on all of it."""
+        return self.line.at(self.ball)
+
+    @cached_property
+    def centre(self) -> Numbers:
+        """Numbers in its middle."""
+        return self.line.at(self.middle)
+
+    def moving(self, about: Any) -> Numbers:
+        """Numbers as power series of the parameter about a ball."""
+        return self.line.at(arb_series([about, 1]))
+
+
+class Slopes(NamedTuple):
+    """How a root of the period condition moves.
+
+    Attributes
+    ----------
+    slope, bend : arb
+        ``T'`` and ``½T''`` on the block.
+    rate : arb
+        Derivative of the condition by the period.
+    """
+
+    slope: Any
+    bend: Any
+    rate: Any
+
+
+def slopes_on(block: Block, period: Any) -> Slopes | None:
+    """Motion of roots of the period condition in a range of periods; ``None`` where they may be double."""
+    rate, push, (along, across, mixed) = _rates(block, period)
+    if not rate.is_finite() or rate.contains(0):
+        return None
+    slope = -push / rate
+    return Slopes(slope, -(along * slope * slope + mixed * slope + across) / rate, rate)
+
+
+def _rates(block: Block, period: Any) -> tuple[Any, Any, tuple[Any, Any, Any]]:
+    """First derivatives of the period condition by period and parameter, and ½F_TT, ½F_pp and F_Tp."""
+    condition, middle = period_condition(block.whole, period), period.mid()
+    with terms(3):
+        moving, steady = block.moving(block.ball), arb_series([period])
+        along = condition(block.whole, arb_series([period, 1]))[2]
+        across = condition(moving, steady)[2]
+        mixed = condition(moving, arb_series([period, 1]))[2] - along - across
+    with terms(2):
+        rate = condition(block.centre, arb_series([middle, 1]))[1]
+        push = condition(block.moving(block.middle), middle)[1]
+    late = period - middle
+    return (
+        rate + 2 * along * late + mixed * block.off,
+        push + mixed * late + 2 * across * block.off,
+        (along, across, mixed),
+    )
+
+
+def enclosed(block: Block, near: Any, far: Any, function: Callable[[Any], Any]) -> Any:
+    """Values of a function of something known as series of two terms in the middle, and of three on the block."""
+    with terms(2):
+        about = function(near)
+    with terms(3):
+        everywhere = function(far)
+    return narrower(about[0] + (about[1] + everywhere[2] * block.off) * block.off, everywhere[0])
+
+
+class Branch:
+    """A simple root of ``F₁`` on a block.
+
+    Parameters
+    ----------
+    block : Block
+    low, high : float
+        Periods between which it is the only root, for every value of the parameter.
+    rising : bool
+        Whether ``F₁`` rises there.
+
+    Attributes
+    ----------
+    period : arb
+    near, far : Return
+        As power series in the middle of the block, and on all of it.
+    plain : Return
+        On all of it, as balls.
+
+    Raises
+    ------
+    OpenError
+        Its slope is not bounded.
+    """
+
+    def __init__(self, block: Block, low: float, high: float, rising: bool) -> None:
+        self.block, self.rising = block, rising
+        central = self._root_at_centre(low, high)
+        period = self._wider(central, low, high)
+        for _ in range(40):
+            found = slopes_on(block, period)
+            if found is None:
+                raise OpenError("the period may change without bound")
+            moved = narrower(period, central + found.slope * block.off)
+            settled = moved.rad() >= 0.95 * period.rad()
+            period = moved
+            if settled:
+                break
+        self.period = period
+        at_centre = slopes_on(Block(block.line, block.middle, block.middle), central)
+        if at_centre is None:
+            raise OpenError("the period may change without bound")
+        slope = narrower(found.slope, at_centre.slope + 2 * found.bend * block.off)
+        with terms(3):
+            self.far = Return(block.moving(block.ball), arb_series([period, slope, found.bend]))
+        with terms(2):
+            self.near = Return(block.moving(block.middle), arb_series([central, at_centre.slope]))
+        self.plain = Return(block.whole, period)
+
+    def along(self, function: Callable[[Return], Any]) -> Any:
+        """Enclosure of a function of the returns on the block."""
+        return enclosed(self.block, self.near, self.far, function)
+
+    def _root_at_centre(self, low: float, high: float) -> Any:
+        """The root in the middle of the block, by bisection and by interval Newton steps."""
+        numbers, period = self.block.centre, hull(low, high)
+        condition = period_condition(numbers, period)
+        for _ in range(200):
+            middle = period.mid()
+            value = condition(numbers, middle)
+            with terms(2):
+                rate = condition(numbers, arb_series([period, 1]))[1]
+            if rate.is_finite() and not rate.contains(0):
+                narrow = narrower(period, middle - value / rate)
+            elif value > 0 or value < 0:
+                left = (value > 0) is self.rising
+                narrow = hull(period.lower(), middle) if left else hull(middle, period.upper())
+            else:
+                raise OpenError("a period is too close to a double root for the precision")
+            if narrow.rad() >= 0.9 * period.rad():
+                return narrow
+            period = narrow
+        return period
+
+    def _wider(self, central: Any, low: float, high: float) -> Any:
+        """Periods between which the root stays on the block, by signs of the condition."""
+        block, middle = self.block, central.mid()
+        start = slopes_on(Block(block.line, block.middle, block.middle), central)
+        slope = abs(start.slope).mid() if start else arb(1)
+        reach = (slope * block.off.rad() * 1.5 + central.rad() * 4 + arb(2) ** -60).mid()
+        ends = []
+        for side, limit in ((-1, low), (1, high)):
+            step = reach
+            while True:
+                end = (middle + side * step).mid()
+                if not low < end < high:
+                    end = arb(limit)
+                    break
+                value = value_on(block, end)
+                if (value > 0 or value < 0) and ((value > 0) is self.rising) is (side > 0):
+                    break
+                step = step * 2
+            ends.append(end)
+        return hull(*ends)
+
+
+def value_on(block: Block, period: Any) -> Any:
+    """The period condition at one period, on all of a block."""
+    condition = period_condition(block.whole, period)
+    with terms(2):
+        about = condition(block.moving(block.middle), period)
+    with terms(3):
+        everywhere = condition(block.moving(block.ball), period)
+    return about[0] + (about[1] + everywhere[2] * block.off) * block.off
+
+
+class OrbitBranch:
+    """An orbit on a block.
+
+    Parameters
+    ----------
+    branch : Branch
+        Of its period; with a positive discriminant.
+    faster : bool
+        Whether it has the higher of both radial speeds.
+
+    Attributes
+    ----------
+    speed : arb
+        ``ṙ`` before the impact.
+    plain : Course
+        On all of the block, as balls.
+    """
+
+    def __init__(self, branch: Branch, faster: bool) -> None:
+        self.branch, block = branch, branch.block
+        with terms(2):
+            near = branch.near.speeds()[faster]
+        with terms(3):
+            far = branch.far.speeds()[faster]
+        speed = narrower(far[0], near[0] + (near[1] + far[2] * block.off) * block.off)
+        slope = narrower(far[1], near[1] + 2 * far[2] * block.off)
+        self.speed = speed
+        with terms(2):
+            self.near = Course(branch.near, near)
+        with terms(3):
+            self.far = Course(branch.far, arb_series([speed, slope, far[2]]))
+        self.plain = Course(branch.plain, speed)
+
+    def along(self, function: Callable[[Course], Any]) -> Any:
+        """Enclosure of a function of the orbit on the block."""
+        return enclosed(self.branch.block, self.near, self.far, function)
+
+    def over(self, function: Callable[[Course], Any]) -> tuple[Any, Any]:
+        """Enclosures of a function of the orbit on the block and of its slope."""
+        block = self.branch.block
+        with terms(2):
+            about = function(self.near)
+        with terms(3):
+            everywhere = function(self.far)
+        slope = narrower(everywhere[1], about[1] + 2 * everywhere[2] * block.off)
+        return self.along(function), slope

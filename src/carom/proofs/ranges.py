@@ -1,0 +1,285 @@
+"""Ranges of a parameter: for every value in an interval these orbits with one impact a period and no others, and what they are.
+
+The interval is cut into blocks.  On each, :mod:`carom.proofs.block_orbits` decides everything for all of its values, or the block
+is open.  Neighbouring blocks on which the same holds make a stretch: as periods and radial speeds depend continuously on the
+parameter and blocks share their ends, an orbit keeps its name along a stretch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import groupby
+from typing import Any
+
+from carom.proofs.balls import Enclosure, enclosure_of, exact_ends, interval
+from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
+from carom.proofs.blocks import Block, OpenError
+from carom.proofs.claims import Claim, Status, claim_of
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.lines import Line, line_of
+from carom.proofs.rotor import Rotor
+from carom.proofs.series import hull
+from carom.proofs.slip import out_of_clearance, time_out
+
+__all__ = ["NARROWEST", "Stretch", "range_claims"]
+
+NARROWEST, MOST_BLOCKS = Fraction(1, 10_000), 5000
+"""Width of a block, as a share of the interval, at which it is left open; number of blocks after which the search ends."""
+_FIRST_STEPS = 64
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Neighbouring blocks on which the same holds.
+
+    Attributes
+    ----------
+    low, high : arb
+        Exact.
+    facts : tuple of OrbitFact
+        Periods and speeds on all of it.
+    reason : str
+        Why nothing is shown; empty if it is.
+    """
+
+    low: Any
+    high: Any
+    facts: tuple[OrbitFact, ...]
+    reason: str
+
+    @property
+    def width(self) -> Any:
+        """Its width."""
+        return self.high - self.low
+
+    @property
+    def inner(self) -> tuple[str, str]:
+        """Its ends in decimal numbers, rounded inward where it is proven, else outward."""
+        return _decimal(self.low, not self.reason), _decimal(self.high, bool(self.reason))
+
+    @property
+    def ends(self) -> str:
+        """The interval between these."""
+        return "[" + ", ".join(self.inner) + "]"
+
+    def fact(self, name: str) -> OrbitFact | None:
+        """What holds for an orbit of a name."""
+        return next((fact for fact in self.facts if fact.name == name), None)
+
+
+def _decimal(end: Any, upward: bool) -> str:
+    """Decimal number of at most 12 digits on one side of an exact ball."""
+    value = exact_ends(end)[0]
+    scale = 10**12
+    scaled = (
+        -(-value.numerator * scale // value.denominator) if upward else value.numerator * scale // value.denominator
+    )
+    text = f"{scaled / scale:.12f}" if abs(scaled) < 2**52 else str(float(value))
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
+    """Claims for all values of a parameter between two.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        Of the hypotheses; its own value of the parameter does not matter.
+    evidence : Evidence
+    options : mapping
+        ``along``, ``from`` and ``to`` as texts.
+    """
+    line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
+    cuts = evidence.take("blocks", lambda: _cuts(line))
+    stretches = _stretches(line, _pieces(line, cuts))
+    slip = _slip_claim(line, evidence)
+    claims = [slip, _all_claim(line, stretches, slip)]
+    for name in sorted({fact.name for stretch in stretches for fact in stretch.facts}):
+        claims += _orbit_claims(line, name, stretches)
+    return [*claims, *(_stretch_claim(line, stretch) for stretch in stretches)]
+
+
+# ------------------------------------------------------------------------------------------------ blocks
+
+
+def _cuts(line: Line) -> list[list[str]]:
+    """Ends of the blocks, and why a block is left open, by a march along the interval."""
+    low, high = (exact_ends(end)[0] for end in line.ends)
+    width = high - low
+    place, step, found = low, width / _FIRST_STEPS, [[str(low), ""]]
+    while place < high or len(found) == 1:
+        end = high if place + step * Fraction(21, 20) >= high else _dyadic(place + step)
+        try:
+            _facts(line, place, end)
+            reason = ""
+        except OpenError as problem:
+            reason = str(problem)
+            if len(found) < MOST_BLOCKS and end - place > NARROWEST * width:
+                step /= 2
+                continue
+        found.append([str(end), reason])
+        place, step = end, max(min(step * Fraction(3, 2), width / 8), NARROWEST * width)
+        if len(found) > MOST_BLOCKS and place < high:
+            found.append([str(high), f"the search ended after {MOST_BLOCKS} blocks"])
+            break
+    return found
+
+
+def _dyadic(number: Fraction) -> Fraction:
+    """The number rounded to a multiple of a small power of 1/2, so that it is short."""
+    return Fraction(round(number * 2**48), 2**48) if abs(number) < 2**30 else Fraction(round(number))
+
+
+def _facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
+    block = Block(line, interval(low, low), interval(high, high))
+    try:
+        return tuple(orbits_on(block, first_cells(block)))
+    except (ArithmeticError, ValueError) as problem:
+        # Series cannot be divided where their first term may vanish.
+        raise OpenError(f"a formula has a pole next to it: {problem}") from None
+
+
+def _pieces(line: Line, cuts: Sequence[Sequence[str]]) -> list[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]:
+    """What holds on each block."""
+    low, high = (exact_ends(end)[0] for end in line.ends)
+    ends = [Fraction(end) for end, _ in cuts]
+    if ends[0] != low or ends[-1] != high or len(ends) < 2 or any(a > b for a, b in zip(ends, ends[1:], strict=False)):
+        raise NotShownError("the blocks of the certificate do not cover the interval")
+    found = []
+    for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
+        try:
+            facts = () if reason else _facts(line, before, after)
+        except OpenError as problem:
+            raise NotShownError(
+                f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
+            ) from None
+        found.append((before, after, facts, str(reason)))
+    return found
+
+
+def _stretches(line: Line, pieces: Sequence[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]) -> list[Stretch]:
+    """Neighbouring blocks of the same signature, put together."""
+    found = []
+    for _, group in groupby(pieces, key=lambda piece: (tuple(fact.signature for fact in piece[2]), bool(piece[3]))):
+        members = list(group)
+        facts = []
+        for same in zip(*(member[2] for member in members), strict=True):
+            period, speed = same[0].period, same[0].speed
+            for fact in same[1:]:
+                period, speed = hull(period, fact.period), hull(speed, fact.speed)
+            name, admissible, stable, reason, instability = same[0].signature
+            facts.append(OrbitFact(name, admissible, stable, reason, instability, period, speed))
+        ends = interval(members[0][0], members[0][0]), interval(members[-1][1], members[-1][1])
+        reasons = list(dict.fromkeys(member[3] for member in members if member[3]))
+        more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
+        found.append(Stretch(*ends, tuple(facts), reasons[0] + more if reasons else ""))
+    return found
+
+
+# ------------------------------------------------------------------------------------------------ claims
+
+
+def _slip_claim(line: Line, evidence: Evidence) -> Claim:
+    """Claim that no orbit with one impact a period stops its slip or slips backward, for all values."""
+    numbers = line.at(hull(*line.ends))
+    statement = f"For all {line.words}, no orbit with one impact a period stops its slip or slips backward."
+    if numbers.mu.is_zero():
+        return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
+    time = evidence.take("out of the clearance after", lambda: time_out(numbers))
+    shown = time is not None
+    if time is not None and not out_of_clearance(numbers, Fraction(time)):
+        raise NotShownError(f"the certificate does not show that the rotor is out of the clearance after {time}")
+    reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
+    return claim_of("machine", "slip", statement, int(shown), reason=reason, limited=False)
+
+
+def _all_claim(line: Line, stretches: Sequence[Stretch], slip: Claim) -> Claim:
+    """Claim about the number of orbits on the whole interval."""
+    names = sorted({fact.name for stretch in stretches for fact in stretch.facts})
+    motions = sorted({fact.name for stretch in stretches for fact in stretch.facts if fact.admissible})
+    doubts = [f"{stretch.ends} is open: {stretch.reason}" for stretch in stretches if stretch.reason]
+    always = (
+        all(
+            fact.admissible is (fact.name in motions) and len(stretch.facts) == len(names)
+            for stretch in stretches
+            if not stretch.reason
+            for fact in stretch.facts
+        )
+        and len({len(stretch.facts) for stretch in stretches if not stretch.reason}) <= 1
+    )
+    words = f"exactly these: {', '.join(motions)}" if motions else "none"
+    statement = f"For all {line.words}, motions of the machine with one impact a period, synchronous with the shaft, are {words}."
+    if not always:
+        doubts.append("the motions change along the interval; see the stretches")
+    if slip.status != "proven":
+        doubts.append("motions whose impacts stop the slip are not excluded")
+    return claim_of(
+        "machine", "all-single-impact-orbits", statement, 0 if doubts else 1, reason="; ".join(doubts), limited=False
+    )
+
+
+def _orbit_claims(line: Line, name: str, stretches: Sequence[Stretch]) -> list[Claim]:
+    """Claims about one orbit on the whole interval, with the longest stretch on which each is shown."""
+    return [
+        _whole_claim(line, name, "exists", "its closing conditions have a solution", stretches, lambda fact: True),
+        _whole_claim(
+            line, name, "admissible", "it is a motion of the machine", stretches, lambda fact: fact.admissible
+        ),
+        _whole_claim(
+            line, name, "stable", "all its multipliers lie inside the unit circle", stretches, lambda fact: fact.stable
+        ),
+    ]
+
+
+def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequence[Stretch], holds: Any) -> Claim:
+    told: list[tuple[bool | None, Stretch]] = []
+    for stretch in stretches:
+        fact = stretch.fact(name)
+        told.append((None if stretch.reason else fact is not None and bool(holds(fact)), stretch))
+    runs = [(value, [stretch for _, stretch in group]) for value, group in groupby(told, key=lambda entry: entry[0])]
+    shown = [run for value, run in runs if value]
+    longest = max(shown, key=lambda run: float(run[-1].high - run[0].low), default=None)
+    enclosures: dict[str, Enclosure] = {}
+    reasons = []
+    if longest:
+        widest = Stretch(longest[0].low, longest[-1].high, (), "")
+        enclosures = {name: Enclosure(end, end) for name, end in zip(("from", "to"), widest.inner, strict=True)}
+        reasons.append(f"shown on {widest.ends}")
+    contrary = [Stretch(run[0].low, run[-1].high, (), "").ends for value, run in runs if value is False]
+    open_ = [Stretch(run[0].low, run[-1].high, (), "open").ends for value, run in runs if value is None]
+    reasons += [f"the contrary on {', '.join(contrary)}"] if contrary else []
+    reasons += [f"open on {', '.join(open_)}"] if open_ else []
+    status: Status = "refuted" if contrary else "undecided" if open_ else "proven"
+    statement = f"For all {line.words}, {words}."
+    return Claim(name, kind, statement, status, "" if status == "proven" else "; ".join(reasons), enclosures)
+
+
+def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
+    """Claim about everything on one stretch."""
+    about = f"{line.name} in {stretch.ends}"
+    statement = "F1 has the roots of exactly these orbits, and each keeps its properties: "
+    told = []
+    for fact in stretch.facts:
+        nature = ["motion of the machine" if fact.admissible else f"no motion ({fact.reason})"]
+        nature.append("stable" if fact.stable else f"unstable ({fact.instability})")
+        told.append(f"{fact.name}: {', '.join(nature)}")
+    enclosures = {}
+    for fact in stretch.facts:
+        enclosures |= {
+            f"{fact.name} period": enclosure_of(fact.period),
+            f"{fact.name} radial_speed": enclosure_of(fact.speed),
+        }
+    statement += "; ".join(told) if told else "none"
+    if stretch.reason:
+        statement = "The orbits with one impact a period and what they are do not change."
+    return claim_of(
+        about,
+        "orbits",
+        statement,
+        0 if stretch.reason else 1,
+        reason=stretch.reason,
+        enclosures=enclosures,
+        limited=False,
+    )
