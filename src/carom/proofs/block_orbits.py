@@ -16,6 +16,7 @@ so are the zeros of the derivative of the characteristic polynomial (Gauss, Luca
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -29,6 +30,7 @@ from carom.proofs.series import hull, terms
 
 __all__ = ["Cell", "OrbitFact", "branches_on", "first_cells", "inside", "orbits_on"]
 
+Along = Callable[[Callable[[Course], Any]], Any]
 Cell = tuple[float, float]
 _ORDER = 4
 """Order of Taylor's formula on a cell of periods or times."""
@@ -83,7 +85,7 @@ def first_cells(block: Block) -> list[Cell]:
         return []
     count = max(4, int((end - start) / 0.5))
     edges = [start + (end - start) * (k / count) ** 1.5 for k in range(count)] + [end]
-    return list(zip(edges, edges[1:], strict=False))
+    return list(itertools.pairwise(edges))
 
 
 def _longest(n: Numbers) -> float:
@@ -269,7 +271,7 @@ def why_virtual(orbit: OrbitBranch) -> str | None:
     slip = orbit.along(lambda course: course.slip_after)
     if slip < 0 and orbit.branch.block.whole.mu > 0:
         return "friction would stop its slip, or its slip is backward"
-    stays = inside(orbit)
+    stays = inside(orbit.plain, orbit.along)
     if stays is None or not (slip > 0 or orbit.branch.block.whole.mu.is_zero()):
         return "it would cross the wall between its impacts" if stays is False else None
     return "" if stays else "it would cross the wall between its impacts"
@@ -278,23 +280,32 @@ def why_virtual(orbit: OrbitBranch) -> str | None:
 # ------------------------------------------------------------------------------------------------ between the impacts
 
 
-def inside(orbit: OrbitBranch) -> bool | None:
+def inside(plain: Course, along: Along, touch: Any = None) -> bool | None:
     """Whether an orbit with ``ṙ > 0`` stays inside the wall between its impacts; ``None`` if this is open.
 
     ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.
+
+    Parameters
+    ----------
+    plain : Course
+        Balls.
+    along : callable
+        Narrower values of functions of the orbit than those that ``plain`` has.
+    touch : arb, optional
+        Time at which it touches the wall with no radial speed, and may.
     """
-    period = orbit.branch.period
+    period = plain.back.period
     half = 0.5 * float(period.mid())
     times = [half * 2 * k / _SAMPLES for k in range(1, _SAMPLES)]
-    top, at = max((float(orbit.plain.height(arb(time))[0].mid()), time) for time in times)
+    top, at = max((float(plain.height(arb(time))[0].mid()), time) for time in times)
     if top > 0:
-        height = orbit.along(_height_at(arb(at), False))
-        return False if height > 0 and at < period else None
+        return False if along(_height_at(arb(at), False)) > 0 and at < period else None
     for backward, end in ((False, half), (True, float((period - half).upper()) * (1 + 1e-15))):
+        touched = period - touch if touch is not None and backward else touch
         stack = [(end * k / 3, end * (k + 1) / 3) for k in range(3)]
         while stack:
             low, high = stack.pop()
-            if _below(orbit, low, high, backward):
+            if _below(plain, along, (low, high), backward) or (touch is not None and _touches(plain, low, high, backward, touched)):
                 continue
             if high - low < _NARROWEST_TIMES * end:
                 return None
@@ -303,25 +314,35 @@ def inside(orbit: OrbitBranch) -> bool | None:
     return True
 
 
-def _below(orbit: OrbitBranch, low: float, high: float, backward: bool) -> bool:
+def _touches(plain: Course, low: float, high: float, backward: bool, touch: Any) -> bool:
+    """Whether the height is concave from a cell of times to a time at which it vanishes with its rate."""
+    if not (abs(touch - low) < 0.5 and abs(touch - high) < 0.5):
+        return False
+    time = hull(hull(low, high), touch) * (-1 if backward else 1)
+    with terms(3):
+        return bool(plain.height(arb_series([time, 1]), backward)[0][2] < 0)
+
+
+def _below(plain: Course, along: Along, cell: Cell, backward: bool) -> bool:
     """Whether the height is negative on a cell of times; at time zero itself it vanishes."""
+    low, high = cell
     time, sign = hull(low, high), -1 if backward else 1
     middle = time.mid()
     late = (time - middle) * sign
     with terms(_ORDER + 1):
-        far = orbit.plain.height(arb_series([time * sign, 1]), backward)[0]
+        far = plain.height(arb_series([time * sign, 1]), backward)[0]
     if low == 0.0:
         # The height is −2t, or −2dt, and at most curve·t² more.
-        fall, curve = 2 * (1 if backward else orbit.branch.block.whole.d), far[2]
+        fall, curve = 2 * (1 if backward else plain.back.numbers.d), far[2]
         return bool(curve < 0 or curve * high < fall)
     if far[0] < 0:
         return True
     with terms(_ORDER):
-        near = orbit.plain.height(arb_series([middle * sign, 1]), backward)[0]
+        near = plain.height(arb_series([middle * sign, 1]), backward)[0]
     value = far[_ORDER]
     for k in range(_ORDER - 1, 0, -1):
         value = near[k] + value * late
-    return bool(orbit.along(_height_at(middle * sign, backward)) + value * late < 0)
+    return bool(along(_height_at(middle * sign, backward)) + value * late < 0)
 
 
 def _height_at(time: Any, backward: bool) -> Callable[[Course], Any]:

@@ -96,6 +96,12 @@ def slopes_on(block: Block, period: Any) -> Slopes | None:
     return Slopes(slope, -(along * slope * slope + mixed * slope + across) / rate, rate)
 
 
+def _bounded(slopes: Slopes | None) -> Slopes:
+    if slopes is None:
+        raise OpenError("the period may change without bound")
+    return slopes
+
+
 def _rates(block: Block, period: Any) -> tuple[Any, Any, tuple[Any, Any, Any]]:
     """First derivatives of the period condition by period and parameter, and ½F_TT, ½F_pp and F_Tp."""
     condition, middle = period_condition(block.whole, period), period.mid()
@@ -153,19 +159,16 @@ class Branch:
         self.block, self.rising = block, rising
         central = self._root_at_centre(low, high)
         period = self._wider(central, low, high)
+        found = _bounded(slopes_on(block, period))
         for _ in range(40):
-            found = slopes_on(block, period)
-            if found is None:
-                raise OpenError("the period may change without bound")
             moved = narrower(period, central + found.slope * block.off)
             settled = moved.rad() >= 0.95 * period.rad()
             period = moved
+            found = _bounded(slopes_on(block, period))
             if settled:
                 break
         self.period = period
-        at_centre = slopes_on(Block(block.line, block.middle, block.middle), central)
-        if at_centre is None:
-            raise OpenError("the period may change without bound")
+        at_centre = _bounded(slopes_on(Block(block.line, block.middle, block.middle), central))
         slope = narrower(found.slope, at_centre.slope + 2 * found.bend * block.off)
         with terms(3):
             self.far = Return(block.moving(block.ball), arb_series([period, slope, found.bend]))

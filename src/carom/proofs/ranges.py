@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import Any
 
 from carom.proofs.balls import Enclosure, enclosure_of, exact_ends, interval
@@ -145,7 +145,7 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]]) -> list[tuple[Fraction, F
     """What holds on each block."""
     low, high = (exact_ends(end)[0] for end in line.ends)
     ends = [Fraction(end) for end, _ in cuts]
-    if ends[0] != low or ends[-1] != high or len(ends) < 2 or any(a > b for a, b in zip(ends, ends[1:], strict=False)):
+    if ends[0] != low or ends[-1] != high or len(ends) < 2 or any(a > b for a, b in pairwise(ends)):
         raise NotShownError("the blocks of the certificate do not cover the interval")
     found = []
     for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
@@ -265,7 +265,7 @@ def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
         nature = ["motion of the machine" if fact.admissible else f"no motion ({fact.reason})"]
         nature.append("stable" if fact.stable else f"unstable ({fact.instability})")
         told.append(f"{fact.name}: {', '.join(nature)}")
-    enclosures = {}
+    enclosures: dict[str, Enclosure] = {}
     for fact in stretch.facts:
         enclosures |= {
             f"{fact.name} period": enclosure_of(fact.period),

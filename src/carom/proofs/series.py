@@ -105,13 +105,15 @@ def _hyperbolic_sums(square: Any, time: Any) -> tuple[Any, Any]:
     while arb(8) ** count / arb(2 * count).fac() > arb(2) ** (-ctx.prec - 10):
         count += 2
     rest = arb(0, (arb(8) ** count * 2 / arb(2 * count).fac()).upper())
-    even = odd = arb(0)
+    even: Any = arb(0)
+    odd: Any = arb(0)
     for k in range(count - 1, -1, -1):
         even = even * square + 1 / arb(2 * k).fac()
         odd = odd * square + 1 / arb(2 * k + 1).fac()
-    left_out = rest
+    left_out: Any = rest
     if isinstance(square, arb_series):
-        step, power = square - square[0], arb(1)
+        step: Any = square - square[0]
+        power: Any = arb(1)
         for _ in range(1, ctx.cap):
             power = power * step
             left_out = left_out + power * rest

@@ -12,6 +12,7 @@ from typing import Any
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, rational_of
 from carom.proofs.periods import Periods, all_periods
+from carom.proofs.points import point_claims
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import Rotor
 from carom.proofs.single_impact import candidates, orbit_claims
@@ -99,6 +100,14 @@ THEOREMS: Mapping[str, Theorem] = {
             "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
             "that a rub attracts motions that bounce, not only those that slide",
+        ),
+    ),
+    "bifurcation points": Theorem(
+        point_claims,
+        (
+            "that there are no other points: those listed are what a search in double precision found",
+            "that an orbit has the name it is listed by",
+            "anything beyond a neighbourhood of each point",
         ),
     ),
     "ranges of orbits": Theorem(

@@ -1,0 +1,70 @@
+"""Seeds of proofs, in double precision: nothing rests on them but what is looked at."""
+
+from __future__ import annotations
+
+import numpy as np
+from flint import arb
+
+from carom.bifurcations import find_bifurcations
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Parameters
+from carom.parameters.exact import read_exact
+from carom.proofs.balls import ball_of
+from carom.proofs.courses import Course, Return
+from carom.proofs.hypotheses import Hypotheses
+from carom.proofs.lines import Line
+
+__all__ = ["doubles_of", "point_seeds"]
+
+_SAMPLES = 400
+
+
+def doubles_of(hypotheses: Hypotheses) -> Parameters:
+    """Parameters next to the hypotheses, with scales where these are known."""
+    fields = MACHINE_FIELDS if hypotheses.table == "machine" else DIMENSIONLESS_FIELDS
+    values = {name: float(ball_of(read_exact(fields[name], text)).mid()) for name, text in hypotheses.values.items()}
+    numbers = Machine(**values).parameters if hypotheses.table == "machine" else Parameters(**values)
+    changes = {name: float(ball_of(read_exact(DIMENSIONLESS_FIELDS[name], text)).mid()) for name, text in hypotheses.settings.items()}
+    return numbers.replace(**changes)
+
+
+def point_seeds(line: Line) -> list[tuple[str, str, list[float]]]:
+    """Bifurcation points along a parameter: their kinds, the motions and guesses of the unknowns."""
+    low, high = (float(end) for end in line.ends)
+    found = []
+    for point in find_bifurcations(doubles_of(line.hypotheses), line.name, (low, high)).points:
+        period, speed, value = point.period, point.radial_speed, point.value
+        guess = {
+            "fold": [period, value],
+            "speed-fold": [period, value],
+            "non-smooth-hopf": [period, value],
+            "boundary-equilibrium": [value],
+            "rub-fold": [value],
+            "grazing": [_touch(line, period, speed, value), period, speed, value],
+        }.get(point.kind, [period, speed, value])
+        if point.kind in KNOWN and not (isinstance(point.name, str) and point.name.startswith("R")):
+            found.append((point.kind, str(point.name), [float(x) for x in guess]))
+    return found
+
+
+KNOWN = (
+    "fold",
+    "speed-fold",
+    "period-doubling",
+    "neimark-sacker",
+    "slip-stop",
+    "grazing",
+    "non-smooth-hopf",
+    "boundary-equilibrium",
+    "rub-fold",
+)
+"""Kinds of points with an extended system."""
+
+
+def _touch(line: Line, period: float, speed: float, value: float) -> float:
+    """Time of the highest point between the impacts, away from both."""
+    if not (np.isfinite(period) and np.isfinite(speed)):
+        return 0.0
+    course = Course(Return(line.at(arb(value)), arb(period)), arb(speed))
+    heights = [float(course.height(arb(period * k / _SAMPLES))[0].mid()) for k in range(_SAMPLES + 1)]
+    tops = [k for k in range(1, _SAMPLES) if heights[k - 1] <= heights[k] >= heights[k + 1]]
+    return period * max(tops, key=lambda k: heights[k], default=_SAMPLES // 2) / _SAMPLES
