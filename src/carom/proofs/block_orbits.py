@@ -25,6 +25,7 @@ from flint import acb, arb, arb_series
 
 from carom.proofs.blocks import Block, Branch, OpenError, OrbitBranch, slopes_on
 from carom.proofs.courses import Course, period_condition
+from carom.proofs.flights import stays_inside
 from carom.proofs.lines import Numbers
 from carom.proofs.series import hull, terms
 
@@ -33,10 +34,9 @@ __all__ = ["Cell", "OrbitFact", "branches_on", "first_cells", "inside", "orbits_
 Along = Callable[[Callable[[Course], Any]], Any]
 Cell = tuple[float, float]
 _ORDER = 4
-"""Order of Taylor's formula on a cell of periods or times."""
-_NARROWEST_PERIODS, _NARROWEST_TIMES = 0.004, 1e-4
-"""Widths of cells of periods (1/Ω) and of times (share of the flight) at which a block is given up."""
-_SAMPLES = 16
+"""Order of Taylor's formula on a cell of periods."""
+_NARROWEST_PERIODS = 0.004
+"""Width of a cell of periods, in ``1/Ω``, at which a block is given up."""
 
 
 @dataclass(frozen=True)
@@ -294,56 +294,11 @@ def inside(plain: Course, along: Along, touch: Any = None) -> bool | None:
     touch : arb, optional
         Time at which it touches the wall with no radial speed, and may.
     """
-    period = plain.back.period
-    half = 0.5 * float(period.mid())
-    times = [half * 2 * k / _SAMPLES for k in range(1, _SAMPLES)]
-    top, at = max((float(plain.height(arb(time))[0].mid()), time) for time in times)
-    if top > 0:
-        return False if along(_height_at(arb(at), False)) > 0 and at < period else None
-    for backward, end in ((False, half), (True, float((period - half).upper()) * (1 + 1e-15))):
-        touched = period - touch if touch is not None and backward else touch
-        stack = [(end * k / 3, end * (k + 1) / 3) for k in range(3)]
-        while stack:
-            low, high = stack.pop()
-            if _below(plain, along, (low, high), backward) or (touch is not None and _touches(plain, low, high, backward, touched)):
-                continue
-            if high - low < _NARROWEST_TIMES * end:
-                return None
-            middle = 0.5 * (low + high)
-            stack += [(middle, high), (low, middle)]
-    return True
 
+    def narrow(time: Any, backward: bool) -> Any:
+        return along(lambda course: course.height(arb_series([time]), backward)[0])
 
-def _touches(plain: Course, low: float, high: float, backward: bool, touch: Any) -> bool:
-    """Whether the height is concave from a cell of times to a time at which it vanishes with its rate."""
-    if not (abs(touch - low) < 0.5 and abs(touch - high) < 0.5):
-        return False
-    time = hull(hull(low, high), touch) * (-1 if backward else 1)
-    with terms(3):
-        return bool(plain.height(arb_series([time, 1]), backward)[0][2] < 0)
+    def height(time: Any, backward: bool) -> Any:
+        return plain.height(time, backward)[0]
 
-
-def _below(plain: Course, along: Along, cell: Cell, backward: bool) -> bool:
-    """Whether the height is negative on a cell of times; at time zero itself it vanishes."""
-    low, high = cell
-    time, sign = hull(low, high), -1 if backward else 1
-    middle = time.mid()
-    late = (time - middle) * sign
-    with terms(_ORDER + 1):
-        far = plain.height(arb_series([time * sign, 1]), backward)[0]
-    if low == 0.0:
-        # The height is −2t, or −2dt, and at most curve·t² more.
-        fall, curve = 2 * (1 if backward else plain.back.numbers.d), far[2]
-        return bool(curve < 0 or curve * high < fall)
-    if far[0] < 0:
-        return True
-    with terms(_ORDER):
-        near = plain.height(arb_series([middle * sign, 1]), backward)[0]
-    value = far[_ORDER]
-    for k in range(_ORDER - 1, 0, -1):
-        value = near[k] + value * late
-    return bool(along(_height_at(middle * sign, backward)) + value * late < 0)
-
-
-def _height_at(time: Any, backward: bool) -> Callable[[Course], Any]:
-    return lambda course: course.height(arb_series([time]), backward)[0]
+    return stays_inside(height, narrow, plain.back.period, (2 * plain.back.numbers.d, arb(2)), touch)

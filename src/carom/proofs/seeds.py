@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from flint import arb
 
 from carom.bifurcations import find_bifurcations
+from carom.models import Jeffcott
+from carom.motions import State, simulate
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Parameters
 from carom.parameters.exact import read_exact
 from carom.proofs.balls import ball_of
@@ -13,9 +17,13 @@ from carom.proofs.courses import Course, Return
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import Line
 
-__all__ = ["doubles_of", "point_seeds"]
+__all__ = ["doubles_of", "point_seeds", "shooting_seeds"]
 
 _SAMPLES = 400
+STARTS, FOLLOWED = 24, 400.0
+"""Simulated motions, and the time for which each is followed, in ``1/Ω``."""
+NEAREST, MOST_SEEDS, FARTHEST = 4, 40, 0.5
+"""Near returns that are taken of a motion and of all, and the largest distance of a return."""
 
 
 def doubles_of(hypotheses: Hypotheses) -> Parameters:
@@ -68,3 +76,33 @@ def _touch(line: Line, period: float, speed: float, value: float) -> float:
     heights = [float(course.height(arb(period * k / _SAMPLES))[0].mid()) for k in range(_SAMPLES + 1)]
     tops = [k for k in range(1, _SAMPLES) if heights[k - 1] <= heights[k] >= heights[k + 1]]
     return period * max(tops, key=lambda k: heights[k], default=_SAMPLES // 2) / _SAMPLES
+
+
+def shooting_seeds(hypotheses: Hypotheses, impacts: int) -> Iterator[list[float]]:
+    """Near returns of simulated motions after 2 and up to ``impacts`` impacts, the nearest of each number first.
+
+    Yields
+    ------
+    list of float
+        ``θ − arg U*``, ``ṙ``, ``θ̇`` and the time of flight after it, for each impact.
+    """
+    rotor = Jeffcott(doubles_of(hypotheses))
+    turned = float(np.angle(rotor.equilibrium)) if rotor.equilibrium else 0.0
+    random = np.random.default_rng(0)
+    logs = []
+    for _ in range(STARTS):
+        place = 0.95 * np.sqrt(random.uniform()) * np.exp(2j * np.pi * random.uniform())
+        speed = random.normal(scale=0.7) + 1j * random.normal(scale=0.7)
+        motion = simulate(rotor, State(complex(place), complex(speed)), FOLLOWED, stop_at_chatter=True, max_events=2000)
+        log = motion.contacts
+        logs.append(np.array([log.time, log.angle - turned, log.radial_speed, log.angular_speed]).T)
+    for count in range(2, impacts + 1):
+        returns = []
+        for log in logs:
+            moved = log[count:] - log[:-count] if len(log) > count else np.empty((0, 4))
+            gaps = np.hypot(2 * np.sin(0.5 * moved[:, 1]), np.hypot(moved[:, 2], moved[:, 3]))
+            nearest = np.argsort(gaps)[:NEAREST]
+            returns += [(gaps[k], log[k : k + count + 1]) for k in nearest if gaps[k] < FARTHEST]
+        for _, piece in sorted(returns, key=lambda entry: entry[0])[:MOST_SEEDS]:
+            durations = np.diff(piece[:, 0])
+            yield [float(x) for row, time in zip(piece, durations, strict=False) for x in (*row[1:], time)]

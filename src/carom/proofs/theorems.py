@@ -15,6 +15,7 @@ from carom.proofs.periods import Periods, all_periods
 from carom.proofs.points import point_claims
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import Rotor
+from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.single_impact import candidates, orbit_claims
 from carom.proofs.slip import slip_claim
 from carom.proofs.steady import steady_claims
@@ -108,6 +109,14 @@ THEOREMS: Mapping[str, Theorem] = {
             "that there are no other points: those listed are what a search in double precision found",
             "that an orbit has the name it is listed by",
             "anything beyond a neighbourhood of each point",
+        ),
+    ),
+    "orbits of several impacts": Theorem(
+        several_impact_claims,
+        (
+            "that there are no other orbits: those listed are what a search by simulation found",
+            "that there are no motions with lasting contact, with impacts that stop the slip, or irregular ones",
+            "which disturbances lead to an orbit",
         ),
     ),
     "ranges of orbits": Theorem(

@@ -1,0 +1,88 @@
+"""Whether a flight stays inside the wall between two impacts: branch and bound over its time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from flint import arb, arb_series
+
+from carom.proofs.series import hull, terms
+
+__all__ = ["Height", "stays_inside"]
+
+Height = Callable[[Any, bool], Any]
+"""A height over the wall, up to a positive factor: takes the time after the first impact, or with ``True`` the negative time before
+the second, as a ball or a power series."""
+_ORDER = 4
+"""Order of Taylor's formula on a cell of times."""
+_NARROWEST = 1e-4
+"""Width of a cell, as a share of half the flight, at which the search gives up."""
+_SAMPLES = 16
+
+
+def stays_inside(height: Height, narrow: Height, period: Any, falls: tuple[Any, Any], touch: Any = None) -> bool | None:
+    """Whether a height that vanishes at both impacts is negative in between; ``None`` if this is open.
+
+    Parameters
+    ----------
+    height : callable
+        Balls give balls.
+    narrow : callable
+        The same with narrower balls, for exact times.
+    period : arb
+    falls : pair of arb
+        Rates at which the height falls from zero at the first impact and, backward in time, at the second; not negative.
+    touch : arb, optional
+        Time at which the height vanishes with its rate, and may.
+    """
+    half = 0.5 * float(period.mid())
+    times = [half * 2 * k / _SAMPLES for k in range(1, _SAMPLES)]
+    top, at = max((float(height(arb(time), False).mid()), time) for time in times)
+    if top > 0:
+        return False if narrow(arb(at), False) > 0 and at < period else None
+    for backward, end in ((False, half), (True, float((period - half).upper()) * (1 + 1e-15))):
+        touched = period - touch if touch is not None and backward else touch
+        stack = [(end * k / 3, end * (k + 1) / 3) for k in range(3)]
+        while stack:
+            low, high = stack.pop()
+            if _below(height, narrow, falls[backward], (low, high), backward):
+                continue
+            if touched is not None and _touches(height, (low, high), backward, touched):
+                continue
+            if not high - low > _NARROWEST * end:
+                return None
+            middle = 0.5 * (low + high)
+            stack += [(middle, high), (low, middle)]
+    return True
+
+
+def _touches(height: Height, cell: tuple[float, float], backward: bool, touch: Any) -> bool:
+    """Whether the height is concave from a cell of times to a time at which it vanishes with its rate."""
+    time = hull(hull(*cell), touch)
+    if not time.rad() < 0.5:
+        return False
+    with terms(3):
+        return bool(height(arb_series([-time if backward else time, 1]), backward)[2] < 0)
+
+
+def _below(height: Height, narrow: Height, fall: Any, cell: tuple[float, float], backward: bool) -> bool:
+    """Whether the height is negative on a cell of times; at time zero itself it vanishes."""
+    low, high = cell
+    sign = -1 if backward else 1
+    time = hull(low, high)
+    middle = time.mid()
+    late = (time - middle) * sign
+    with terms(_ORDER + 1):
+        far = height(arb_series([time * sign, 1]), backward)
+    if low == 0.0:
+        # The height is what it falls, and at most the curvature times t² more.
+        return bool(far[2] < 0 or far[2] * high < fall)
+    if far[0] < 0:
+        return True
+    with terms(_ORDER):
+        near = height(arb_series([middle * sign, 1]), backward)
+    value = far[_ORDER]
+    for k in range(_ORDER - 1, 0, -1):
+        value = near[k] + value * late
+    return bool(narrow(middle * sign, backward) + value * late < 0)

@@ -1,0 +1,125 @@
+"""Claims about periodic motions with several impacts a period: those that a simulation shows are proven one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from flint import ctx
+
+from carom.proofs.balls import decided, enclosure_of, exact_ends, rational
+from carom.proofs.claims import Claim, claim_of
+from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.hypotheses import NUMBERS
+from carom.proofs.krawczyk import enclosed_zero, newton
+from carom.proofs.lines import Numbers
+from carom.proofs.rotor import Rotor
+from carom.proofs.seeds import shooting_seeds
+from carom.proofs.words import UNKNOWNS, Flights, ShootingOrbit
+
+__all__ = ["MOST_IMPACTS", "several_impact_claims"]
+
+MOST_IMPACTS = 24
+"""Impacts a period up to which orbits can be proven."""
+
+
+def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
+    """Claims about periodic motions with 2 to ``impacts`` impacts a period.
+
+    Parameters
+    ----------
+    rotor : Rotor
+    evidence : Evidence
+    options : mapping
+        ``impacts``, an int.
+    """
+    flights = Flights(Numbers(*(getattr(rotor, name) for name in NUMBERS)))
+    found = evidence.take("orbits", lambda: list(_searched(rotor, flights, int(options["impacts"]))))
+    claims = []
+    for number, entry in enumerate(found, 1):
+        claims += _claims_of(rotor, flights, f"orbit {number}", entry)
+    return claims
+
+
+def _searched(rotor: Rotor, flights: Flights, impacts: int) -> Iterator[dict[str, Any]]:
+    """Centres and widths of boxes with exactly one solution, each orbit once."""
+    known: list[ShootingOrbit] = []
+    for guess in shooting_seeds(rotor.hypotheses, impacts):
+        centre = newton(flights.equations, guess)
+        found = None if centre is None else enclosed_zero(flights.equations, centre)
+        if centre is None or found is None:
+            continue
+        orbit = _orbit_of(flights, found[0])
+        if orbit.outward() <= 0 or orbit.repeats() is not False or any(_same(orbit, other) for other in known):
+            continue
+        known.append(orbit)
+        digits = ctx.prec
+        yield {"centre": [_text(x, digits) for x in centre], "width": found[1]}
+
+
+def _text(ball: Any, bits: int) -> str:
+    """An exact ball as a fraction with a power of two below."""
+    value = exact_ends(ball)[0]
+    return str(Fraction(round(value * 2**bits), 2**bits))
+
+
+def _orbit_of(flights: Flights, balls: Sequence[Any]) -> ShootingOrbit:
+    return ShootingOrbit(flights, tuple(tuple(balls[k : k + 4]) for k in range(0, len(balls), 4)))
+
+
+def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
+    """Whether two enclosures may be of one orbit, from whichever impact they begin."""
+    count = len(one.impacts)
+    if count != len(other.impacts):
+        return False
+    for shift in range(count):
+        turned = [other.impacts[(k + shift) % count] for k in range(count)]
+        if all(abs(a - b) < 1e-9 for x, y in zip(one.impacts, turned, strict=True) for a, b in zip(x[1:], y[1:], strict=True)):
+            return True
+    return False
+
+
+def _claims_of(rotor: Rotor, flights: Flights, name: str, entry: Mapping[str, Any]) -> list[Claim]:
+    centre = [rational(Fraction(text)).mid() for text in entry["centre"]]
+    if len(centre) % 4 or not 8 <= len(centre) <= 4 * MOST_IMPACTS:
+        raise NotShownError(f"the certificate has no orbit of 2 to {MOST_IMPACTS} impacts as {name}")
+    found = enclosed_zero(flights.equations, centre, int(entry["width"]))
+    if found is None:
+        raise NotShownError(f"the certificate does not show {name}")
+    orbit = _orbit_of(flights, found[0])
+    count = len(orbit.impacts)
+    enclosures = {"period": enclosure_of(orbit.period)}
+    for number, impact in enumerate(orbit.impacts, 1):
+        enclosures |= {f"{what} {number}": enclosure_of(ball) for what, ball in zip(UNKNOWNS, impact, strict=True)}
+    repeats = orbit.repeats()
+    exists = claim_of(
+        name,
+        "exists",
+        f"The closing conditions of a motion with {count} impacts a period and forward slip have exactly one solution in a box "
+        f"around these values, and it is no shorter orbit run several times. Angles count from that of the contact-free equilibrium.",
+        1 if repeats is False else 0,
+        reason="it may be a shorter orbit run several times",
+        enclosures=enclosures,
+    )
+    return [exists, _admissible_claim(name, orbit), _stable_claim(name, orbit)]
+
+
+def _admissible_claim(name: str, orbit: ShootingOrbit) -> Claim:
+    signs = {"it would meet the wall from outside": orbit.outward()}
+    if not orbit.flights.numbers.mu.is_zero():
+        signs["friction would stop its slip, or its slip is backward"] = min(map(decided, orbit.slip_after()))
+    if min(signs.values()) > 0:
+        signs["it would cross the wall between its impacts"] = {True: 1, False: -1, None: 0}[orbit.stays_inside()]
+    sign = min(signs.values())
+    words = "; ".join(reason for reason, value in signs.items() if value == sign)
+    statement = "It is a motion of the machine: it stays inside the wall strictly between its impacts, and its slip stays forward."
+    return claim_of(name, "admissible", statement, sign, reason=words if sign < 0 else f"open: {words}")
+
+
+def _stable_claim(name: str, orbit: ShootingOrbit) -> Claim:
+    signs = {reason: decided(margin) for reason, margin in orbit.margins().items()}
+    sign = min(signs.values())
+    words = "; ".join(reason for reason, value in signs.items() if value == sign)
+    statement = "All three multipliers of the map over a period lie inside the unit circle."
+    return claim_of(name, "stable", statement, sign, reason=words if sign < 0 else f"open: {words}")

@@ -1,0 +1,171 @@
+"""Periodic motions with several impacts a period, in forward slip: shooting from impact to impact.
+
+The unknowns are, for each impact ``k``, the angle ``θ``, the speeds ``ṙ`` and ``θ̇`` just before it and the time ``T`` of the flight after
+it.  The equations say that each flight ends in the state before the next impact.  The frame is turned such that the
+contact-free equilibrium is at the real ``|U*|``.  With the velocity ``V`` after an impact and ``S``, ``P``, ``e``, ``o`` of
+:mod:`carom.proofs.courses`,
+
+    U' = |U*| + (e − So/2)(U − |U*|) + oV,      V' = −Po(U − |U*|) + (e + So/2)V .
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import acb, arb, arb_mat
+
+from carom.proofs.flights import stays_inside
+from carom.proofs.lines import Numbers
+from carom.proofs.series import I, conjugate, hyperbolic, imaginary, real, squared
+
+__all__ = ["UNKNOWNS", "Flights", "ShootingOrbit"]
+
+UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
+"""Unknowns of each impact, in their order."""
+
+
+class Flights:
+    """Flights and impacts of a rotor.
+
+    Parameters
+    ----------
+    numbers : Numbers
+        Balls.
+    """
+
+    def __init__(self, numbers: Numbers) -> None:
+        n = self.numbers = numbers
+        self.half = acb(-n.gamma / 2, -1)
+        self.split = n.gamma * n.gamma / 4 - n.omega_squared
+        self.product = acb(n.omega_squared - 1, n.gamma)
+        self.levitation = n.rho / abs(self.product)
+        self.q = (1 + n.d) * acb(1, n.mu)
+
+    def fly(self, away: Any, velocity: Any, time: Any) -> tuple[Any, Any]:
+        """Distance from the contact-free equilibrium, and velocity, after a time."""
+        even, odd = hyperbolic(self.split, time)
+        growth = (self.half * time).exp()
+        even, odd = even * growth, odd * growth
+        share = odd * self.half
+        return (even - share) * away + odd * velocity, (even + share) * velocity - odd * away * self.product
+
+    def departure(self, radial: Any, angular: Any) -> Any:
+        """Velocity after an impact in the frame of the contact."""
+        return radial + angular * I - radial * self.q
+
+    def equations(self, *unknowns: Any) -> list[Any]:
+        """Differences between the end of each flight and the state before the next impact."""
+        impacts = [unknowns[k : k + 4] for k in range(0, len(unknowns), 4)]
+        found = []
+        for here, there in zip(impacts, [*impacts[1:], impacts[0]], strict=True):
+            place, target = (here[0] * I).exp(), (there[0] * I).exp()
+            away, velocity = self.fly(place - self.levitation, self.departure(here[1], here[2]) * place, here[3])
+            gap, speed = away + self.levitation - target, velocity - (there[1] + there[2] * I) * target
+            found += [real(gap), imaginary(gap), real(speed), imaginary(speed)]
+        return found
+
+
+@dataclass(frozen=True)
+class ShootingOrbit:
+    """A solution of the equations.
+
+    Attributes
+    ----------
+    flights : Flights
+    impacts : tuple of tuple of arb
+        Enclosures of :data:`UNKNOWNS`.
+    """
+
+    flights: Flights
+    impacts: tuple[tuple[Any, ...], ...]
+
+    @property
+    def period(self) -> Any:
+        """Sum of the durations."""
+        return sum((impact[3] for impact in self.impacts), arb(0))
+
+    def outward(self) -> int:
+        """Sign of the least radial speed and duration, 0 where it is open."""
+        if all(impact[1] > 0 and impact[3] > 0 for impact in self.impacts):
+            return 1
+        return -1 if any(impact[1] < 0 or impact[3] < 0 for impact in self.impacts) else 0
+
+    def slip_after(self) -> list[Any]:
+        """Slip velocity after each impact."""
+        n = self.flights.numbers
+        return [n.radius_ratio + 1 + a - n.mu * (1 + n.d) * r for _, r, a, _ in self.impacts]
+
+    def stays_inside(self) -> bool | None:
+        """Whether all flights stay inside the wall, by their radius."""
+        found: list[bool | None] = []
+        for here, there in zip(self.impacts, [*self.impacts[1:], self.impacts[0]], strict=True):
+            found.append(self._flight_inside(here, there))
+        return False if False in found else None if None in found else True
+
+    def _flight_inside(self, here: Sequence[Any], there: Sequence[Any]) -> bool | None:
+        flights = self.flights
+        place, target = (here[0] * I).exp(), (there[0] * I).exp()
+        starts = (
+            (place - flights.levitation, flights.departure(here[1], here[2]) * place),
+            (target - flights.levitation, (there[1] + there[2] * I) * target),
+        )
+
+        def height(time: Any, backward: bool) -> Any:
+            return squared(flights.fly(*starts[backward], time)[0] + flights.levitation) - 1
+
+        return stays_inside(height, height, here[3], (2 * flights.numbers.d * here[1], 2 * there[1]))
+
+    def jacobian(self) -> Any:
+        """Derivative of the map over one period on the section before the first impact, over ``(θ, ṙ, θ̇)``; arb_mat."""
+        product = arb_mat(3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1])
+        for here, there in zip(self.impacts, [*self.impacts[1:], self.impacts[0]], strict=True):
+            product = self._step(here, there) * product
+        return product
+
+    def _step(self, here: Sequence[Any], there: Sequence[Any]) -> Any:
+        """Derivative of the impact map, with the change of the time of arrival."""
+        flights = self.flights
+        place, target = (here[0] * I).exp(), (there[0] * I).exp()
+        local = there[1] + there[2] * I
+        velocity = local * target
+        force = 2 * flights.half * velocity - flights.product * (target - flights.levitation)
+        starts = (
+            (I * place, I * flights.departure(here[1], here[2]) * place),
+            (acb(0), (1 - flights.q) * place),
+            (acb(0), I * place),
+        )
+        columns = []
+        for start in starts:
+            moved, changed = flights.fly(*start, here[3])
+            late = -real(conjugate(target) * moved) / there[1]
+            turned = imaginary(conjugate(target) * (moved + velocity * late))
+            change = conjugate(target) * (changed + force * late) - I * local * turned
+            columns.append((turned, real(change), imaginary(change)))
+        return arb_mat([[column[row] for column in columns] for row in range(3)])
+
+    def margins(self) -> dict[str, Any]:
+        """Conditions of Schur and Cohn: the orbit is stable if all are positive, unstable if one is negative."""
+        j = self.jacobian()
+        trace = j[0, 0] + j[1, 1] + j[2, 2]
+        minors = arb(0)
+        for a, b in ((0, 1), (0, 2), (1, 2)):
+            minors += j[a, a] * j[b, b] - j[a, b] * j[b, a]
+        n = self.flights.numbers
+        determinant = n.d ** (2 * len(self.impacts)) * (-2 * n.gamma * self.period).exp()
+        return {
+            "the product of its multipliers is 1 or more": 1 - determinant,
+            "a multiplier is above 1": 1 - trace + minors - determinant,
+            "a multiplier is below -1": 1 + trace + minors + determinant,
+            "the product of two multipliers is above 1": 1 - minors + determinant * (trace - determinant),
+        }
+
+    def repeats(self) -> bool | None:
+        """Whether it may be a shorter orbit run several times; ``None`` if this is open, ``False`` if it is not."""
+        count = len(self.impacts)
+        for shorter in (m for m in range(1, count) if count % m == 0):
+            pairs = zip(self.impacts[0][1:], self.impacts[shorter][1:], strict=True)
+            if all(one.overlaps(other) for one, other in pairs):
+                return None
+        return False
