@@ -23,6 +23,20 @@ def prove(
     longest_period: Annotated[
         str | None, typer.Option(metavar="T", help="Look only for periods up to T, in 1/Omega; by default for all.")
     ] = None,
+    impacts: Annotated[
+        int,
+        typer.Option(
+            metavar="N", help="Prove orbits with up to N impacts a period too, those that a simulation finds."
+        ),
+    ] = 1,
+    along: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Prove points and orbits along a parameter instead, --from A --to B."),
+    ] = None,
+    start: Annotated[
+        str | None, typer.Option("--from", metavar="A", help="Its first value, perhaps with a unit.")
+    ] = None,
+    stop: Annotated[str | None, typer.Option("--to", metavar="B", help="Its last value.")] = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help=f"Write the certificate, {CERTIFICATE}, to this directory.")
     ] = None,
@@ -31,7 +45,7 @@ def prove(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Prove equilibria and all orbits with one impact a period, in ball arithmetic.
+    """Prove equilibria and all orbits with one impact a period, in ball arithmetic; or along a parameter.
 
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
@@ -40,13 +54,19 @@ def prove(
     from carom.proofs import prove as prove_machine
 
     if check is not None:
-        if machine is not None or settings or longest_period is not None or out is not None:
+        others = (machine, longest_period, out, along, start, stop)
+        if settings or impacts != 1 or any(other is not None for other in others):
             raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
         proof = verify(check)
     elif machine is None:
         raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
     else:
-        proof = prove_machine(machine, settings or (), longest_period=longest_period)
+        if (start is None or stop is None) and not (along is start is stop is None):
+            raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
+        interval = None if start is None or stop is None else (start, stop)
+        proof = prove_machine(
+            machine, settings or (), longest_period=longest_period, impacts=impacts, along=along, interval=interval
+        )
     if out is not None:
         directory = Path(out)
         directory.mkdir(parents=True, exist_ok=True)

@@ -10,17 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from flint import arb, arb_series
 
-from carom.proofs.balls import decided, enclosure_of, exact_ends, rational
+from carom.proofs.balls import Enclosure, decided, enclosure_of, exact_ends, rational
 from carom.proofs.block_orbits import inside
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.courses import Course, Return
 from carom.proofs.criticality import flip_coefficient
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.krawczyk import System, enclosed_zero, newton
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
@@ -28,6 +27,8 @@ from carom.proofs.seeds import point_seeds
 from carom.proofs.series import first, real, terms
 
 __all__ = ["point_claims"]
+
+Enclosures = Mapping[str, Enclosure]
 
 
 @dataclass(frozen=True)
@@ -101,9 +102,13 @@ KINDS: Mapping[str, Kind] = {
     "neimark-sacker": _of_test("the product of two multipliers of an orbit is 1", lambda course: course.torus),
     "slip-stop": _of_test("friction just stops the slip in the impact of an orbit", lambda course: course.slip_after),
     "grazing": Kind(
-        ("touch", "period", "radial_speed", "value"), _grazing, "an orbit touches the wall between its impacts without radial speed"
+        ("touch", "period", "radial_speed", "value"),
+        _grazing,
+        "an orbit touches the wall between its impacts without radial speed",
     ),
-    "non-smooth-hopf": Kind(("period", "value"), _shrinking, "an orbit shrinks into the equilibrium on the wall, |U*| = 1"),
+    "non-smooth-hopf": Kind(
+        ("period", "value"), _shrinking, "an orbit shrinks into the equilibrium on the wall, |U*| = 1"
+    ),
     "boundary-equilibrium": Kind(("value",), _boundary, "the contact-free equilibrium is on the wall, |U*| = 1"),
     "rub-fold": Kind(("value",), _rub_fold, "the two synchronous rubs meet"),
 }
@@ -154,16 +159,25 @@ def _claims_of(line: Line, label: str, entry: Mapping[str, Any]) -> list[Claim]:
     kind = KINDS[entry["kind"]]
     statement = f"Along {line.name}, {kind.words}, at exactly one point of a box around these values."
     if "centre" not in entry:
-        reason = f"the search in double precision found one near {float(entry['near'][-1]):.9g}, which could not be shown"
-        return [claim_of(entry["kind"], f"of {label}", statement, 0, reason=reason, limited=False)]
-    centre = [rational(Fraction(text)).mid() for text in entry["centre"]]
+        reason = (
+            f"the search in double precision found one near {float(entry['near'][-1]):.9g}, which could not be shown"
+        )
+        return [_claim(entry["kind"], f"of {label}", statement, 0, reason=reason)]
+    centre = [rational(rational_of(text)).mid() for text in entry["centre"]]
     found = enclosed_zero(_system(line, entry["kind"]), centre, int(entry["width"]))
     if found is None or len(centre) != len(kind.unknowns):
         raise NotShownError(f"the certificate does not show the {entry['kind']} of {label}")
     values = dict(zip(kind.unknowns, found[0], strict=True))
     enclosures = {name: enclosure_of(ball) for name, ball in values.items()}
-    claims = [claim_of(entry["kind"], f"of {label}", statement, 1, enclosures=enclosures)]
+    claims = [_claim(entry["kind"], f"of {label}", statement, 1, enclosures=enclosures)]
     return [*claims, *_nature(line, entry["kind"], label, values)]
+
+
+def _claim(
+    about: str, kind: str, statement: str, sign: int, reason: str = "", enclosures: Enclosures | None = None
+) -> Claim:
+    """Claim that more bits do not decide, as the search for points would not find others with them."""
+    return claim_of(about, kind, statement, sign, reason=reason, enclosures=enclosures, limited=False)
 
 
 # ------------------------------------------------------------------------------------------------ what happens there
@@ -230,14 +244,18 @@ def _crossing_claim(line: Line, kind: str, label: str, course: Course, at: Mappi
     test = KINDS[kind].test or (lambda moved: moved.height(arb_series([at["touch"]]))[0])
     slope = _slope(line, course, at["value"], test)
     sign, reason = decided(slope), "the sign of the slope is open"
-    words = f"Along the branch of the orbit, the test function vanishes with this slope by {line.name}, which is not zero."
+    words = (
+        f"Along the branch of the orbit, the test function vanishes with this slope by {line.name}, which is not zero."
+    )
     if kind == "grazing":
         with terms(3):
             curve = course.height(arb_series([at["touch"], 1]))[0][2]
         sign = sign if curve < 0 else 0
         words = f"The touch is a maximum of the radius, whose height (|U|^2 - 1)/radial speed grows by {line.name} with this slope, not zero."
         reason = "whether the touch is a maximum is open"
-    return claim_of(kind, f"of {label} transversal", words, abs(sign), reason=reason, enclosures={"slope": enclosure_of(slope)})
+    return _claim(
+        kind, f"of {label} transversal", words, abs(sign), reason=reason, enclosures={"slope": enclosure_of(slope)}
+    )
 
 
 def _fold_claim(line: Line, kind: str, label: str, at: Mapping[str, Any]) -> Claim:
@@ -253,12 +271,16 @@ def _fold_claim(line: Line, kind: str, label: str, at: Mapping[str, Any]) -> Cla
             slope = -push / rate
             shift = Return(line.at(arb_series([at["value"], 1])), arb_series([at["period"], slope])).discriminant[1]
         words = "The discriminant of the radial speeds passes through zero with this slope, not zero, and the period is simple."
-        return claim_of(kind, f"of {label} transversal", words, abs(decided(shift)), enclosures={"slope": enclosure_of(shift)})
+        return _claim(
+            kind, f"of {label} transversal", words, abs(decided(shift)), enclosures={"slope": enclosure_of(shift)}
+        )
     side = -decided(curve) * decided(push)
     words = f"It is a quadratic fold: d2F1/dT2 and the derivative of F1 by {line.name} are not zero. Both periods exist for "
     words += f"{'larger' if side > 0 else 'smaller'} values of {line.name} next to it, and none for {'smaller' if side > 0 else 'larger'} ones."
     values = {"curvature": enclosure_of(curve), "slope": enclosure_of(push)}
-    return claim_of(kind, f"of {label} transversal", words, abs(side), reason="a derivative may vanish", enclosures=values)
+    return _claim(
+        kind, f"of {label} transversal", words, abs(side), reason="a derivative may vanish", enclosures=values
+    )
 
 
 def _flip_claims(label: str, course: Course) -> list[Claim]:
@@ -271,14 +293,14 @@ def _flip_claims(label: str, course: Course) -> list[Claim]:
     words = "super" if sign > 0 else "sub"
     born = "born stable" if sign > 0 and others > 0 else "unstable"
     return [
-        claim_of(
+        _claim(
             "period-doubling",
             f"of {label} simple",
             "The other two multipliers lie inside the unit circle.",
             others,
             reason="one of them is outside" if others < 0 else "whether they lie inside is open",
         ),
-        claim_of(
+        _claim(
             "period-doubling",
             f"of {label} {words}critical" if sign else f"of {label} critical",
             f"It is {words}critical: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of "
@@ -295,12 +317,14 @@ def _torus_claim(label: str, course: Course) -> Claim:
     total = trace - determinant
     strong = [decided(total - k) for k in (-2, -1, 0, 1, 2)]
     sign = 1 if abs(total) < 2 and 0 not in strong[1:3] else -1 if abs(total) > 2 else 0
-    return claim_of(
+    return _claim(
         "neimark-sacker",
         f"of {label} complex",
         "A conjugate pair of multipliers lies on the unit circle, with this sum; it is at no resonance 1:1, 1:2, 1:3 or 1:4.",
         sign,
-        reason="the two multipliers are real: this is no Neimark-Sacker bifurcation" if sign < 0 else "it may be at a strong resonance",
+        reason="the two multipliers are real: this is no Neimark-Sacker bifurcation"
+        if sign < 0
+        else "it may be at a strong resonance",
         enclosures={"pair_sum": enclosure_of(total)},
     )
 
@@ -312,7 +336,7 @@ def _shrinking_claims(line: Line, label: str, course: Course, at: Mapping[str, A
     where = "inside" if side < 0 else "outside"
     values = {"speed_slope": enclosure_of(slope), "reach": enclosure_of(reach)}
     return [
-        claim_of(
+        _claim(
             "non-smooth-hopf",
             f"of {label} transversal",
             f"Its radial speed grows from zero by {line.name} with this slope, not zero.",
@@ -320,7 +344,7 @@ def _shrinking_claims(line: Line, label: str, course: Course, at: Mapping[str, A
             reason="the sign of the slope is open",
             enclosures=values,
         ),
-        claim_of(
+        _claim(
             "non-smooth-hopf",
             f"of {label} {words}" if side else f"of {label} critical",
             f"It is {words}: next to it the small cycle has a positive radial speed where the contact-free equilibrium is {where} "
@@ -341,7 +365,7 @@ def _motion_claim(kind: str, label: str, course: Course, at: Mapping[str, Any]) 
     sign = min(outward, slip, {True: 1, False: -1, None: 0}[stays]) if outward > 0 else outward
     what = "The small cycles next to it are motions" if small else "The orbit there is a motion"
     statement = f"{what} of the machine: inside the wall between the impacts{', but for the touch' if kind == 'grazing' else ''}."
-    return claim_of(kind, f"of {label} motion", statement, sign, reason="it is virtual" if sign < 0 else "this is open", limited=False)
+    return _claim(kind, f"of {label} motion", statement, sign, reason="it is virtual" if sign < 0 else "this is open")
 
 
 def _of_steady_motion(line: Line, kind: str, label: str, value: Any) -> list[Claim]:
@@ -349,7 +373,7 @@ def _of_steady_motion(line: Line, kind: str, label: str, value: Any) -> list[Cla
         slope = KINDS[kind].equations(line, arb_series([value, 1]))[0][1]
     n = line.at(value)
     claims = [
-        claim_of(
+        _claim(
             kind,
             f"of {label} transversal",
             f"The condition vanishes with this slope by {line.name}, which is not zero.",
@@ -368,5 +392,14 @@ def _of_steady_motion(line: Line, kind: str, label: str, value: Any) -> list[Cla
             0: "It is a non-smooth fold or persistence.",
         }[sign]
         values = {"balance": enclosure_of(balance)}
-        claims.append(claim_of(kind, f"of {label} {words if sign else 'kind'}", what, abs(sign), reason="this is open", enclosures=values))
+        claims.append(
+            _claim(
+                kind,
+                f"of {label} {words if sign else 'kind'}",
+                what,
+                abs(sign),
+                reason="this is open",
+                enclosures=values,
+            )
+        )
     return claims

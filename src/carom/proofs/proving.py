@@ -11,12 +11,14 @@ from carom.outcome import InputError, shown
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import Evidence, NotShownError
-from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of
+from carom.proofs.hypotheses import Given, Hypotheses, hypotheses_of, written_exactly
+from carom.proofs.lines import line_of
 from carom.proofs.rotor import Rotor
+from carom.proofs.several_impacts import MOST_IMPACTS
 from carom.proofs.theorems import THEOREMS, Options
 
-MOST_BITS = 1024
-"""Precision beyond which a claim is left undecided."""
+FIRST_BITS, MOST_BITS = 128, 1024
+"""Precision to begin with, and beyond which a claim is left undecided."""
 MOST_CELLS = 2000
 """Cells of the periods after which the search ends."""
 
@@ -26,8 +28,15 @@ def prove(
     settings: Iterable[str] = (),
     *,
     longest_period: Given | None = None,
+    impacts: int = 1,
+    along: str | None = None,
+    interval: tuple[Given, Given] | None = None,
 ) -> Proof:
     """Prove what can be proven of a machine's equilibria and of its orbits with one impact a period.
+
+    With ``impacts`` above 1 orbits with up to so many impacts a period too, those that a simulation finds.  With ``along`` instead
+    of all this: bifurcation points along a parameter, and for all its values in an interval all orbits with one impact a
+    period, whether they are motions of the machine and whether they are stable.
 
     Parameters
     ----------
@@ -36,6 +45,12 @@ def prove(
         Case, Parameters or model as doubles.
     longest_period : number, optional
         Look only for periods up to this, in ``1/Ω``; by default for all.
+    impacts : int
+        1 to 24.
+    along : str, optional
+        A parameter, dimensionless or physical.
+    interval : pair of numbers, optional
+        Its ends, such as ``("0.084", "0.177")`` or ``("300 N s/m", "2000 N s/m")``; as with ``machine`` a float is a double.
 
     Returns
     -------
@@ -48,13 +63,26 @@ def prove(
         A number cannot be used.
     """
     hypotheses = hypotheses_of(machine, settings)
+    if (along is None) is not (interval is None):
+        raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
+    if along is not None and interval is not None:
+        if impacts != 1 or longest_period is not None:
+            raise InputError("along", shown(along), "cannot be combined with a longest period or with several impacts")
+        start, stop = (written_exactly(end) for end in interval)
+        line_of(hypotheses, along, start, stop)
+        return proof_of("along a parameter", hypotheses, {"along": along, "from": start, "to": stop})
     limit = None if longest_period is None else str(_time(longest_period))
-    return proof_of("single-impact orbits", hypotheses, {"longest_period": limit, "cells": MOST_CELLS})
+    options = {"longest_period": limit, "cells": MOST_CELLS}
+    if impacts == 1:
+        return proof_of("single-impact orbits", hypotheses, options)
+    if not 1 <= impacts <= MOST_IMPACTS:
+        raise InputError("impacts", impacts, f"1 to {MOST_IMPACTS}")
+    return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts})
 
 
 def proof_of(theorem: str, hypotheses: Hypotheses, options: Options) -> Proof:
     """Prove the claims of a theorem, with more bits as long as more bits may decide a claim."""
-    bits = THEOREMS[theorem].first_bits
+    bits = FIRST_BITS
     while True:
         try:
             proof = proof_at(bits, theorem, hypotheses, options, Evidence())

@@ -13,11 +13,11 @@ from fractions import Fraction
 from itertools import groupby, pairwise
 from typing import Any
 
-from carom.proofs.balls import Enclosure, enclosure_of, exact_ends, interval
+from carom.proofs.balls import Enclosure, at_precision, enclosure_of, exact_ends, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError
 from carom.proofs.claims import Claim, Status, claim_of
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.series import hull
@@ -25,6 +25,7 @@ from carom.proofs.slip import out_of_clearance, time_out
 
 __all__ = ["NARROWEST", "Stretch", "range_claims"]
 
+BITS = 64
 NARROWEST, MOST_BLOCKS = Fraction(1, 10_000), 5000
 """Width of a block, as a share of the interval, at which it is left open; number of blocks after which the search ends."""
 _FIRST_STEPS = 64
@@ -92,6 +93,12 @@ def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
         ``along``, ``from`` and ``to`` as texts.
     """
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
+    # Widths of the blocks, not bits, limit what is shown: more would only take longer.
+    with at_precision(BITS):
+        return _claims_along(line, evidence)
+
+
+def _claims_along(line: Line, evidence: Evidence) -> list[Claim]:
     cuts = evidence.take("blocks", lambda: _cuts(line))
     stretches = _stretches(line, _pieces(line, cuts))
     slip = _slip_claim(line, evidence)
@@ -144,8 +151,13 @@ def _facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
 def _pieces(line: Line, cuts: Sequence[Sequence[str]]) -> list[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]:
     """What holds on each block."""
     low, high = (exact_ends(end)[0] for end in line.ends)
-    ends = [Fraction(end) for end, _ in cuts]
-    if ends[0] != low or ends[-1] != high or len(ends) < 2 or any(a > b for a, b in pairwise(ends)):
+    ends = [rational_of(end) for end, _ in cuts]
+    if (
+        ends[0] != low
+        or ends[-1] != high
+        or not 2 <= len(ends) <= MOST_BLOCKS + 3
+        or any(a > b for a, b in pairwise(ends))
+    ):
         raise NotShownError("the blocks of the certificate do not cover the interval")
     found = []
     for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
@@ -189,7 +201,7 @@ def _slip_claim(line: Line, evidence: Evidence) -> Claim:
         return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
     time = evidence.take("out of the clearance after", lambda: time_out(numbers))
     shown = time is not None
-    if time is not None and not out_of_clearance(numbers, Fraction(time)):
+    if time is not None and not out_of_clearance(numbers, rational_of(time)):
         raise NotShownError(f"the certificate does not show that the rotor is out of the clearance after {time}")
     reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
     return claim_of("machine", "slip", statement, int(shown), reason=reason, limited=False)
@@ -245,7 +257,10 @@ def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequen
     reasons = []
     if longest:
         widest = Stretch(longest[0].low, longest[-1].high, (), "")
-        enclosures = {name: Enclosure(end, end) for name, end in zip(("from", "to"), widest.inner, strict=True)}
+        enclosures = {
+            name: Enclosure(end, end, (Fraction(end), Fraction(end)))
+            for name, end in zip(("from", "to"), widest.inner, strict=True)
+        }
         reasons.append(f"shown on {widest.ends}")
     contrary = [Stretch(run[0].low, run[-1].high, (), "").ends for value, run in runs if value is False]
     open_ = [Stretch(run[0].low, run[-1].high, (), "open").ends for value, run in runs if value is None]

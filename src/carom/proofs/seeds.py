@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from flint import arb
@@ -29,9 +30,14 @@ NEAREST, MOST_SEEDS, FARTHEST = 4, 40, 0.5
 def doubles_of(hypotheses: Hypotheses) -> Parameters:
     """Parameters next to the hypotheses, with scales where these are known."""
     fields = MACHINE_FIELDS if hypotheses.table == "machine" else DIMENSIONLESS_FIELDS
-    values = {name: float(ball_of(read_exact(fields[name], text)).mid()) for name, text in hypotheses.values.items()}
+    values: dict[str, Any] = {
+        name: float(ball_of(read_exact(fields[name], text)).mid()) for name, text in hypotheses.values.items()
+    }
     numbers = Machine(**values).parameters if hypotheses.table == "machine" else Parameters(**values)
-    changes = {name: float(ball_of(read_exact(DIMENSIONLESS_FIELDS[name], text)).mid()) for name, text in hypotheses.settings.items()}
+    changes = {
+        name: float(ball_of(read_exact(DIMENSIONLESS_FIELDS[name], text)).mid())
+        for name, text in hypotheses.settings.items()
+    }
     return numbers.replace(**changes)
 
 
@@ -49,7 +55,7 @@ def point_seeds(line: Line) -> list[tuple[str, str, list[float]]]:
             "rub-fold": [value],
             "grazing": [_touch(line, period, speed, value), period, speed, value],
         }.get(point.kind, [period, speed, value])
-        if point.kind in KNOWN and not (isinstance(point.name, str) and point.name.startswith("R")):
+        if point.kind in KNOWN and not point.name.startswith("R"):
             found.append((point.kind, str(point.name), [float(x) for x in guess]))
     return found
 
@@ -94,8 +100,8 @@ def shooting_seeds(hypotheses: Hypotheses, impacts: int) -> Iterator[list[float]
         place = 0.95 * np.sqrt(random.uniform()) * np.exp(2j * np.pi * random.uniform())
         speed = random.normal(scale=0.7) + 1j * random.normal(scale=0.7)
         motion = simulate(rotor, State(complex(place), complex(speed)), FOLLOWED, stop_at_chatter=True, max_events=2000)
-        log = motion.contacts
-        logs.append(np.array([log.time, log.angle - turned, log.radial_speed, log.angular_speed]).T)
+        met = motion.contacts
+        logs.append(np.array([met.time, met.angle - turned, met.radial_speed, met.angular_speed]).T)
     for count in range(2, impacts + 1):
         returns = []
         for log in logs:

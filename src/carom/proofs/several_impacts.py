@@ -10,7 +10,7 @@ from flint import ctx
 
 from carom.proofs.balls import decided, enclosure_of, exact_ends, rational
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.evidence import Evidence, NotShownError
+from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.hypotheses import NUMBERS
 from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.lines import Numbers
@@ -75,13 +75,17 @@ def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
         return False
     for shift in range(count):
         turned = [other.impacts[(k + shift) % count] for k in range(count)]
-        if all(abs(a - b) < 1e-9 for x, y in zip(one.impacts, turned, strict=True) for a, b in zip(x[1:], y[1:], strict=True)):
+        if all(
+            abs(a - b) < 1e-9
+            for x, y in zip(one.impacts, turned, strict=True)
+            for a, b in zip(x[1:], y[1:], strict=True)
+        ):
             return True
     return False
 
 
 def _claims_of(rotor: Rotor, flights: Flights, name: str, entry: Mapping[str, Any]) -> list[Claim]:
-    centre = [rational(Fraction(text)).mid() for text in entry["centre"]]
+    centre = [rational(rational_of(text)).mid() for text in entry["centre"]]
     if len(centre) % 4 or not 8 <= len(centre) <= 4 * MOST_IMPACTS:
         raise NotShownError(f"the certificate has no orbit of 2 to {MOST_IMPACTS} impacts as {name}")
     found = enclosed_zero(flights.equations, centre, int(entry["width"]))

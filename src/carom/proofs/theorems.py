@@ -32,13 +32,10 @@ class Theorem:
     claims : callable
         Takes a :class:`~carom.proofs.rotor.Rotor`, :class:`~carom.proofs.evidence.Evidence` and options.
     not_claimed : tuple of str
-    first_bits : int
-        Precision to begin with.
     """
 
     claims: Callable[[Rotor, Evidence, Options], list[Claim]]
     not_claimed: tuple[str, ...]
-    first_bits: int = 128
 
 
 def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[Claim]:
@@ -103,30 +100,29 @@ THEOREMS: Mapping[str, Theorem] = {
             "that a rub attracts motions that bounce, not only those that slide",
         ),
     ),
-    "bifurcation points": Theorem(
-        point_claims,
-        (
-            "that there are no other points: those listed are what a search in double precision found",
-            "that an orbit has the name it is listed by",
-            "anything beyond a neighbourhood of each point",
-        ),
-    ),
     "orbits of several impacts": Theorem(
-        several_impact_claims,
+        lambda rotor, evidence, options: [
+            *_single_impact(rotor, evidence, options),
+            *several_impact_claims(rotor, evidence, options),
+        ],
         (
-            "that there are no other orbits: those listed are what a search by simulation found",
-            "that there are no motions with lasting contact, with impacts that stop the slip, or irregular ones",
-            "which disturbances lead to an orbit",
+            "that there are no other orbits with two or more impacts a period: those listed are what a search by simulation found",
+            "that there are no orbits with lasting contact or with impacts that stop the slip, and no irregular motions",
+            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
         ),
     ),
-    "ranges of orbits": Theorem(
-        range_claims,
+    "along a parameter": Theorem(
+        lambda rotor, evidence, options: [
+            *point_claims(rotor, evidence, options),
+            *range_claims(rotor, evidence, options),
+        ],
         (
-            "anything on the intervals that are left open",
+            "anything about orbits on the intervals that are left open, but for the points listed there",
+            "that there are no other bifurcation points there: those listed are what a search in double precision found",
+            "that the orbit at a point has the name it is listed by",
             "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
-            "which disturbances lead to an orbit or to levitation",
+            "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks",
         ),
-        first_bits=64,
     ),
 }
 """Theorems by their names in certificates."""

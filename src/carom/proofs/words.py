@@ -113,7 +113,7 @@ class ShootingOrbit:
         )
 
         def height(time: Any, backward: bool) -> Any:
-            return squared(flights.fly(*starts[backward], time)[0] + flights.levitation) - 1
+            return squared(flights.fly(starts[backward][0], starts[backward][1], time)[0] + flights.levitation) - 1
 
         return stays_inside(height, height, here[3], (2 * flights.numbers.d * here[1], 2 * there[1]))
 
@@ -138,7 +138,7 @@ class ShootingOrbit:
         )
         columns = []
         for start in starts:
-            moved, changed = flights.fly(*start, here[3])
+            moved, changed = flights.fly(start[0], start[1], here[3])
             late = -real(conjugate(target) * moved) / there[1]
             turned = imaginary(conjugate(target) * (moved + velocity * late))
             change = conjugate(target) * (changed + force * late) - I * local * turned
