@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -12,9 +13,8 @@ from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
 from carom.parameters.exact import read_exact
 from carom.parameters.fields import unknown_name
-from carom.proofs.balls import ball_of
+from carom.proofs.balls import ball_of, exact_ends, interval
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
-from carom.proofs.series import hull
 
 __all__ = ["Line", "Numbers", "line_of"]
 
@@ -54,11 +54,17 @@ class Line:
         return self.name not in DIMENSIONLESS_FIELDS
 
     @cached_property
-    def ends(self) -> tuple[Any, Any]:
-        """Exact balls between which the interval lies; they may be a rounding error further apart."""
+    def ends(self) -> tuple[Fraction, Fraction]:
+        """Both ends; rounded outward where they are multiples of a power of π."""
         field = MACHINE_FIELDS[self.name] if self.physical else DIMENSIONLESS_FIELDS[self.name]
-        start, stop = (ball_of(read_exact(field, text)) for text in (self.start, self.stop))
-        return start.lower(), stop.upper()
+        start, stop = read_exact(field, self.start), read_exact(field, self.stop)
+        low = start.low if not start.turns else exact_ends(ball_of(start))[0]
+        return low, stop.high if not stop.turns else exact_ends(ball_of(stop))[1]
+
+    @property
+    def ball(self) -> Any:
+        """Ball of all values."""
+        return interval(*self.ends)
 
     @property
     def words(self) -> str:
@@ -141,5 +147,4 @@ def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:
     low, high = line.ends
     if not low <= high:
         raise InputError(name, f"{start} to {stop}", "the interval must begin below its end")
-    line.at(hull(low, high))
     return line

@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import groupby, pairwise
 from typing import Any
 
-from carom.proofs.balls import Enclosure, at_precision, enclosure_of, exact_ends, interval
+from carom.proofs.balls import Enclosure, at_precision, enclosure_of, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError
 from carom.proofs.claims import Claim, Status, claim_of
@@ -37,23 +37,17 @@ class Stretch:
 
     Attributes
     ----------
-    low, high : arb
-        Exact.
+    low, high : Fraction
     facts : tuple of OrbitFact
         Periods and speeds on all of it.
     reason : str
         Why nothing is shown; empty if it is.
     """
 
-    low: Any
-    high: Any
+    low: Fraction
+    high: Fraction
     facts: tuple[OrbitFact, ...]
     reason: str
-
-    @property
-    def width(self) -> Any:
-        """Its width."""
-        return self.high - self.low
 
     @property
     def inner(self) -> tuple[str, str]:
@@ -70,15 +64,15 @@ class Stretch:
         return next((fact for fact in self.facts if fact.name == name), None)
 
 
-def _decimal(end: Any, upward: bool) -> str:
-    """Decimal number of at most 12 digits on one side of an exact ball."""
-    value = exact_ends(end)[0]
+def _decimal(value: Fraction, upward: bool) -> str:
+    """Decimal number of 12 places on one side of a number."""
     scale = 10**12
     scaled = (
         -(-value.numerator * scale // value.denominator) if upward else value.numerator * scale // value.denominator
     )
-    text = f"{scaled / scale:.12f}" if abs(scaled) < 2**52 else str(float(value))
-    return text.rstrip("0").rstrip(".") if "." in text else text
+    whole, places = divmod(abs(scaled), scale)
+    text = f"{'-' if scaled < 0 else ''}{whole}.{places:012d}"
+    return text.rstrip("0").rstrip(".")
 
 
 def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
@@ -113,7 +107,7 @@ def _claims_along(line: Line, evidence: Evidence) -> list[Claim]:
 
 def _cuts(line: Line) -> list[list[str]]:
     """Ends of the blocks, and why a block is left open, by a march along the interval."""
-    low, high = (exact_ends(end)[0] for end in line.ends)
+    low, high = line.ends
     width = high - low
     place, step, found = low, width / _FIRST_STEPS, [[str(low), ""]]
     while place < high or len(found) == 1:
@@ -150,7 +144,7 @@ def _facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
 
 def _pieces(line: Line, cuts: Sequence[Sequence[str]]) -> list[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]:
     """What holds on each block."""
-    low, high = (exact_ends(end)[0] for end in line.ends)
+    low, high = line.ends
     ends = [rational_of(end) for end, _ in cuts]
     if (
         ends[0] != low
@@ -183,10 +177,9 @@ def _stretches(line: Line, pieces: Sequence[tuple[Fraction, Fraction, tuple[Orbi
                 period, speed = hull(period, fact.period), hull(speed, fact.speed)
             name, admissible, stable, reason, instability = same[0].signature
             facts.append(OrbitFact(name, admissible, stable, reason, instability, period, speed))
-        ends = interval(members[0][0], members[0][0]), interval(members[-1][1], members[-1][1])
         reasons = list(dict.fromkeys(member[3] for member in members if member[3]))
         more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
-        found.append(Stretch(*ends, tuple(facts), reasons[0] + more if reasons else ""))
+        found.append(Stretch(members[0][0], members[-1][1], tuple(facts), reasons[0] + more if reasons else ""))
     return found
 
 
@@ -195,7 +188,7 @@ def _stretches(line: Line, pieces: Sequence[tuple[Fraction, Fraction, tuple[Orbi
 
 def _slip_claim(line: Line, evidence: Evidence) -> Claim:
     """Claim that no orbit with one impact a period stops its slip or slips backward, for all values."""
-    numbers = line.at(hull(*line.ends))
+    numbers = line.at(line.ball)
     statement = f"For all {line.words}, no orbit with one impact a period stops its slip or slips backward."
     if numbers.mu.is_zero():
         return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
@@ -252,7 +245,7 @@ def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequen
         told.append((None if stretch.reason else fact is not None and bool(holds(fact)), stretch))
     runs = [(value, [stretch for _, stretch in group]) for value, group in groupby(told, key=lambda entry: entry[0])]
     shown = [run for value, run in runs if value]
-    longest = max(shown, key=lambda run: float(run[-1].high - run[0].low), default=None)
+    longest = max(shown, key=lambda run: run[-1].high - run[0].low, default=None)
     enclosures: dict[str, Enclosure] = {}
     reasons = []
     if longest:
