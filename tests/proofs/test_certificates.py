@@ -54,7 +54,7 @@ def test_check_searches_nothing(document, monkeypatch):
     for name in ("cells_of", "_longest_period", "_first_cell"):
         monkeypatch.setattr(f"carom.proofs.periods.{name}", None)
     monkeypatch.setattr("carom.proofs.single_impact.cells_of", None)
-    monkeypatch.setattr("carom.proofs.slip._time_out", None)
+    monkeypatch.setattr("carom.proofs.slip.time_out", None)
 
     assert len(check(document)) == len(document["claims"])
 
