@@ -339,6 +339,25 @@ def test_boxes_of_machines_are_never_wrong(half):
                 assert claim.kind == "harmless" or Fraction(value.high) <= Fraction(entry.high)
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"gamma": ("-0.1", "0.1"), "omega": ("0.9", "1.1")},
+        {"gamma": ("0", "1")},
+        {"gamma": ("1.51", "1.53")},
+        {"omega": ("0.001", "1000")},
+        {"d": ("0", "1")},
+        {"mu": ("0", "10")},
+        {"rho": ("0", "1")},
+        {"gamma": ("-1000", "1000"), "rho": ("0", "1000"), "radius_ratio": ("0.001", "1e9")},
+    ],
+)
+def test_widest_boxes_end_with_reasons(changes):
+    proof = prove({**DECIMAL, **changes})
+    assert all(claim.reason for claim in proof if claim.status != "proven")
+    assert proof.bits == 128
+
+
 def test_grid_sees_no_more_roots_than_are_proven():
     random = np.random.default_rng(8)
     for _ in range(sized(10, 2, 100)):

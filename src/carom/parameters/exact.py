@@ -105,7 +105,7 @@ def _from_text(field: Field, text: str) -> ExactNumber:
     value *= factor
     # 22/7 is close enough to π for a check of the range.
     size = value * Fraction(22, 7) ** turns
-    if not (field.zero and not value) and not Fraction(field.lowest) <= size <= Fraction(field.highest):
+    if not (field.zero and not value) and not Fraction(repr(field.lowest)) <= size <= Fraction(repr(field.highest)):
         raise field.error(text, "this is out of range")
     return ExactNumber(value, value, turns if value else 0)
 

@@ -44,6 +44,11 @@ def ball_of(number: ExactNumber) -> Any:
     return ball * arb.pi() ** number.turns if number.turns else ball
 
 
+def squared(ball: Any) -> Any:
+    """Square of a real ball; its power with the exponent 2 is not defined where the ball may be negative."""
+    return ball * ball
+
+
 def decided(ball: Any) -> int:
     """Sign that is proven for all numbers of a real ball: 1, −1, or 0 if none is."""
     if ball > 0:
@@ -108,6 +113,11 @@ class Enclosure:
 
     def __str__(self) -> str:
         return self.low if self.low == self.high else f"[{self.low}, {self.high}]"
+
+
+def enclosures_of(**balls: Any) -> dict[str, Enclosure]:
+    """Decimal enclosures of those real balls that are bounded."""
+    return {name: enclosure_of(ball) for name, ball in balls.items() if ball.is_finite()}
 
 
 def enclosure_of(ball: Any) -> Enclosure:

@@ -21,7 +21,7 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.balls import exact_ends, interval
+from carom.proofs.balls import exact_ends, interval, squared
 from carom.proofs.cells import (
     FALLING,
     NEGATIVE,
@@ -151,9 +151,9 @@ def _none_beyond(rotor: Rotor, period: Fraction) -> bool:
     if not (rotor.gamma > 0 and rate * time >= 1):
         return False
     slow = (-rate * time).exp()
-    swing = (rotor.gamma**2 / 4 + 1).sqrt() * time
-    size = (1 + rotor.d) * (1 + rotor.mu**2).sqrt()
-    return bool(size * (slow * (1 + swing) + slow**2) < (1 - slow) ** 2)
+    swing = (squared(rotor.gamma) / 4 + 1).sqrt() * time
+    size = (1 + rotor.d) * (1 + squared(rotor.mu)).sqrt()
+    return bool(size * (slow * (1 + swing) + squared(slow)) < squared(1 - slow))
 
 
 def _longest_period(rotor: Rotor) -> Fraction | None:

@@ -28,7 +28,7 @@ from typing import Any
 
 from flint import acb, acb_series, arb, arb_series, ctx
 
-from carom.proofs.balls import ball_of
+from carom.proofs.balls import ball_of, squared
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 
 _I = acb(0, 1)
@@ -104,14 +104,19 @@ class Rotor:
         self.gamma, self.omega_squared, self.rho, self.mu, self.d, self.radius_ratio = (
             ball_of(hypotheses.numbers[name]) for name in NUMBERS
         )
-        self.split = self.gamma**2 - 4 * self.omega_squared
+        self.split = squared(self.gamma) - 4 * self.omega_squared
         self.chi, self.drag = acb(self.omega_squared - 1, self.gamma), acb(self.gamma, 2)
         self.q = (1 + self.d) * acb(1, self.mu)
 
     @cached_property
     def levitation_squared(self) -> Any:
         """``|U*|²``."""
-        return self.rho**2 / ((self.omega_squared - 1) ** 2 + self.gamma**2)
+        return squared(self.rho) / squared_modulus(self.chi)
+
+    @cached_property
+    def levitation_radius(self) -> Any:
+        """``|U*|``."""
+        return self.levitation_squared.nonnegative_part().sqrt()
 
     @cached_property
     def on_the_wall(self) -> bool:
@@ -131,7 +136,7 @@ class Rotor:
     @cached_property
     def fastest(self) -> float:
         """Modulus of the faster exponent of the co-rotating frame, about."""
-        gamma, split = float(self.gamma), float(self.split)
+        gamma, split = float(self.gamma.mid()), float(self.split.mid())
         return abs(gamma) / 2 + abs(complex(split) ** 0.5) / 2 + 1.0
 
     # ------------------------------------------------------------------------------------------- flight
@@ -204,7 +209,7 @@ class Rotor:
 
     def discriminant(self, lever: Any) -> Any:
         """``Re(q a₁₂)² − |q a₁₂|²(1 − |U*|²)``: a quarter of the discriminant of the equation of the radial speeds."""
-        return lever.real**2 - squared(lever) * (1 - self.levitation_squared)
+        return squared(lever.real) - squared_modulus(lever) * (1 - self.levitation_squared)
 
     # ------------------------------------------------------------------------------------------- orbits
 
@@ -253,14 +258,14 @@ class Rotor:
         minors = arb(0)
         for a, b in ((0, 1), (0, 2), (1, 2)):
             minors += j[a][a] * j[b][b] - j[a][b] * j[b][a]
-        determinant = self.d**2 * (-2 * self.gamma * impact.period).exp()
+        determinant = squared(self.d) * (-2 * self.gamma * impact.period).exp()
         return Invariants(j[0][0] + j[1][1] + j[2][2], minors, determinant)
 
 
 def response_of(gamma: Any, split: Any, time: Any) -> tuple[Any, Any]:
     """``h`` and ``h'`` of ``ḧ + γḣ + ω²h = 0`` with ``h(0) = 0``, ``h'(0) = 1`` and ``split`` = ``γ² − 4ω²``."""
     half = gamma * time / 2
-    squared_phase = split * time**2 / 4
+    squared_phase = split * squared(time) / 4
     if split < 0:
         phase = (-squared_phase).sqrt()
         decay = (-half).exp()
@@ -285,6 +290,6 @@ def real_of_product(one: list[Any], other: list[Any]) -> list[Any]:
     return [product[k] for k in range(length)]
 
 
-def squared(number: Any) -> Any:
+def squared_modulus(number: Any) -> Any:
     """``|z|²``."""
-    return number.real**2 + number.imag**2
+    return squared(number.real) + squared(number.imag)

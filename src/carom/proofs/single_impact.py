@@ -24,12 +24,12 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.balls import decided, enclosure_of, exact_ends
+from carom.proofs.balls import decided, enclosures_of, exact_ends
 from carom.proofs.cells import NEGATIVE, Analytic, Cells, cells_of, power_of_two_below, show
 from carom.proofs.claims import Claim, Status, claim_of
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.periods import Periods
-from carom.proofs.rotor import Impact, Rotor
+from carom.proofs.rotor import Impact, Rotor, squared_modulus
 
 MOST_CELLS = 1000
 """Cells of one flight after which the search ends."""
@@ -68,7 +68,7 @@ def _radial_speeds(rotor: Rotor, lever: Any) -> list[Any] | None:
         return []
     if not discriminant > 0:
         return None
-    half, square, constant = lever.real, lever.real**2 + lever.imag**2, 1 - rotor.levitation_squared
+    half, square, constant = lever.real, squared_modulus(lever), 1 - rotor.levitation_squared
     if rotor.on_the_wall:
         return [arb(0), -2 * half / square] if half < 0 else [-2 * half / square, arb(0)]
     root = discriminant.sqrt()
@@ -84,14 +84,13 @@ def _radial_speeds(rotor: Rotor, lever: Any) -> list[Any] | None:
 def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[list[Claim], Status]:
     """Claims about one orbit, and whether it is a motion of the machine."""
     impact, name = orbit.impact, orbit.name
-    values = {"period": impact.period, "radial_speed": impact.speed, "angular_speed": impact.angular_speed}
     solution = claim_of(
         name,
         "solution",
         "The closing conditions of an orbit with one impact a period and forward slip have exactly one solution with a period "
         "and a radial speed in these intervals.",
         1,
-        enclosures={key: enclosure_of(ball) for key, ball in values.items()},
+        enclosures=enclosures_of(period=impact.period, radial_speed=impact.speed, angular_speed=impact.angular_speed),
     )
     outward = claim_of(
         name,
@@ -133,7 +132,7 @@ def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
         "Its slip is forward before the impact and after it, or there is no friction.",
         1 if free else decided(after),
         reason=words if after < 0 else "whether its slip stays forward is open",
-        enclosures={"slip_after": enclosure_of(after)},
+        enclosures=enclosures_of(slip_after=after),
         limited=rotor.hypotheses.exact,
     )
 
@@ -229,13 +228,12 @@ def _stability_claim(rotor: Rotor, orbit: Candidate) -> Claim:
         signs["the product of its multipliers is 1 or more in modulus"] = -1
     sign = min(signs.values())
     reasons = [words for words, value in signs.items() if value == sign]
-    values = {"trace": found.trace, "minors": found.minors, "determinant": found.determinant}
     return claim_of(
         orbit.name,
         "stable",
         "All three multipliers of the impact map at it lie inside the unit circle.",
         sign,
         reason="; ".join(reasons) if sign < 0 else f"it is open whether {', or whether '.join(reasons)}",
-        enclosures={key: enclosure_of(ball) for key, ball in values.items()},
+        enclosures=enclosures_of(trace=found.trace, minors=found.minors, determinant=found.determinant),
         limited=rotor.hypotheses.exact,
     )

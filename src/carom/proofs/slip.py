@@ -17,7 +17,7 @@ from fractions import Fraction
 
 from flint import arb
 
-from carom.proofs.balls import exact_ends, rational
+from carom.proofs.balls import exact_ends, rational, squared
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Numbers
@@ -54,7 +54,7 @@ def out_of_clearance(rotor: Rotor | Numbers, time: Fraction) -> bool:
     # Damping is strongest at the upper end; there e^{−γτ} has its least value.
     gamma = exact_ends(rotor.gamma)[1]
     way = (1 - (-rational(gamma) * moment).exp()) / rational(gamma) if gamma else moment
-    return bool(rotor.radius_ratio * way - (rotor.omega_squared + rotor.rho) * moment**2 / 2 > 1)
+    return bool(rotor.radius_ratio * way - (rotor.omega_squared + rotor.rho) * squared(moment) / 2 > 1)
 
 
 def time_out(rotor: Rotor | Numbers) -> str | None:

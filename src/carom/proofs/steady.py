@@ -18,9 +18,9 @@ from typing import Any
 
 from flint import arb
 
-from carom.proofs.balls import decided, enclosure_of
+from carom.proofs.balls import decided, enclosures_of, squared
 from carom.proofs.claims import Claim, claim_of
-from carom.proofs.rotor import Rotor
+from carom.proofs.rotor import Rotor, squared_modulus
 
 
 def steady_claims(rotor: Rotor) -> list[Claim]:
@@ -42,7 +42,7 @@ def _levitation_claims(rotor: Rotor) -> list[Claim]:
             "The contact-free equilibrium lies inside the wall, |U*| < 1.",
             inside,
             reason=reason,
-            enclosures={"radius": enclosure_of(square.sqrt())},
+            enclosures=enclosures_of(radius=rotor.levitation_radius),
             limited=rotor.hypotheses.exact,
         ),
         claim_of(
@@ -59,7 +59,7 @@ def _levitation_claims(rotor: Rotor) -> list[Claim]:
 def _rub_claims(rotor: Rotor) -> list[Claim]:
     """Claims about both synchronous rubs, that of the larger normal force first."""
     kappa = 1 - rotor.omega_squared
-    square = rotor.rho**2 * (1 + rotor.mu**2) - (rotor.gamma + rotor.mu * kappa) ** 2
+    square = squared(rotor.rho) * (1 + squared(rotor.mu)) - squared(rotor.gamma + rotor.mu * kappa)
     claims = []
     for name, side in (("rub 1", 1), ("rub 2", -1)):
         claims += _claims_of_rub(rotor, name, side, square, kappa - rotor.mu * rotor.gamma)
@@ -80,10 +80,10 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int, square: Any, half: Any) -
     if exists.status != "proven":
         return [exists]
     root = square.sqrt()
-    force = (half + side * root) / (1 + rotor.mu**2)
+    force = (half + side * root) / (1 + squared(rotor.mu))
     if half * side < 0:
         # The form without cancellation.
-        force = (rotor.chi.real**2 + rotor.gamma**2 - rotor.rho**2) / (half - side * root)
+        force = (squared_modulus(rotor.chi) - squared(rotor.rho)) / (half - side * root)
         force = arb(0) if rotor.on_the_wall else force
     pressed = claim_of(
         name,
@@ -93,7 +93,7 @@ def _claims_of_rub(rotor: Rotor, name: str, side: int, square: Any, half: Any) -
         reason="the wall would have to pull, or does not push"
         if force <= 0
         else "the sign of its normal force is open",
-        enclosures={"normal_force": enclosure_of(force)},
+        enclosures=enclosures_of(normal_force=force),
         limited=rotor.hypotheses.exact,
     )
     given = rotor.hypotheses.rational("gamma", "mu")
@@ -124,7 +124,7 @@ def _sign_of_square(rotor: Rotor, square: Any) -> int:
 def _kick_claim(rotor: Rotor) -> Claim:
     """Claim that kicks below a speed are harmless; without damping or with it, and refuted where no speed is small enough."""
     statement = "The rotor levitates inside the wall, and no kick out of levitation slower than the lower number brings it to the wall."
-    room = 1 - rotor.levitation_squared.sqrt()
+    room = 1 - rotor.levitation_radius
     damping = rotor.hypotheses.numbers["gamma"]
     if rotor.on_the_wall or room < 0 or damping.high < 0:
         reason = "it does not levitate inside the wall, or any kick grows"
@@ -136,7 +136,7 @@ def _kick_claim(rotor: Rotor) -> Claim:
     if not (speed.is_finite() and speed > 0):
         reason = "the largest response to a kick could not be enclosed"
         return claim_of("kick", "harmless", statement, 0, reason=reason, limited=rotor.hypotheses.exact)
-    return claim_of("kick", "harmless", statement, 1, enclosures={"speed": enclosure_of(speed)})
+    return claim_of("kick", "harmless", statement, 1, enclosures=enclosures_of(speed=speed))
 
 
 def _largest_response(rotor: Rotor) -> Any:
@@ -147,7 +147,7 @@ def _largest_response(rotor: Rotor) -> Any:
         time = 2 * arb.atan2(frequency, gamma) / frequency
     elif split > 0:
         rate = split.sqrt()
-        time = ((gamma + rate) ** 2 / (4 * rotor.omega_squared)).log() / rate
+        time = (squared(gamma + rate) / (4 * rotor.omega_squared)).log() / rate
     else:
-        time = 2 / gamma * (split / gamma**2).hypgeom_2f1(arb(1) / 2, arb(1), arb(3) / 2)
+        time = 2 / gamma * (split / squared(gamma)).hypgeom_2f1(arb(1) / 2, arb(1), arb(3) / 2)
     return rotor.response(time)[0]
