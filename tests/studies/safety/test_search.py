@@ -12,6 +12,7 @@ from carom.motions.ensembles import settle
 from carom.outcome import InputError, Outcome
 from carom.parameters import Parameters, Scales
 from carom.studies.safety import least_safe_damping
+from carom.studies.safety.losses import SLOW, Losses
 
 pytestmark = pytest.mark.jit_only
 
@@ -198,6 +199,38 @@ def test_progress_grows_to_one():
 
     assert done == sorted(done)
     assert done[-1] == 1.0
+
+
+def test_starts_on_motions_with_a_known_end_are_varied_just_above_it(monkeypatch):
+    """Below that end the rub or the orbit still exists; above it nothing says where its starts go."""
+    followed = []
+    vary = Losses.vary
+
+    def noted(losses, lost, gamma):
+        followed.append((lost, gamma))
+        return vary(losses, lost, gamma)
+
+    monkeypatch.setattr(Losses, "vary", noted)
+    safe = least_safe_damping(SOURCE, count=600, highest=2.0)
+    ends = {Outcome.FORWARD_RUB: safe.rub.above, Outcome.BOUNCING: safe.orbits.above}
+    known = 0
+    for lost, gamma in followed:
+        (code, *others) = np.unique(lost.endings.outcomes)
+        if not others and code in ends and (code != Outcome.BOUNCING or lost.once.all()):
+            known += 1
+            assert lost.gamma < ends[code]
+            assert gamma == ends[code] * (1.0 + SLOW)
+    assert known >= 2
+    assert len(followed) <= 8
+
+
+def test_no_motion_with_a_known_end_is_left_just_above_it(safe):
+    for end, gone in ((safe.orbits.above, Outcome.BOUNCING), (safe.rub.above, Outcome.FORWARD_RUB)):
+        for gamma, count in ((end * (1.0 - SLOW), 1), (end * (1.0 + SLOW), 0)):
+            rotor = Jeffcott(SOURCE.replace(gamma=gamma))
+            endings = settle(rotor, *DisturbanceSet(400, 3, 2.0).starts(rotor)[:2])
+            once = endings.multiplicities == 1 if gone is Outcome.BOUNCING else True
+            assert ((endings.outcomes == gone) & once).any() == count
 
 
 @pytest.mark.parametrize("highest", [0.01, float("nan"), float("inf")])

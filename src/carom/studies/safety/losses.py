@@ -2,7 +2,8 @@
 
 With growing damping the share of lost disturbances becomes very small before it vanishes, so a sample alone gives a
 limit that is too low.  Lost starts are therefore varied, within the limits of the disturbances, and followed at higher
-and higher damping until no variant is lost.  Finally, fresh disturbances check the result.
+and higher damping until no variant is lost.  Starts that all end in motions whose end is known, the synchronous rub and
+orbits with one impact a period, are varied just above that end at once.  Finally, fresh disturbances check the result.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ FINEST = 1e-5
 FIRST_STEP, GROWTH, LAST_STEP = 0.08, 1.5, 2e-3
 """Relative steps of damping in the upward search: the first, their factor of growth, and the least."""
 SLOW = 4e-3
-"""Relative distance above the fold of the rub: within it motions stay near the vanished rub for thousands of turns."""
+"""Relative distance above the fold of a motion: within it others stay near the vanished one for thousands of turns."""
 
 
 @dataclass(frozen=True)
@@ -108,10 +109,18 @@ class Loss(Result):
         return Loss(self.rotor, kicked, positions, velocities, self.endings[chosen])
 
     @property
-    def ways(self) -> dict[Outcome, Loss]:
-        """The starts grouped by their outcome."""
+    def ways(self) -> dict[tuple[Outcome, bool], Loss]:
+        """The starts grouped by their outcome, and by whether they end on an orbit with one impact a period."""
         outcomes = self.endings.outcomes
-        return {Outcome(code): self[outcomes == code] for code in np.unique(outcomes)}
+        groups = [(code, once) for code in np.unique(outcomes).tolist() for once in (False, True)]
+        found = {(Outcome(code), once): self[(outcomes == code) & (self.once == once)] for code, once in groups}
+        return {way: loss for way, loss in found.items() if len(loss)}
+
+    @property
+    def once(self) -> np.ndarray:
+        """Which starts end on an orbit with one impact a period."""
+        once: np.ndarray = (self.endings.outcomes == Outcome.BOUNCING) & (self.endings.multiplicities == 1)
+        return once
 
     def onward(self, fastest: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the starts, and those of their final states that are not faster than allowed, as further starts."""
@@ -127,12 +136,23 @@ class Losses:
     """Follows disturbances and variants of lost ones, at any damping of a machine.
 
     The sample has the number of disturbances at each damping, the seed of all random numbers, and the largest speed.
-    ``rub_limit`` is the damping up to which a synchronous rub is known to exist; 0 if none is known.
+    ``rub_limit`` and ``orbit_limit`` are the dampings up to which a synchronous rub, and orbits with one impact a period,
+    are known to exist; 0 if none is known.
     """
 
-    def __init__(self, parameters: Parameters, sample: DisturbanceSet, rub_limit: float, threads: int | None) -> None:
-        self.parameters, self.sample, self.rub_limit, self.threads = parameters, sample, rub_limit, threads
-        self.random = np.random.default_rng(sample.seed)
+    def __init__(
+        self,
+        parameters: Parameters,
+        sample: DisturbanceSet,
+        rub_limit: float,
+        orbit_limit: float,
+        threads: int | None,
+    ) -> None:
+        self.parameters, self.sample, self.threads = parameters, sample, threads
+        self.rub_limit, self.orbit_limit = rub_limit, orbit_limit
+        # Fresh samples do not depend on how many variants were tried before.
+        seeds = np.random.SeedSequence(sample.seed).spawn(2)
+        self.random, self.variation = np.random.default_rng(seeds[0]), np.random.default_rng(seeds[1])
 
     def fresh(self, gamma: float, count: int) -> DampingCheck | Loss:
         """Follow a new sample; return the lost starts as soon as there are any, otherwise the check."""
@@ -156,15 +176,26 @@ class Losses:
         """Vary lost starts at higher and higher damping; return those lost at the highest."""
         step = FIRST_STEP
         while step > LAST_STEP and lost.gamma < highest:
-            gamma = min(lost.gamma * (1.0 + step), highest)
-            if self.rub_limit < gamma < self.rub_limit * (1.0 + SLOW):
-                gamma = min(self.rub_limit * (1.0 + SLOW), highest)
-            found = self.vary(lost, gamma)
-            if found is None:
-                step /= 2.0
-            else:
+            gamma, end = lost.gamma * (1.0 + step), self._known_end(lost)
+            if end > lost.gamma:
+                gamma = end * (1.0 + SLOW)
+            elif self.rub_limit < gamma < self.rub_limit * (1.0 + SLOW):
+                gamma = self.rub_limit * (1.0 + SLOW)
+            found = self.vary(lost, min(gamma, highest))
+            if found is not None:
                 lost, step = found, step * GROWTH
+            elif end > lost.gamma:
+                return lost
+            else:
+                step /= 2.0
         return lost
+
+    def _known_end(self, lost: Loss) -> float:
+        """Damping up to which the motions on which these starts end are known to exist; 0 unless known of all."""
+        rubs = lost.endings.outcomes == Outcome.FORWARD_RUB
+        if not (rubs | lost.once).all():
+            return 0.0
+        return max(self.rub_limit if rubs.any() else 0.0, self.orbit_limit if lost.once.any() else 0.0)
 
     def vary(self, lost: Loss, gamma: float) -> Loss | None:
         """Follow lost starts and their variants at another damping; return those that are lost there too.
@@ -174,11 +205,11 @@ class Losses:
         """
         rotor = self._rotor(gamma)
         kicked, positions, velocities = lost.onward(self.sample.fastest)
-        kept = self.random.permutation(len(kicked))[:KEPT]
-        chosen = np.concatenate([kept, self.random.choice(kept, VARIANTS)])
-        sizes = np.exp(self.random.uniform(math.log(FINEST), 0.0, len(chosen)))
+        kept = self.variation.permutation(len(kicked))[:KEPT]
+        chosen = np.concatenate([kept, self.variation.choice(kept, VARIANTS)])
+        sizes = np.exp(self.variation.uniform(math.log(FINEST), 0.0, len(chosen)))
         sizes[: len(kept)] = 0.0
-        changes = self.random.standard_normal((4, len(chosen))) * sizes
+        changes = self.variation.standard_normal((4, len(chosen))) * sizes
         kicked = kicked[chosen]
         positions = _within(positions[chosen] + (changes[0] + 1j * changes[1]), 1.0)
         fastest = self.sample.fastest

@@ -61,7 +61,7 @@ def least_safe_damping(
     damping; their upper limit is found by bisection.  Other motions (orbits with several impacts, irregular bouncing,
     motions with rub), and which motions disturbances reach, are found by simulation.  From the highest damping
     downward, samples of disturbances are followed until some are lost.  For each outcome, the lost starts are varied at
-    higher and higher damping until no variant is lost.  Then fresh disturbances are tried just above and at many
+    higher and higher damping until no variant is lost; where the end of their motions is known, just above it at once.  Then fresh disturbances are tried just above and at many
     dampings up to the highest.  If one of them is lost, the search continues upward from there.
 
     Parameters
@@ -106,7 +106,7 @@ def least_safe_damping(
     whirl = DampingLimit(MotionName(Outcome.ROLLING), rolls.largest_damping, rolls.damping_bound, "closed form")
     tell(0.2)
     sample = DisturbanceSet(count, seed, fastest)
-    losses = Losses(parameters, sample, rub.above if rub else 0.0, threads)
+    losses = Losses(parameters, sample, rub.above if rub else 0.0, orbits.above if orbits else 0.0, threads)
     known = max((limit.above for limit in (rub, orbits) if limit), default=0.0)
     search = _Search(losses, grid, known, tell.part(0.2, 0.9))
     simulated, checks = search.run()
@@ -192,7 +192,7 @@ class _Search:
     def _first_loss(self) -> Loss | None:
         """Search the grid downward for the first losses, then upward from each outcome found there or just below."""
         count = max(1, int(SCANNED * self.count))
-        ways: dict[Outcome, Loss] = {}
+        ways: dict[tuple[Outcome, bool], Loss] = {}
         left = BELOW
         for gamma in self.grid.tolist():
             found = self.losses.fresh(gamma, count)
