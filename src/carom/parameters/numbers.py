@@ -109,21 +109,23 @@ class Numbers(NamedTuple):
 
 
 def _with_speed(numbers: Any, speed: float) -> Numbers:
-    ratio = numbers.units.speed / speed
-    units = numbers.units._replace(speed=speed)
-    return numbers._replace(gamma=numbers.gamma * ratio, omega=numbers.omega * ratio, units=units)
+    mass, clearance, present = numbers.units
+    ratio = present / speed
+    gamma, omega = numbers.gamma * ratio, numbers.omega * ratio
+    return Numbers._make((gamma, omega, *numbers[2:7], Units(mass, clearance, speed)))
 
 
 def _with_mass(numbers: Any, mass: float) -> Numbers:
-    ratio = numbers.units.mass / mass
-    units = numbers.units._replace(mass=mass)
-    return numbers._replace(gamma=numbers.gamma * ratio, omega=numbers.omega * _root(ratio), units=units)
+    present, clearance, speed = numbers.units
+    ratio = present / mass
+    gamma, omega = numbers.gamma * ratio, numbers.omega * _root(ratio)
+    return Numbers._make((gamma, omega, *numbers[2:7], Units(mass, clearance, speed)))
 
 
 def _with_clearance(numbers: Any, clearance: float) -> Numbers:
-    ratio = numbers.units.clearance / clearance
-    units = numbers.units._replace(clearance=clearance)
-    return numbers._replace(rho=numbers.rho * ratio, radius_ratio=numbers.radius_ratio * ratio, units=units)
+    gamma, omega, rho, phi, mu, d, radius_ratio, (mass, present, speed) = numbers
+    ratio = present / clearance
+    return Numbers(gamma, omega, rho * ratio, phi, mu, d, radius_ratio * ratio, Units(mass, clearance, speed))
 
 
 _MOVES: dict[str, Callable[[Numbers, float], Numbers]] = {

@@ -182,18 +182,18 @@ class Parameters:
         InputError
             If a name is unknown or a value not allowed, or a physical value is given without scales.
         """
-        known = {**self.varied, "scales": None}
+        varied = self.varied
         for name, value in changes.items():
-            if name not in known:
-                raise self._no_such(name, value, known)
+            if name not in varied and name != "scales":
+                raise self._no_such(name, value, {**varied, "scales": None})
         physical = {name: value for name, value in changes.items() if name in MACHINE_FIELDS}
         own = {name: value for name, value in changes.items() if name not in physical}
         if not physical:
             return dataclasses.replace(self, **own)
-        numbers = Numbers.of(dataclasses.replace(self, scales=own.pop("scales", self.scales)))
+        numbers = Numbers.of(dataclasses.replace(self, scales=own.pop("scales")) if "scales" in own else self)
         for name, value in physical.items():
             numbers = numbers.moved(name, read_quantity(MACHINE_FIELDS[name], value))
-        return dataclasses.replace(numbers.parameters, **own)
+        return dataclasses.replace(numbers.parameters, **own) if own else numbers.parameters
 
     @property
     def varied(self) -> Mapping[str, Field]:
