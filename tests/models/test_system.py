@@ -102,3 +102,18 @@ def test_what_follows_from_the_arrays_is_made_once():
     assert rotor.system is rotor.system
     assert rotor.system.table is rotor.system.table
     assert rotor.system.generator is rotor.system.generator
+
+
+def test_contacts_are_the_fields_of_the_record():
+    arrays = Jeffcott(PAPER).system.arrays
+    (contact,) = Jeffcott(PAPER).system.contacts
+    names = {"offset": "offsets", "row": "rows", "rate_row": "rate_rows"}
+    for name, value in contact._asdict().items():
+        field = arrays.columns.T if name == "column" else getattr(arrays, names.get(name, name))
+        assert np.array_equal(value, field[0])
+
+
+def test_tables_are_shared_by_rotors_with_the_same_modes_only():
+    table = Jeffcott(PAPER).system.table
+    assert Jeffcott(PAPER.replace(rho=0.1, mu=0.3, d=0.5, phi=1.0)).system.table is table
+    assert Jeffcott(PAPER.replace(gamma=np.nextafter(PAPER.gamma, 1.0))).system.table is not table

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,8 +13,25 @@ from carom.core.layout import rotor_record
 from carom.core.table import flight_table
 from carom.results import Result
 
+TABLES = 32
+"""Number of tables kept."""
 ROUNDING = 1e-12
 """Share of the sum of moduli below which the sum counts as zero."""
+
+
+class Contact(NamedTuple):
+    """A contact plane and its contact law: the fields of :func:`~carom.core.layout.rotor_record` for one plane.
+
+    Each access to a field of the record takes as long as a small kernel.
+    """
+
+    offset: complex
+    row: np.ndarray
+    rate_row: np.ndarray
+    column: np.ndarray
+    friction: float
+    restitution: float
+    drive: float
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -45,8 +63,19 @@ class System(Result):
 
     @cached_property
     def table(self) -> np.record:
-        """Constants of the certified crossing search (:func:`~carom.core.layout.table_record`)."""
-        return flight_table(self.arrays.exponents, self.arrays.driven)
+        """Constants of the certified crossing search (:func:`~carom.core.layout.table_record`).
+
+        Rotors with the same modes, such as all with the same damping and stiffness, share them.
+        """
+        return _table(self.exponents.tobytes(), self.arrays.driven.tobytes())
+
+    @cached_property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The contact planes."""
+        arrays = self.arrays
+        numbers = (arrays[name].tolist() for name in ("friction", "restitution", "drive"))
+        fields = arrays.offsets.tolist(), arrays.rows, arrays.rate_rows, arrays.columns.T, *numbers
+        return tuple(map(Contact._make, zip(*fields, strict=True)))
 
     @property
     def exponents(self) -> np.ndarray:
@@ -190,6 +219,11 @@ class System(Result):
         starts = np.broadcast_to(amplitudes, (*times.shape, amplitudes.shape[-1]))
         flown: np.ndarray = fly_all(self.arrays, starts.reshape(-1, starts.shape[-1]), times.ravel())
         return flown.reshape(starts.shape)
+
+
+@lru_cache(TABLES)
+def _table(exponents: bytes, driven: bytes) -> np.record:
+    return flight_table(np.frombuffer(exponents, np.complex128), np.frombuffer(driven, np.int8))
 
 
 def second_order_system(

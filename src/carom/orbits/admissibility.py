@@ -10,6 +10,7 @@ from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import lift_off
 from carom.models import Jeffcott, Model
+from carom.models.system import Contact
 from carom.motions.trajectories import EventLog, follow
 from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Segment, Word
@@ -47,22 +48,27 @@ def departure(rotor: Model, segment: Segment, node: np.ndarray) -> np.ndarray:
     """Amplitudes just after the beginning of a segment: after the impact, if there is one."""
     if not segment.kind.is_impact:
         return node
-    arrays, plane = rotor.system.arrays, segment.plane
-    position, radial, slip = _at_wall(rotor, plane, node)
-    share = -(1.0 + float(arrays.restitution[plane])) * radial
-    along = SLIPS[segment.kind] * float(arrays.friction[plane]) * share
+    contact = rotor.system.contacts[segment.plane]
+    return _struck(contact, segment, node, *_at_wall(contact, node))
+
+
+def _struck(
+    contact: Contact, segment: Segment, node: np.ndarray, position: complex, radial: float, slip: float
+) -> np.ndarray:
+    """Amplitudes just after an impact, by the direction of the displacement, the radial speed and the slip before it."""
+    share = -(1.0 + contact.restitution) * radial
+    along = SLIPS[segment.kind] * contact.friction * share
     change = complex(share, along if SLIPS[segment.kind] else -slip)
-    struck: np.ndarray = node + arrays.columns[:, plane] * (change * position)
+    struck: np.ndarray = node + contact.column * (change * position)
     return struck
 
 
-def _at_wall(rotor: Model, plane: int, node: np.ndarray) -> tuple[complex, float, float]:
+def _at_wall(contact: Contact, node: np.ndarray) -> tuple[complex, float, float]:
     """Direction of the displacement of a plane on its wall, its radial speed and its slip."""
-    arrays = rotor.system.arrays
-    position = complex(node @ arrays.rows[plane] + arrays.offsets[plane])
+    position = complex(node @ contact.row) + contact.offset
     position /= abs(position)
-    local = position.conjugate() * complex(node @ arrays.rate_rows[plane])
-    return position, local.real, float(arrays.drive[plane]) + local.imag
+    local = position.conjugate() * complex(node @ contact.rate_row)
+    return position, local.real, contact.drive + local.imag
 
 
 def why_virtual(rotor: Model, word: Word, start: Start) -> str:
@@ -79,9 +85,10 @@ def why_virtual(rotor: Model, word: Word, start: Start) -> str:
 
 def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
     """Reason why an impact and the flight after it are not a motion."""
-    arrays, plane = rotor.system.arrays, segment.plane
-    position, radial, slip = _at_wall(rotor, plane, node)
-    friction, restitution = float(arrays.friction[plane]), float(arrays.restitution[plane])
+    contacts, plane = rotor.system.contacts, segment.plane
+    contact = contacts[plane]
+    position, radial, slip = _at_wall(contact, node)
+    friction, restitution = contact.friction, contact.restitution
     if radial <= 0.0:
         return "it would meet the wall from outside (radial speed not above 0)"
     stops = friction * (1.0 + restitution) * radial >= abs(slip)
@@ -93,14 +100,14 @@ def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.nda
             return "its slip would run the other way, and friction with it"
         if stops:
             return "friction would stop the slip during the impact"
-    after = departure(rotor, segment, node)
+    after = _struck(contact, segment, node, position, radial, slip)
     if restitution == 0.0:
-        speed = complex(after @ arrays.rate_rows[plane])
-        if (position.conjugate() * (after @ arrays.acceleration_rows[plane])).real + abs(speed) ** 2 >= 0.0:
+        speed, force = complex(after @ contact.rate_row), after @ rotor.system.arrays.acceleration_rows[plane]
+        if (position.conjugate() * force).real + abs(speed) ** 2 >= 0.0:
             return "it would stay on the wall: it does not rebound and is pressed outward"
-        if len(arrays.rows) > 1:
+        if len(contacts) > 1:
             return _why_no_such_contact(rotor, segment, target, node, duration)
-    for touched in range(len(arrays.rows)):
+    for touched in range(len(contacts)):
         code, time = _first_contact(rotor, plane, touched, after, 1.5 * duration)
         arrives = touched == target.plane and abs(time - duration) <= ARRIVAL_TOLERANCE * duration
         if code == Outcome.CLEAR or arrives or (touched != target.plane and time > duration):
@@ -114,7 +121,7 @@ def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.nda
 def _first_contact(rotor: Model, left: int, plane: int, start: np.ndarray, horizon: float) -> tuple[int, float]:
     """Outcome and time of the first contact of a plane after an impact at a plane."""
     arrays, work = rotor.system.arrays, workspace(len(start))
-    if plane != left or arrays.restitution[plane] > 0.0:
+    if plane != left or rotor.system.contacts[plane].restitution > 0.0:
         leaves = LEAVING if plane == left else INSIDE
         outcome, time = first_crossing(arrays, rotor.system.table, plane, start, horizon, leaves, work)
         return outcome, time
@@ -135,7 +142,7 @@ PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
 
 def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
     """Reason why a segment is not what the simulation does from its node, by kind of contact, place and time."""
-    planes = len(rotor.system.arrays.rows)
+    planes = len(rotor.system.contacts)
     contact = np.full(planes, AWAY)
     contact[segment.plane] = PHASES.get(segment.kind, Phase.FLIGHT)
     recollection = memory(len(node), stop_at_landing=True)

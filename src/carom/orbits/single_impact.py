@@ -19,7 +19,7 @@ from carom.orbits.names import OrbitName, Slip
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import STARTS, FoundOrbits, search_orbits
 from carom.orbits.shooting import Start
-from carom.orbits.stability import Multipliers, multipliers
+from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 from carom.outcome import InputError
 from carom.progress import Reporter, Wish, shows_progress
@@ -199,12 +199,15 @@ def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, 
     gamma, omega, friction, d = parameters.gamma, parameters.omega, slip * parameters.mu, parameters.d
     levers = (condition.factor * condition.a12(roots.periods)).tolist()
     turns = (condition.factor * condition.a22(roots.periods)).tolist()
+    found = list(orbits_of_roots(rotor, roots, levers, slip))
+    stability = multipliers_of_all(
+        [impact_jacobian(gamma, omega, friction, d, periods[root], speed) for _, root, speed in found]
+    )
     orbits = []
-    for name, root, speed in orbits_of_roots(rotor, roots, levers, slip):
+    for (name, root, speed), nontrivial in zip(found, stability, strict=True):
         position = rotor.equilibrium / (1.0 + levers[root] * speed)
         section = Section(cmath.phase(position), speed, -turns[root].imag * speed)
-        jacobian = impact_jacobian(gamma, omega, friction, d, periods[root], speed)
-        orbits.append(orbit_at(rotor, name, periods[root], section, multipliers(jacobian)))
+        orbits.append(orbit_at(rotor, name, periods[root], section, nontrivial))
     return sorted(orbits, key=lambda orbit: orbit.name.place)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,6 +50,13 @@ def multipliers(jacobian: np.ndarray) -> Multipliers:
     ----------
     jacobian : ndarray, shape (n, n)
     """
+    return multipliers_of_all([jacobian])[0]
+
+
+def multipliers_of_all(jacobians: Sequence[np.ndarray]) -> list[Multipliers]:
+    """:func:`multipliers` of several return maps of the same size."""
+    if not jacobians:
+        return []
     # Conjugates are exact, so that their moduli are equal.
-    values = np.linalg.eigvals(jacobian).astype(complex).tolist()
-    return Multipliers(np.array(sorted(values, key=lambda value: (-abs(value), -value.imag))))
+    found = np.linalg.eigvals(np.array(jacobians)).astype(complex).tolist()
+    return [Multipliers(np.array(sorted(each, key=lambda value: (-abs(value), -value.imag)))) for each in found]
