@@ -43,7 +43,7 @@ def check(source: str | os.PathLike[str] | Mapping[str, Any]) -> Proof:
     InputError
         It cannot be read as a certificate, or it does not show what it claims.
     """
-    document, name = (source, "certificate") if isinstance(source, Mapping) else (_read(source), shown(source))
+    document, name = (source, "the data given") if isinstance(source, Mapping) else (_read(source), shown(source))
     try:
         proof = _proof_of(document)
     except (CaromError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
