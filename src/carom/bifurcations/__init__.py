@@ -1,7 +1,7 @@
 """Bifurcations of equilibria and single-impact orbits: branches, diagrams, curves in two parameters, regions."""
 
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
-from carom.bifurcations.branches import OrbitBranch, continue_orbit
+from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.cells import Region
 from carom.bifurcations.changes import UnexplainedChange
 from carom.bifurcations.curves import KINDS, Codimension2Point, Curve, continue_curve
@@ -15,6 +15,7 @@ from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rub
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch
 from carom.bifurcations.windows import OrbitWindows, Window, WindowEnd, orbit_windows
+from carom.bifurcations.words import SpecialOrbit, WordBranch, continue_orbit
 
 __all__ = [
     "KINDS",
@@ -35,9 +36,11 @@ __all__ = [
     "RollingBranch",
     "RubbingBranch",
     "RubbingOrbit",
+    "SpecialOrbit",
     "UnexplainedChange",
     "Window",
     "WindowEnd",
+    "WordBranch",
     "boundary_equilibria",
     "continue_curve",
     "continue_orbit",

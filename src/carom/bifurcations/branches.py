@@ -132,8 +132,8 @@ class OrbitBranch(Result):
         return list(zip(self.numbers, self.period.tolist(), self.radial_speed.tolist(), strict=True))
 
 
-def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None) -> OrbitBranch:
-    """Continue an orbit along a parameter, through folds and through stretches where it is virtual.
+def continue_single_impact(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None) -> OrbitBranch:
+    """Continue an orbit with one impact a period along a parameter, through folds and where it is virtual.
 
     The unknowns are the period and the radial speed; the equations are ``F₁(T) = 0`` and ``|1 + q a₁₂ ṙ|² = |U*|²``
     (source paper (4.3), (4.4)).

@@ -10,7 +10,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from carom.attractors import DisturbanceSet
-from carom.bifurcations.branches import OrbitBranch, continue_orbit
+from carom.bifurcations.branches import OrbitBranch, continue_single_impact
 from carom.bifurcations.conditions import corrected
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
@@ -183,7 +183,7 @@ def _follow(
         for orbit in _orbits(here):
             wanted = virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
-                branches.append(continue_orbit(orbit, along.name, limits))
+                branches.append(continue_single_impact(orbit, along.name, limits))
         for motion in rubbing_orbits(here) if lasting else ():
             if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
                 rubbing.append(continue_rubbing(motion, along.name, limits))

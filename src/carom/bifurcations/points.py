@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from carom.bifurcations.conditions import orbit_of
 from carom.models import Subject, jeffcott_of
@@ -14,6 +14,10 @@ from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
 from carom.parameters import Numbers
 from carom.results import Result
+
+if TYPE_CHECKING:
+    from carom.bifurcations.words import WordBranch
+    from carom.models.axes import Ends
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
 _STEADY: dict[str, MotionKind] = {
@@ -100,3 +104,9 @@ class Bifurcation(Result):
                 "bifurcation", f"{self.kind} of {self.name or 'a motion without a name'}", "one of an orbit"
             )
         return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
+
+    def switch(self, interval: Ends | None = None) -> WordBranch:
+        """Branch of orbits of twice the period that is born in this period doubling; see :func:`carom.bifurcations.words.switched`."""
+        from carom.bifurcations.words import switched  # that module needs this one
+
+        return switched(self.kind, self.orbit, self.parameter, interval)

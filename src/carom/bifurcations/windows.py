@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.branches import OrbitBranch, continue_orbit
+from carom.bifurcations.branches import OrbitBranch, continue_single_impact
 from carom.bifurcations.conditions import (
     corrected,
     grazing_equations,
@@ -281,7 +281,7 @@ def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[flo
             continue
         orbit = orbit_of(solution.numbers, solution.name.pair, solution.period, solution.radial_speed)
         try:
-            branch = continue_orbit(orbit, parameter, interval)
+            branch = continue_single_impact(orbit, parameter, interval)
         except CaromError:
             continue
         periods, speeds = branch.period.tolist(), branch.radial_speed.tolist()

@@ -98,7 +98,8 @@ class System(Result):
         return np.concatenate([self.shapes, self.rates])
 
     @cached_property
-    def _inverse(self) -> np.ndarray:
+    def to_modes(self) -> np.ndarray:
+        """Amplitudes per coordinate, then per rate of a coordinate, shape (N, 2n)."""
         return np.linalg.inv(self.basis) if self.inverse is None else self.inverse
 
     @cached_property
@@ -107,7 +108,7 @@ class System(Result):
 
     def amplitudes_of(self, states: np.ndarray) -> np.ndarray:
         """Mode amplitudes of states (m, 2n), each the coordinates and then their rates; shape (m, N)."""
-        found: np.ndarray = np.einsum("nk,mk->mn", self._inverse, states - self._whole_rest)
+        found: np.ndarray = np.einsum("nk,mk->mn", self.to_modes, states - self._whole_rest)
         return found
 
     def states_of(self, amplitudes: np.ndarray) -> np.ndarray:
@@ -135,7 +136,7 @@ class System(Result):
         """Change of the mode amplitudes, shape (N,), that corresponds to a change of state of any size."""
         change = np.array([position_change, velocity_change]).ravel()
         # Not a matrix product: the threads of the linear algebra library cost far more than these few numbers.
-        changes: np.ndarray = np.einsum("nk,k->n", self._inverse, change)
+        changes: np.ndarray = np.einsum("nk,k->n", self.to_modes, change)
         return changes
 
     def state(self, amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -167,7 +168,7 @@ class System(Result):
     @cached_property
     def planes(self) -> np.ndarray:
         """Displacement of each contact plane per coordinate, shape (P, n)."""
-        planes: np.ndarray = self.arrays.rows @ self._inverse[:, : len(self.rest)]
+        planes: np.ndarray = self.arrays.rows @ self.to_modes[:, : len(self.rest)]
         return planes
 
     @cached_property
@@ -180,7 +181,7 @@ class System(Result):
     @cached_property
     def accelerated(self) -> np.ndarray:
         """Rates of change of the amplitudes when all masses are accelerated by one along the translation, shape (N,)."""
-        accelerated: np.ndarray = self._inverse[:, len(self.rest) :] @ self.moves
+        accelerated: np.ndarray = self.to_modes[:, len(self.rest) :] @ self.moves
         return accelerated
 
     @cached_property

@@ -136,8 +136,8 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
     slopes[:, :modes, :-1], slopes[:, modes:-1, :-1] = changes.real.swapaxes(1, 2), changes.imag.swapaxes(1, 2)
     slopes[:, :modes, -1], slopes[:, modes:-1, -1] = rates.real, rates.imag
     slopes[:, -1] = normals
-    basis = _real(system.basis)
-    return Links(start, system.states_of(arrivals), values, basis @ slopes @ np.linalg.inv(basis))
+    slopes = _real(system.basis) @ slopes @ _real(system.to_modes)
+    return Links(start, system.states_of(arrivals), values, slopes)
 
 
 def _real(matrix: np.ndarray) -> np.ndarray:

@@ -1,0 +1,177 @@
+"""Branches of orbits of any word: against the closed form, simulation and thirty digits; switching at period doublings."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import mpmath
+import numpy as np
+import pytest
+
+from carom.bifurcations import OrbitBranch, SpecialOrbit, WordBranch, continue_orbit
+from carom.bifurcations.words import continue_word
+from carom.models import Jeffcott
+from carom.motions import State, simulate
+from carom.orbits import find_orbits, impact_map
+from carom.orbits.orbit import Orbit, orbit_near, same_orbit
+from carom.orbits.recognising import orbit_of_motion
+from carom.orbits.shooting import Start
+from carom.outcome import InputError
+from tests.machines import PAPER
+from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state, tilting_too
+
+DOUBLING = 0.0833814175
+"""Damping at which B1,d doubles its period."""
+pytestmark = pytest.mark.jit_only
+
+
+@cache
+def single() -> OrbitBranch:
+    branch = continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.075, 0.11))
+    assert isinstance(branch, OrbitBranch)
+    return branch
+
+
+@cache
+def doubled() -> WordBranch:
+    (point,) = [point for point in single().special if point.kind == "period-doubling"]
+    return point.switch((0.078, 0.09))
+
+
+def located(kind: str, near: float) -> SpecialOrbit:
+    (point,) = [p for p in doubled().special if p.kind == kind and abs(p.value - near) < 1e-4]
+    return point
+
+
+def test_special_points_of_a_single_impact_orbit_are_those_of_the_closed_form():
+    orbit = find_orbits(PAPER)["B1,d"]
+    branch = continue_word(orbit, "gamma", (0.06, 0.11))
+    known = continue_orbit(orbit, "gamma", (0.06, 0.11))
+    for kind in ("grazing", "period-doubling"):
+        (found,) = [point for point in branch.special if point.kind == kind]
+        (expected,) = [point for point in known.special if point.kind == kind]
+        assert found.value == pytest.approx(expected.value, abs=1e-12)
+        assert found.orbit.period == pytest.approx(expected.period, abs=1e-10)
+
+
+def test_folds_of_a_single_impact_orbit_are_those_of_the_closed_form():
+    orbit = find_orbits(PAPER.replace(gamma=0.17))["B1,d"]
+    branch = continue_word(orbit, "gamma", (0.165, 0.19))
+    (fold,) = [point for point in branch.special if point.kind == "fold"]
+    assert fold.value == pytest.approx(0.1780277257, abs=1e-10)
+    assert fold.orbit.period == pytest.approx(1.6408219835, abs=1e-8)
+    # The branch goes on to the other orbit of the fold.
+    assert branch.values[0] == pytest.approx(0.165, abs=1e-12)
+    assert branch.values[-1] == pytest.approx(0.165, abs=1e-12)
+
+
+def test_the_doubled_branch_begins_at_the_period_doubling():
+    branch = doubled()
+    assert "period-halving" in branch.stops
+    (end,) = [point for point in branch.special if point.kind == "period-halving"]
+    # Next to its end the branch is a parabola, so an error of 1e-4 in the unknowns is one of 1e-8 in the damping.
+    assert end.value == pytest.approx(DOUBLING, abs=1e-6)
+    assert end.orbit.period == pytest.approx(2.0 * find_orbits(PAPER.replace(gamma=end.value))["B1,d"].period, abs=1e-4)
+    assert (branch.unknowns.shape[1], len(branch.word)) == (10, 2)
+
+
+def test_every_orbit_of_the_doubled_branch_solves_the_equations():
+    assert max(orbit.links.size for orbit in doubled().orbits) < 1e-11
+    assert np.abs([orbit.period for orbit in doubled().orbits] - doubled().period).max() < 1e-12
+
+
+def test_admissible_orbits_of_the_doubled_branch_are_simulated_motions():
+    branch, seen = doubled(), 0
+    for orbit in branch.orbits[::3]:
+        if not orbit.admissible:
+            continue
+        seen += 1
+        at = orbit.section
+        for expected in (*orbit.sections[1:], orbit.section):
+            at = impact_map(orbit.rotor, at).image
+            assert abs(np.exp(1j * at.angle) - np.exp(1j * expected.angle)) < 1e-9
+            assert at.radial_speed == pytest.approx(expected.radial_speed, abs=1e-9)
+    assert seen > 3
+
+
+def test_the_doubled_branch_closes_in_thirty_digits():
+    seen = 0
+    for orbit in doubled().orbits[::6]:
+        if not orbit.admissible:
+            continue
+        seen += 1
+        with mpmath.workdps(30):
+            matrix = exact_matrix(orbit.rotor.parameters)
+            first = state = exact_state(orbit.section)
+            for duration in orbit.durations:
+                state = exact_arrival(matrix, orbit.rotor, exact_rebound(orbit.rotor, state), mpmath.mpf(duration))
+            # The branch is corrected to 1e-11.
+            assert max(abs(a - b) for a, b in zip(first, state, strict=True)) < mpmath.mpf("1e-10")
+    assert seen > 1
+
+
+def test_the_stable_doubled_orbits_attract_and_end_where_they_graze():
+    """From its birth down to its grazing the orbit of two impacts is stable; there a maximum of its radius meets the wall."""
+    branch, grazing = doubled(), located("grazing", 0.08267)
+    assert grazing.orbit.margins.radius == pytest.approx(0.0, abs=1e-9)
+    real = [orbit for orbit in branch.orbits if orbit.admissible]
+    assert all(orbit.stable for orbit in real if orbit.rotor.parameters.gamma < DOUBLING - 1e-5)
+    assert min(orbit.rotor.parameters.gamma for orbit in real) > grazing.value
+    for shift, inside in ((1e-6, True), (-1e-6, False)):
+        rotor = Jeffcott(PAPER.replace(gamma=grazing.value + shift))
+        near = orbit_near(rotor, branch.word, Start(grazing.orbit.nodes, grazing.orbit.durations))
+        assert near is not None
+        assert near.admissible is inside
+        if inside:
+            motion = simulate(rotor, State(near.position, 1.00001 * near.departure.velocity), settle=True)
+            assert same_orbit(orbit_of_motion(motion), near)
+
+
+def test_beyond_the_grazing_the_branch_turns():
+    """It goes on with virtual orbits, through the fold that a square root near grazing announces."""
+    fold, grazing = located("fold", 0.08267), located("grazing", 0.08267)
+    assert 0.0 < grazing.value - fold.value < 1e-5
+    assert not fold.orbit.admissible
+    apart = np.abs(fold.orbit.multipliers.values - 1.0).min()
+    assert apart < 1e-4  # the square root of the error of its damping
+    distances, periods = np.array([4e-6, 8e-6, 1.6e-5]), []
+    for distance in distances:
+        branch = continue_word(grazing.orbit, "gamma", (fold.value - 1e-5, fold.value + distance))
+        assert branch.stops == ("parameter limit", "parameter limit")
+        periods.append(abs(branch.period[-1] - branch.period[0]))
+    slopes = np.diff(np.log(periods)) / np.diff(np.log(distances))
+    assert slopes == pytest.approx([0.5, 0.5], abs=0.02)
+
+
+def test_the_next_period_doubling_of_the_doubled_branch():
+    """It is on the virtual part; the branch of four impacts that is born there ends at the same damping."""
+    point = located("period-doubling", 0.08556)
+    assert not point.orbit.admissible
+    assert np.abs(point.orbit.multipliers.values + 1.0).min() < 1e-7
+    branch = point.switch((point.value - 3e-4, point.value + 3e-4))
+    assert len(branch.word) == 4
+    (end,) = [p for p in branch.special if p.kind == "period-halving"]
+    assert end.value == pytest.approx(point.value, abs=1e-6)
+
+
+def test_only_period_doublings_are_switched_at():
+    with pytest.raises(InputError, match="period doubling"):
+        located("grazing", 0.08267).switch()
+    with pytest.raises(InputError, match="interval"):
+        continue_word(find_orbits(PAPER)["B1,d"], "gamma", (0.2, 0.3))
+
+
+def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
+    rotor = tilting_too(0.005)
+    planar = find_orbits(PAPER)["B1,d"]
+    before = planar.section.state
+    node = np.array([[before.position, 0.0, before.velocity, 0.0]])
+    orbit = orbit_near(rotor, planar.word, Start(node, planar.durations))
+    assert isinstance(orbit, Orbit)
+    branch = continue_orbit(orbit, "restitution", (0.93, 0.97))
+    assert isinstance(branch, WordBranch)
+    assert branch.stops == ("parameter limit", "parameter limit")
+    assert branch.admissible.all()
+    for at in branch.orbits[::4]:
+        motion = at.trajectory(3.0)
+        assert abs(motion.at_plane(np.array([motion.time]))[0][0] - at.position) < 1e-8
