@@ -6,7 +6,7 @@ from carom.cli import main
 
 if __name__ == "__main__":
     code = main()
-    # Where a Ctrl-C came while an import ran generated code, Python would end by that signal whatever code is returned; to
-    # run any other code makes it forget.
+    # After a Ctrl-C during an import that runs generated code, Python exits by that signal, whatever code is returned.
+    # Running any other code resets this.
     exec("")
     sys.exit(code)

@@ -1,4 +1,4 @@
-"""How far a long function is: one kind of report, and a bar."""
+"""Progress of long functions: reports, and a bar."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _CLOCK = len("0:00:00")
 
 @dataclass(frozen=True)
 class Progress:
-    """A report of a function that takes long.
+    """The progress of a function that takes long.
 
     Attributes
     ----------
@@ -37,30 +37,31 @@ class Progress:
     step: str
 
 
+@dataclass(frozen=True)
 class Reporter:
-    """Sends reports of a function, or of a part of one, to whoever asked for them.
+    """Reports the progress of a function, or of a part of one.
 
-    Parameters
+    Attributes
     ----------
-    send : callable, optional
-        Receives a :class:`Progress`; by default nobody does.
+    send : callable or None
+        Receives each :class:`Progress`.
     low, high : float
         Shares of the whole at which this part begins and ends.
     step : str
-        What is done, unless a report says so itself.
+        What is done, for reports that do not say so themselves.
     """
 
-    def __init__(
-        self, send: Callable[[Progress], object] | None = None, low: float = 0.0, high: float = 1.0, step: str = ""
-    ) -> None:
-        self.send, self.low, self.high, self.step = send, low, high, step
+    send: Callable[[Progress], object] | None = None
+    low: float = 0.0
+    high: float = 1.0
+    step: str = ""
 
     @classmethod
-    def of(cls, wish: Wish, step: str) -> Reporter:
-        """Return the reporter of a function that does `step`, unless what it is a part of has said so."""
-        if isinstance(wish, Reporter):
-            return cls(wish.send, wish.low, wish.high, wish.step or step)
-        return cls(wish if callable(wish) else None, step=step)
+    def of(cls, wanted: ShowProgress, step: str) -> Reporter:
+        """Return the reporter of a function; `step` says what it does, unless its caller has said so."""
+        if isinstance(wanted, Reporter):
+            return cls(wanted.send, wanted.low, wanted.high, wanted.step or step)
+        return cls(wanted if callable(wanted) else None, step=step)
 
     def __call__(self, share: float, step: str = "") -> None:
         """Report the share of this part that is done, 0 to 1."""
@@ -73,7 +74,7 @@ class Reporter:
         return Reporter(self.send, self.low + low * width, self.low + high * width, step or self.step)
 
 
-Wish = Callable[[Progress], object] | Reporter | bool | None
+ShowProgress = Callable[[Progress], object] | Reporter | bool | None
 """What the argument ``progress`` may be: ``True`` shows a bar, a callable receives each :class:`Progress`."""
 
 

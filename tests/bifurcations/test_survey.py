@@ -10,7 +10,7 @@ from carom import Machine, map_regions
 from carom.bifurcations import Motions, Plane, RegionMap, motions_at
 from carom.bifurcations import survey as module
 from carom.bifurcations.cells import regions_between
-from carom.bifurcations.changes import Stand
+from carom.bifurcations.changes import PlanePoint
 from carom.bifurcations.survey import Survey
 from carom.outcome import CaromError
 from carom.parameters import Parameters, Scales
@@ -138,13 +138,13 @@ def test_every_change_along_sixty_lines_of_each_plane_lies_on_a_curve():
     assert len(missed) <= total / 200, missed
 
 
-def surveyed(base: Parameters, plane: Plane, cells: int) -> tuple[Survey, list[list[Stand]]]:
+def surveyed(base: Parameters, plane: Plane, cells: int) -> tuple[Survey, list[list[PlanePoint]]]:
     """All curves from differences of neighbouring points, without any from diagrams."""
     survey = Survey(base, plane, [])
     xs, ys = survey.grid(cells)
-    stands = [[survey.stand(np.array([x, y])) for y in ys] for x in xs]
-    survey.explain_all(stands, lambda _: None)
-    return survey, stands
+    points = [[survey.examine(np.array([x, y])) for y in ys] for x in xs]
+    survey.explain_all(points, lambda _: None)
+    return survey, points
 
 
 def test_what_cannot_be_followed_is_listed(monkeypatch):
@@ -170,11 +170,11 @@ def test_what_cannot_be_followed_is_listed(monkeypatch):
 def test_regions_thinner_than_a_cell_are_listed():
     """Motions met between the points of the grid, in the middle of no cell."""
     plane = Plane("gamma", "omega", (0.05, 0.4), (0.76, 0.9))
-    _, stands = surveyed(PAPER, plane, 2)
+    _, points = surveyed(PAPER, plane, 2)
     at = (0.09, 0.7605)
     motions = motions_at(plane.at(PAPER, *at))
-    cells = [column[1:-1] for column in stands[1:-1]]
-    assert motions not in [stand.motions for column in cells for stand in column]
+    cells = [column[1:-1] for column in points[1:-1]]
+    assert motions not in [point.motions for column in cells for point in column]
     regions = regions_between(PAPER, plane, cells, {motions: at})
     (thin,) = [region for region in regions if region.motions == motions]
     assert thin.share == 0.0

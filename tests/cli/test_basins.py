@@ -189,7 +189,7 @@ def test_a_sample_of_which_all_come_back_and_what_it_can_show(carom, machine):
         (("--grid", "10"), "--grid = 10: must be 2 whole numbers of at least 1, such as 60x60"),
         (("--grid", "0x5"), "--grid = 0x5"),
         (("--grid", "99999x99999"), "at most"),
-        (("--grid", "5x5", "--starts", "10"), "--starts = 10: must be left out"),
+        (("--grid", "5x5", "--starts", "10"), "--starts = 10: not allowed"),
         (("--starts", "0"), "--starts = 0"),
         (("--starts", "10", "--seed", "-1"), "--seed = -1"),
         (("--disturbance", "hammer"), "--disturbance = hammer: must be one of: kick"),

@@ -140,7 +140,7 @@ def test_settings_belong_to_the_plan(carom, sweep_file, store):
         (["FILE", "--out", "x.zarr", "--set", "damping=1"], "axes.damping = varied: is set too"),
         (
             ["FILE", "--out", "x.zarr", "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"],
-            "--workers = 2: must be left out",
+            "--workers = 2: not allowed",
         ),
         (["FILE", "--out", "x.zarr", "--threads", "--scheduler", "tcp://127.0.0.1:1"], "--threads = given"),
     ],

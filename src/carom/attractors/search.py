@@ -18,7 +18,7 @@ from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
 
@@ -138,7 +138,7 @@ def find_attractors(
     known: bool = True,
     patience: int = PATIENCE,
     threads: int | None = None,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> AttractorSet:
     """Follow disturbances, and starts next to every known motion, to the attractors on which they settle.
 

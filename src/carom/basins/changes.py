@@ -11,7 +11,7 @@ from carom.basins.gains import GainMap, measured
 from carom.basins.shares import Share
 from carom.disturbances import Sample
 from carom.outcome import InputError
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 
 HALVINGS = 8
 CANDIDATES = 8
@@ -50,7 +50,7 @@ def least_gain_change(
     wanted: float = WANTED,
     *,
     threads: int | None = None,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> GainChange | None:
     """Least relative change of the two parameters that brings back a wanted share of the disturbances.
 

@@ -22,7 +22,7 @@ from carom.motions.settling import PATIENCE, longest_time
 from carom.motions.starts import time_until
 from carom.outcome import InputError, Outcome
 from carom.parameters import Scales
-from carom.progress import Wish, shows_progress
+from carom.progress import ShowProgress, shows_progress
 
 CRITERIA = (
     "levitated: the moduli of the modes leave no later flight room to reach the wall (proof). "
@@ -157,7 +157,7 @@ def map_basins(
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
     source: Mapping[str, str] | None = None,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> Basin:
     """Follow disturbances until they settle.
 

@@ -22,7 +22,7 @@ from carom.models.axes import Ends, read_interval
 from carom.motions.ensembles import MOST_EVENTS
 from carom.motions.settling import PATIENCE
 from carom.outcome import InputError, Outcome
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 
 if TYPE_CHECKING:
     import xarray
@@ -96,7 +96,7 @@ def map_gains(
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
     source: Mapping[str, str] | None = None,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> GainMap:
     """Measure the share of disturbances that recover, on a grid of two parameters.
 
@@ -161,7 +161,7 @@ def _values(rotor: Model, varied: Axis, given: Ends | None, count: int) -> np.nd
     if given is None:
         now = varied.value(rotor)
         if not now > 0.0:
-            raise InputError("ranges", None, f"one for {varied.name}, as {varied.name} = {now:g} gives none around it")
+            raise InputError("ranges", None, f"needed: {varied.name} = {now:g} gives no range around it")
         given = AROUND[0] * now, min(AROUND[1] * now, varied.field.highest)
     return np.linspace(*read_interval(varied, given), count)
 

@@ -28,7 +28,7 @@ from carom.disturbances import (
 from carom.disturbances.following import follow
 from carom.models import Jeffcott, Model, Subject, jeffcott_of
 from carom.outcome import InputError, Outcome
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 
 DIRECTIONS, SIZES = 96, 96
 TOLERANCE = 1e-3
@@ -136,7 +136,7 @@ def smallest_loss(
     sizes: int = SIZES,
     tolerance: float = TOLERANCE,
     threads: int | None = None,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> SmallestLoss:
     """Search the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from carom.bifurcations.changes import Stand
+from carom.bifurcations.changes import PlanePoint
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.planes import Plane
 from carom.parameters import Parameters
@@ -45,7 +45,7 @@ class Region(Result):
 def regions_between(
     parameters: Parameters,
     plane: Plane,
-    cells: Sequence[Sequence[Stand]],
+    cells: Sequence[Sequence[PlanePoint]],
     seen: dict[Motions, tuple[float, float]],
 ) -> tuple[Region, ...]:
     """Regions of a plane, largest first, from the middle of each cell by first and second parameter.
@@ -54,7 +54,7 @@ def regions_between(
     regions thinner than a cell, with a share of 0.
     """
     grid = len(cells)
-    found = {(i, j): stand.motions for i, column in enumerate(cells) for j, stand in enumerate(column)}
+    found = {(i, j): point.motions for i, column in enumerate(cells) for j, point in enumerate(column)}
 
     def place_of(cell: tuple[int, int]) -> np.ndarray:
         return cells[cell[0]][cell[1]].place

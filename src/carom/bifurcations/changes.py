@@ -30,8 +30,8 @@ _CHANGED_BY = {
 """Bifurcations that can change each count of :class:`~carom.bifurcations.motions.Motions`."""
 
 
-class Stand(NamedTuple):
-    """A point of the plane and the motions there."""
+class PlanePoint(NamedTuple):
+    """A point of the plane, and the motions there."""
 
     place: np.ndarray
     motions: Motions
@@ -63,11 +63,13 @@ class UnexplainedChange:
         return "; ".join(f"{before} -> {after}" for before, after in pairs if before != after)
 
 
-def change_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> tuple[Stand, Stand]:
+def change_between(
+    parameters: Parameters, plane: Plane, low: PlanePoint, high: PlanePoint
+) -> tuple[PlanePoint, PlanePoint]:
     """Narrow bracket, by bisection, around one of the changes of motions between two points that differ."""
     while np.linalg.norm((high.place - low.place) / plane.widths) > NARROW:
         place = 0.5 * (low.place + high.place)
-        middle = Stand(place, motions_at(plane.at(parameters, *place.tolist())))
+        middle = PlanePoint(place, motions_at(plane.at(parameters, *place.tolist())))
         if middle.motions == low.motions:
             low = middle
         else:
@@ -82,9 +84,9 @@ def accounts_for(kinds: set[str], before: Motions, after: Motions) -> bool:
     )
 
 
-def causes_between(parameters: Parameters, plane: Plane, low: Stand, high: Stand) -> list[Bifurcation]:
+def causes_between(parameters: Parameters, plane: Plane, low: PlanePoint, high: PlanePoint) -> list[Bifurcation]:
     """Bifurcations of motions of the machine in a narrow bracket, from the test functions that change sign in it."""
-    sides = [plane.numbers_at(Numbers.of(parameters), *stand.place.tolist()) for stand in (low, high)]
+    sides = [plane.numbers_at(Numbers.of(parameters), *point.place.tolist()) for point in (low, high)]
     return [*_of_steady_motions(*sides), *_of_orbits(*sides)]
 
 

@@ -27,7 +27,7 @@ from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import Numbers, Parameters
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
 SAMPLES = 13
@@ -101,7 +101,7 @@ def find_bifurcations(
     lasting: bool = False,
     attractors: int = 0,
     seed: int = 0,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> Diagram:
     """Find the branches of motions on an interval of a parameter, and their special points.
 

@@ -21,7 +21,7 @@ from carom.bifurcations.survey import Survey
 from carom.models import Axis, Subject, jeffcott_of
 from carom.orbits.names import combined
 from carom.outcome import CaromError
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
 SAME_POINT, SAME_PERIOD = 1e-6, 1e-5
@@ -144,7 +144,7 @@ def map_regions(
     grid: int = 24,
     virtual: bool = False,
     lasting: bool = False,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> RegionMap:
     """Compute the map of a plane: the curves of bifurcations, and the regions between them.
 
@@ -182,13 +182,13 @@ def map_regions(
         curves = _through_points(plane, points, virtual, curves, lost)
         tell(share)
     survey = Survey(base, plane, curves)
-    stands = []
+    points = []
     xs, ys = survey.grid(grid)
     for i, x in enumerate(xs):
-        stands.append([survey.stand(np.array([x, y])) for y in ys])
+        points.append([survey.examine(np.array([x, y])) for y in ys])
         tell(0.3 + 0.4 * (i + 1) / len(xs))
     survey.leave_resonances()
-    survey.explain_all(stands, tell.part(0.7, 1.0))
+    survey.explain_all(points, tell.part(0.7, 1.0))
     survey.leave_resonances()
     present = motions_at(parameters)
     if inside:
@@ -197,7 +197,7 @@ def map_regions(
         plane=plane,
         axes=axes,
         curves=tuple(survey.curves),
-        regions=regions_between(base, plane, [column[1:-1] for column in stands[1:-1]], survey.seen),
+        regions=regions_between(base, plane, [column[1:-1] for column in points[1:-1]], survey.seen),
         present=place if inside else None,
         present_motions=present,
         unexplained=tuple(survey.unexplained),

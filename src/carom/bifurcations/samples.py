@@ -13,7 +13,7 @@ from carom.models.axes import Ends, axis, read_interval
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
-from carom.progress import Reporter, Wish
+from carom.progress import Reporter, ShowProgress
 from carom.results import Result
 
 VALUES = 31
@@ -83,7 +83,7 @@ def sample_attractors(
     disturbances: DisturbanceSet | Plan,
     *,
     values: int = VALUES,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> tuple[AttractorSample, ...]:
     """Follow disturbances until they settle, at evenly spaced values of a parameter.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from carom.bifurcations.changes import Stand, UnexplainedChange, accounts_for, causes_between, change_between
+from carom.bifurcations.changes import PlanePoint, UnexplainedChange, accounts_for, causes_between, change_between
 from carom.bifurcations.curves import Curve, continue_curve
 from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.passing import crossings, passes, with_curve
@@ -45,20 +45,20 @@ class Survey:
         xs, ys = low[:, None] + np.outer(self.plane.widths, shares)
         return xs, ys
 
-    def stand(self, place: np.ndarray) -> Stand:
+    def examine(self, place: np.ndarray) -> PlanePoint:
         """Determine the motions at a point, and record them in ``seen``."""
         motions = motions_at(self.plane.at(self.parameters, *place.tolist()))
         self.seen.setdefault(motions, (float(place[0]), float(place[1])))
-        return Stand(place, motions)
+        return PlanePoint(place, motions)
 
-    def explain_all(self, stands: Sequence[Sequence[Stand]], tell: Reporter) -> None:
+    def explain_all(self, points: Sequence[Sequence[PlanePoint]], tell: Reporter) -> None:
         """Explain the changes between all neighbouring points of a grid whose motions differ."""
-        for i, column in enumerate(stands):
+        for i, column in enumerate(points):
             for j, here in enumerate(column):
-                for other in [*(next_column[j] for next_column in stands[i + 1 : i + 2]), *column[j + 1 : j + 2]]:
+                for other in [*(next_column[j] for next_column in points[i + 1 : i + 2]), *column[j + 1 : j + 2]]:
                     if other.motions != here.motions:
                         self.explain(here, other)
-            tell((i + 1) / len(stands))
+            tell((i + 1) / len(points))
 
     def leave_resonances(self) -> None:
         """Follow the Neimark–Sacker curves that begin at the resonances 1:1 and 1:2 of the known curves."""
@@ -70,7 +70,7 @@ class Survey:
                 if near is not None:
                     self._follow(near)
 
-    def explain(self, first: Stand, last: Stand) -> None:
+    def explain(self, first: PlanePoint, last: PlanePoint) -> None:
         """Find the cause of every change of motions on the straight line between two points.
 
         Where known curves cross the line, the motions on both sides of the crossing are compared.  Changes that these
@@ -78,15 +78,15 @@ class Survey:
         """
         line, here = last.place - first.place, first
         for start, end, kinds in self._crossed(first, last):
-            near = self.stand(first.place + max(start - BESIDE, 0.0) * line)
-            far = self.stand(first.place + min(end + BESIDE, 1.0) * line)
+            near = self.examine(first.place + max(start - BESIDE, 0.0) * line)
+            far = self.examine(first.place + min(end + BESIDE, 1.0) * line)
             self._explain_changes(here, near)
             if not accounts_for(kinds, near.motions, far.motions):
                 self._explain_changes(near, far)
             here = far
         self._explain_changes(here, last)
 
-    def _crossed(self, first: Stand, last: Stand) -> list[tuple[float, float, set[str]]]:
+    def _crossed(self, first: PlanePoint, last: PlanePoint) -> list[tuple[float, float, set[str]]]:
         """Crossings of the line by known curves, grouped if close together: first and last share, and kinds."""
         found = sorted(
             (share, curve.kind) for curve in self.curves for share in crossings(curve, first.place, last.place)
@@ -99,7 +99,7 @@ class Survey:
                 groups.append((share, share, {kind}))
         return groups
 
-    def _explain_changes(self, low: Stand, high: Stand) -> None:
+    def _explain_changes(self, low: PlanePoint, high: PlanePoint) -> None:
         """Explain or record the changes between two points one by one."""
         for _ in range(MOST_CHANGES):
             if low.motions == high.motions:
@@ -109,7 +109,7 @@ class Survey:
             low = further
         self._record(low, high, f"more than {MOST_CHANGES} changes between two neighbouring points")
 
-    def _explain_bracket(self, low: Stand, high: Stand) -> None:
+    def _explain_bracket(self, low: PlanePoint, high: PlanePoint) -> None:
         """Find or continue the curves through a narrow bracket; record the change if they do not explain it."""
         known, reasons = set(), []
         for cause in causes_between(self.parameters, self.plane, low, high):
@@ -135,7 +135,7 @@ class Survey:
         self.curves = with_curve(self.curves, curve)
         return ""
 
-    def _record(self, low: Stand, high: Stand, reason: str) -> None:
+    def _record(self, low: PlanePoint, high: PlanePoint, reason: str) -> None:
         point = 0.5 * (low.place + high.place)
         self.unexplained.append(
             UnexplainedChange((float(point[0]), float(point[1])), low.motions, high.motions, reason)

@@ -30,7 +30,7 @@ from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach
 from carom.outcome import CaromError
 from carom.parameters import Numbers
-from carom.progress import Reporter, Wish
+from carom.progress import Reporter, ShowProgress
 
 SAME = 1e-6
 """Relative difference of period and radial speed below which two solutions are the same."""
@@ -114,7 +114,9 @@ class _Arc(NamedTuple):
     stable: bool
 
 
-def orbit_windows(machine: Subject, parameter: str, values: Sequence[float], progress: Wish = None) -> OrbitWindows:
+def orbit_windows(
+    machine: Subject, parameter: str, values: Sequence[float], progress: ShowProgress = None
+) -> OrbitWindows:
     """Find where along a parameter single-impact orbits are motions of the machine.
 
     Parameters

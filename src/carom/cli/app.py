@@ -100,7 +100,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _complain(str(problem), INTERRUPTED)
     except UsageError as problem:
         message = getattr(problem, "format_message", problem.__str__)()
-        return _complain(f"{message} (carom --help tells what is allowed)", BAD_INPUT)
+        return _complain(f"{message} (see carom --help)", BAD_INPUT)
     except (KeyboardInterrupt, typer.Abort) as problem:
         if isinstance(problem.__cause__, EOFError):  # which typer takes for Ctrl-D
             return _unexpected(problem.__cause__)

@@ -93,7 +93,7 @@ def read_gains(
     if cells is None:
         for option, value in more.items():
             if value is not None:
-                raise InputError(option, value, "goes with --gains NxM alone")
+                raise InputError(option, value, "allowed only with --gains NxM")
         return None
     from carom.basins.changes import WANTED
 
@@ -121,17 +121,17 @@ def read_plan(
     for option, value in sizes.items():
         if value is not None and option not in _OPTIONS[kind]:
             kinds = " or ".join(other for other in KINDS if option in _OPTIONS[other])
-            raise InputError(f"--{option}", value, f"goes with --disturbance {kinds} alone, not with {kind}")
+            raise InputError(f"--{option}", value, f"allowed only with --disturbance {kinds}, not with {kind}")
     if grid is not None and starts is not None:
-        raise InputError("--starts", starts, "must be left out where --grid is given")
+        raise InputError("--starts", starts, "not allowed with --grid")
     drawn = starts is not None or kind == "state"
     if seed is not None and not drawn:
-        raise InputError("--seed", seed, "goes with a sample alone: give --starts too")
+        raise InputError("--seed", seed, "allowed only for a sample: give --starts too")
     if seed is not None and seed < 0:
         raise InputError("--seed", seed, "must be a whole number of at least 0")
     model = _model(parameters, kind, sizes)
     if kind == "state" and grid is not None:
-        raise InputError("--grid", grid, "must be left out for states, of four coordinates: give --starts")
+        raise InputError("--grid", grid, "not allowed for states, which have four coordinates: give --starts")
     if drawn:
         count = STARTS if starts is None else starts
         if not 1 <= count <= MOST_STARTS:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carom.cli import basin_options as options
-from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
     from carom.basins import GainChange, GainMap
@@ -49,10 +49,7 @@ def basins(
     sizes = {"fastest": fastest, "peak": peak, "duration": duration, "before": before, "release": release}
     plan = options.read_plan(case.parameters, disturbance, sizes, grid, starts, seed)
     asked = options.read_gains(case.parameters, gains, plane, x, y, wanted)
-    if out is not None:
-        from carom.report.directory import check_directory
-
-        check_directory(out, "--out")
+    check_output(out)
     source = _source(machine, settings)
     with progress("following starts (the kernels are compiled on first use)") as tell:
         from carom.basins import map_basins, smallest_loss
@@ -72,9 +69,8 @@ def basins(
         document = basin_document(basin, smallest, harmless, found, change, **share_wanted)
         if out is not None:
             tell(0.97, "drawing")
-            from carom.files import write_json
+            from carom.files import filled_at_once, write_json
             from carom.plots import save
-            from carom.report.directory import filled_at_once
 
             with filled_at_once(out, "--out") as directory:
                 save(basin.plot(smallest), directory / "figures" / "basins")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
@@ -79,8 +79,8 @@ def bifurcations(
     if first == last:
         raise InputError("--to", end, "must be another value than --from; which of the two is larger does not matter")
     if seed is not None and not attractors:
-        raise InputError("--seed", seed, "goes with --attractors alone")
-    directory = _directory(out)
+        raise InputError("--seed", seed, "allowed only with --attractors")
+    check_output(out)
     with progress("following orbits (the kernels are compiled on first use)") as tell:
         diagram = find_bifurcations(
             parameters,
@@ -93,8 +93,8 @@ def bifurcations(
             progress=tell,
         )
     document = diagram_document(parameters, diagram)
-    if directory is not None:
-        _write(directory, f"bifurcations-{varied.name}", diagram.plot(), document)
+    if out is not None:
+        _write(Path(out), f"bifurcations-{varied.name}", diagram.plot(), document)
     if as_json:
         print_document(document)
     else:
@@ -139,7 +139,7 @@ def regions(
         _range(parameters, varied, option, given)
         for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
     ]
-    directory = _directory(out)
+    check_output(out)
     with progress("following curves (the kernels are compiled on first use)") as tell:
         found = map_regions(
             parameters,
@@ -150,8 +150,8 @@ def regions(
             progress=tell,
         )
     document = regions_document(parameters, found)
-    if directory is not None:
-        _write(directory, f"regions-{axes[0].name}-{axes[1].name}", found.plot(), document)
+    if out is not None:
+        _write(Path(out), f"regions-{axes[0].name}-{axes[1].name}", found.plot(), document)
     if as_json:
         print_document(document)
     else:
@@ -170,14 +170,6 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
     if not present > 0.0:
         raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")
     return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)
-
-
-def _directory(out: str | None) -> Path | None:
-    if out is None:
-        return None
-    from carom.report.directory import check_directory
-
-    return check_directory(out, "--out")
 
 
 def _write(directory: Path, stem: str, figure: Figure, document: dict[str, Any]) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.terminal import AsJson, console, print_document, progress
+from carom.cli.terminal import AsJson, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -28,10 +28,7 @@ def paper(
     also shows the curves of grazing and period doubling, and the regions divided by a stable rub.
     """
     with progress("loading") as tell:
-        if out is not None:
-            from carom.report import check_directory
-
-            check_directory(out, "--out")
+        check_output(out)
         from carom.reproductions.mora2014 import figures, paper_document, reproduce, write_paper
 
         share_of_results = 1.0 if out is None else 0.3

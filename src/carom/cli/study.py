@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 
 
 def study(
@@ -30,10 +30,7 @@ def study(
 
     case = load(machine, settings or ())
     with progress("loading") as tell:
-        if out is not None:
-            from carom.report import check_directory
-
-            check_directory(out, "--out")
+        check_output(out)
         from carom.studies import study as study_case
 
         share_of_study = 1.0 if out is None else 0.4

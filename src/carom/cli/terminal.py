@@ -42,6 +42,14 @@ def console(errors: bool = False) -> Console:
     return Screen(file=stream, markup=False, highlight=False, emoji=False, width=width)
 
 
+def check_output(out: str | None) -> None:
+    """Refuse early a directory for output that cannot be written."""
+    if out is not None:
+        from carom.files import check_directory
+
+        check_directory(out, "--out")
+
+
 def print_document(document: dict[str, Any]) -> None:
     """Print one JSON object."""
     from carom.files import as_json

@@ -102,7 +102,7 @@ class _Path:
 
 
 @dataclass(eq=False)
-class _Stand:
+class _Point:
     """A point of the branch, with Jacobian, tangent and watched values there."""
 
     x: np.ndarray
@@ -188,7 +188,7 @@ class Tracer:
     def walk(self, start: np.ndarray, heading: np.ndarray) -> _Path:
         """Follow the branch from a point in a direction."""
         path = _Path([start], [], "most points")
-        here = _Stand(start, self.jacobian(start), heading)
+        here = _Point(start, self.jacobian(start), heading)
         here.watched = self._watched(here)
         length = self.steps.first
         while len(path.points) < self.steps.most_points:
@@ -223,7 +223,7 @@ class Tracer:
         """Length of the largest step at a point."""
         return self.steps.largest * (1.0 if self.reach is None else self.reach(self.plain(x)[0]))
 
-    def _step(self, here: _Stand, length: float) -> _Stand | None:
+    def _step(self, here: _Point, length: float) -> _Point | None:
         """Next point; ``None`` if the step is too long."""
         guess = here.x + length * here.tangent
         x = self.correct(guess, here.tangent, here.inverse)
@@ -233,26 +233,26 @@ class Tracer:
         tangent = self._tangent(jacobian, here.tangent)
         if tangent is None or here.tangent @ tangent < np.cos(self.steps.sharpest_turn):
             return None
-        return _Stand(x, jacobian, tangent)
+        return _Point(x, jacobian, tangent)
 
     def _tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
         """Unit tangent on the side of ``along``."""
         direction = applied(np.linalg.solve, jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
         return None if direction is None else direction / np.linalg.norm(direction)
 
-    def _stuck(self, here: _Stand) -> str:
+    def _stuck(self, here: _Point) -> str:
         """Why no step succeeds: the equations may be undefined within the reach of the central differences."""
         reach = 10.0 * DIFFERENCE * np.eye(len(here.x))
         around = [self.value(here.x + side) for side in (*reach, *-reach)]
         return "step too small" if np.isfinite(around).all() else "end of domain"
 
-    def _watched(self, stand: _Stand) -> np.ndarray:
+    def _watched(self, at: _Point) -> np.ndarray:
         """Values of the relative distance to the limit, of the watches, and of the fold and branch-point functions."""
-        u, p = self.plain(stand.x)
+        u, p = self.plain(at.x)
         watches = [watch.function(u, p) for watch in self.watches]
-        return np.array([self._margin(p), *watches, stand.tangent[-1], self._crossing(stand)])
+        return np.array([self._margin(p), *watches, at.tangent[-1], self._crossing(at)])
 
-    def _watched_value(self, which: int, x: np.ndarray, here: _Stand) -> float:
+    def _watched_value(self, which: int, x: np.ndarray, here: _Point) -> float:
         """One of the values of :meth:`_watched`, at a point on the step from ``here``."""
         u, p = self.plain(x)
         if which == 0:
@@ -261,18 +261,18 @@ class Tracer:
             return self.watches[which - 1].function(u, p)
         jacobian = self.jacobian(x)
         tangent = self._tangent(jacobian, here.tangent)
-        stand = _Stand(x, jacobian, here.tangent if tangent is None else tangent)
-        return float(stand.tangent[-1]) if which == len(self.watches) + 1 else self._crossing(stand)
+        at = _Point(x, jacobian, here.tangent if tangent is None else tangent)
+        return float(at.tangent[-1]) if which == len(self.watches) + 1 else self._crossing(at)
 
     def _margin(self, p: float) -> float:
         low, high = self.interval
         return min(p - low, high - p) / (high - low)
 
-    def _crossing(self, stand: _Stand) -> float:
+    def _crossing(self, at: _Point) -> float:
         """Determinant of the bordered Jacobian; it changes sign where another branch crosses."""
-        return float(np.linalg.det(_bordered(stand.jacobian, stand.tangent)))
+        return float(np.linalg.det(_bordered(at.jacobian, at.tangent)))
 
-    def _locate(self, path: _Path, here: _Stand, there: _Stand, length: float, share: float | None) -> str | None:
+    def _locate(self, path: _Path, here: _Point, there: _Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, "branch point"]
         ends = [True, *(watch.ends_branch for watch in self.watches), False, False]
@@ -290,7 +290,7 @@ class Tracer:
                 return kinds[which] or "parameter limit"
         return None
 
-    def _root_on_step(self, here: _Stand, there: _Stand, length: float, which: int) -> tuple[float, np.ndarray] | None:
+    def _root_on_step(self, here: _Point, there: _Point, length: float, which: int) -> tuple[float, np.ndarray] | None:
         """Arclength and point of a zero of a watched function.
 
         ``None`` if the function jumps from one sign to the other, or has one sign wherever it is defined.
@@ -316,7 +316,7 @@ class Tracer:
         jump = abs(values[distance]) > JUMP * max(abs(values[end]) for end in bracket)
         return None if jump else (distance, at[distance])
 
-    def _return(self, path: _Path, here: _Stand, there: _Stand, heading: np.ndarray) -> float | None:
+    def _return(self, path: _Path, here: _Point, there: _Point, heading: np.ndarray) -> float | None:
         """Share of the step at which the branch passes its start again, in the initial direction."""
         if len(path.points) < 3 or there.tangent @ heading < np.cos(2.0 * self.steps.sharpest_turn):
             return None

@@ -108,7 +108,7 @@ class BaseShock(Disturbance):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.duration > LONGEST_SHOCK:
-            raise InputError("duration", self.duration, f"at most {LONGEST_SHOCK:g}, in 1/Omega: a shock, no vibration")
+            raise InputError("duration", self.duration, f"at most {LONGEST_SHOCK:g}, in 1/Omega: a shock is short")
 
     @classmethod
     def in_si(cls, scales: Scales, g: float, milliseconds: float) -> Self:  # type: ignore[override]

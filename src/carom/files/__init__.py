@@ -2,12 +2,14 @@
 
 =============  ============================================================
 ``whole``      a file is written completely, or what was there stays
+``directory``  an output directory receives all its files or none
 ``netcdf``     datasets as netCDF files with a checksum
 ``documents``  results as JSON
 =============  ============================================================
 """
 
+from carom.files.directory import check_directory, filled_at_once
 from carom.files.documents import as_json, write_json
 from carom.files.whole import sync_directory, try_place, write_whole
 
-__all__ = ["as_json", "sync_directory", "try_place", "write_json", "write_whole"]
+__all__ = ["as_json", "check_directory", "filled_at_once", "sync_directory", "try_place", "write_json", "write_whole"]

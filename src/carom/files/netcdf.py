@@ -85,9 +85,7 @@ def _check(path: Path, needed: Sequence[str]) -> None:
     if _checksum(data[:-LENGTH]) == data[-LENGTH:]:
         return
     if data[-LENGTH:].startswith(MARK):
-        raise InputError(
-            "file", str(path), "is damaged: it does not agree with its checksum; bring it back from a copy"
-        )
+        raise InputError("file", str(path), "is damaged: it does not agree with its checksum; restore it from a backup")
     wanted = f"must hold the variables {', '.join(needed)}, and end with the checksum that carom writes"
     raise InputError("file", str(path), f"{wanted}; it was cut short, or written or changed by something else")
 

@@ -22,7 +22,7 @@ from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
 from carom.motions.starts import LARGEST_SPEED, WALL_TOLERANCE, State, amplitudes_of, check_whole, time_until
 from carom.motions.trajectories import EventLog, follow
 from carom.outcome import InputError, Outcome, Phase, shown
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
 MOST_EVENTS = 1_000_000
@@ -100,7 +100,7 @@ def settle(
     patience: int = PATIENCE,
     max_events: int = MOST_EVENTS,
     threads: int | None = None,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> Endings:
     """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
 

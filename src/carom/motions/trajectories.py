@@ -19,7 +19,7 @@ from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.settling import PATIENCE, fresh_memory, longest_time, settled
 from carom.motions.starts import Kick, State, amplitudes_of, check_whole, time_until
 from carom.outcome import InputError, Outcome, Phase
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
 if TYPE_CHECKING:
@@ -297,7 +297,7 @@ def simulate(
     stop_at_chatter: bool = False,
     patience: int = PATIENCE,
     max_events: int = 1_000_000,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> Trajectory:
     """Follow a start through flights, impacts, sliding and rolling.
 

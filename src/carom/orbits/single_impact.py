@@ -22,7 +22,7 @@ from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
 from carom.outcome import InputError
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
 MOST_RADIANS = 1500.0
@@ -112,7 +112,7 @@ def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:
 def find_orbits(machine: Subject, longest_period: float | None = None) -> OrbitSet: ...
 @overload
 def find_orbits(
-    machine: Subject, *, impacts: int, starts: int = STARTS, seed: int = 0, progress: Wish = None
+    machine: Subject, *, impacts: int, starts: int = STARTS, seed: int = 0, progress: ShowProgress = None
 ) -> FoundOrbits: ...
 @shows_progress
 def find_orbits(
@@ -122,7 +122,7 @@ def find_orbits(
     impacts: int | None = None,
     starts: int = STARTS,
     seed: int = 0,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> OrbitSet | FoundOrbits:
     """All orbits with one impact a period, synchronous with the shaft, or a search for those with several.
 

@@ -13,10 +13,10 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from carom import plots
-from carom.files import write_json
+from carom.files import filled_at_once, write_json
+from carom.files.directory import FIGURES, MANIFEST
 from carom.plots.sheet import drawing
-from carom.progress import Reporter, Wish, shows_progress
-from carom.report.directory import FIGURES, MANIFEST, filled_at_once
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
 from carom.studies.summaries import (
@@ -44,7 +44,7 @@ class InlineFigure:
 
 
 @shows_progress
-def write_report(study: Study, directory: str, *, progress: Wish = None) -> Path:
+def write_report(study: Study, directory: str, *, progress: ShowProgress = None) -> Path:
     """Write ``report.html``, ``study.json`` and the figures of a study.
 
     Parameters

@@ -18,7 +18,7 @@
 """
 
 from carom.studies.advice import Advice
-from carom.studies.alone import LevitationAlone, Met
+from carom.studies.alone import LevitationAlone, OtherMotion
 from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
 from carom.studies.ranges import Edge, MotionRange, Span, Threshold, free_spans
@@ -31,8 +31,8 @@ __all__ = [
     "Edge",
     "Finding",
     "LevitationAlone",
-    "Met",
     "MotionRange",
+    "OtherMotion",
     "Span",
     "Study",
     "Threshold",

@@ -47,7 +47,7 @@ WHIRL = (Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 
 
 @dataclass(frozen=True)
-class Met:
+class OtherMotion:
     """A motion other than levitation in which a disturbance ended, at a value where no orbit and no rub is known.
 
     Attributes
@@ -76,7 +76,7 @@ class LevitationAlone:
         there.
     whirl : tuple of Span
         The parts of them in which a disturbance ended in backward whirl.
-    met : tuple of Met
+    met : tuple of OtherMotion
         At each end of kind ``"simulated"``, the motion just beyond it, in the order of the ends; then backward whirl.
     values : tuple of float
         Values at which disturbances were followed and all ended in levitation or backward whirl.
@@ -91,7 +91,7 @@ class LevitationAlone:
     gain: Gain
     spans: tuple[Span, ...]
     whirl: tuple[Span, ...]
-    met: tuple[Met, ...]
+    met: tuple[OtherMotion, ...]
     values: tuple[float, ...]
     disturbances: int = COUNT
     rim: int = RIM_PLACES * RIM_DIRECTIONS
@@ -134,10 +134,10 @@ class _Trial:
     parameters: Parameters
     gain: Gain
     count: int
-    met: dict[tuple[MotionName, float], Met] = field(default_factory=dict)
+    met: dict[tuple[MotionName, float], OtherMotion] = field(default_factory=dict)
     clear: list[float] = field(default_factory=list)
     last: dict[Kind, list[tuple[complex, complex]]] = field(default_factory=dict)
-    seen: dict[float, Met] = field(default_factory=dict)
+    seen: dict[float, OtherMotion] = field(default_factory=dict)
 
     def at(self, value: float) -> Kind:
         """Return the worst kind of motion in which the disturbances end at a value."""
@@ -165,7 +165,7 @@ class _Trial:
             if len(lost):
                 _, (name,) = name_motions(rotor, ends[lost[:1]])
                 start = complex(positions[lost[0]]), complex(velocities[lost[0]])
-                self.seen[value] = Met(name, value, *start)
+                self.seen[value] = OtherMotion(name, value, *start)
                 self._remember(kind, ends, positions, velocities, lost[:REMEMBERED])
                 return kind
         return "levitation"

@@ -16,7 +16,7 @@ from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
@@ -147,7 +147,7 @@ def study(
     disturbances: Plan | Disturbance | None = None,
     *,
     proofs: bool = False,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> Study:
     """Study a machine: its simple motions, where they exist, and where disturbances end.
 

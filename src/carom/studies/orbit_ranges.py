@@ -11,7 +11,7 @@ from carom.closed_forms.thresholds import Gain
 from carom.models import Jeffcott
 from carom.orbits.single_impact import longest_within_reach, orbits_within_reach
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-from carom.progress import Wish
+from carom.progress import ShowProgress
 from carom.studies.ranges import Edge, MotionRange, Span
 
 FINEST_STEP = {"gamma": 0.1, "omega": 0.05}
@@ -20,7 +20,7 @@ NEARBY = 1e-6
 """Relative distance from an edge at which the certified lists of orbits must confirm it."""
 
 
-def single_impact_ranges(parameters: Parameters, gain: Gain, progress: Wish = None) -> tuple[MotionRange, ...]:
+def single_impact_ranges(parameters: Parameters, gain: Gain, progress: ShowProgress = None) -> tuple[MotionRange, ...]:
     """Find where single-impact orbits are motions of the machine (:func:`~carom.bifurcations.orbit_windows`).
 
     Damping is searched from a fraction of the machine's own to where the rotor is far overdamped; stiffness from a

@@ -22,7 +22,7 @@ from carom.sweeps.variables import STATUS
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
-    from carom.sweeps.variables import Dimension, PointStatus, Variable
+    from carom.sweeps.variables import Dimension, Variable
 
 MOST_CHUNKS = 1_000_000
 """Largest number of chunks of a sweep: each chunk is several files."""
@@ -89,7 +89,7 @@ class SweepPlan:
     sources: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     @property
-    def variables(self) -> tuple[Variable | PointStatus, ...]:
+    def variables(self) -> tuple[Variable, ...]:
         """What is stored for each point, the status last."""
         return *self.task.variables, STATUS
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from carom.core.processors import available_cores
 from carom.outcome import InputError
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.memory import SweepMemory
 from carom.sweeps.plan import SweepPlan
@@ -113,7 +113,7 @@ def run_sweep(
     threads: bool | None = None,
     scheduler: str | Client | None = None,
     retry_failed: bool = False,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> Tally:
     """Compute all points of a sweep that are not in its store yet; without a store, keep the results in memory.
 
@@ -152,10 +152,10 @@ def run_sweep(
     if workers is not None and workers < 1:
         raise InputError("--workers", workers, "must be a whole number of at least 1")
     if scheduler is not None and threads:
-        raise InputError("--threads", "given", "must be left out with --scheduler, whose workers compute")
+        raise InputError("--threads", "given", "not allowed with --scheduler, whose workers compute")
     if scheduler not in (None, "slurm") and workers is not None:
         raise InputError(
-            "--workers", workers, "must be left out with --scheduler ADDRESS, whose workers compute; allowed with slurm"
+            "--workers", workers, "not allowed with --scheduler ADDRESS, whose workers compute; allowed with slurm"
         )
     book = SweepMemory(plan) if store is None else SweepStore(store, plan)
     if threads is None:

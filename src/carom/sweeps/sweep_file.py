@@ -165,7 +165,7 @@ def _check_varied(axes: list[str], settings: list[str]) -> None:
     names = {setting.partition("=")[0].strip(): "set" for setting in settings}
     problems = Problems()
     problems.errors += [
-        InputError(f"axes.{name}", "varied", "is set too; do one of the two") for name in axes if name in names
+        InputError(f"axes.{name}", "varied", "is set too; do only one of the two") for name in axes if name in names
     ]
     unknown = [name for name in names if name not in PARAMETERS]  # reported as an error of the settings
     problems.attempt(
@@ -192,7 +192,7 @@ def _values(name: str, table: _Axis) -> GridAxis:
     problems = Problems()
     if table.values is not None:
         problems.errors += [
-            InputError(f"{where}.{key}", shown(value), "goes without values; give one or the other")
+            InputError(f"{where}.{key}", shown(value), "not allowed beside values; give one or the other")
             for key, value in {**ends, "spacing": table.spacing}.items()
             if value is not None
         ]
@@ -216,7 +216,7 @@ def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> 
     """Return the task of each point; without a case the table is only checked for errors."""
     if ("study" in tables) == ("basins" in tables):
         found = "both" if "study" in tables else "neither"
-        raise InputError(_WHAT, found, "must hold a [study] or a [basins] table, one of them alone")
+        raise InputError(_WHAT, found, "must hold either a [study] or a [basins] table")
     scales = case.parameters.scales if case else _ANY_SCALES
     if "basins" in tables:
         return _basins(tables["basins"], scales)
@@ -225,7 +225,7 @@ def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> 
     limits = case.zones.limits if case else Zones().limits
     task = problems.attempt(StudyTask, study.disturbances, study.least_damping, limits, scales is not None)
     if top and top.seed is not None and not study.disturbances:
-        allowed = "goes with simulated disturbances; leave it out, or set study.disturbances above 0"
+        allowed = "allowed only with simulated disturbances; leave it out, or set study.disturbances above 0"
         problems.errors.append(InputError("seed", top.seed, allowed))
     problems.tell()
     return cast("StudyTask", task)

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 
 from carom.parameters import UNITS
-
-Kind = Literal["number", "count", "flag"]
-_DTYPES: dict[Kind, str] = {"number": "<f8", "count": "<i8", "flag": "|i1"}
 
 
 class Status:
     """State of a point of the grid."""
 
     WAITING, DONE, FAILED = 0, 1, 2
+
+
+Kind = Literal["number", "count", "flag", "status"]
+_DTYPES: dict[Kind, str] = {"number": "<f8", "count": "<i8", "flag": "|i1", "status": "|i1"}
+_FILLS: dict[Kind, float | int] = {"number": np.nan, "count": -1, "flag": -1, "status": Status.WAITING}
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,7 @@ class Dimension:
 
 @dataclass(frozen=True)
 class Variable:
-    """A number, a count or a flag that every point of the grid has."""
+    """A number, a count or a flag that every point of the grid has; or its status."""
 
     name: str
     words: str
@@ -60,7 +62,7 @@ class Variable:
     @property
     def fill(self) -> float | int:
         """Value that is stored where there is no number."""
-        return np.nan if self.kind == "number" else -1
+        return _FILLS[self.kind]
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -71,26 +73,15 @@ class Variable:
     def attributes(self) -> dict[str, Any]:
         """Attributes in the CF convention."""
         attributes: dict[str, Any] = {"long_name": self.words}
-        if self.kind == "flag":
+        if self.flags:
             attributes |= flag_attributes(tuple(range(len(self.flags))), self.flags)
         else:
             attributes["units"] = self.unit
         if self.si_of:
             attributes["si_of"] = self.si_of
-        if self.kind != "number":
+        if self.fill == -1:
             attributes["_FillValue"] = self.fill
         return attributes
-
-
-class PointStatus(NamedTuple):
-    """The same of the status of a point."""
-
-    name: str
-    dtype: np.dtype[Any]
-    attributes: dict[str, Any]
-    fill: int = Status.WAITING
-    shape: tuple[int, ...] = ()
-    along: Dimension | None = None
 
 
 def flag_attributes(values: Sequence[int], meanings: Sequence[str]) -> dict[str, Any]:
@@ -99,14 +90,7 @@ def flag_attributes(values: Sequence[int], meanings: Sequence[str]) -> dict[str,
     return {"flag_values": list(values), "flag_meanings": words}
 
 
-STATUS = PointStatus(
-    "status",
-    np.dtype("|i1"),
-    {
-        "long_name": "whether the point was computed",
-        **flag_attributes((Status.WAITING, Status.DONE, Status.FAILED), ("waiting", "done", "failed")),
-    },
-)
+STATUS = Variable("status", "whether the point was computed", "status", flags=("waiting", "done", "failed"))
 """The variable that is written last: a chunk is finished as soon as its status is stored."""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.reproductions.mora2014.branches import FirstPair, first_pair
 from carom.reproductions.mora2014.extrema import RadiusDiagram, radius_diagram
 from carom.reproductions.mora2014.misprinted_forms import Misprint, misprints
@@ -64,7 +64,7 @@ class Reproduction(Result):
 
 
 @shows_progress
-def reproduce(*, progress: Wish = None) -> Reproduction:
+def reproduce(*, progress: ShowProgress = None) -> Reproduction:
     """Compute the data of all figures of the source paper and all numbers that it prints."""
     tell = Reporter.of(progress, "reproducing the paper")
     tell(0.0, "finding the motions of figure 2 (the kernels are compiled on first use)")

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carom.files import write_json
-from carom.progress import Reporter, Wish, shows_progress
+from carom.files import filled_at_once, write_json
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.pictures import figures
 from carom.reproductions.mora2014.reproduction import Reproduction
 
 
 @shows_progress
-def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -> list[Path]:
+def write_paper(found: Reproduction, directory: str, *, progress: ShowProgress = None) -> list[Path]:
     """Draw the figures, and write them with the numbers.
 
     Parameters
@@ -31,7 +31,6 @@ def write_paper(found: Reproduction, directory: str, *, progress: Wish = None) -
         The directory cannot be written.
     """
     from carom.plots import save
-    from carom.report.directory import filled_at_once
 
     tell = Reporter.of(progress, "drawing")
     pictures = figures(found)

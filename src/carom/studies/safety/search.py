@@ -17,7 +17,7 @@ from carom.orbits.names import OrbitName
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.parameters import DIMENSIONLESS_FIELDS, Parameters
-from carom.progress import Reporter, Wish, shows_progress
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.studies.safety.limits import MOST_CHECKS, DampingLimit, SafeDamping
 from carom.studies.safety.losses import DampingCheck, Loss, Losses
 
@@ -52,7 +52,7 @@ def least_safe_damping(
     fastest: float = FASTEST,
     highest: float | None = None,
     threads: int | None = None,
-    progress: Wish = None,
+    progress: ShowProgress = None,
 ) -> SafeDamping:
     """Find the least damping above which no disturbance of a standard set ends in a contact motion.
 

@@ -1,4 +1,4 @@
-"""An output directory that receives all files of a report or none."""
+"""An output directory that receives all its files or none."""
 
 from __future__ import annotations
 

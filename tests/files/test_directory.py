@@ -5,8 +5,8 @@ import os
 
 import pytest
 
+from carom.files.directory import check_directory, filled_at_once
 from carom.outcome import InputError
-from carom.report.directory import check_directory, filled_at_once
 
 
 def fill(path, files):
