@@ -118,12 +118,7 @@ def still_irregular(endings: Endings) -> np.ndarray:
 
 
 def measure_survival(
-    rotor: Model,
-    positions: np.ndarray,
-    velocities: np.ndarray,
-    *,
-    impacts: int,
-    threads: int | None = None,
+    rotor: Model, positions: np.ndarray, velocities: np.ndarray, *, impacts: int, threads: int | None = None
 ) -> Survival:
     """Follow irregular motions for a number of impacts further, and count those that leave.
 

@@ -46,11 +46,7 @@ class GainChange:
 
 @shows_progress
 def least_gain_change(
-    found: GainMap,
-    wanted: float = WANTED,
-    *,
-    threads: int | None = None,
-    progress: ShowProgress = None,
+    found: GainMap, wanted: float = WANTED, *, threads: int | None = None, progress: ShowProgress = None
 ) -> GainChange | None:
     """Least relative change of the two parameters that brings back a wanted share of the disturbances.
 

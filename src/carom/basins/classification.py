@@ -55,13 +55,7 @@ class Basin(Mapped):
     """
 
     figure: ClassVar[str] = "basin"
-    shown: ClassVar[tuple[str, ...]] = (
-        "rotor",
-        "coordinates",
-        "starts",
-        "fractions",
-        "unresolved",
-    )
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "coordinates", "starts", "fractions", "unresolved")
 
     needed: ClassVar[tuple[str, ...]] = ("outcome", "motion", "time", "touched")
 
@@ -193,13 +187,7 @@ def map_basins(
     until = longest_time(rotor) if until is None else time_until(until, rotor.scales)
     require_start(rotor, starts)
     endings = follow(
-        rotor,
-        starts,
-        until=until,
-        patience=patience,
-        max_events=max_events,
-        threads=threads,
-        progress=progress,
+        rotor, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
     )
     endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads)
     motions, names = name_motions(rotor, endings)

@@ -51,12 +51,7 @@ class GainMap(Mapped):
     """
 
     figure: ClassVar[str] = "gain_map"
-    shown: ClassVar[tuple[str, ...]] = (
-        "parameters",
-        "axes",
-        "present",
-        "present_share",
-    )
+    shown: ClassVar[tuple[str, ...]] = ("parameters", "axes", "present", "present_share")
 
     needed: ClassVar[tuple[str, ...]] = ("recovered", "levitates")
 
@@ -167,11 +162,7 @@ def _values(rotor: Model, varied: Axis, given: Ends | None, count: int) -> np.nd
 
 
 def measured(
-    rotor: Model,
-    plan: Plan,
-    axes: tuple[Axis, Axis],
-    nodes: list[tuple[float, ...]],
-    limits: Mapping[str, Any],
+    rotor: Model, plan: Plan, axes: tuple[Axis, Axis], nodes: list[tuple[float, ...]], limits: Mapping[str, Any]
 ) -> Iterator[dict[str, Any]]:
     """Yield the measures of each node; nodes are followed in chunks of about CHUNK starts."""
     there, back = tee(_machine(rotor, plan, axes, node) for node in nodes)

@@ -70,15 +70,7 @@ class OrbitBranch(Result):
         Reason for its end at both ends: ``"radial speed without bound"``, or see :class:`~carom.continuation.Branch`.
     """
 
-    shown: ClassVar[tuple[str, ...]] = (
-        "parameter",
-        "pair",
-        "values",
-        "period",
-        "radial_speed",
-        "special",
-        "stops",
-    )
+    shown: ClassVar[tuple[str, ...]] = ("parameter", "pair", "values", "period", "radial_speed", "special", "stops")
 
     axis: Axis
     pair: int

@@ -20,11 +20,7 @@ if TYPE_CHECKING:
     from carom.models.axes import Ends
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
-_STEADY: dict[str, MotionKind] = {
-    "boundary-equilibrium": "contact-free",
-    "rub-fold": "rub",
-    "rolling-limit": "rolling",
-}
+_STEADY: dict[str, MotionKind] = {"boundary-equilibrium": "contact-free", "rub-fold": "rub", "rolling-limit": "rolling"}
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -51,14 +51,7 @@ class RegionMap(Result):
     """
 
     figure: ClassVar[str] = "region_map"
-    shown: ClassVar[tuple[str, ...]] = (
-        "plane",
-        "curves",
-        "regions",
-        "present_motions",
-        "unexplained",
-        "lost",
-    )
+    shown: ClassVar[tuple[str, ...]] = ("plane", "curves", "regions", "present_motions", "unexplained", "lost")
 
     plane: Plane
     axes: tuple[Axis, Axis]

@@ -45,8 +45,7 @@ Fastest = Annotated[str | None, typer.Option(metavar="SPEED", help="Largest kick
 Peak = Annotated[str | None, typer.Option(metavar="ACC", help="Largest peak of a shock, such as '20 g'.")]
 Duration = Annotated[str | None, typer.Option(metavar="TIME", help="Duration of its half-sine pulse, such as '5 ms'.")]
 Before = Annotated[
-    str | None,
-    typer.Option(metavar="LENGTH", help="Largest eccentricity before an unbalance step, such as '0.1 mm'."),
+    str | None, typer.Option(metavar="LENGTH", help="Largest eccentricity before an unbalance step, such as '0.1 mm'.")
 ]
 Release = Annotated[
     str | None,

@@ -130,12 +130,7 @@ def _touching(basin: Basin) -> str:
     return f"Touched the wall: {met} of {basin.starts}; of these {back or 'none'} came back."
 
 
-_LOSSES = {
-    "kick": "kick",
-    "shock": "shock of this duration",
-    "step": "step of the unbalance",
-    "release": "release",
-}
+_LOSSES = {"kick": "kick", "shock": "shock of this duration", "step": "step of the unbalance", "release": "release"}
 
 
 def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[str]:

@@ -92,12 +92,7 @@ def basins(
 
 
 def _map(
-    rotor: Jeffcott,
-    plan: Plan,
-    asked: options.Gains,
-    threads: int | None,
-    source: dict[str, str],
-    tell: Reporter,
+    rotor: Jeffcott, plan: Plan, asked: options.Gains, threads: int | None, source: dict[str, str], tell: Reporter
 ) -> tuple[GainMap, GainChange | None]:
     from carom.basins import least_gain_change, map_gains
 

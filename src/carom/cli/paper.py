@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 
 def paper(
     out: Annotated[
-        str | None,
-        typer.Option(metavar="DIR", help="Write figures 2 to 6, paper.json and table.md to this directory."),
+        str | None, typer.Option(metavar="DIR", help="Write figures 2 to 6, paper.json and table.md to this directory.")
     ] = None,
     as_json: AsJson = False,
 ) -> None:

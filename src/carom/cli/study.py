@@ -13,8 +13,7 @@ def study(
     machine: MachineFile,
     settings: Settings = None,
     out: Annotated[
-        str | None,
-        typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory."),
+        str | None, typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory.")
     ] = None,
     prove: Annotated[
         bool, typer.Option("--prove", help="Prove equilibria and orbits too; needs the extra carom[proof].")

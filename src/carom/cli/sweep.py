@@ -17,8 +17,7 @@ _SHOWN = 5
 def sweep(
     file: Annotated[str, typer.Argument(metavar="SWEEP.toml", help="The sweep file.")],
     out: Annotated[
-        str,
-        typer.Option(metavar="STORE", help="Directory of the results (Zarr); an existing sweep is resumed."),
+        str, typer.Option(metavar="STORE", help="Directory of the results (Zarr); an existing sweep is resumed.")
     ],
     settings: Settings = None,
     workers: Annotated[

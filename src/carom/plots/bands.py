@@ -77,13 +77,4 @@ def _band(axes: Axes, kind: str, x: Floats, y: Floats) -> None:
     if not len(x):
         return
     look = LOOKS[kind]
-    axes.plot(
-        x,
-        y,
-        **look.stroke,
-        solid_capstyle="butt",
-        dash_capstyle="butt",
-        label=look.words,
-        zorder=3,
-        gid=kind,
-    )
+    axes.plot(x, y, **look.stroke, solid_capstyle="butt", dash_capstyle="butt", label=look.words, zorder=3, gid=kind)

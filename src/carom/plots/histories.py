@@ -14,15 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.outcome import Outcome
 from carom.plots.bands import bands_over_time, drawing_times
-from carom.plots.plane import (
-    MANY_POINTS,
-    Floats,
-    finish,
-    marker_size,
-    one_axes,
-    orbit_path,
-    point,
-)
+from carom.plots.plane import MANY_POINTS, Floats, finish, marker_size, one_axes, orbit_path, point
 from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_length, axis_time, ending, orbit_look, orbit_title
 

@@ -19,14 +19,7 @@ from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
-from carom.studies.summaries import (
-    dimensionless_rows,
-    kick_rows,
-    machine_rows,
-    motion_rows,
-    range_rows,
-    threshold_rows,
-)
+from carom.studies.summaries import dimensionless_rows, kick_rows, machine_rows, motion_rows, range_rows, threshold_rows
 
 REPORT = "report.html"
 FORMATS = ("svg",)

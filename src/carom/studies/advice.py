@@ -62,10 +62,7 @@ class Advice:
 
 
 def advise(
-    parameters: Parameters,
-    alone: tuple[LevitationAlone, ...],
-    ranges: tuple[MotionRange, ...],
-    lost_up_to: float = 0.0,
+    parameters: Parameters, alone: tuple[LevitationAlone, ...], ranges: tuple[MotionRange, ...], lost_up_to: float = 0.0
 ) -> tuple[Advice, ...]:
     """Advise a value of each gain, sorted by the size of the change; none if the machine needs no change.
 

@@ -23,13 +23,4 @@ from carom.sweeps.store import open_sweep
 from carom.sweeps.studies import StudyTask
 from carom.sweeps.sweep_file import load_sweep
 
-__all__ = [
-    "GridAxis",
-    "StudyTask",
-    "SweepPlan",
-    "Tally",
-    "load_sweep",
-    "open_sweep",
-    "plan_sweep",
-    "run_sweep",
-]
+__all__ = ["GridAxis", "StudyTask", "SweepPlan", "Tally", "load_sweep", "open_sweep", "plan_sweep", "run_sweep"]

@@ -12,16 +12,7 @@ import pydantic
 
 from carom.disturbances import MODELS, Sample
 from carom.outcome import InputError, Problems, shown, together
-from carom.parameters import (
-    DIMENSIONLESS_FIELDS,
-    PARAMETERS,
-    Case,
-    Scales,
-    Zones,
-    load,
-    read_size,
-    unknown_name,
-)
+from carom.parameters import DIMENSIONLESS_FIELDS, PARAMETERS, Case, Scales, Zones, load, read_size, unknown_name
 from carom.parameters.fields import check_names, nearest_name
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.axes import LONGEST_AXIS, GridAxis

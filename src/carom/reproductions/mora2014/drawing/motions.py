@@ -9,16 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from carom.plots.figure import StyledFigure
-from carom.plots.plane import (
-    clearance_circle,
-    direction_arrow,
-    impacts,
-    key,
-    magnifier,
-    orbit_path,
-    path,
-    point,
-)
+from carom.plots.plane import clearance_circle, direction_arrow, impacts, key, magnifier, orbit_path, path, point
 from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol
 from carom.reproductions.mora2014.drawing.panels import letter
