@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import Field, dataclass, field
+from inspect import cleandoc
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -41,96 +42,80 @@ class LastingContact:
         return "roll" if self.phase is Phase.ROLLING else "slide"
 
 
+def column(quantity: str, words: str) -> dict[str, str]:
+    """Metadata of a column: a property of :class:`~carom.parameters.Scales`, or a unit where it needs none; and words."""
+    return {"quantity": quantity, "words": words}
+
+
 class Table(Result):
     """Table of columns with units, all along one dimension.
 
-    ``columns`` maps the name of each column to the property of :class:`~carom.parameters.Scales` that converts it to SI
-    units (empty if there is none), the SI unit and a description.  Arrays are in the units of the equations; a table
-    knows the scales of its machine, if these are known.
+    A column is a field with the metadata of :func:`column`, which docstring and dataset are made from.  Arrays are in
+    the units of the equations; a table knows the scales of its machine, if these are known.
     """
 
     dimension: ClassVar[str]
-    columns: ClassVar[dict[str, tuple[str, str, str]]]
+    columns: ClassVar[dict[str, Mapping[str, str]]] = {}
     scales: Scales | None
+
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        fields = {name: value.metadata for name, value in vars(cls).items() if isinstance(value, Field)}
+        cls.columns = {name: metadata for name, metadata in fields.items() if metadata}
+        entries = []
+        for name, one in cls.columns.items():
+            unit = "" if one["quantity"] == "1" else f", in ``{_units(one['quantity'])[0]}``"
+            entries.append(f"{name} : ndarray\n    {one['words'][0].upper()}{one['words'][1:]}{unit}.")
+        cls.__doc__ = "\n".join([cleandoc(cls.__doc__ or ""), "", "Attributes", "----------", *entries])
 
     def to_dataset(self) -> xarray.Dataset:
         """Table with units and long names as attributes; in SI if the machine is known."""
         import xarray
 
         columns = {}
-        for name, (scale, unit, words) in self.columns.items():
-            values = getattr(self, name)
-            if scale and self.scales:
-                values = values * getattr(self.scales, scale)
-            elif scale:
-                unit = UNITS[scale][0]
-            columns[name] = (self.dimension, values, {"units": unit, "long_name": words})
+        for name, one in self.columns.items():
+            values, (unit, si) = getattr(self, name), _units(one["quantity"])
+            if self.scales and unit != si:
+                values, unit = values * getattr(self.scales, one["quantity"]), si
+            columns[name] = (self.dimension, values, {"units": unit, "long_name": one["words"]})
         return xarray.Dataset(columns)
+
+
+def _units(quantity: str) -> tuple[str, str]:
+    """Unit of the equations and SI unit; the same for a column without scale."""
+    return UNITS.get(quantity, (quantity, quantity))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactLog(Table):
-    """Impacts of a motion, one entry per impact, in chronological order.
+    """Impacts of a motion, one entry per impact, in chronological order; all arrays have shape (n,).
 
-    All arrays have shape (n,).  Lengths are in ``c_r``, times in ``1/Ω``, impulses in ``m c_r Ω``, energies in
-    ``m c_r² Ω²``, in the co-rotating frame.  Here ``m`` is the mass that an impulse at the contact plane moves, and
-    ``c_r`` the clearance there.
-
-    Attributes
-    ----------
-    time, angle : ndarray
-        Time and angle ``θ`` of the impact.
-    plane : ndarray of int
-        Contact plane of the impact.
-    radial_speed, angular_speed : ndarray
-        ``ṙ`` and ``θ̇`` just before it.
-    radial_speed_after, angular_speed_after : ndarray
-        ``ṙ`` and ``θ̇`` just after it.
-    normal_impulse, tangential_impulse : ndarray
-        Impulse of the bearing on the rotor: inward, and along growing ``θ`` (against the slip).
-    slip_before, slip_after : ndarray
-        Slip velocity ``v = s + 1 + θ̇`` of the contact point.
-    sticks : ndarray of bool
-        Whether friction stopped the slip.
-    contact_work : ndarray
-        Work of the impulse on the contact point (from the mean of the velocities before and after), never positive.
-    drive_work : ndarray
-        Work that the shaft's drive supplies through friction: kinetic energy gained minus ``contact_work``.
+    In the units ``m`` is the mass that an impulse at the contact plane moves, and ``c_r`` the clearance there.  The slip
+    velocity of the contact point is ``v = s + 1 + θ̇``.  The work on the contact point follows from the mean of the
+    velocities before and after; that of the drive is the kinetic energy gained without it.
     """
 
-    time: np.ndarray
-    plane: np.ndarray
-    angle: np.ndarray
-    radial_speed: np.ndarray
-    angular_speed: np.ndarray
-    radial_speed_after: np.ndarray
-    angular_speed_after: np.ndarray
-    normal_impulse: np.ndarray
-    tangential_impulse: np.ndarray
-    slip_before: np.ndarray
-    slip_after: np.ndarray
-    sticks: np.ndarray
-    contact_work: np.ndarray
-    drive_work: np.ndarray
+    time: np.ndarray = field(metadata=column("time", "time of impact"))
+    plane: np.ndarray = field(metadata=column("1", "contact plane"))
+    angle: np.ndarray = field(metadata=column("rad", "angle of impact in the co-rotating frame"))
+    radial_speed: np.ndarray = field(metadata=column("velocity", "radial speed before impact"))
+    angular_speed: np.ndarray = field(metadata=column("speed", "angular speed before impact, co-rotating frame"))
+    radial_speed_after: np.ndarray = field(metadata=column("velocity", "radial speed after impact"))
+    angular_speed_after: np.ndarray = field(metadata=column("speed", "angular speed after impact, co-rotating frame"))
+    normal_impulse: np.ndarray = field(metadata=column("impulse", "normal impulse of the bearing on the rotor, inward"))
+    tangential_impulse: np.ndarray = field(
+        metadata=column("impulse", "friction impulse of the bearing on the rotor, along growing angle")
+    )
+    slip_before: np.ndarray = field(metadata=column("velocity", "slip velocity before impact"))
+    slip_after: np.ndarray = field(metadata=column("velocity", "slip velocity after impact"))
+    sticks: np.ndarray = field(metadata=column("1", "whether friction stopped the slip"))
+    contact_work: np.ndarray = field(
+        metadata=column("energy", "work of the impact on the contact point, never positive")
+    )
+    drive_work: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction"))
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "impact"
-    columns: ClassVar[dict[str, tuple[str, str, str]]] = {
-        "time": ("time", "s", "time of impact"),
-        "plane": ("", "1", "contact plane"),
-        "angle": ("", "rad", "angle of impact in the co-rotating frame"),
-        "radial_speed": ("velocity", "m/s", "radial speed before impact"),
-        "angular_speed": ("speed", "rad/s", "angular speed before impact, co-rotating frame"),
-        "radial_speed_after": ("velocity", "m/s", "radial speed after impact"),
-        "angular_speed_after": ("speed", "rad/s", "angular speed after impact, co-rotating frame"),
-        "normal_impulse": ("impulse", "N s", "normal impulse of the bearing on the rotor"),
-        "tangential_impulse": ("impulse", "N s", "friction impulse of the bearing on the rotor"),
-        "slip_before": ("velocity", "m/s", "slip velocity before impact"),
-        "slip_after": ("velocity", "m/s", "slip velocity after impact"),
-        "sticks": ("", "1", "whether friction stopped the slip"),
-        "contact_work": ("energy", "J", "work of the impact on the contact point"),
-        "drive_work": ("energy", "J", "work of the shaft's drive through friction"),
-    }
 
     @classmethod
     def from_states(
@@ -174,52 +159,28 @@ class ContactLog(Table):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ContactHistory(Table):
-    """Forces and slip of lasting contact at chosen times.
+    """Forces and slip of lasting contact at chosen times; all arrays have shape (n,).
 
-    All arrays have shape (n,).  Times are in ``1/Ω``, forces in ``m c_r Ω²``, speeds in ``c_r Ω``, powers in ``m c_r² Ω³``,
-    lengths in ``c_r``.  In flight forces, slip and powers are zero.
-
-    Attributes
-    ----------
-    time, angle : ndarray
-        Time and angle ``θ`` of the rotor in the co-rotating frame.
-    phase : ndarray of int
-        :class:`~carom.outcome.Phase`.
-    gap : ndarray
-        Distance from the wall, ``1 − |U|``.
-    normal_force, friction_force : ndarray
-        Force of the bearing on the rotor: inward, and along growing ``θ``.
-    slip : ndarray
-        Slip velocity ``v = s + 1 + θ̇`` of the contact point.
-    friction_power : ndarray
-        Power of friction on the contact point, ``F v``: never positive, lost as heat.
-    drive_power : ndarray
-        Power that the shaft's drive supplies through friction, ``−F s``.
+    In flight forces, slip and powers are zero.  Phases are those of :class:`~carom.outcome.Phase`.  The slip velocity of
+    the contact point is ``v = s + 1 + θ̇``, the power of friction ``F v`` and that of the drive ``−F s``.
     """
 
-    time: np.ndarray
-    phase: np.ndarray
-    angle: np.ndarray
-    gap: np.ndarray
-    normal_force: np.ndarray
-    friction_force: np.ndarray
-    slip: np.ndarray
-    friction_power: np.ndarray
-    drive_power: np.ndarray
+    time: np.ndarray = field(metadata=column("time", "time"))
+    phase: np.ndarray = field(metadata=column("1", "kind of motion"))
+    angle: np.ndarray = field(metadata=column("rad", "angle in the co-rotating frame"))
+    gap: np.ndarray = field(metadata=column("length", "distance from the wall"))
+    normal_force: np.ndarray = field(metadata=column("force", "normal force of the bearing on the rotor, inward"))
+    friction_force: np.ndarray = field(
+        metadata=column("force", "friction force of the bearing on the rotor, along growing angle")
+    )
+    slip: np.ndarray = field(metadata=column("velocity", "slip velocity"))
+    friction_power: np.ndarray = field(
+        metadata=column("power", "power of friction on the contact point, never positive")
+    )
+    drive_power: np.ndarray = field(metadata=column("power", "power of the shaft's drive through friction"))
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "time"
-    columns: ClassVar[dict[str, tuple[str, str, str]]] = {
-        "time": ("time", "s", "time"),
-        "phase": ("", "1", "kind of motion"),
-        "angle": ("", "rad", "angle in the co-rotating frame"),
-        "gap": ("length", "m", "distance from the wall"),
-        "normal_force": ("force", "N", "normal force of the bearing on the rotor"),
-        "friction_force": ("force", "N", "friction force of the bearing on the rotor, along growing angle"),
-        "slip": ("velocity", "m/s", "slip velocity"),
-        "friction_power": ("power", "W", "power of friction on the contact point"),
-        "drive_power": ("power", "W", "power of the shaft's drive through friction"),
-    }
 
     @classmethod
     def from_states(

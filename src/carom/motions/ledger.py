@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
 
 from carom.models import Matrices, Model
-from carom.motions.contacts import Table
+from carom.motions.contacts import Table, column
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Phase
 from carom.parameters import Scales
@@ -22,52 +22,28 @@ HERMITIAN = 1e-12
 
 @dataclass(frozen=True, eq=False, repr=False)
 class EnergyLedger(Table):
-    """Energies of a motion over time in the fixed frame, in ``m c_r² Ω²``.
+    """Energies of a motion over time in the fixed frame.
 
     All arrays have shape (k,): values at ``times``, which begin at zero and contain the ends of all segments.  Works
-    are cumulative from the start; a positive work supplies energy to the rotor.  Gyroscopic forces do no work.
-
-    Attributes
-    ----------
-    times : ndarray
-        In ``1/Ω``.
-    kinetic, spring : ndarray
-        Energy of all masses, ``ŻᴴMŻ/2``, and of the springs, ``ZᴴKZ/2`` with the Hermitian part of ``K``.
-    unbalance, damping : ndarray
-        Work of the unbalance forces and of damping.
-    circulatory : ndarray
-        Work of the rest of ``K``, such as cross-coupled stiffness; zero for the planar rotor.
-    impacts, friction : ndarray
-        Work at the contact points of all planes: in impacts, and by friction in lasting contact.
-    drive : ndarray
-        Work that the shaft's drive supplies through friction, in impacts and in lasting contact.
+    are cumulative from the start; a positive work supplies energy to the rotor.  Gyroscopic forces do no work.  The
+    energy of all masses is ``ŻᴴMŻ/2``, that of the springs ``ZᴴKZ/2`` with the Hermitian part of ``K``; the rest of
+    ``K``, such as cross-coupled stiffness, does the circulatory work.  Contact works at all planes.
     """
 
     figure: ClassVar[str] = "energies"
 
-    times: np.ndarray
-    kinetic: np.ndarray
-    spring: np.ndarray
-    unbalance: np.ndarray
-    damping: np.ndarray
-    circulatory: np.ndarray
-    impacts: np.ndarray
-    friction: np.ndarray
-    drive: np.ndarray
+    times: np.ndarray = field(metadata=column("time", "time"))
+    kinetic: np.ndarray = field(metadata=column("energy", "kinetic energy of all masses"))
+    spring: np.ndarray = field(metadata=column("energy", "energy of the springs"))
+    unbalance: np.ndarray = field(metadata=column("energy", "work of the unbalance since the start"))
+    damping: np.ndarray = field(metadata=column("energy", "work of damping since the start"))
+    circulatory: np.ndarray = field(metadata=column("energy", "work of circulatory forces since the start"))
+    impacts: np.ndarray = field(metadata=column("energy", "work at the contact point in impacts since the start"))
+    friction: np.ndarray = field(metadata=column("energy", "work of friction in lasting contact since the start"))
+    drive: np.ndarray = field(metadata=column("energy", "work of the shaft's drive through friction since the start"))
     scales: Scales | None = None
 
     dimension: ClassVar[str] = "times"
-    columns: ClassVar[dict[str, tuple[str, str, str]]] = {
-        "times": ("time", "s", "time"),
-        "kinetic": ("energy", "J", "kinetic energy of the rotor"),
-        "spring": ("energy", "J", "energy of the stiffness"),
-        "unbalance": ("energy", "J", "work of the unbalance since the start"),
-        "damping": ("energy", "J", "work of damping since the start"),
-        "circulatory": ("energy", "J", "work of circulatory forces since the start"),
-        "impacts": ("energy", "J", "work at the contact point in impacts since the start"),
-        "friction": ("energy", "J", "work of friction in lasting contact since the start"),
-        "drive": ("energy", "J", "work of the shaft's drive through friction since the start"),
-    }
 
     @property
     def energy(self) -> np.ndarray:
