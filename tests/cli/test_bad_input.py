@@ -217,7 +217,10 @@ def test_wrong_usage(carom, machine, arguments, words):
             ("basins", "MACHINE", "--peak", "20 g"),
             "--peak = 20 g: allowed only with --disturbance shock, not with kick",
         ),
-        (("basins", "MACHINE", "--disturbance", "shock", "--fastest", "1"), "kick or kick-plane or state alone"),
+        (
+            ("basins", "MACHINE", "--disturbance", "shock", "--fastest", "1"),
+            "only with --disturbance kick or kick-plane or state",
+        ),
         (("basins", "MACHINE", "--disturbance", "slice", "--fastest", "1"), "--fastest = 1: allowed only with"),
         (("basins", "MACHINE", "--disturbance", "state", "--before", "1"), "--before = 1: allowed only with"),
         (("basins", "MACHINE", "--release", "fixed"), "--release = fixed: allowed only with --disturbance release"),

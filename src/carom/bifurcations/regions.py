@@ -175,13 +175,13 @@ def map_regions(
         curves = _through_points(plane, points, virtual, curves, lost)
         tell(share)
     survey = Survey(base, plane, curves)
-    points = []
+    examined = []
     xs, ys = survey.grid(grid)
     for i, x in enumerate(xs):
-        points.append([survey.examine(np.array([x, y])) for y in ys])
+        examined.append([survey.examine(np.array([x, y])) for y in ys])
         tell(0.3 + 0.4 * (i + 1) / len(xs))
     survey.leave_resonances()
-    survey.explain_all(points, tell.part(0.7, 1.0))
+    survey.explain_all(examined, tell.part(0.7, 1.0))
     survey.leave_resonances()
     present = motions_at(parameters)
     if inside:
@@ -190,7 +190,7 @@ def map_regions(
         plane=plane,
         axes=axes,
         curves=tuple(survey.curves),
-        regions=regions_between(base, plane, [column[1:-1] for column in points[1:-1]], survey.seen),
+        regions=regions_between(base, plane, [column[1:-1] for column in examined[1:-1]], survey.seen),
         present=place if inside else None,
         present_motions=present,
         unexplained=tuple(survey.unexplained),

@@ -8,7 +8,7 @@ from typing import TypeVar
 from carom.models.model import Model
 from carom.models.subjects import Subject, model_of
 from carom.outcome import InputError
-from carom.parameters import MACHINE_FIELDS, PARAMETERS, Field, read_quantity, unknown_name
+from carom.parameters import MACHINE_FIELDS, Field, field_to_vary, read_quantity, unknown_name
 
 Ends = tuple[float | str, float | str]
 """Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
@@ -69,15 +69,6 @@ def axis(machine: Subject, name: str) -> Axis:
     raise unknown_name(name, "to vary", varied, "the parameters")
 
 
-def field_of(parameter: str | Axis) -> Field:
-    """Field of a parameter of the planar rotor by its name, or of any axis."""
-    if isinstance(parameter, Axis):
-        return parameter.field
-    if parameter not in PARAMETERS:
-        raise unknown_name(parameter, "to vary", PARAMETERS, "the parameters")
-    return PARAMETERS[parameter]
-
-
 def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:
     """Read a range of a parameter.
 
@@ -86,7 +77,7 @@ def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:
     InputError
         No such parameter, a value that it cannot have, or a range that is empty.
     """
-    field = field_of(parameter)
+    field = field_to_vary(parameter) if isinstance(parameter, str) else parameter.field
     low, high = (read_quantity(field, end) for end in given)
     if not low < high:
         raise InputError(field.name, f"{low:g} to {high:g}", "a range of two finite values in ascending order")

@@ -21,8 +21,6 @@ from carom.motions.trajectories import EventLog, follow
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Outcome, Phase
 
-__all__ = ["Links", "Start", "converged", "links_of", "pack", "unpack"]
-
 MOST_BOUNCES = 4096
 """Bounces of the longest chatter."""
 ITERATIONS = 25

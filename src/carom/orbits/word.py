@@ -12,8 +12,6 @@ import numpy as np
 from carom.core import segments
 from carom.outcome import InputError, Phase
 
-__all__ = ["Kind", "Segment", "Word"]
-
 
 class Kind(IntEnum):
     """Kind of a segment: what happens at its beginning, and how the motion goes on."""

@@ -19,6 +19,7 @@ from carom.parameters.fields import (
     PARAMETERS,
     PHYSICAL_PARTNER,
     Field,
+    field_to_vary,
     unknown_name,
 )
 from carom.parameters.machine import Machine
@@ -42,6 +43,7 @@ __all__ = [
     "Scales",
     "Size",
     "Zones",
+    "field_to_vary",
     "load",
     "read_quantity",
     "read_size",

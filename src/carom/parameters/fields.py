@@ -184,6 +184,13 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     return InputError(shown(name), shown(given), f"unknown name in {where}; {advice}allowed: {', '.join(known)}")
 
 
+def field_to_vary(name: str) -> Field:
+    """Field of a parameter of the planar rotor."""
+    if name not in PARAMETERS:
+        raise unknown_name(name, "to vary", PARAMETERS, "the parameters")
+    return PARAMETERS[name]
+
+
 def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
     """Check that names are machine fields or dimensionless parameters, and that no two set the same thing.
 

@@ -6,13 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from numbers import Integral
-from typing import Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
-from carom.models.axes import Axis, field_of
 from carom.outcome import InputError, Problems, shown
-from carom.parameters import PARAMETERS, Field, read_quantity
+from carom.parameters import PARAMETERS, Field, field_to_vary, read_quantity
+
+if TYPE_CHECKING:
+    from carom.models import Axis
 
 LONGEST_AXIS = 1_000_000
 
@@ -61,7 +63,7 @@ class GridAxis:
         InputError
             No such parameter, or an end, a count or a spacing that cannot be used.
         """
-        field, problems = field_of(parameter), Problems()
+        field, problems = _field(parameter), Problems()
         where = f"axes.{field.name}"
         ends = [problems.attempt(_number, f"{where}.{key}", field, end) for key, end in (("from", low), ("to", high))]
         if not (isinstance(count, Integral) and 2 <= count <= LONGEST_AXIS):
@@ -86,7 +88,7 @@ class GridAxis:
         InputError
             No such parameter, no value, or values that are the same or cannot be used.
         """
-        field, problems = field_of(parameter), Problems()
+        field, problems = _field(parameter), Problems()
         where = f"axes.{field.name}.values"
         numbers = [problems.attempt(_number, where, field, value) for value in values]
         problems.tell()
@@ -110,6 +112,10 @@ class GridAxis:
     def describe(self) -> dict[str, Any]:
         """Return what identifies the axis, as plain data for JSON."""
         return {"name": self.name, "spacing": self.spacing, "values": list(self.given), "count": self.count}
+
+
+def _field(parameter: str | Axis) -> Field:
+    return field_to_vary(parameter) if isinstance(parameter, str) else parameter.field
 
 
 def _own(parameter: str | Axis) -> Field | None:
