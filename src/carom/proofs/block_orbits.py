@@ -29,8 +29,6 @@ from carom.proofs.flights import stays_inside
 from carom.proofs.lines import Numbers
 from carom.proofs.series import hull, terms
 
-__all__ = ["Cell", "OrbitFact", "branches_on", "first_cells", "inside", "orbits_on"]
-
 Along = Callable[[Callable[[Course], Any]], Any]
 Cell = tuple[float, float]
 _ORDER = 4

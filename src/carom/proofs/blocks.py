@@ -19,8 +19,6 @@ from carom.proofs.courses import Course, Return, period_condition
 from carom.proofs.lines import Line, Numbers
 from carom.proofs.series import hull, narrower, terms
 
-__all__ = ["Block", "Branch", "OpenError", "OrbitBranch", "Slopes", "slopes_on"]
-
 
 class OpenError(CaromError):
     """Something is not decided on a block; on a narrower one it may be."""

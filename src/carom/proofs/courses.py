@@ -20,8 +20,6 @@ from flint import acb, arb
 from carom.proofs.lines import Numbers
 from carom.proofs.series import I, first, hyperbolic, imaginary, real, short_return, squared
 
-__all__ = ["Course", "Return", "period_condition"]
-
 _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
 

@@ -24,8 +24,6 @@ from flint import acb, acb_series, arb, arb_mat, arb_series, ctx
 from carom.proofs.courses import Course
 from carom.proofs.series import I, conjugate, imaginary, real, squared, terms
 
-__all__ = ["flip_coefficient", "image_of_curve"]
-
 
 def flip_coefficient(course: Course) -> Any:
     """``b`` of an orbit with a multiplier ``−1``; ``q`` has the length one in ``(θ, ṙ, θ̇)``.

@@ -9,8 +9,6 @@ from flint import arb, arb_series
 
 from carom.proofs.series import hull, terms
 
-__all__ = ["Height", "stays_inside"]
-
 Height = Callable[[Any, bool], Any]
 """A height over the wall, up to a positive factor: takes the time after the first impact, or with ``True`` the negative time before
 the second, as a ball or a power series."""

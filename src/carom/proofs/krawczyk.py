@@ -9,8 +9,6 @@ from flint import arb, arb_mat, arb_series, ctx
 
 from carom.proofs.series import terms
 
-__all__ = ["System", "derivatives", "enclosed_zero", "newton"]
-
 System = Callable[..., Sequence[Any]]
 """Takes as many balls or power series as it gives."""
 _WIDTHS = (8, 12, 16, 20, 26, 32, 40, 50, 64, 80, 100)

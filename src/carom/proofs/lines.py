@@ -16,8 +16,6 @@ from carom.parameters.fields import unknown_name
 from carom.proofs.balls import ball_of, exact_ends, interval
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 
-__all__ = ["Line", "Numbers", "line_of"]
-
 
 class Numbers(NamedTuple):
     """The numbers of the equations; balls or power series of balls."""

@@ -26,8 +26,6 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import point_seeds
 from carom.proofs.series import first, real, terms
 
-__all__ = ["point_claims"]
-
 Enclosures = Mapping[str, Enclosure]
 
 

@@ -23,8 +23,6 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.series import hull
 from carom.proofs.slip import out_of_clearance, time_out
 
-__all__ = ["NARROWEST", "Stretch", "range_claims"]
-
 BITS = 64
 NARROWEST, MOST_BLOCKS = Fraction(1, 10_000), 5000
 """Width of a block, as a share of the interval, at which it is left open; number of blocks after which the search ends."""

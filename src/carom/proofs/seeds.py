@@ -20,8 +20,6 @@ from carom.proofs.courses import Course, Return
 from carom.proofs.hypotheses import Hypotheses
 from carom.proofs.lines import Line
 
-__all__ = ["doubles_of", "point_seeds", "shooting_seeds"]
-
 _SAMPLES = 400
 STARTS, FOLLOWED = 24, 400.0
 """Simulated motions, and the time for which each is followed, in ``1/Ω``."""

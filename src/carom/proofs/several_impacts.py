@@ -18,8 +18,6 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import shooting_seeds
 from carom.proofs.words import UNKNOWNS, Flights, ShootingOrbit
 
-__all__ = ["MOST_IMPACTS", "several_impact_claims"]
-
 MOST_IMPACTS = 24
 """Impacts a period up to which orbits can be proven."""
 

@@ -20,8 +20,6 @@ from carom.proofs.flights import stays_inside
 from carom.proofs.lines import Numbers
 from carom.proofs.series import I, conjugate, hyperbolic, imaginary, real, squared
 
-__all__ = ["UNKNOWNS", "Flights", "ShootingOrbit"]
-
 UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
 """Unknowns of each impact, in their order."""
 
