@@ -86,7 +86,7 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     strip = 0.18 * rows
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip))
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
-    unit = parameter_unit(diagram.axis)
+    unit = parameter_unit(diagram.axis.field)
     for branch in diagram.orbits:
         heights = np.array([point.radial_speed for point in branch.special])
         branch_line(upper, branch, np.arange(len(branch)), branch.values / unit, branch.radial_speed, heights, unit)
@@ -100,7 +100,7 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     coexistence(below, diagram, unit)
     upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
     lower.set_ylabel("gap ($c_r$); force\n" r"of rub ($m c_r\Omega^2$)")
-    below.set_xlabel(parameter_label(diagram.axis))
+    below.set_xlabel(parameter_label(diagram.axis.field))
     below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
     lower.set_ylim(-0.25, max(0.6, max(_top(branch) for branch in diagram.equilibria)))
     upper.set_ylim(*_limits(diagram))

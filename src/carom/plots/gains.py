@@ -76,7 +76,7 @@ def gain_map(
     if measure not in known:
         raise InputError("measure", measure, f"one that this map has: {', '.join(known)}")
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
-    units = [parameter_unit(axis) for axis in found.axes]
+    units = [parameter_unit(axis.field) for axis in found.axes]
     x, y = (found.dataset[axis.name].values / unit for axis, unit in zip(found.axes, units, strict=True))
     values = np.ma.masked_invalid(found.dataset[measure].values)
     bar = _MEASURES[measure][0]
@@ -170,4 +170,4 @@ def _contours(axes: Axes, x: np.ndarray, y: np.ndarray, share: np.ndarray) -> li
 def _label(axis: Axis) -> str:
     """Return the label of a parameter; stiffness and damping are named as gains of a position controller."""
     name = _NAMES.get(axis.name)
-    return f"{name}: {parameter_label(axis)}" if name else parameter_label(axis)
+    return f"{name}: {parameter_label(axis.field)}" if name else parameter_label(axis.field)

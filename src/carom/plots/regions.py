@@ -44,12 +44,12 @@ def region_map(found: RegionMap) -> Figure:
     rows = -(-len(listed) // columns)
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)))
     drawn = figure.subplots()
-    units = np.array([parameter_unit(axis) for axis in found.axes])
+    units = np.array([parameter_unit(axis.field) for axis in found.axes])
     # Draw the broad line of non-smooth Hopf bifurcations below that of the boundary equilibria.
     for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
         curve_line(drawn, curve, units)
-    drawn.set_xlabel(parameter_label(found.axes[0]))
-    drawn.set_ylabel(parameter_label(found.axes[1]))
+    drawn.set_xlabel(parameter_label(found.axes[0].field))
+    drawn.set_ylabel(parameter_label(found.axes[1].field))
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
     lines = [*_curve_key(found), *_mark_points(drawn, found, units)]

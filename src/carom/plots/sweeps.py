@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis as AnyAxis
+from matplotlib.axis import Axis
 from matplotlib.collections import QuadMesh
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import ListedColormap
@@ -18,7 +18,6 @@ from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
-from carom.models import Axis
 from carom.outcome import InputError
 from carom.parameters import PARAMETERS, Field
 from carom.plots.plane import Floats, one_axes
@@ -97,7 +96,7 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
     places = []
     for dimension, direction in zip(dimensions, "xy", strict=False):
-        varied = _axis(data[dimension])
+        varied = _field(data[dimension])
         places.append(data[dimension].values / parameter_unit(varied))
         set_up = {f"{direction}label": parameter_label(varied)}
         if spacings[dimension] == "log":
@@ -119,14 +118,14 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
     return figure
 
 
-def _axis(coordinate: xarray.DataArray) -> Axis:
+def _field(coordinate: xarray.DataArray) -> Field:
     """The parameter of a coordinate; one of another model than the planar rotor has its name for a symbol."""
     name, words, unit = str(coordinate.name), coordinate.attrs["long_name"], coordinate.attrs["units"]
     own = Field(name, name.replace("_", r"\_"), words, "a number", "" if unit == "1" else unit, -np.inf, np.inf, "")
-    return Axis(PARAMETERS.get(name, own))
+    return PARAMETERS.get(name, own)
 
 
-def _plain_ticks(axis: AnyAxis, values: np.ndarray) -> None:
+def _plain_ticks(axis: Axis, values: np.ndarray) -> None:
     """Set ticks at 1, 2, 5, 10, ... as plain numbers; a range of many decades keeps powers of ten."""
     low, high = float(values.min()), float(values.max())
     if _PLAIN[0] <= low and high <= min(_PLAIN[1], _PLAIN_RATIO * low):
@@ -135,7 +134,7 @@ def _plain_ticks(axis: AnyAxis, values: np.ndarray) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
-def _ticks(axis: AnyAxis, values: xarray.DataArray) -> None:
+def _ticks(axis: Axis, values: xarray.DataArray) -> None:
     """Set ticks: of a share in percent, of a count at whole numbers."""
     if values.name in _SHARES:
         axis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))

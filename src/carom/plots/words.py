@@ -9,9 +9,8 @@ from carom.outcome import Outcome
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
-    from carom.models import Axis
     from carom.orbits.orbit import Orbit
-    from carom.parameters import Scales
+    from carom.parameters import Field, Scales
 
 
 def orbit_symbol(name: str) -> str:
@@ -86,15 +85,14 @@ def axis_time(scales: Scales | None) -> str:
     return rf"time $t$ (units of $1/\Omega$ = {number(1e3 * scales.time, 3)} ms)"
 
 
-def parameter_unit(axis: Axis) -> float:
+def parameter_unit(field: Field) -> float:
     """Return the divisor of a parameter in figures: a shaft speed is shown in rpm."""
-    return math.pi / 30.0 if axis.name == "speed" else 1.0
+    return math.pi / 30.0 if field.name == "speed" else 1.0
 
 
-def parameter_label(axis: Axis) -> str:
+def parameter_label(field: Field) -> str:
     """Return the words, symbol and unit of a parameter."""
-    field = axis.field
-    unit = "rpm" if axis.name == "speed" else field.unit
+    unit = "rpm" if field.name == "speed" else field.unit
     symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
         field.symbol, field.symbol
     )
