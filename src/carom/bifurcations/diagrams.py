@@ -22,7 +22,7 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Jeffcott, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
@@ -108,6 +108,9 @@ def find_bifurcations(
     All single-impact orbits are computed (:func:`~carom.orbits.single_impact.find_orbits`) at 13 evenly spaced values.
     Each orbit that does not lie on a known branch is continued in both directions.
 
+    These orbits, rolling and the special points are those of the planar rotor.  The diagram of another model holds its
+    levitation and rubs, and the motions that disturbances reach; it needs ``attractors``.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
@@ -128,25 +131,30 @@ def find_bifurcations(
     Raises
     ------
     InputError
-        Empty interval, unknown parameter, or values out of the range of the parameter.
+        Empty interval, unknown parameter, values out of the range of the parameter, or another model than the planar
+        rotor without ``attractors``.
     """
-    parameters = jeffcott_of(machine).parameters
-    along = axis(parameters, parameter)
+    model = model_of(machine) if attractors and not (virtual or lasting) else jeffcott_of(machine)
+    along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
-    followed = 1.0 if not attractors else FOLLOWING_SHARE
-    found = _follow(parameters, along, limits, virtual, lasting, tell.part(0.0, followed))
+    nothing = np.empty(0)
+    found, rolling, followed = _Followed((), (), ()), RollingBranch(nothing, nothing, nothing > 0.0), 0.0
+    if isinstance(model, Jeffcott):
+        followed = 1.0 if not attractors else FOLLOWING_SHARE
+        found = _follow(model.parameters, along, limits, virtual, lasting, tell.part(0.0, followed))
+        rolling = rolling_branch(model, along, limits)
     disturbances = DisturbanceSet(attractors, seed) if attractors else None
     return Diagram(
         axis=along,
         interval=limits,
-        equilibria=equilibrium_branches(parameters, along, limits),
-        rolling=rolling_branch(parameters, along, limits),
+        equilibria=equilibrium_branches(model, along, limits),
+        rolling=rolling,
         orbits=found.orbits,
         rubbing=found.rubbing,
         points=found.points,
         attractors=sample_attractors(
-            parameters,
+            model,
             parameter,
             limits,
             disturbances,

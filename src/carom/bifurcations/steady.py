@@ -13,7 +13,7 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
 from carom.continuation.roots import bracketed_root
-from carom.models import Axis, Jeffcott
+from carom.models import Axis, Jeffcott, Model
 from carom.parameters import Numbers, Parameters
 from carom.results import Result
 
@@ -49,7 +49,7 @@ class RollingBranch(Result):
     values, largest_force : ndarray, shape (m,)
         Values of the parameter, and the largest normal force over a turn in ``m c_r Ω²``.
     holds : ndarray of bool, shape (m,)
-        Whether a rotor that rolls keeps rolling.
+        Whether a rotor that rolls keeps rolling.  Empty arrays for other models than the planar rotor.
     """
 
     values: np.ndarray
@@ -57,11 +57,10 @@ class RollingBranch(Result):
     holds: np.ndarray
 
 
-def rolling_branch(parameters: Parameters, along: Axis, interval: tuple[float, float]) -> RollingBranch:
+def rolling_branch(rotor: Jeffcott, along: Axis, interval: tuple[float, float]) -> RollingBranch:
     """Rolling on an evenly spaced grid of the parameter."""
-    base = Jeffcott(parameters)
     grid = np.linspace(*interval, SAMPLES)
-    found = [rolling(along.move(base, value)) for value in grid.tolist()]
+    found = [rolling(along.move(rotor, value)) for value in grid.tolist()]
     return RollingBranch(
         grid, np.array([entry.largest_force for entry in found]), np.array([entry.holds for entry in found])
     )
@@ -88,16 +87,17 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
     return points
 
 
-def equilibrium_branches(
-    parameters: Parameters, along: Axis, interval: tuple[float, float]
-) -> tuple[EquilibriumBranch, ...]:
-    """Levitation and both rubs on an evenly spaced grid of the parameter."""
-    base = Jeffcott(parameters)
+def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
+    """Levitation and both rubs on an evenly spaced grid of the parameter.
+
+    Of several stable rubs, or several others, the admissible one with the largest normal force.
+    """
     grid = np.linspace(*interval, SAMPLES)
     kinds = ("contact-free", "stable rub", "saddle rub")
     table = np.full((len(kinds), len(grid), 4), np.nan)
     for column, value in enumerate(grid.tolist()):
-        for equilibrium in find_equilibria(along.move(base, value)):
+        found = find_equilibria(along.move(model, value))
+        for equilibrium in sorted(found, key=lambda at: (at.status == "admissible", at.normal_force)):
             place = 0 if equilibrium.kind == "contact-free" else 1 if equilibrium.stable else 2
             table[place, column] = (
                 equilibrium.radius,
