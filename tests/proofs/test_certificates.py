@@ -37,7 +37,7 @@ def document():
     [
         DECIMAL,
         {**DECIMAL, "d": "0"},
-        {**DECIMAL, "gamma": ("0.1", "0.1000001")},
+        {**DECIMAL, "gamma": ("0.1", "0.1000000001")},
         {**DECIMAL, "gamma": "0.05"},
         PAPER,
         "examples/keogh-cole.toml",
@@ -64,7 +64,7 @@ def test_any_digit_that_matters_is_refused(document):
     original, text = prove(DECIMAL), json.dumps(document)
     drawn, refused = random.Random(4), 0
     places = [match.start() for match in re.finditer(r"[0-9]", text)]
-    for place in drawn.sample(places, sized(30, 20, len(places))):
+    for place in drawn.sample(places, sized(20, 10, len(places))):
         digit = drawn.choice([other for other in "0123456789" if other != text[place]])
         try:
             changed = check(json.loads(text[:place] + digit + text[place + 1 :]))

@@ -102,7 +102,10 @@ def test_claims_of_the_papers_machine():
 
     assert not proof.with_status("undecided")
     assert proof["machine periods"].statement == "F1 has exactly 2 roots T > 0, each of them simple."
-    assert "exactly these: B1,a, B1,c, B1,b, B1,d" in proof["machine orbits"].statement
+    assert (
+        "exactly these motions with one impact a period, synchronous with the shaft: B1,a, B1,b, B1,c, B1,d."
+        in proof["machine orbits"].statement
+    )
     stable = [claim.about for claim in proof if claim.kind == "stable" and claim.status == "proven"]
     assert stable == ["levitation", "B1,d"]
     period = proof["B1,d solution"].enclosures["period"]
@@ -128,7 +131,7 @@ def test_random_machines_beside_fifty_digits():
 
 def test_random_machines_beside_the_usual_search():
     random, stable, undecided, claims = np.random.default_rng(15), 0, 0, 0
-    for k in range(sized(16, 2, 400)):
+    for k in range(sized(10, 2, 400)):
         parameters = near_the_paper(random) if k % 4 else random_parameters(random)
         proof = prove(parameters)
         assert_agrees(parameters, proof)
@@ -143,7 +146,7 @@ def test_random_machines_beside_the_usual_search():
 @pytest.mark.jit_only
 def test_proven_orbits_run_in_simulation():
     random, followed = np.random.default_rng(16), 0
-    while followed < 3:
+    while followed < 2:
         parameters = near_the_paper(random)
         proof = prove(parameters)
         for orbit in find_orbits(parameters):
@@ -324,7 +327,7 @@ def test_boxes_of_machines_are_never_wrong(half):
     random = np.random.default_rng(3)
     assert half != "1/1000000000" or status(proof, "B1,d stable") == "proven"
 
-    for shares in [*random.uniform(0, 1, (6, 4)), np.zeros(4), np.ones(4), np.full(4, 0.5)]:
+    for shares in [*random.uniform(0, 1, (2, 4)), np.zeros(4), np.ones(4), np.full(4, 0.5)]:
         values = {
             name: low + (high - low) * Fraction(share)
             for (name, (low, high)), share in zip(box.items(), shares, strict=True)
@@ -344,7 +347,6 @@ def test_boxes_of_machines_are_never_wrong(half):
     [
         {"gamma": ("-0.1", "0.1"), "omega": ("0.9", "1.1")},
         {"gamma": ("0", "1")},
-        {"gamma": ("1.51", "1.53")},
         {"omega": ("0.001", "1000")},
         {"d": ("0", "1")},
         {"mu": ("0", "10")},
@@ -360,7 +362,7 @@ def test_widest_boxes_end_with_reasons(changes):
 
 def test_grid_sees_no_more_roots_than_are_proven():
     random = np.random.default_rng(8)
-    for _ in range(sized(10, 2, 100)):
+    for _ in range(sized(5, 2, 100)):
         parameters = near_the_paper(random)
         proof = prove(parameters)
         times = np.linspace(1e-3, 60.0, 20_001)

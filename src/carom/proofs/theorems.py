@@ -58,8 +58,12 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
             claims += told
             admissible += [orbit.name] if status == "proven" else []
             doubts += [f"it is open whether {orbit.name} is a motion"] if status == "undecided" else []
-    words = f"exactly these: {', '.join(admissible)}" if admissible else "none"
-    statement = f"Motions of the machine with one impact a period, synchronous with the shaft, are {words}."
+    statement = "The machine has no motion with one impact a period that is synchronous with the shaft."
+    if admissible:
+        names = ", ".join(sorted(admissible, key=lambda name: (len(name), name)))
+        statement = (
+            f"The machine has exactly these motions with one impact a period, synchronous with the shaft: {names}."
+        )
     limited = any(claim.limited_by_precision for claim in claims)
     complete = claim_of(
         "machine", "orbits", statement, 0 if doubts else 1, reason="; ".join(doubts), limited=bool(doubts) and limited

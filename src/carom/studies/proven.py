@@ -20,7 +20,7 @@ def proven_words(proof: Proof) -> str:
         f"levitation lies {'inside' if proof['levitation inside'].status == 'proven' else 'not inside'} the wall"
         if proof["levitation inside"].status != "undecided"
         else "",
-        proof["machine orbits"].statement[:-1] if proof["machine orbits"].status == "proven" else "",
+        _clause(proof["machine orbits"].statement) if proof["machine orbits"].status == "proven" else "",
         f"stable are {listed(stable)}" if stable else "",
         f"unstable are {listed(unstable)}" if unstable else "",
     ]
@@ -30,6 +30,10 @@ def proven_words(proof: Proof) -> str:
     if undecided:
         text += f" {counted(len(undecided), 'claim')} could not be decided: {listed([claim.name for claim in undecided[:4]])}."
     return text
+
+
+def _clause(sentence: str) -> str:
+    return sentence[0].lower() + sentence[1:-1]
 
 
 def is_proven(proof: Proof | None, orbit: Orbit) -> bool:
