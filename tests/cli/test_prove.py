@@ -39,7 +39,10 @@ def test_json_is_the_certificate(capsys, tmp_path):
         ([PAPER, "--check", "proof.json"], "must stand alone"),
         (["--check", "absent.json"], "cannot be read"),
         (["absent.toml"], "there is no such file"),
-        ([PAPER, "--set", "stiffness=1"], "cannot be set"),
+        ([PAPER, "--set", "stiffness=1"], "unknown name in the settings; did you mean omega?"),
+        ([PAPER, "--set", "gamma"], "must be name=value"),
+        ([PAPER, "--set", "gamma=1", "--set", "gamma=2"], "each name once"),
+        (["examples/keogh-cole.toml", "--set", "gamma=1", "--set", "damping=2 N s/m"], "sets damping"),
     ],
 )
 def test_bad_input_is_one_line(capsys, arguments, words):

@@ -108,3 +108,10 @@ def test_unit_that_is_not_exact_is_refused():
 def test_model_counts_by_its_doubles():
     case = load(KEOGH)
     assert hypotheses_of(Jeffcott(case.parameters)).numbers == hypotheses_of(case).numbers
+
+
+def test_settings_may_be_fractions_and_intervals():
+    numbers = hypotheses_of("examples/source-paper.toml", ["rho=3/7", "gamma=[0.1, 1/9]"]).numbers
+
+    assert numbers["rho"].rational == Fraction(3, 7)
+    assert (numbers["gamma"].low, numbers["gamma"].high) == (Fraction(1, 10), Fraction(1, 9))

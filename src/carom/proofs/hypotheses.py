@@ -17,10 +17,12 @@ from pathlib import Path
 from typing import Any, Literal, cast
 
 from carom.models import Subject, jeffcott_of
-from carom.outcome import InputError, shown, together
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, load
+from carom.outcome import InputError, Problems, shown, together
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
 from carom.parameters.exact import ExactNumber, read_exact
 from carom.parameters.fields import name_errors, unknown_name
+from carom.parameters.machine import check_names
+from carom.parameters.toml_reader import read_machine_tables
 
 Given = str | int | float | Fraction | Decimal | tuple[Any, Any]
 """A number as it may be given: a float stands for itself, a tuple for an interval."""
@@ -164,13 +166,22 @@ def hypotheses_of(
 
 
 def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
-    # The usual reader first: its messages name what is wrong.
-    load(path, settings)
+    problems = Problems()
+    read_machine_tables(path, problems)
+    texts = {}
+    for setting in settings:
+        name, equals, text = (part.strip() for part in setting.partition("="))
+        if not equals or not name or name in texts:
+            problems.errors.append(
+                InputError("--set", shown(setting), "must be name=value, each name once, such as gamma=1/10")
+            )
+        texts[name] = text
+    problems.attempt(check_names, texts)
+    problems.tell()
     content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
     table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
     read = Hypotheses(table, {name: written_exactly(value) for name, value in content[table].items()}, {})
-    pairs = (setting.partition("=") for setting in settings)
-    return read.replace(**{name.strip(): text.strip() for name, _, text in pairs})
+    return read.replace(**texts)
 
 
 def written_exactly(value: Given) -> str:

@@ -32,7 +32,11 @@ def _levitation_claims(rotor: Rotor) -> list[Claim]:
     square = rotor.levitation_squared
     inside = -1 if rotor.on_the_wall else decided(1 - square)
     reason = (
-        "it lies on the wall" if rotor.on_the_wall else "it lies outside the wall" if inside else "|U*| is next to 1"
+        "it lies on the wall"
+        if rotor.on_the_wall
+        else "it lies outside the wall"
+        if inside
+        else "the sign of |U*| - 1 could not be shown"
     )
     damping = rotor.hypotheses.numbers["gamma"]
     return [
