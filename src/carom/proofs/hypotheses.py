@@ -20,8 +20,7 @@ from carom.models import Subject, jeffcott_of
 from carom.outcome import InputError, Problems, shown, together
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
 from carom.parameters.exact import ExactNumber, read_exact
-from carom.parameters.fields import name_errors, unknown_name
-from carom.parameters.machine import check_names
+from carom.parameters.fields import check_names, name_errors, unknown_name
 from carom.parameters.toml_reader import read_machine_tables
 
 Given = str | int | float | Fraction | Decimal | tuple[Any, Any]
