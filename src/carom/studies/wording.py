@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass
 
 from carom.closed_forms.thresholds import Gain
-from carom.parameters import Scales
+from carom.parameters import MACHINE_FIELDS, PHYSICAL_PARTNER, Scales
 from carom.parameters.indentation import gives_way
+from carom.parameters.numbers import CONVERSIONS
 from carom.studies.ranges import Span
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-_GAIN_WORDS: dict[Gain, str] = {"gamma": "damping", "omega": "stiffness"}
 
 
 def number(value: float, digits: int = 4) -> str:
@@ -109,15 +109,15 @@ class Wording:
         """Damping in N s/m or stiffness in N/m; needs scales."""
         if self.scales is None:
             return math.nan
-        return value * self.scales.damping if gain == "gamma" else value**2 * self.scales.stiffness
+        return float(CONVERSIONS[gain].value(value, self.scales))
 
     def gain_unit(self, gain: Gain) -> str:
         """Unit of :meth:`gain_in_si`."""
-        return "N s/m" if gain == "gamma" else "N/m"
+        return MACHINE_FIELDS[PHYSICAL_PARTNER[gain]].unit
 
     def gain_name(self, gain: Gain) -> str:
         """Return ``damping`` or ``stiffness``; the dimensionless name if the machine is not known."""
-        return gain if self.scales is None else _GAIN_WORDS[gain]
+        return gain if self.scales is None else PHYSICAL_PARTNER[gain]
 
     def where(self, gain: Gain, spans: tuple[Span, ...], searched: Span | None = None) -> str:
         """Say for which values of a gain something holds: ``below 3,408 N s/m``."""

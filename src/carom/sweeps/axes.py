@@ -33,6 +33,8 @@ class GridAxis:
     given : tuple of float
         First and last value, or all values of a list; in SI units or dimensionless.
     count : int
+    own : Field, optional
+        Field of a parameter that a name alone does not give: of an :class:`~carom.models.Axis`.
     """
 
     name: str
