@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.motions import State, simulate
+from carom.motions import State, settle, simulate
 from carom.orbits import find_orbits
 from carom.orbits.orbit import same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.outcome import InputError, Outcome
 from tests.compilation import sized
-from tests.machines import PAPER
+from tests.machines import PAPER, random_parameters
 
 DOUBLED = PAPER.replace(gamma=0.083)
 STARTS = sized(40, 2, 200)
@@ -69,3 +69,24 @@ def test_bad_numbers_and_names():
 
 def test_motions_without_an_orbit():
     assert orbit_of_motion(simulate(PAPER, State(0.1, 0.0), 5.0)) is None
+
+
+@pytest.mark.deep
+def test_stable_orbits_on_which_simulated_motions_end_are_found():
+    rng = np.random.default_rng(11)
+    machines = [PAPER.replace(gamma=gamma) for gamma in np.linspace(0.0827, 0.17, 20)]
+    machines += [random_parameters(rng) for _ in range(100)]
+    seen = 0
+    for machine in machines:
+        positions, velocities = np.sqrt(rng.uniform(size=(2, 500))) * np.exp(2j * np.pi * rng.uniform(size=(2, 500)))
+        ends = settle(machine, 0.99 * positions, 1.5 * velocities, patience=3000)
+        counts = np.where(ends.outcomes == Outcome.BOUNCING, ends.multiplicities, 0)
+        for impacts in set(counts.tolist()) & set(range(1, 13)):
+            found = find_orbits(machine, impacts=impacts)
+            for which in np.flatnonzero(counts == impacts)[:6]:
+                start = State(0.99 * positions[which], 1.5 * velocities[which])
+                orbit = orbit_of_motion(simulate(machine, start, settle=True, patience=3000))
+                if orbit is not None and orbit.stable and orbit.impacts == impacts:
+                    seen += 1
+                    assert any(same_orbit(orbit, other) for other in found), machine
+    assert seen > 40

@@ -1,4 +1,4 @@
-"""Bifurcations of equilibria and single-impact orbits: branches, diagrams, curves in two parameters, regions."""
+"""Bifurcations of equilibria and orbits: branches, diagrams, curves in two parameters, regions."""
 
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.bifurcations.branches import OrbitBranch

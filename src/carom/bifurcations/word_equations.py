@@ -1,0 +1,164 @@
+"""The equations of orbits of a word along a parameter, and the functions that vanish at special points."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from carom.continuation import Watch
+from carom.models import Model
+from carom.models.axes import Axis
+from carom.orbits.orbit import Margins, margins_of, on_section
+from carom.orbits.shooting import Links, links_of, unpack
+from carom.orbits.word import Kind, Word
+from carom.outcome import CaromError, InputError
+
+DIFFERENCE = 1e-6
+"""Step of the differences by the parameter, relative to its size; they only bend the predicted direction."""
+REMEMBERED = 64
+"""Points whose segments are kept: each is asked for by the equations, their derivative and all watches."""
+SHORTEST = 1e-6
+"""Duration of a flight, in ``1/Ω``, at which a branch ends."""
+ASIDE = 0.02
+"""Distance, in the norm of all unknowns, at which a branch born in a period doubling is begun."""
+CORRECTIONS = 20
+
+
+@dataclass(frozen=True)
+class FamilyPoint:
+    """The segments of an orbit at a value of the parameter, and what is watched there."""
+
+    rotor: Model
+    word: Word
+    links: Links
+
+    @cached_property
+    def margins(self) -> Margins:
+        """Distances from a change of the word."""
+        return margins_of(self.links, self.rotor, self.word)
+
+    @cached_property
+    def multipliers(self) -> np.ndarray:
+        """Non-trivial multipliers; ``nan`` where an impact grazes."""
+        section = on_section(self.links)
+        if not np.isfinite(section).all():
+            return np.full(len(section), np.nan + 0j)
+        return np.linalg.eigvals(section).astype(complex)
+
+    @property
+    def pairs(self) -> tuple[np.ndarray, np.ndarray]:
+        """Products and sums of the multipliers, two at a time."""
+        first, second = np.triu_indices(len(self.multipliers), 1)
+        return self.multipliers[first] * self.multipliers[second], self.multipliers[first] + self.multipliers[second]
+
+
+class Family:
+    """The equations of orbits of a word along a parameter."""
+
+    def __init__(self, rotor: Model, along: Axis, word: Word, limits: tuple[float, float]) -> None:
+        self.rotor, self.along, self.word, self.limits = rotor, along, word, limits
+        self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
+        self.points: OrderedDict[bytes, FamilyPoint | None] = OrderedDict()
+        self.rotors: OrderedDict[float, Model | None] = OrderedDict()
+
+    def rotor_at(self, p: float) -> Model | None:
+        """The rotor at a value of the parameter; ``None`` where it has none."""
+        if p not in self.rotors:
+            try:
+                self.rotors[p] = self.along.move(self.rotor, p)
+            except InputError:
+                self.rotors[p] = None
+            if len(self.rotors) > REMEMBERED:
+                self.rotors.popitem(last=False)
+        return self.rotors[p]
+
+    def point(self, u: np.ndarray, p: float) -> FamilyPoint | None:
+        """The segments at a point; ``None`` where they are not defined."""
+        key = u.tobytes() + np.float64(p).tobytes()
+        if key not in self.points:
+            self.points[key] = self._evaluated(u, p)
+            if len(self.points) > REMEMBERED:
+                self.points.popitem(last=False)
+        return self.points[key]
+
+    def _evaluated(self, u: np.ndarray, p: float) -> FamilyPoint | None:
+        start, rotor = unpack(u, len(self.word)), self.rotor_at(p)
+        if rotor is None or (start.durations[self.word.kinds != Kind.LAND] < SHORTEST).any():
+            return None
+        links = links_of(rotor, self.word, start)
+        return FamilyPoint(rotor, self.word, links) if np.isfinite(links.size) else None
+
+    def residual(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Left sides of the equations; ``nan`` where they are not defined."""
+        point = self.point(u, p)
+        return np.full(len(u), np.nan) if point is None else point.links.residual
+
+    def jacobian(self, u: np.ndarray, p: float) -> np.ndarray:
+        """Their derivatives by the unknowns, which are exact, and by the parameter."""
+        point = self.point(u, p)
+        if point is None:
+            return np.full((len(u), len(u) + 1), np.nan)
+        return np.column_stack([point.links.jacobian, self._by_parameter(point, p)])
+
+    def _by_parameter(self, point: FamilyPoint, p: float) -> np.ndarray:
+        """Derivative of the equations by the parameter, by a difference to a side where the rotor exists."""
+        step = DIFFERENCE * self.size
+        rotor = self.rotor_at(p + step)
+        if rotor is None:
+            step = -step
+            rotor = self.rotor_at(p + step)
+        if rotor is None:
+            return np.full(len(point.links.residual), np.nan)
+        slope: np.ndarray = (links_of(rotor, self.word, point.links.start).residual - point.links.residual) / step
+        return slope
+
+    def beside(self, doubled: np.ndarray, p: float, tangent: np.ndarray) -> tuple[np.ndarray, float]:
+        """Point of the branch in the hyperplane at a distance along a direction from a point."""
+        u = doubled + ASIDE * tangent
+        for _ in range(CORRECTIONS):
+            residual = self.residual(u, p)
+            if not np.isfinite(residual).all():
+                break
+            rows = np.vstack([self.jacobian(u, p) * np.append(np.ones(len(u)), self.size), np.append(tangent, 0.0)])
+            change = np.linalg.solve(rows, np.append(-residual, ASIDE - tangent @ (u - doubled)))
+            u, p = u + change[:-1], p + self.size * float(change[-1])
+            if np.abs(change).max() < 1e-12:
+                return u, min(max(p, self.limits[0]), self.limits[1])
+        raise CaromError("no orbit of twice the period was found beside the period doubling")
+
+    def watches(self, start: np.ndarray) -> list[Watch]:
+        """Functions that vanish at the special points."""
+        kinds: dict[str, Callable[[FamilyPoint], float]] = {
+            "period-doubling": lambda point: float(np.prod(1.0 + point.multipliers).real),
+            "neimark-sacker": lambda point: float(np.prod(point.pairs[0] - 1.0).real),
+            # Without maxima the margin is that of a flight through the centre: their birth is not an event.
+            "grazing": lambda point: min(point.margins.radius, 1.0),
+            "vanishing-impact": lambda point: point.margins.approach,
+            "slip-stop": lambda point: point.margins.slip,
+            "contact-onset": lambda point: point.margins.normal_force,
+            "cone-limit": lambda point: point.margins.cone,
+        }
+
+        def watch(kind: str) -> Watch:
+            def value(u: np.ndarray, p: float) -> float:
+                point = self.point(u, p)
+                found = np.nan if point is None else kinds[kind](point)
+                return found if np.isfinite(found) else np.nan
+
+            return Watch(kind, value)
+
+        watched = [watch(kind) for kind in kinds]
+        m = len(self.word)
+        if m % 2 == 0 and (m // 2) % self.word.least == 0:
+            first = np.subtract(*np.split(start, 2))
+
+            def halves(u: np.ndarray, _: float) -> float:
+                apart = np.subtract(*np.split(u, 2))
+                return float(np.copysign(np.linalg.norm(apart), apart @ first))
+
+            watched.append(Watch("period-halving", halves, ends_branch=True))
+        return watched
