@@ -108,7 +108,7 @@ class Hypotheses:
 
     def document(self) -> dict[str, Any]:
         """As plain data for JSON; ``exact`` holds what follows, for the reader."""
-        exact = {name: str(self.numbers[name]) for name in NUMBERS}
+        exact = {name: str(self.numbers[name]) for name in (*NUMBERS, "phi")}
         return {"table": self.table, "values": dict(self.values), "settings": dict(self.settings), "exact": exact}
 
     @classmethod
