@@ -21,6 +21,8 @@ from carom.proofs.slip import slip_claim
 from carom.proofs.steady import steady_claims
 
 Options = Mapping[str, Any]
+MOST_PLACES = 4
+"""Periods that a reason names."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,9 @@ def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[C
 def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
     """Claim that the roots found are all there are."""
     count = len(periods.roots)
-    reasons = [f"F1 may have roots next to T = {float(low):.10g}" for low, _ in periods.open]
+    places = list(dict.fromkeys(f"{float(low):.10g}" for low, _ in periods.open))
+    more = f" and {len(places) - MOST_PLACES} more periods" if len(places) > MOST_PLACES else ""
+    reasons = [f"F1 may have roots next to T = {', '.join(places[:MOST_PLACES])}{more}"] if places else []
     if not periods.none_beyond:
         reasons.append(f"periods beyond {float(periods.end):.6g}/Omega were not looked at")
         if not rotor.gamma > 0:
@@ -85,7 +89,7 @@ def _periods_claim(rotor: Rotor, periods: Periods) -> Claim:
         f"F1 has exactly {count} root{'' if count == 1 else 's'} T > 0, each of them simple.",
         1 if periods.complete else 0,
         reason="; ".join(reasons),
-        limited=bool(periods.open) and rotor.hypotheses.exact,
+        limited=bool(periods.open) and rotor.hypotheses.exact and bool(rotor.gamma > 0),
     )
 
 
