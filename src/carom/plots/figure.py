@@ -13,7 +13,7 @@ from matplotlib.backends.backend_mixed import MixedModeRenderer
 from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.cbook import file_requires_unicode, open_file_cm
 from matplotlib.figure import Figure
-from matplotlib.font_manager import FontProperties
+from matplotlib.font_manager import FontProperties, fontManager, get_font
 from matplotlib.mathtext import MathTextParser
 from matplotlib.textpath import TextToPath
 from matplotlib.transforms import Bbox
@@ -90,13 +90,58 @@ class _Svg(RendererSVG):
         super().__init__(*args, **kwargs)  # type: ignore[no-untyped-call]
         self._text2path = _OUTLINES
 
+    def _get_font_height_metrics(self, prop: FontProperties) -> tuple[float, float, float]:
+        """Ascent, descent and gap between lines, which matplotlib asks for each time it places a text."""
+        return _OUTLINES.heights(prop.copy())
+
 
 class _Outlines(TextToPath):
-    """Sizes and outlines of texts; each size and each formula is kept."""
+    """Sizes and outlines of texts; each font, size, formula and row of letters is kept."""
 
     def __init__(self) -> None:
         super().__init__()
         self.mathtext_parser = _Formulas("path")
+
+    @lru_cache(1024)  # noqa: B019  (there is one object)
+    def heights(self, prop: FontProperties) -> tuple[float, float, float]:
+        """Ascent, descent and gap between the lines of a font at POINTS dots per inch."""
+        font = get_font(self._files(prop))
+        scale = prop.get_size_in_points() / font.get_sfnt_table("head")["unitsPerEm"]
+        table = font.get_sfnt_table("OS/2")
+        names = "sTypoAscender", "sTypoDescender", "sTypoLineGap"
+        if table is None:
+            table, names = font.get_sfnt_table("hhea"), ("ascent", "descent", "lineGap")
+        ascent, descent, gap = (table[name] * scale for name in names)
+        return ascent, -descent, gap
+
+    @lru_cache(1024)  # noqa: B019  (there is one object)
+    def _files(self, prop: FontProperties) -> Any:
+        return fontManager._find_fonts_by_props(prop)
+
+    def _get_font(self, prop: FontProperties) -> Any:
+        font = get_font(self._files(prop.copy()))
+        font.set_size(self.FONT_SCALE, self.DPI)  # others draw with the same object
+        return font
+
+    def get_glyphs_with_font(
+        self, font: Any, s: str, glyph_map: Any = None, return_new_glyphs_only: bool = False, **options: Any
+    ) -> Any:
+        """Letters of a text, their places, and the outlines of those that are not known."""
+        return _unknown(self._letters(font, s, **options), glyph_map, return_new_glyphs_only)
+
+    @lru_cache(8192)  # noqa: B019  (there is one object)
+    def _letters(self, font: Any, s: str, **options: Any) -> Any:
+        return super().get_glyphs_with_font(font, s, **options)
+
+    def get_glyphs_mathtext(
+        self, prop: FontProperties, s: str, glyph_map: Any = None, return_new_glyphs_only: bool = False
+    ) -> Any:
+        """Letters of a formula, their places, and the outlines of those that are not known."""
+        return _unknown(self._symbols(prop.copy(), s), glyph_map, return_new_glyphs_only)
+
+    @lru_cache(1024)  # noqa: B019  (there is one object)
+    def _symbols(self, prop: FontProperties, s: str) -> Any:
+        return super().get_glyphs_mathtext(prop, s)
 
     def get_text_width_height_descent(self, s: str, prop: FontProperties, ismath: Any) -> tuple[float, float, float]:
         return self._size(s, prop.copy(), ismath)
@@ -104,6 +149,16 @@ class _Outlines(TextToPath):
     @lru_cache(8192)  # noqa: B019  (there is one object)
     def _size(self, s: str, prop: FontProperties, ismath: Any) -> tuple[float, float, float]:
         return super().get_text_width_height_descent(s, prop, ismath)
+
+
+def _unknown(row: Any, glyph_map: Any, new_only: bool) -> Any:
+    """A row of letters with the outlines that a map lacks, or with the map after these have been added."""
+    places, outlines, rectangles = row
+    known = {} if glyph_map is None else glyph_map
+    new = {name: outline for name, outline in outlines.items() if name not in known}
+    if not new_only:
+        known.update(new)
+    return places, new if new_only else known, rectangles
 
 
 class _Formulas(MathTextParser):  # type: ignore[type-arg]
