@@ -7,8 +7,11 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.mathtext import MathTextParser
+from matplotlib.textpath import TextToPath
 
 from carom import plots
+from carom.plots import arrangement
+from carom.plots import figure as figure_module
 
 SETTINGS = {
     "font.size": 23.0,
@@ -95,3 +98,31 @@ def test_each_formula_is_parsed_once(damped, monkeypatch, tmp_path):
     for periods in (2, 3, 2):
         plots.save(plots.radius(damped.orbits["B1,c"], periods=periods), tmp_path / "a", ("svg",))
     assert len(parsed) == len(set(parsed))
+
+
+def test_texts_are_those_that_matplotlib_writes(damped, monkeypatch):
+    """The same file, byte for byte, without anything kept from one text to the next."""
+
+    def figures():
+        return plots.radius(damped.orbits["B1,c"], periods=3), plots.multipliers(damped.orbits)
+
+    kept = [written(figure, "svg") for figure in figures()]
+    monkeypatch.setattr(figure_module, "_OUTLINES", TextToPath())
+    monkeypatch.delattr(figure_module._Svg, "_get_font_height_metrics")
+    monkeypatch.setattr(figure_module, "gauge", lambda: figure_module._Svg(1.0, 1.0, io.StringIO()))
+    monkeypatch.setattr(arrangement, "gauge", figure_module.gauge)
+    assert [written(figure, "svg") for figure in figures()] == kept
+
+
+def test_each_row_of_letters_is_placed_once(damped, monkeypatch):
+    placed, place = [], TextToPath.get_glyphs_with_font
+
+    def counted(outlines, font, text, *arguments, **options):
+        placed.append((font.fname, text))
+        return place(outlines, font, text, *arguments, **options)
+
+    figures = [plots.radius(damped.orbits["B1,c"], periods=periods) for periods in (5, 4, 5)]
+    monkeypatch.setattr(TextToPath, "get_glyphs_with_font", counted)
+    for figure in figures:
+        written(figure, "svg")
+    assert len(placed) == len(set(placed))

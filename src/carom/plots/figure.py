@@ -105,10 +105,9 @@ class _Outlines(TextToPath):
     @lru_cache(1024)  # noqa: B019  (there is one object)
     def heights(self, prop: FontProperties) -> tuple[float, float, float]:
         """Ascent, descent and gap between the lines of a font at POINTS dots per inch."""
-        font = get_font(self._files(prop))
+        font: Any = get_font(self._files(prop))
         scale = prop.get_size_in_points() / font.get_sfnt_table("head")["unitsPerEm"]
-        table = font.get_sfnt_table("OS/2")
-        names = "sTypoAscender", "sTypoDescender", "sTypoLineGap"
+        table, names = font.get_sfnt_table("OS/2"), ("sTypoAscender", "sTypoDescender", "sTypoLineGap")
         if table is None:
             table, names = font.get_sfnt_table("hhea"), ("ascent", "descent", "lineGap")
         ascent, descent, gap = (table[name] * scale for name in names)
@@ -127,11 +126,13 @@ class _Outlines(TextToPath):
         self, font: Any, s: str, glyph_map: Any = None, return_new_glyphs_only: bool = False, **options: Any
     ) -> Any:
         """Letters of a text, their places, and the outlines of those that are not known."""
-        return _unknown(self._letters(font, s, **options), glyph_map, return_new_glyphs_only)
+        if any(value is not None for value in options.values()):  # features and languages, which carom does not use
+            return super().get_glyphs_with_font(font, s, glyph_map, return_new_glyphs_only, **options)
+        return _unknown(self._letters(font, s), glyph_map, return_new_glyphs_only)
 
     @lru_cache(8192)  # noqa: B019  (there is one object)
-    def _letters(self, font: Any, s: str, **options: Any) -> Any:
-        return super().get_glyphs_with_font(font, s, **options)
+    def _letters(self, font: Any, s: str) -> Any:
+        return super().get_glyphs_with_font(font, s)
 
     def get_glyphs_mathtext(
         self, prop: FontProperties, s: str, glyph_map: Any = None, return_new_glyphs_only: bool = False
