@@ -82,7 +82,7 @@ def test_parameters_are_replaced_by_name():
     assert parameters.as_dict() == {**NUMBERS, "gamma": 0.2}
     assert parameters.scales is scales
     assert error_of(lambda: parameters.replace(gama=0.2)).allowed.startswith(
-        "unknown name in Parameters; did you mean gamma?"
+        "unknown name in the parameters; did you mean gamma?"
     )
     assert error_of(lambda: parameters.replace(scales=3)).field == "scales"
     assert error_of(lambda: parameters.replace(self=3)).field == "self"

@@ -8,7 +8,8 @@ from typing import TypeVar
 from carom.models.model import Model
 from carom.models.subjects import Subject, model_of
 from carom.outcome import InputError
-from carom.parameters import MACHINE_FIELDS, Field, field_to_vary, read_quantity, unknown_name
+from carom.parameters import Field, field_to_vary, read_quantity
+from carom.parameters.fields import no_such_parameter
 
 Ends = tuple[float | str, float | str]
 """Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""
@@ -59,14 +60,7 @@ def axis(machine: Subject, name: str) -> Axis:
     varied = model.varied
     if name in varied:
         return Axis(varied[name])
-    if name in MACHINE_FIELDS and model.scales is None:
-        raise InputError(
-            name,
-            "to vary",
-            f"only dimensionless parameters can be varied here ({', '.join(varied)}), as "
-            "mass, clearance and speed are not known",
-        )
-    raise unknown_name(name, "to vary", varied, "the parameters")
+    raise no_such_parameter(name, "to vary", varied, model.scales is not None)
 
 
 def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:

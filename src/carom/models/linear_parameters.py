@@ -21,7 +21,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.outcome import InputError, shown
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Numbers, read_quantity, unknown_name
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Numbers, read_quantity
+from carom.parameters.fields import no_such_parameter
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearRotor
@@ -59,7 +60,7 @@ def value_of(rotor: LinearRotor, name: str) -> float:
         No such name, or planes with different values.
     """
     if name not in fields(rotor):
-        raise unknown_name(name, "wanted", fields(rotor), "the parameters")
+        raise no_such_parameter(name, "wanted", fields(rotor), rotor.scales is not None)
     if name == "speed" and rotor.scales is not None:
         return rotor.scales.speed
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
@@ -97,7 +98,7 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
     """
     known = fields(rotor)
     if name not in known:
-        raise unknown_name(name, given, known, "the attributes and parameters of the rotor")
+        raise no_such_parameter(name, given, known, rotor.scales is not None)
     value = read_quantity(known[name], given)
     own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
     if own in _AT_PLANES:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.outcome import InputError, shown
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Field, unknown_name
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Field, no_such_parameter
 from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
 
@@ -185,7 +185,7 @@ class Parameters:
         varied = self.varied
         for name, value in changes.items():
             if name not in varied and name != "scales":
-                raise self._no_such(name, value, {**varied, "scales": None})
+                raise no_such_parameter(name, value, varied, self.scales is not None)
         physical = {name: value for name, value in changes.items() if name in MACHINE_FIELDS}
         own = {name: value for name, value in changes.items() if name not in physical}
         if not physical:
@@ -209,13 +209,8 @@ class Parameters:
             If the name is unknown, or a physical one without scales.
         """
         if name not in self.varied:
-            raise self._no_such(name, "wanted", self.varied)
+            raise no_such_parameter(name, "wanted", self.varied, self.scales is not None)
         return Numbers.of(self).value(name)
-
-    def _no_such(self, name: str, given: object, known: Mapping[str, object]) -> InputError:
-        if name not in MACHINE_FIELDS:
-            return unknown_name(name, given, known, "Parameters")
-        return InputError(name, shown(given), "mass, clearance and speed are not known: give scales, or a machine")
 
     def as_dict(self) -> dict[str, float]:
         """Return the seven numbers by name, without the scales."""
