@@ -11,9 +11,12 @@ from typing import Literal
 import numpy as np
 
 from carom.closed_forms.whirl import rolling
+from carom.core.advance import SHORTEST_LAP
+from carom.models import Jeffcott
 from carom.motions.settling import REPEATING, closed_orbit
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
+from carom.orbits.recognising import orbit_of_motion
 from carom.outcome import Outcome, Phase
 from carom.results import Result
 
@@ -56,10 +59,11 @@ class Cycle(Result):
 def cycle_of(motion: Trajectory) -> Cycle:
     """Determine the cycle of a motion from its end.
 
-    Where possible, periodic bouncing is converged to the exact orbit (:func:`~carom.motions.settling.closed_orbit`).
+    Where possible, periodic bouncing is converged to the exact orbit (:func:`~carom.motions.settling.closed_orbit`, of other
+    rotors :func:`~carom.orbits.recognising.orbit_of_motion`).
     Motions that approach one orbit then have the same cycle, however far from it they were when found to be periodic.
     """
-    outcome = motion.outcome
+    outcome, motion = motion.outcome, seen_in_contact(motion)
     none = np.empty(0, complex)
     if outcome is Outcome.ROLLING:
         return Cycle(outcome, False, 2.0 * math.pi / float(motion.rotor.system.arrays.drive[motion.plane]), none, none)
@@ -72,19 +76,43 @@ def cycle_of(motion: Trajectory) -> Cycle:
     count = motion.multiplicity
     if count == 0:
         return Cycle(outcome, False, None, none, none)
-    closed = closed_orbit(motion.rotor, motion.final.position, motion.final.velocity, count)
-    if closed is not None:
-        return Cycle(outcome, False, closed.period, closed.positions, closed.velocities)
-    log = motion.contacts
-    positions = np.exp(1j * log.angle[-count:])
-    velocities = (log.radial_speed + 1j * log.angular_speed)[-count:] * positions
-    return Cycle(outcome, False, motion.time - float(log.time[-count]), positions, velocities)
+    if motion.rotor.system.is_planar:
+        closed = closed_orbit(motion.rotor, motion.final.position, motion.final.velocity, count)
+        if closed is not None:
+            return Cycle(outcome, False, closed.period, closed.positions, closed.velocities)
+    elif (orbit := orbit_of_motion(motion)) is not None:
+        strikes = orbit.nodes[[segment.kind.is_impact for segment in orbit.word]]
+        return Cycle(outcome, False, orbit.period, *np.split(strikes, 2, axis=1))
+    last = np.flatnonzero(motion.is_impact)[first_of_period(motion, count) :]
+    positions, velocities = motion.rotor.system.state(motion.arrivals[last])
+    return Cycle(outcome, False, motion.time - float(motion.segment_starts[1:][last[0]]), positions, velocities)
+
+
+def seen_in_contact(motion: Trajectory) -> Trajectory:
+    """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last impact."""
+    touching = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
+    struck = motion.event_planes[motion.is_impact]
+    return motion.seen_at(int(touching[0]) if len(touching) else int(struck[-1]) if len(struck) else 0)
+
+
+def first_of_period(motion: Trajectory, count: int) -> int:
+    """Number of the impact with which the last period of a motion begins, of ``count`` impacts at different instants."""
+    times = motion.segment_starts[1:][motion.is_impact]
+    if len(motion.rotor.system.arrays.rows) == 1 or not count:
+        return len(times) - count
+    noted, last = [], -math.inf
+    for number, time in enumerate(times.tolist()):
+        if time - last > SHORTEST_LAP:
+            noted.append(number)
+            last = time
+    return noted[-min(count, len(noted))]
 
 
 def _turn_time(motion: Trajectory) -> float | None:
     """Duration of the last full turn along the wall in the co-rotating frame; ``None`` if there was none."""
-    end = motion.final.position
-    speed = abs((end.conjugate() * motion.final.velocity).imag)
+    row, final = motion.rotor.system.planes[motion.plane], motion.final
+    end = complex(row @ np.atleast_1d(final.position))
+    speed = abs((end.conjugate() * complex(row @ np.atleast_1d(final.velocity))).imag)
     span = 2.0 * math.pi * min(TURNS, 4.0 / speed if speed > 0.0 else TURNS)
     times = np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
     angles = np.unwrap(np.angle(motion.at_plane(times)[0] / end))
@@ -100,15 +128,17 @@ def _turn_time(motion: Trajectory) -> float | None:
 
 
 def _turned(positions: np.ndarray, velocities: np.ndarray, places: int) -> tuple[np.ndarray, np.ndarray]:
-    return np.roll(positions, -places), np.roll(velocities, -places)
+    return np.roll(positions, -places, axis=0), np.roll(velocities, -places, axis=0)
 
 
 def _distance(
     positions: np.ndarray, velocities: np.ndarray, other_positions: np.ndarray, other_velocities: np.ndarray
 ) -> float:
     """Largest distance of paired states, relative to one plus their speed."""
-    apart = np.abs(positions - other_positions) + np.abs(velocities - other_velocities)
-    return float((apart / (1.0 + np.abs(velocities))).max())
+    apart, speeds = np.abs(positions - other_positions) + np.abs(velocities - other_velocities), np.abs(velocities)
+    if positions.ndim > 1:
+        apart, speeds = apart.sum(axis=1), speeds.sum(axis=1)
+    return float((apart / (1.0 + speeds)).max())
 
 
 def same_cycle(first: Cycle, second: Cycle) -> bool:
@@ -143,20 +173,21 @@ def _last_times(motion: Trajectory, cycle: Cycle) -> np.ndarray:
 
 
 def forces_on(motion: Trajectory, cycle: Cycle) -> tuple[float, float]:
-    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor."""
+    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane."""
     if cycle.outcome is Outcome.LEVITATED:
         return 0.0, 0.0
-    if cycle.outcome is Outcome.ROLLING:
+    if cycle.outcome is Outcome.ROLLING and isinstance(motion.rotor, Jeffcott):
         return 0.0, rolling(motion.rotor).largest_force
-    impulses = motion.contacts.normal_impulse
+    impulses = motion.log_of(motion.is_impact).normal_impulse
     # Of irregular bouncing only the later half is used: the first half may be a transient.
-    last = impulses[-cycle.multiplicity :] if cycle.multiplicity else impulses[len(impulses) // 2 :]
-    touching = cycle.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL)
+    last = impulses[first_of_period(motion, cycle.multiplicity) if cycle.multiplicity else len(impulses) // 2 :]
+    touching = cycle.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
     impulse = float(last.max()) if len(last) and not touching else 0.0
-    if (motion.segment_phases[:, motion.plane] == Phase.FLIGHT).all():
+    if (motion.segment_phases == Phase.FLIGHT).all():
         return impulse, 0.0
-    normal, _ = motion.forces(_last_times(motion, cycle))
-    return impulse, float(normal.max())
+    times = _last_times(motion, cycle)
+    planes = range(motion.segment_phases.shape[1])
+    return impulse, max(float(motion.seen_at(plane).forces(times)[0].max()) for plane in planes)
 
 
 def whirl_of(motion: Trajectory, cycle: Cycle) -> Whirl:

@@ -12,7 +12,7 @@ from carom.attractors.starts import Start
 from carom.attractors.survival import Survival, follow_further, follow_out, still_irregular
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
-from carom.models import Jeffcott
+from carom.models import Model
 from carom.motions.ensembles import Endings
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
@@ -46,7 +46,7 @@ class Ending:
         How long irregular bouncing lasts, if the motion is irregular or was so after 1000 impacts; otherwise ``None``.
     """
 
-    rotor: Jeffcott
+    rotor: Model
     start: Start
     attractor: MotionName
     time: float
@@ -72,7 +72,7 @@ class Ending:
 
 
 def follow_in_stages(
-    rotor: Jeffcott, starts: Starts, patience: int, threads: int | None, tell: Reporter
+    rotor: Model, starts: Starts, patience: int, threads: int | None, tell: Reporter
 ) -> tuple[Endings, np.ndarray, Survival | None]:
     """Follow all starts, one-dimensional: first each for a short time, then longer those that are still irregular.
 

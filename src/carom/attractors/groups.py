@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, whirl_of
+from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, seen_in_contact, whirl_of
 from carom.attractors.following import FIRST_PATIENCE, Ending
 from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.motions.settling import REPEATING
-from carom.motions.starts import State
+from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.outcome import Outcome
 from carom.results import Result
@@ -114,10 +114,10 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
 def _representative(ending: Ending, state: State) -> Trajectory:
     """A motion on an attractor, or the one that was given up, for its first 1000 impacts if it does not repeat."""
     if ending.recovered:
-        state = State(ending.rotor.equilibrium)
+        state = Kick(0.0).state(ending.rotor)
     elif not ending.attractor.outcome.settled:
         state = ending.start.state
-    return simulate(ending.rotor, state, settle=True, patience=FIRST_PATIENCE)
+    return seen_in_contact(simulate(ending.rotor, state, settle=True, patience=FIRST_PATIENCE))
 
 
 def _sentence(words: str) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from carom.attractors.cycles import Cycle, cycle_of, orbit_of, same_cycle
-from carom.attractors.names import MotionName
+from carom.attractors.cycles import SAME, Cycle, cycle_of, orbit_of, same_cycle
+from carom.attractors.names import SYNCHRONOUS_RUB, MotionName
 from carom.closed_forms.known import known_of
 from carom.models import Model
 from carom.motions.ensembles import Endings
@@ -19,6 +19,9 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import CaromError, Outcome
 
+LASTING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
+ON_WALL = 1e-9
+"""Distance from a wall, in its clearance, within which a plane at the end of lasting contact counts as in contact."""
 ALIKE = 4
 """Decimals to which the speeds at an impact must agree for motions to count as one kind."""
 LOOKED_AT = 400
@@ -45,6 +48,10 @@ def name_motions(
             names.append(name)
         named[chosen] = names.index(name)
 
+    def note_rubs(chosen: np.ndarray, name: MotionName) -> None:
+        for number, apart in enumerate(_apart(rotor, endings, chosen, name)):
+            note(apart, replace(name, number=number + 1))
+
     for code in np.unique(outcomes[outcomes >= 0]):
         name = MotionName(Outcome(code))
         chosen = outcomes == code
@@ -52,14 +59,32 @@ def name_motions(
             chosen &= endings.multiplicities == 0
         elif name.outcome is Outcome.FORWARD_RUB:
             synchronous = _goes_over_to_rub(rotor, endings)
-            note(chosen & ~synchronous, replace(name, drifting=True))
+            note_rubs(chosen & ~synchronous, replace(name, drifting=True))
             chosen &= synchronous
-        note(chosen, name)
+        note_rubs(chosen, name)
     periodic = np.isin(outcomes, REPEATING) & (endings.multiplicities > 0)
     if periodic.any():
         for chosen, name in _periodic(rotor, endings, np.flatnonzero(periodic), orbits or _orbits(rotor)):
             note(chosen, name)
     return named, tuple(names)
+
+
+def _apart(rotor: Model, endings: Endings, chosen: np.ndarray, name: MotionName) -> Iterator[np.ndarray]:
+    """Motions of one name that end in lasting contact elsewhere: at rest at another place, otherwise at other planes."""
+    if name.outcome not in LASTING or known_of(rotor).rubs:
+        yield chosen
+        return
+    positions = endings.positions.reshape(chosen.size, -1)
+    features = positions
+    if name != SYNCHRONOUS_RUB:
+        features = (np.abs(positions @ rotor.system.planes.T) >= 1.0 - ON_WALL).astype(float)
+    left = np.flatnonzero(chosen)
+    while len(left):
+        same = np.abs(features[left] - features[left[0]]).max(axis=1) < SAME
+        mask = np.zeros(chosen.size, bool)
+        mask[left[same]] = True
+        yield mask.reshape(chosen.shape)
+        left = left[~same]
 
 
 def _goes_over_to_rub(rotor: Model, endings: Endings) -> np.ndarray:

@@ -13,13 +13,20 @@ from carom.attractors.naming import name_motions
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
 from carom.disturbances import FASTEST, Disturbance, Plan, Sample, Starts
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Jeffcott, Model, Subject, model_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
 from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
+
+RECOGNISED = (
+    "Levitation is proven. A rub at rest is recognised by its rest and by its linearised sliding, other rubs by a full turn "
+    "that repeats, periodic bouncing by the recurrence of the state; irregular bouncing is only said to last as long as it was "
+    "followed."
+)
+"""How ends of motions are known, for rotors without closed forms."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -28,7 +35,7 @@ class AttractorSet(Result):
 
     Attributes
     ----------
-    rotor : Jeffcott
+    rotor : Model
     members : tuple of Attractor
         Sorted by the number of disturbances, the largest first; motions given up come last.
     endings : tuple of Ending
@@ -39,7 +46,7 @@ class AttractorSet(Result):
         Impacts without recurrence after which bouncing counts as irregular.
     """
 
-    rotor: Jeffcott
+    rotor: Model
     members: tuple[Attractor, ...]
     endings: tuple[Ending, ...]
     sample: DisturbanceSet | Plan | None
@@ -100,8 +107,8 @@ class AttractorSet(Result):
     def smallest_unrecovered_kick(self) -> float | None:
         """Smallest kick tried that did not come back to levitation, in ``c_r Ω``; ``None`` if all did."""
         kicks = [ending for ending in self.endings if ending.start.kind == "kick"]
-        speeds = [ending.start.speed for ending in kicks if not ending.recovered]
-        return min(speeds, default=None)
+        pushes = [self.rotor.system.push_of(ending.start.state.velocity) for ending in kicks if not ending.recovered]
+        return min((float(abs(push)) for push in pushes), default=None)
 
     @property
     def fastest(self) -> float:
@@ -121,9 +128,11 @@ class AttractorSet(Result):
     def argument(self) -> str:
         """The evidence for the list, in a sentence or two."""
         known = len(self.endings) - len(self.disturbances)
+        general = "" if isinstance(self.rotor, Jeffcott) else f" {RECOGNISED}"
         return (
             f"{self.words()}, and {known} starts next to motions known in closed form, which count for no share, were "
             "simulated to where they settle. This is evidence, not proof: an attractor that none of them reaches is not listed."
+            f"{general}"
         )
 
 
@@ -173,18 +182,18 @@ def find_attractors(
     InputError
         A start lies outside the wall, none of the disturbances is possible, or there is nothing to follow.
     """
-    rotor, tell = jeffcott_of(machine), Reporter.of(progress, "following disturbances")
+    rotor, tell = model_of(machine), Reporter.of(progress, "following disturbances")
     given: DisturbanceSet | Plan | Sequence[State | Kick]
     if disturbances is None:
         given = DisturbanceSet(count, seed, fastest)
     else:
         given = Sample(disturbances, count, seed) if isinstance(disturbances, Disturbance) else disturbances
     tried, starts = disturbances_of(rotor, given)
-    orbits = tuple(orbits_within_reach(rotor))
+    orbits = tuple(orbits_within_reach(rotor)) if isinstance(rotor, Jeffcott) else ()
     nearby = known_starts(rotor, orbits) if known else ()
     if nearby:
         tried += nearby
-        starts = Starts.joined([starts, starts_at([start.state for start in nearby])])
+        starts = Starts.joined([starts, starts_at(rotor, [start.state for start in nearby])])
     if not tried:
         raise InputError("count", count, "at least one start to follow")
     ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, tell.part(0.0, 0.9))
@@ -204,7 +213,7 @@ def find_attractors(
     )
     members = []
     for name, place in sorted(zip(*np.unique(index, return_index=True), strict=True), key=lambda found: found[1]):
-        state = State(complex(ends.positions[place]), complex(ends.velocities[place]))
+        state = State.of(ends.positions[place], ends.velocities[place])
         members.append(attractor_of(names[name], endings, state))
     ordered = sorted(members, key=lambda member: (not member.settled, -member.count, -member.known))
     tell(1.0)

@@ -13,8 +13,9 @@ import numpy as np
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.whirl import runaway_speed
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
+from carom.disturbances.coordinates import ON_WALL
 from carom.disturbances.following import require_start
-from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.models import Jeffcott, Model, Subject, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
@@ -57,13 +58,13 @@ class Start:
 
     @property
     def speed(self) -> float:
-        """Speed in the co-rotating frame in ``c_r Ω``; for a kick its size."""
-        return abs(self.state.velocity)
+        """Speed in the co-rotating frame in ``c_r Ω``, of several coordinates the largest; for the planar rotor's kick its size."""
+        return float(np.max(np.abs(self.state.velocity)))
 
     @property
     def angle(self) -> float:
-        """Direction of the velocity in rad."""
-        return cmath.phase(self.state.velocity)
+        """Direction of the velocity in rad, of several coordinates that of the fastest."""
+        return cmath.phase(max(np.atleast_1d(self.state.velocity).tolist(), key=abs))
 
 
 @dataclass(frozen=True)
@@ -93,11 +94,12 @@ class DisturbanceSet:
         if not (math.isfinite(self.fastest) and self.fastest > 0.0):
             raise InputError("fastest", self.fastest, "a finite speed above 0, in c_r Omega")
 
-    def kicks(self, rotor: Jeffcott) -> int:
+    def kicks(self, rotor: Model) -> int:
         """Number of kicks in the set; they come first."""
-        return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if abs(rotor.equilibrium) < 1.0 else 0
+        levitates = np.abs(rotor.system.arrays.offsets).max() < 1.0
+        return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if levitates else 0
 
-    def starts(self, rotor: Jeffcott) -> Starts:
+    def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of shape (count,); kicks come first, by increasing size."""
         random, kicks = np.random.default_rng(self.seed), self.kicks(rotor)
         sizes = np.geomspace(min(SLOWEST, self.fastest), self.fastest, kicks // DIRECTIONS)
@@ -109,7 +111,7 @@ class DisturbanceSet:
         kicked = VelocityKick(self.fastest).starts(rotor, sizes[:, None], angles)
         return Starts.joined([kicked, anywhere.starts(rotor, *values)])
 
-    def words(self, rotor: Jeffcott, speed: Callable[[float], str] | None = None) -> str:
+    def words(self, rotor: Model, speed: Callable[[float], str] | None = None) -> str:
         """Describe the disturbances for a given rotor.
 
         Parameters
@@ -135,7 +137,7 @@ class DisturbanceSet:
         )
 
 
-def _speed_of(rotor: Jeffcott) -> Callable[[float], str]:
+def _speed_of(rotor: Model) -> Callable[[float], str]:
     scales = rotor.scales
 
     def write(speed: float) -> str:
@@ -144,19 +146,20 @@ def _speed_of(rotor: Jeffcott) -> Callable[[float], str]:
     return write
 
 
-def starts_at(states: Sequence[State]) -> Starts:
+def starts_at(rotor: Model, states: Sequence[State]) -> Starts:
     """States as arrays of starts."""
-    positions, velocities = ([getattr(state, name) for state in states] for name in ("position", "velocity"))
-    return Starts.of(np.array(positions, complex), np.array(velocities, complex), True)
+    positions, velocities = (
+        np.array([getattr(state, name) for state in states], complex) for name in ("position", "velocity")
+    )
+    places = np.abs(positions.reshape(len(states), len(rotor.system.rest)) @ rotor.system.planes.T).max(axis=1)
+    return Starts(positions, velocities, places >= 0.0, places < 0.0, places >= 1.0 - ON_WALL)
 
 
-def disturbances_of(
-    rotor: Jeffcott, tried: DisturbanceSet | Plan | Sequence[State | Kick]
-) -> tuple[list[Start], Starts]:
+def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State | Kick]) -> tuple[list[Start], Starts]:
     """Those of the disturbances that are possible, as single starts and as arrays; a plan without any is refused."""
     if isinstance(tried, Sequence):
         states = [start.state(rotor) if isinstance(start, Kick) else start for start in tried]
-        whole = starts_at(states)
+        whole = starts_at(rotor, states)
         kicked = np.array([isinstance(start, Kick) for start in tried], bool)
     elif isinstance(tried, DisturbanceSet):
         whole = tried.starts(rotor)
@@ -166,8 +169,8 @@ def disturbances_of(
         require_start(rotor, every)
         whole = every.some(every.exists)
         kicked = np.full(whole.exists.shape, isinstance(tried.model, VelocityKick | KickPlane))
-    states_of = zip(kicked.tolist(), whole.positions.tolist(), whole.velocities.tolist(), strict=True)
-    return [Start("kick" if one else "start", State(place, speed)) for one, place, speed in states_of], whole
+    states_of = zip(kicked.tolist(), whole.positions, whole.velocities, strict=True)
+    return [Start("kick" if one else "start", State.of(place, speed)) for one, place, speed in states_of], whole
 
 
 def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]:
@@ -181,10 +184,11 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
     Returns
     -------
     tuple of Start
-        On both sides of every admissible orbit and synchronous rub, stable or not; in backward whirl just beyond the
-        certain runaway speed, if sliding reaches it; and, with friction, in rolling.
+        On both sides of every admissible orbit and synchronous rub, stable or not; with friction, in rolling, for several
+        planes at each where the others stay inside; and, of the planar rotor, in backward whirl just beyond the certain
+        runaway speed, if sliding reaches it.
     """
-    rotor, starts = jeffcott_of(machine), []
+    rotor, starts = model_of(machine), []
     for orbit in orbits:
         if orbit.admissible:
             leaving = orbit.departure
@@ -196,14 +200,24 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
             words = f"a start next to the {'stable' if rub.stable else 'unstable'} synchronous rub"
             speeds = (-NUDGE, NUDGE) if rub.stable else (-PUSH, PUSH)
             starts += [Start("rub", State(rub.position, 1j * speed * rub.position), words) for speed in speeds]
-    runaway = runaway_speed(rotor)
-    if runaway.reaches_rolling:
-        starts.append(_whirling(min(1.001 * runaway.certain, runaway.rolling_speed), "beyond the runaway speed"))
-    if rotor.parameters.mu > 0.0:
-        starts.append(_whirling(runaway.rolling_speed, "rolling"))
+    if isinstance(rotor, Jeffcott):
+        runaway = runaway_speed(rotor)
+        if runaway.reaches_rolling:
+            speed = min(1.001 * runaway.certain, runaway.rolling_speed)
+            starts.append(_whirling(rotor, 0, 1.0 + speed, "beyond the runaway speed"))
+    arrays = rotor.system.arrays
+    for plane in np.flatnonzero(
+        (arrays.friction > 0.0) & (np.abs(arrays.mobility) <= 1.0 + ON_WALL).all(axis=0)
+    ).tolist():
+        at = f" at plane {plane}" if len(arrays.rows) > 1 else ""
+        starts.append(_whirling(rotor, plane, float(arrays.drive[plane]), f"rolling{at}"))
     return tuple(starts)
 
 
-def _whirling(speed: float, words: str) -> Start:
-    """Start on the wall in backward whirl, at a speed given in the fixed frame."""
-    return Start("whirl", State(1.0 + 0j, complex(0.0, -1.0 - speed)), f"a start in backward whirl, {words}")
+def _whirling(rotor: Model, plane: int, speed: float, words: str) -> Start:
+    """Start in backward whirl at a speed in the co-rotating frame, displaced as an impulse at a plane would until it touches."""
+    shape = rotor.system.rates @ rotor.system.arrays.columns[:, plane]
+    shape = shape / (rotor.system.planes[plane] @ shape)
+    velocity = shape * complex(0.0, -speed)
+    start = State(shape, velocity) if len(shape) > 1 else State.of(shape[0], velocity[0])
+    return Start("whirl", start, f"a start in backward whirl, {words}")
