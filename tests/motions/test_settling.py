@@ -14,8 +14,11 @@ import carom
 from carom.attractors.naming import name_motions
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import rolling, runaway_speed
+from carom.core.closing import PASSES
 from carom.core.fate import absorbed
+from carom.models import LinearRotor
 from carom.motions.ensembles import settle
+from carom.motions.recurrence import least_recurrence
 from carom.motions.settling import fresh_memory, settled
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
@@ -154,3 +157,54 @@ def test_a_rub_that_runs_round_the_wall_is_not_judged_as_one_at_rest():
         assert recollection.resting
         assert settled(rotor, amplitudes, contact, Outcome.FORWARD_RUB, recollection) == (Outcome.FORWARD_RUB, 0)
         assert recollection.resting == 1
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("gamma", [0.082, 0.085, 0.1])
+def test_multiplicities_of_any_rotor_are_those_of_the_planar_one(gamma):
+    """Also next to period doubling, at a damping of 0.08338, where motions recur after two periods first."""
+    one = PAPER.replace(gamma=gamma)
+    model = LinearRotor.in_fixed_frame(
+        mass=np.eye(2),
+        damping=np.diag([gamma, 0.2]),
+        stiffness=np.diag([one.omega**2, 0.7]),
+        forcing=[one.rho * np.exp(1j * one.phi), 0.3],
+        planes=[[1.0, 0.0]],
+        friction=[one.mu],
+        restitution=[one.d],
+        drive=[one.radius_ratio + 1.0],
+    )
+    orbit = carom.find_orbits(one)["B1,d"].departure
+    for nudge in (0.99, 1.005):
+        state = State(orbit.position, nudge * orbit.velocity)
+        planar = simulate(one, state, settle=True)
+        general = simulate(model, State(np.array([state.position, 0.1]), np.array([state.velocity, 0.0])), settle=True)
+        assert (general.outcome, general.multiplicity) == (planar.outcome, planar.multiplicity)
+        if planar.outcome is Outcome.BOUNCING and gamma != 0.082:
+            assert general.multiplicity == 1
+
+
+@pytest.mark.jit_only
+def test_a_motion_that_passes_by_a_repelling_orbit_goes_on():
+    """Started on a saddle, to rounding, it recurs there and then leaves."""
+    one = PAPER.replace(gamma=0.1)
+    saddle = carom.find_orbits(one)["B1,b"]
+    rotor = LinearRotor.in_fixed_frame(
+        mass=[[1.0]],
+        damping=[[one.gamma]],
+        stiffness=[[one.omega**2]],
+        forcing=[one.rho * np.exp(1j * one.phi)],
+        planes=[[1.0], [0.1]],
+        friction=[one.mu] * 2,
+        restitution=[one.d] * 2,
+        drive=[one.radius_ratio + 1.0] * 2,
+    )
+    system, contact = rotor.system, np.array([0, -1])
+    before = saddle.section.state
+    amplitudes = system.amplitudes(before.position, before.velocity * (1.0 + 1e-11))
+    assert least_recurrence(system, amplitudes, contact, 1) == PASSES
+    stable = carom.find_orbits(one)["B1,d"].section.state
+    amplitudes = system.amplitudes(stable.position, stable.velocity)
+    assert least_recurrence(system, amplitudes, contact, 1) == 1
+    assert least_recurrence(system, amplitudes, contact, 6) == 1
+    assert least_recurrence(system, amplitudes, contact, 0) == 0

@@ -12,6 +12,7 @@ from carom.core.closing import ATTRACTS, OPEN, PASSES, close, least_period
 from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.models import Model, Subject, model_of
+from carom.motions.recurrence import least_recurrence
 from carom.outcome import Outcome
 from carom.results import Result
 
@@ -95,9 +96,8 @@ def settled(
     outcome : Outcome
         ``EVENT_LIMIT`` if it only passes by.
     multiplicity : int
-        See :func:`carom.core.closing.least_period`.  For rotors with other than one plane and one pair of modes: the number
-        of impacts after which the motion has recurred, which may be a multiple; impacts at several planes in one instant count
-        as one.
+        See :func:`carom.core.closing.least_period`; for rotors with other than one plane and one pair of modes
+        :func:`carom.motions.recurrence.least_recurrence`.
     """
     if outcome is Outcome.FORWARD_RUB and recollection.resting and _is_at_rest(rotor, amplitudes):
         if rub_attracts(rotor.system, amplitudes, contact):
@@ -107,9 +107,10 @@ def settled(
     if outcome not in REPEATING:
         return outcome, 0
     recurred = int(recollection.period)
-    if not rotor.system.is_planar:
-        return outcome, recurred
-    count = int(least_period(rotor.system.arrays, rotor.system.table, amplitudes, recurred, *_tools()))
+    if rotor.system.is_planar:
+        count = int(least_period(rotor.system.arrays, rotor.system.table, amplitudes, recurred, *_tools()))
+    else:
+        count = least_recurrence(rotor.system, amplitudes, contact, recurred)
     if count != PASSES:
         return outcome, count
     doubt(recollection)

@@ -1,0 +1,67 @@
+"""How a motion that has recurred goes on, for rotors whose orbits are not closed by a kernel: how often it repeats, or leaves."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.core.advance import SHORTEST_LAP, advance
+from carom.core.closing import PASSES
+from carom.core.contact_series import FLIGHT
+from carom.core.fate import memory
+from carom.core.layout import rub_workspace, workspace
+from carom.models import System
+from carom.outcome import Outcome
+
+FOLLOWED, MOST_IMPACTS = 16, 4000
+"""Recurrences, and impacts, for which a motion is followed further."""
+ALIKE = 1e-6
+"""Distance, relative to one plus the size of the state, below which a motion repeats within its recurrence.
+
+Far above the tolerance of recurrence: a motion that approaches its orbit from alternating sides recurs after two periods first.
+"""
+GROWS, ROUNDING = 2.0, 1e-12
+"""Growth of the change from one recurrence to a later one that shows a repelling orbit, if it is above rounding."""
+LONGEST, LOGGED, MOST_EVENTS = 1e5, 256, 100_000
+
+
+def least_recurrence(system: System, amplitudes: np.ndarray, contact: np.ndarray, impacts: int) -> int:
+    """Number of impacts after which a motion repeats that has recurred after ``impacts`` of them; PASSES if it leaves.
+
+    The motion begins just before an impact.  Impacts at several planes in one instant count as one.  That it does not
+    leave within 16 recurrences does not prove that its orbit attracts.
+    """
+    if not impacts:
+        return 0
+    further = max(1, min(FOLLOWED, MOST_IMPACTS // impacts))
+    states = _states_at_impacts(system, amplitudes, contact, further * impacts)
+    size = 1.0 + np.abs(amplitudes).sum()
+    changes = np.abs(np.diff(states[::impacts], axis=0)).sum(axis=1)
+    early, late = np.array_split(changes, 2)
+    if late.max(initial=0.0) > max(GROWS * early.max(initial=0.0), ROUNDING * size):
+        return PASSES
+    for count in range(1, min(impacts, len(states) - 1)):
+        if impacts % count == 0 and np.abs(states[count] - states[0]).sum() <= ALIKE * size:
+            return count
+    return impacts
+
+
+def _states_at_impacts(system: System, amplitudes: np.ndarray, contact: np.ndarray, count: int) -> np.ndarray:
+    """Amplitudes just before an impact and the ``count`` following ones, fewer if the motion does something else."""
+    arrays, (planes, modes) = system.arrays, system.arrays.rows.shape
+    state, touching, recollection = amplitudes.copy(), contact.copy(), memory(modes)
+    log = (np.empty(LOGGED), np.empty((LOGGED, planes), np.int64), np.empty(LOGGED, np.int64))
+    before, after = np.empty((2, LOGGED, modes), complex)
+    tools = workspace(modes), rub_workspace(modes, planes)
+    found: list[np.ndarray] = []
+    passed, last, events, outcome = 0.0, -np.inf, 0, Outcome.EVENT_LIMIT
+    while outcome == Outcome.EVENT_LIMIT and len(found) <= count and events < MOST_EVENTS:
+        outcome, time, noted = advance(
+            arrays, system.table, state, LONGEST, touching, *log, before, after, recollection, *tools
+        )
+        struck = (before[:noted] != after[:noted]).any(axis=1) & (log[1][np.arange(noted), log[2][:noted]] == FLIGHT)
+        for event in np.flatnonzero(struck).tolist():
+            if planes == 1 or passed + log[0][event] - last > SHORTEST_LAP:
+                found.append(before[event].copy())
+                last = passed + log[0][event]
+        passed, events = passed + time, events + noted
+    return np.array(found[: count + 1]).reshape(-1, modes)
