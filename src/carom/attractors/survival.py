@@ -15,6 +15,8 @@ from carom.outcome import Outcome
 
 MOTIONS = 200
 """Number of irregular motions that are followed."""
+SLOWER = 10
+"""The part of them, and of the affordable cost, for rotors whose motions are followed one after another."""
 LOOK = 1000
 """Impacts between two looks, at which the motions that have left are counted.
 
@@ -123,11 +125,13 @@ def measure_survival(
     """Follow irregular motions for a number of impacts further, and count those that leave.
 
     The states, shape (M,), are those just before an impact, co-rotating frame.  Of more than 200 a random part is
-    taken; fewer are extended to 200 by small changes of their velocity.
+    taken; fewer are extended to 200 by small changes of their velocity.  Of rotors whose motions are followed one after
+    another 20 are.
     """
     random = np.random.default_rng(SEED)
-    places = np.resize(random.permutation(len(positions)), MOTIONS)
-    change = APART * np.exp(2j * np.pi * random.random(MOTIONS))
+    count = MOTIONS if rotor.system.is_planar else MOTIONS // SLOWER
+    places = np.resize(random.permutation(len(positions)), count)
+    change = APART * np.exp(2j * np.pi * random.random(count))
     change = change.reshape(-1, *np.ones(velocities.ndim - 1, int))
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
     looks, left = [], []
@@ -191,6 +195,7 @@ def follow_out(
     survival = measure_survival(rotor, at.positions[met], at.velocities[met], impacts=impacts, threads=threads)
     if survival.half_life is None:
         return endings, survival
+    affordable = affordable if rotor.system.is_planar else affordable // SLOWER
     span = max(LOOK, int(survival.half_life))
     for _ in range(HALF_LIVES):
         if not irregular.any() or np.count_nonzero(irregular) * span > affordable:
