@@ -311,7 +311,9 @@ def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
     fake, progress = Fake(lives), []
     monkeypatch.setattr(carom.disturbances.following, "settle", fake)
     monkeypatch.setattr(carom.attractors.survival, "settle", fake)
-    monkeypatch.setattr(carom.attractors.survival, "measure_survival", lambda *states, impacts, threads: survival)
+    monkeypatch.setattr(
+        carom.attractors.survival, "measure_survival", lambda *states, impacts, threads, motions: survival
+    )
     starts = Starts.of(np.arange(len(lives), dtype=complex), 0j, True)
     tell = Reporter(lambda report: progress.append(report.share))
     ends, lasted, found = following.follow_in_stages(None, starts, patience, None, tell)

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
-from carom.attractors.survival import Survival, follow_further, follow_out, still_irregular
+from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_out, still_irregular
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
 from carom.models import Model
@@ -26,6 +26,9 @@ AFFORDABLE = 2_000_000
 
 Less than for basins: single motions are simulated once more where their impulses are asked for.
 """
+
+SLOWER = 10
+"""Divisor of this cost, and of the number of motions followed, for rotors whose motions are followed one after another."""
 
 
 @dataclass(frozen=True)
@@ -68,16 +71,16 @@ class Ending:
         if not self.impacts:
             return 0.0
         motion = simulate(self.rotor, self.start.state, self.time)
-        return float(motion.contacts.normal_impulse.max(initial=0.0))
+        return float(motion.log_of(motion.is_impact).normal_impulse.max(initial=0.0))
 
 
 def follow_in_stages(
-    rotor: Model, starts: Starts, patience: int, threads: int | None, tell: Reporter
+    rotor: Model, starts: Starts, patience: int, threads: int | None, tell: Reporter, less: int = 1
 ) -> tuple[Endings, np.ndarray, Survival | None]:
     """Follow all starts, one-dimensional: first each for a short time, then longer those that are still irregular.
 
     The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they
-    leave it, unless that takes too long.  Return the endings, which motions were irregular after 1000 impacts, and how
+    leave it, unless that takes too long; ``less`` divides the effort for it.  Return the endings, which motions were irregular after 1000 impacts, and how
     long irregular motion lasts (``None`` if there was none).
     """
     seen = min(FIRST_PATIENCE, patience)
@@ -90,6 +93,7 @@ def follow_in_stages(
         irregular = still_irregular(endings)
         seen += span
         tell(0.8 + 0.1 * min(seen / patience, 1.0))
-    endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads, were=first, affordable=AFFORDABLE)
+    effort: dict[str, int] = {"affordable": AFFORDABLE // less, "motions": MOTIONS // less}
+    endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads, were=first, **effort)
     tell(1.0)
     return endings, lasted, survival

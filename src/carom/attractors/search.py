@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carom.attractors.following import Ending, follow_in_stages
+from carom.attractors.following import SLOWER, Ending, follow_in_stages
 from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
@@ -196,7 +196,8 @@ def find_attractors(
         starts = Starts.joined([starts, starts_at(rotor, [start.state for start in nearby])])
     if not tried:
         raise InputError("count", count, "at least one start to follow")
-    ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, tell.part(0.0, 0.9))
+    less = 1 if rotor.system.is_planar else SLOWER
+    ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, tell.part(0.0, 0.9), less)
     index, names = name_motions(rotor, ends, orbits)
     touched = starts.touched | (ends.impacts > 0) | (ends.outcomes > Outcome.LEVITATED)
     endings = tuple(

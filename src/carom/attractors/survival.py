@@ -15,8 +15,6 @@ from carom.outcome import Outcome
 
 MOTIONS = 200
 """Number of irregular motions that are followed."""
-SLOWER = 10
-"""The part of them, and of the affordable cost, for rotors whose motions are followed one after another."""
 LOOK = 1000
 """Impacts between two looks, at which the motions that have left are counted.
 
@@ -120,18 +118,22 @@ def still_irregular(endings: Endings) -> np.ndarray:
 
 
 def measure_survival(
-    rotor: Model, positions: np.ndarray, velocities: np.ndarray, *, impacts: int, threads: int | None = None
+    rotor: Model,
+    positions: np.ndarray,
+    velocities: np.ndarray,
+    *,
+    impacts: int,
+    threads: int | None = None,
+    motions: int = MOTIONS,
 ) -> Survival:
     """Follow irregular motions for a number of impacts further, and count those that leave.
 
-    The states, shape (M,), are those just before an impact, co-rotating frame.  Of more than 200 a random part is
-    taken; fewer are extended to 200 by small changes of their velocity.  Of rotors whose motions are followed one after
-    another 20 are.
+    The states, shape (M,), are those just before an impact, co-rotating frame.  Of more than ``motions`` a random
+    part is taken; fewer are extended to that number by small changes of their velocity.
     """
     random = np.random.default_rng(SEED)
-    count = MOTIONS if rotor.system.is_planar else MOTIONS // SLOWER
-    places = np.resize(random.permutation(len(positions)), count)
-    change = APART * np.exp(2j * np.pi * random.random(count))
+    places = np.resize(random.permutation(len(positions)), motions)
+    change = APART * np.exp(2j * np.pi * random.random(motions))
     change = change.reshape(-1, *np.ones(velocities.ndim - 1, int))
     positions, velocities = positions[places], velocities[places] * (1.0 + change)
     looks, left = [], []
@@ -167,6 +169,7 @@ def follow_out(
     threads: int | None = None,
     were: Endings | None = None,
     affordable: int = AFFORDABLE,
+    motions: int = MOTIONS,
 ) -> tuple[Endings, Survival | None]:
     """Follow irregular motions of an ensemble until they settle, if they do.
 
@@ -180,6 +183,8 @@ def follow_out(
         The same motions at an earlier time, from which the survival is measured if none is irregular any more.
     affordable : int
         Largest cost of following all irregular motions for one half-life, in impacts.
+    motions : int
+        Number of motions from which the survival is measured.
 
     Returns
     -------
@@ -192,10 +197,10 @@ def follow_out(
     met, at = (irregular, endings) if irregular.any() or were is None else (still_irregular(were), were)
     if not met.any():
         return endings, None
-    survival = measure_survival(rotor, at.positions[met], at.velocities[met], impacts=impacts, threads=threads)
+    states = at.positions[met], at.velocities[met]
+    survival = measure_survival(rotor, *states, impacts=impacts, threads=threads, motions=motions)
     if survival.half_life is None:
         return endings, survival
-    affordable = affordable if rotor.system.is_planar else affordable // SLOWER
     span = max(LOOK, int(survival.half_life))
     for _ in range(HALF_LIVES):
         if not irregular.any() or np.count_nonzero(irregular) * span > affordable:
