@@ -316,7 +316,7 @@ def fates(monkeypatch, lives, patience=20_000, survival=LASTS):
     )
     starts = Starts.of(np.arange(len(lives), dtype=complex), 0j, True)
     tell = Reporter(lambda report: progress.append(report.share))
-    ends, lasted, found = following.follow_in_stages(None, starts, patience, None, tell)
+    ends, lasted, found = following.follow_in_stages(Jeffcott(SOURCE), starts, patience, None, tell)
     assert progress == sorted(progress)
     assert lasted.tolist() == [life > min(1000, patience) for life in lives]
     assert found is (survival if lasted.any() else None)
