@@ -26,7 +26,13 @@ def studies_are_made_once(monkeypatch):
     from studies import study_once
 
     # As an attribute of the package the name is the function, not the module.
-    monkeypatch.setattr(sys.modules["carom.studies"], "study", lambda subject, *, progress: study_once(subject))
+    package = sys.modules["carom.studies"]
+    real = package.study
+
+    def study(subject, *, proofs, progress):
+        return real(subject, proofs=True, progress=progress) if proofs else study_once(subject)
+
+    monkeypatch.setattr(package, "study", study)
 
 
 @pytest.fixture
