@@ -26,7 +26,7 @@ from carom.proofs.series import I, conjugate, imaginary, real, squared, terms
 
 
 def flip_coefficient(course: Course) -> Any:
-    """``b`` of an orbit with a multiplier ``−1``; ``q`` has the length one in ``(θ, ṙ, θ̇)``.
+    """``b`` of an orbit with a multiplier ``−1``; ``q`` has the length one in ``(θ, ṙ, θ̇)``.  Not finite next to a fold.
 
     Parameters
     ----------
@@ -39,7 +39,10 @@ def flip_coefficient(course: Course) -> Any:
     scale = _product(left, right)
     with terms(4):
         found = image_of_curve(course, [arb_series([0, q]) for q in right])
-        bent = (one - jacobian).solve(arb_mat([[series[2]] for series in found]))
+        try:
+            bent = (one - jacobian).solve(arb_mat([[series[2]] for series in found]))
+        except ZeroDivisionError:
+            return arb.nan()
         found = image_of_curve(course, [arb_series([0, q, bent[k, 0]]) for k, q in enumerate(right)])
         return _product(left, [series[3] for series in found]) / scale
 

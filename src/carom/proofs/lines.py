@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from flint import ctx
+from flint import arb_series, ctx
 
 from carom.outcome import InputError
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
@@ -76,6 +76,9 @@ class Line:
             found |= {"omega_squared": value * value} if self.name == "omega" else {self.name: value}
         else:
             found |= {**self._of_machine({**self._machine, self.name: value}), **self._set}
+        if isinstance(value, arb_series):
+            # What does not depend on the parameter is a power series too.
+            found["gamma"] = found["gamma"] + value * 0
         return Numbers(*(found[name] for name in NUMBERS))
 
     @property

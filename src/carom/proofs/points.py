@@ -168,7 +168,11 @@ def _claims_of(line: Line, label: str, entry: Mapping[str, Any]) -> list[Claim]:
     values = dict(zip(kind.unknowns, found[0], strict=True))
     enclosures = {name: enclosure_of(ball) for name, ball in values.items()}
     claims = [_claim(entry["kind"], f"of {label}", statement, 1, enclosures=enclosures)]
-    return [*claims, *_nature(line, entry["kind"], label, values)]
+    try:
+        return [*claims, *_nature(line, entry["kind"], label, values)]
+    except (ValueError, ZeroDivisionError) as problem:
+        reason = f"a formula has a pole next to it: {problem}"
+        return [*claims, _claim(entry["kind"], f"of {label} transversal", "It is transversal.", 0, reason)]
 
 
 def _claim(
