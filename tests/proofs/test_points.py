@@ -23,6 +23,7 @@ from carom.proofs.courses import Course, Return
 from carom.proofs.criticality import flip_coefficient
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import line_of
+from carom.proofs.proving import proof_of
 
 DECIMAL = {
     "gamma": "0.1",
@@ -198,8 +199,8 @@ def test_criticality_is_not_told_where_balls_are_wide():
 
 
 def test_certificate_of_points_is_verified_and_refused_when_changed():
-    interval = ("0.08338", "0.083383")
-    proof = prove(DECIMAL, along="gamma", interval=interval)
+    options = {"along": "gamma", "from": "0.08338", "to": "0.08339", "blocks": 6, "narrowest": "1/4"}
+    proof = proof_of("along a parameter", hypotheses_of(DECIMAL), options)
     document = json.loads(json.dumps(proof.document()))
     assert check(document).claims == proof.claims
 
@@ -211,7 +212,7 @@ def test_certificate_of_points_is_verified_and_refused_when_changed():
         lambda d: d["evidence"]["blocks"][1].__setitem__(0, "1/11"),
         lambda d: [entry.__setitem__(1, "") for entry in d["evidence"]["blocks"]],
         lambda d: d["evidence"]["blocks"].pop(),
-        lambda d: d["options"].__setitem__("to", "0.0835"),
+        lambda d: d["options"].__setitem__("to", "0.084"),
         lambda d: d["hypotheses"]["values"].__setitem__("mu", "0.1500000001"),
         lambda d: d["claims"].pop(),
         lambda d: d["claims"][0].__setitem__("status", "refuted"),

@@ -33,6 +33,8 @@ Along = Callable[[Callable[[Course], Any]], Any]
 Cell = tuple[float, float]
 _ORDER = 4
 """Order of Taylor's formula on a cell of periods."""
+MOST_CELLS = 4000
+"""Cells of periods that are tried on a block before it is given up."""
 _NARROWEST_PERIODS = 0.004
 """Width of a cell of periods, in ``1/Ω``, at which a block is given up."""
 
@@ -154,8 +156,11 @@ def _sign(ball: Any) -> int:
 
 def remaining(block: Block, cells: Sequence[Cell]) -> list[tuple[float, float, int]]:
     """Cells on which the period condition is not shown to differ from zero, with the sign of its slope or 0."""
-    left, stack = [], list(reversed(cells))
+    left, stack, tried = [], list(reversed(cells)), 0
     while stack:
+        tried += 1
+        if tried > MOST_CELLS:
+            raise OpenError(f"the periods take more than {MOST_CELLS} cells")
         low, high = stack.pop()
         sign, slope = _sign_and_slope(block, low, high)
         if sign:

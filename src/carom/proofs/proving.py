@@ -19,6 +19,8 @@ from carom.proofs.theorems import THEOREMS, Options
 
 FIRST_BITS, MOST_BITS = 128, 1024
 """Precision to begin with, and beyond which a claim is left undecided."""
+MOST_BLOCKS, NARROWEST = 2000, "1/10000"
+"""Blocks of a parameter after which the search ends, and the share of the interval at which a block is left open."""
 MOST_CELLS = 2000
 """Cells of the periods after which the search ends."""
 
@@ -70,7 +72,8 @@ def prove(
             raise InputError("along", shown(along), "cannot be combined with a longest period or with several impacts")
         start, stop = (written_exactly(end) for end in interval)
         line_of(hypotheses, along, start, stop)
-        return proof_of("along a parameter", hypotheses, {"along": along, "from": start, "to": stop})
+        limits = {"blocks": MOST_BLOCKS, "narrowest": NARROWEST}
+        return proof_of("along a parameter", hypotheses, {"along": along, "from": start, "to": stop, **limits})
     limit = None if longest_period is None else str(_time(longest_period))
     options = {"longest_period": limit, "cells": MOST_CELLS}
     if impacts == 1:

@@ -24,9 +24,8 @@ from carom.proofs.series import hull
 from carom.proofs.slip import out_of_clearance, time_out
 
 BITS = 64
-NARROWEST, MOST_BLOCKS = Fraction(1, 10_000), 5000
-"""Width of a block, as a share of the interval, at which it is left open; number of blocks after which the search ends."""
-_FIRST_STEPS = 64
+"""Precision."""
+_FIRST_STEPS = 4
 
 
 @dataclass(frozen=True)
@@ -82,17 +81,18 @@ def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
         Of the hypotheses; its own value of the parameter does not matter.
     evidence : Evidence
     options : mapping
-        ``along``, ``from`` and ``to`` as texts.
+        ``along``, ``from`` and ``to`` as texts; ``blocks``, their largest number, and ``narrowest``, the share of the interval
+        at which a block is left open, as a text.
     """
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
     # Widths of the blocks, not bits, limit what is shown: more would only take longer.
     with at_precision(BITS):
-        return _claims_along(line, evidence)
+        return _claims_along(line, evidence, int(options["blocks"]), rational_of(options["narrowest"]))
 
 
-def _claims_along(line: Line, evidence: Evidence) -> list[Claim]:
-    cuts = evidence.take("blocks", lambda: _cuts(line))
-    stretches = _stretches(line, _pieces(line, cuts))
+def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction) -> list[Claim]:
+    cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest))
+    stretches = _stretches(_pieces(line, cuts, most))
     slip = _slip_claim(line, evidence)
     claims = [slip, _all_claim(line, stretches, slip)]
     for name in sorted({fact.name for stretch in stretches for fact in stretch.facts}):
@@ -103,25 +103,29 @@ def _claims_along(line: Line, evidence: Evidence) -> list[Claim]:
 # ------------------------------------------------------------------------------------------------ blocks
 
 
-def _cuts(line: Line) -> list[list[str]]:
+def _cuts(line: Line, most: int, narrowest: Fraction) -> list[list[str]]:
     """Ends of the blocks, and why a block is left open, by a march along the interval."""
     low, high = line.ends
     width = high - low
-    place, step, found = low, width / _FIRST_STEPS, [[str(low), ""]]
+    least = narrowest * width
+    place, step, skip, found = low, width / _FIRST_STEPS, least, [[str(low), ""]]
     while place < high or len(found) == 1:
         end = high if place + step * Fraction(21, 20) >= high else _dyadic(place + step)
         try:
             _facts(line, place, end)
-            reason = ""
         except OpenError as problem:
-            reason = str(problem)
-            if len(found) < MOST_BLOCKS and end - place > NARROWEST * width:
-                step /= 2
+            if len(found) < most and end - place > skip:
+                step = max(step / 2, skip)
                 continue
-        found.append([str(end), reason])
-        place, step = end, max(min(step * Fraction(3, 2), width / 8), NARROWEST * width)
-        if len(found) > MOST_BLOCKS and place < high:
-            found.append([str(high), f"the search ended after {MOST_BLOCKS} blocks"])
+            # Where nothing is shown, blocks widen again, so that long open intervals take little work.
+            found.append([str(end), str(problem)])
+            skip *= 2
+            place, step = end, skip
+        else:
+            found.append([str(end), ""])
+            place, step, skip = end, min(step * Fraction(3, 2), width / 4), least
+        if len(found) > most and place < high:
+            found.append([str(high), f"the search ended after {most} blocks"])
             break
     return found
 
@@ -140,16 +144,13 @@ def _facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
         raise OpenError(f"a formula has a pole next to it: {problem}") from None
 
 
-def _pieces(line: Line, cuts: Sequence[Sequence[str]]) -> list[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]:
+def _pieces(
+    line: Line, cuts: Sequence[Sequence[str]], most: int
+) -> list[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]:
     """What holds on each block."""
     low, high = line.ends
     ends = [rational_of(end) for end, _ in cuts]
-    if (
-        ends[0] != low
-        or ends[-1] != high
-        or not 2 <= len(ends) <= MOST_BLOCKS + 3
-        or any(a > b for a, b in pairwise(ends))
-    ):
+    if ends[0] != low or ends[-1] != high or not 2 <= len(ends) <= most + 3 or any(a > b for a, b in pairwise(ends)):
         raise NotShownError("the blocks of the certificate do not cover the interval")
     found = []
     for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
@@ -163,7 +164,7 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]]) -> list[tuple[Fraction, F
     return found
 
 
-def _stretches(line: Line, pieces: Sequence[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]) -> list[Stretch]:
+def _stretches(pieces: Sequence[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]) -> list[Stretch]:
     """Neighbouring blocks of the same signature, put together."""
     found = []
     for _, group in groupby(pieces, key=lambda piece: (tuple(fact.signature for fact in piece[2]), bool(piece[3]))):
