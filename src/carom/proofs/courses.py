@@ -42,7 +42,7 @@ def period_condition(whole: Numbers, period: Any) -> Callable[[Numbers, Any], An
 def _short_condition(n: Numbers, period: Any) -> Any:
     found = short_return(n.gamma * -0.5 - I, n.gamma * n.gamma * 0.25 - n.omega_squared, period)
     if found is None:
-        return first(period) * arb.nan()
+        return period * arb.nan()
     return 1 + real(_grip(n) * found[1])
 
 

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby, pairwise
+from math import floor, log2
 from typing import Any
 
 from carom.proofs.balls import Enclosure, at_precision, enclosure_of, interval
@@ -110,11 +111,11 @@ def _cuts(line: Line, most: int, narrowest: Fraction) -> list[list[str]]:
     least = narrowest * width
     place, step, skip, found = low, width / _FIRST_STEPS, least, [[str(low), ""]]
     while place < high or len(found) == 1:
-        end = high if place + step * Fraction(21, 20) >= high else _dyadic(place + step)
+        end = high if place + step * Fraction(21, 20) >= high else _short(place + step, step)
         try:
             _facts(line, place, end)
         except OpenError as problem:
-            if len(found) < most and end - place > skip:
+            if len(found) < most and step > skip:
                 step = max(step / 2, skip)
                 continue
             # Where nothing is shown, blocks widen again, so that long open intervals take little work.
@@ -130,9 +131,10 @@ def _cuts(line: Line, most: int, narrowest: Fraction) -> list[list[str]]:
     return found
 
 
-def _dyadic(number: Fraction) -> Fraction:
-    """The number rounded to a multiple of a small power of 1/2, so that it is short."""
-    return Fraction(round(number * 2**48), 2**48) if abs(number) < 2**30 else Fraction(round(number))
+def _short(number: Fraction, step: Fraction) -> Fraction:
+    """The number rounded to a multiple of a power of 1/2 that is small beside a step."""
+    scale = 2 ** (max(0, -floor(log2(step))) + 8)
+    return Fraction(round(number * scale), scale)
 
 
 def _facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
