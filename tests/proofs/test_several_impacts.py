@@ -86,7 +86,7 @@ def test_certificate_is_verified_and_refused_when_changed(proof):
         lambda d: d["evidence"]["orbits"][0]["centre"].__setitem__(1, "3/4"),
         lambda d: d["evidence"]["orbits"][0]["centre"].pop(),
         lambda d: d["evidence"]["orbits"].append(d["evidence"]["orbits"][0]),
-        lambda d: d["options"].__setitem__("impacts", 3),
+        lambda d: d["options"].__setitem__("impacts", 1),
         lambda d: d["hypotheses"]["values"].__setitem__("gamma", "double 0.0833"),
     ):
         changed = json.loads(json.dumps(document))

@@ -34,6 +34,8 @@ def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> lis
     """
     flights = Flights(Numbers(*(getattr(rotor, name) for name in NUMBERS)))
     found = evidence.take("orbits", lambda: list(_searched(rotor, flights, int(options["impacts"]))))
+    if any(len(entry["centre"]) > 4 * int(options["impacts"]) for entry in found):
+        raise NotShownError("the certificate has an orbit with more impacts than its options")
     claims = []
     for number, entry in enumerate(found, 1):
         claims += _claims_of(rotor, flights, f"orbit {number}", entry)
