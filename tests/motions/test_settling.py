@@ -15,7 +15,7 @@ from carom.attractors.naming import name_motions
 from carom.closed_forms.absorbing import rub_neighbourhood
 from carom.closed_forms.whirl import rolling, runaway_speed
 from carom.core.closing import PASSES
-from carom.core.fate import absorbed
+from carom.core.planar_proofs import absorbed
 from carom.models import LinearRotor
 from carom.motions.ensembles import settle
 from carom.motions.recurrence import least_recurrence
@@ -43,13 +43,17 @@ def test_the_kernel_knows_the_same_states(seed):
     # Some to within a few parts in a million of the level, to both sides.
     share = np.sqrt(found.level / found.value(angles[2500:], rates[2500:]))
     rates[2500:] *= share * (1.0 + rng.uniform(-3e-6, 3e-6, 2500))
-    known = [absorbed(recollection, np.exp(1j * angle), rate) for angle, rate in zip(angles, rates, strict=True)]
+    known = [
+        absorbed(recollection.proofs, recollection.rub_position, np.exp(1j * angle), rate)
+        for angle, rate in zip(angles, rates, strict=True)
+    ]
     values = found.value(angles, rates)
     clear = np.abs(values / found.level - 1.0) > 1e-8
     assert clear.mean() > 0.9
     np.testing.assert_array_equal(np.array(known)[clear], (values < found.level)[clear])
     assert found.contains(angles[known], rates[known]).all()
-    assert not absorbed(fresh_memory(rotor, 1), np.exp(1j * found.angle), 0.0)
+    unproven = fresh_memory(rotor, 1)
+    assert not absorbed(unproven.proofs, unproven.rub_position, np.exp(1j * found.angle), 0.0)
 
 
 @pytest.fixture(params=[0.2, 0.3])
@@ -140,9 +144,9 @@ def test_the_runaway_ends_motions_earlier_and_changes_nothing_else(gamma, monkey
 
 def test_no_runaway_where_rolling_does_not_hold():
     machine = PAPER.replace(gamma=1.05 * rolling(carom.models.Jeffcott(PAPER)).largest_damping)
-    assert fresh_memory(carom.models.Jeffcott(machine), 1, absorb=True).runaway == math.inf
-    assert fresh_memory(carom.models.Jeffcott(PAPER), 1).runaway == math.inf
-    assert fresh_memory(carom.models.Jeffcott(PAPER), 1, absorb=True).runaway == pytest.approx(
+    assert fresh_memory(carom.models.Jeffcott(machine), 1, absorb=True).proofs.runaway == math.inf
+    assert fresh_memory(carom.models.Jeffcott(PAPER), 1).proofs.runaway == math.inf
+    assert fresh_memory(carom.models.Jeffcott(PAPER), 1, absorb=True).proofs.runaway == pytest.approx(
         runaway_speed(carom.models.Jeffcott(PAPER)).certain, rel=1e-8
     )
 

@@ -27,7 +27,7 @@ import numpy as np
 
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import largest_pull
-from carom.core.fate import rub_potentials
+from carom.core.planar_proofs import rub_potentials
 from carom.models import Jeffcott, Subject, jeffcott_of
 
 INTERVALS = 4000

@@ -6,10 +6,11 @@ import math
 
 from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.events import INSIDE, LEAVING, search
-from carom.core.fate import forget_rub, levitates, recurs, stays_inside
+from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
 from carom.core.layout import kernel, part, passage
+from carom.core.planar_proofs import stays_inside
 from carom.core.rub import (
     RESTING,
     lift_off,
@@ -325,15 +326,17 @@ def _wall_reaction(rotor, contact, plane, amplitudes, lifting, rub):
     rest = RESTING * speed_rounding(rotor, plane, amplitudes)
     if departure < -rest:
         return CONTACT, False
-    alone = rotor.rows.shape[0] == 1 or leading_plane(rotor, contact) == NOWHERE
+    beside = False
+    if rotor.rows.shape[0] > 1:
+        beside = leading_plane(rotor, contact) != NOWHERE
     push, rate = 0.0, 0.0
-    if alone:
-        push = (normal.conjugate() * acceleration(rotor, plane, amplitudes)).real + local.imag * local.imag
-    else:
+    if rotor.rows.shape[0] > 1 and beside:
         push, rate = press(rotor, contact, plane, amplitudes, rub)
+    else:
+        push = (normal.conjugate() * acceleration(rotor, plane, amplitudes)).real + local.imag * local.imag
     if departure > rest and (push <= 0.0 or departure * departure > 2.0 * push * CHATTER_HEIGHT):
         return CLEAR, False
-    if alone:
+    if not beside:
         push, rate = wall_push(rotor, plane, amplitudes)
     if departure <= rest:
         pressed = push > 0.0 if abs(push) > push_rounding(rotor, plane, amplitudes) else rate > 0.0

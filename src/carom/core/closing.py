@@ -1,6 +1,6 @@
 """Close a periodic motion: find the orbit that a motion approaches, and the number of impacts in its least period.
 
-A motion that still spirals slowly towards its orbit may recur to within :data:`~carom.core.fate.NEAR` first after a
+A motion that still spirals slowly towards its orbit may recur to within :data:`~carom.core.layout.NEAR` first after a
 multiple of the period, when its turns about the orbit happen to close.  The motion has recurred after some number of
 impacts.  For every divisor of this number, :func:`least_period` therefore tests whether that many impacts have an
 attracting fixed point close by.  A rub may bring irregular bouncing back to the same numbers to the last bit.  Then the
@@ -22,10 +22,10 @@ import numpy as np
 
 from carom.core.advance import advance
 from carom.core.contact_series import FLIGHT
-from carom.core.fate import NEAR, same_state
+from carom.core.fate import same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import unit
-from carom.core.layout import kernel, part
+from carom.core.layout import NEAR, kernel, part
 from carom.core.variation import section_jacobian, set_amplitude_change
 from carom.outcome import Outcome
 

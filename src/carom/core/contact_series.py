@@ -44,7 +44,7 @@ def rub_series(rotor, contact, amplitudes, work):
     normal force, ``work.grip`` those of the friction force along growing angle and ``work.slip`` those of the slip
     velocity, all of shape (P, ORDER + 1).  Where there is no lasting contact, ``work.push`` is ``Re(ȳÿ) + |ẏ|²``.
     """
-    modes, planes = rotor.columns.shape
+    modes, planes = rotor.columns.shape[0], rotor.columns.shape[1]
     for m in range(modes):
         work.series[0, m] = amplitudes[m]
     for k in range(ORDER + 1):

@@ -16,11 +16,12 @@ from carom.core.block import move_to
 from carom.core.closing import PASSES, least_period
 from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.counter import next_number
-from carom.core.fate import NEAR, doubt, forget, impacts_until_noted, levitates, recurs, stays_inside
+from carom.core.fate import doubt, forget, impacts_until_noted, levitates, recurs
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import set_on_wall
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, surely_flies
-from carom.core.layout import LANES, kernel, part, passage
+from carom.core.layout import LANES, NEAR, kernel, part, passage
+from carom.core.planar_proofs import stays_inside
 from carom.outcome import Outcome
 
 __all__ = ["MOTION", "Task", "Tools", "follow_each"]

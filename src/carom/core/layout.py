@@ -19,6 +19,7 @@ __all__ = [
     "LANE_NODES",
     "LANE_TERMS",
     "LEVELS",
+    "NEAR",
     "NODES",
     "OCTET",
     "ORDER",
@@ -37,6 +38,8 @@ __all__ = [
 
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
+NEAR = 1e-9
+"""Distance, relative to one plus the size of the state, below which two states are the same."""
 ORDER = 20
 """Order of the Taylor series of lasting contact."""
 DEGREE = 8
@@ -285,7 +288,7 @@ def kernel(function: Kernel) -> Kernel:
 
     Arithmetic follows IEEE 754, but products and sums may be fused, and the sign of zero is undefined.
 
-    A literal number passed to a kernel compiles a separate version: pass a variable, or ``int(LITERAL)``.
+    Conditions on the shapes of a record's arrays, like ``if rotor.rows.shape[0] > 1:``, are decided before compilation.
     """
     return _compile(function)
 

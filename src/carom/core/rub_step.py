@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from carom.core.contact_series import AWAY, FLIGHT, FORWARD_SLIP, ROLLING, rub_series
-from carom.core.fate import NEAR, absorbed, approaches_turn, at_rest, forget_rub, near_rub, same_state
+from carom.core.fate import approaches_turn, at_rest, forget_rub, near_rub, same_state
 from carom.core.impact import set_on_wall, unit
-from carom.core.layout import kernel, part
+from carom.core.layout import NEAR, kernel, part
+from carom.core.planar_proofs import absorbed, runs_away
 from carom.core.rub import first_contact, first_transition, next_phase, rest_on_wall, turn_ahead
 from carom.core.taylor import series_step, sum_series
 from carom.outcome import Outcome
@@ -73,22 +74,22 @@ def rub_step(rotor, contact, amplitudes, horizon, memory, rub):
 @part
 def _known_end(slips, position, speed, memory, rub):
     """What lasting contact settles to, if that is known from its state; otherwise CONTACT."""
-    if near_rub(memory, position, speed) or (slips and absorbed(memory, position, speed)):
+    if near_rub(memory, position, speed) or (slips and absorbed(memory.proofs, memory.rub_position, position, speed)):
         return FORWARD_RUB
     if memory.resting != 0:
         rests = at_rest(rub)
         if rests and memory.resting > 0:
             return FORWARD_RUB
         memory.resting = -1 if rests else 1
-    return ROLLS_ON if slips and -(1.0 + speed) > memory.runaway else CONTACT
+    return ROLLS_ON if slips and runs_away(memory.proofs, speed) else CONTACT
 
 
 @part
 def _first_change(rotor, contact, step, rub):
     """First change of contact within a step: its time, plane and following phase, and whether a slip stops."""
-    duration, changed, following, slip_stops = step, NOWHERE, int(FLIGHT), False
+    duration, changed, following, slip_stops = step, NOWHERE, FLIGHT, False
     for plane in range(rotor.rows.shape[0]):
-        after, stops = int(FLIGHT), False
+        after, stops = FLIGHT, False
         if contact[plane] > FLIGHT:
             time, after, stops = first_transition(rotor, plane, contact[plane], duration, rub)
         elif rotor.rows.shape[0] > 1:

@@ -11,6 +11,7 @@ from carom.closed_forms.rub_stability import rub_attracts
 from carom.core.closing import ATTRACTS, OPEN, PASSES, close, least_period
 from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
+from carom.core.planar_proofs import planar_proofs
 from carom.models import Model, Subject, model_of
 from carom.motions.recurrence import least_recurrence
 from carom.outcome import Outcome
@@ -67,11 +68,13 @@ def fresh_memory(rotor: Model, patience: int, stop_at_chatter: bool = False, *, 
         patience=patience,
         recheck=_recheck_time(rotor),
         stop_at_landing=stop_at_chatter,
-        # Lowered by the rounding error once more, so that the end lies inside even if V is computed another way.
-        rub_level=around.level - around.rounding if around else 0.0,
-        rub_shape=(around.friction, around.strength, around.phase) if around else (0.0, 0.0, 0.0),
-        runaway=known.runaway if patience > 0 and absorb else np.inf,
         resting=not known.rubs,
+        proofs=planar_proofs(
+            # Lowered by the rounding error once more, so that the end lies inside even if V is computed another way.
+            level=around.level - around.rounding if around else 0.0,
+            shape=(around.friction, around.strength, around.phase) if around else (0.0, 0.0, 0.0),
+            runaway=known.runaway if patience > 0 and absorb else np.inf,
+        ),
     )
 
 
