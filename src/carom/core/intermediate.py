@@ -10,11 +10,11 @@ from __future__ import annotations
 import gc
 from typing import Any
 
-from numba.core import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
 from numba.core.registry import CPUDispatcher
+from numba.core.types import unliteral  # type: ignore[attr-defined]
 
 from carom.core.shapes import ShapedCompiler
 
@@ -34,7 +34,7 @@ class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Type a call with arguments of these types."""
-        return super().get_call_template(tuple(map(types.unliteral, args)), kws)
+        return super().get_call_template(tuple(map(unliteral, args)), kws)
 
     def add_overload(self, cres: CompileResult) -> None:
         """Store a version without offering it to callers from Python."""

@@ -261,7 +261,7 @@ def _rub_workspace_layout(modes: int, planes: int) -> np.dtype:
     )
 
 
-def record(**fields: np.ndarray) -> np.record:
+def record(**fields: np.ndarray | np.record) -> np.record:
     """Pack arrays and scalars into one record that kernels take by address."""
     packed = _blank(_layout(tuple((name, values.dtype, values.shape) for name, values in fields.items())))
     for name, values in fields.items():

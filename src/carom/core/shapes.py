@@ -55,7 +55,8 @@ def _length(function: Any, arguments: tuple[types.Type, ...], item: Any) -> int 
     if not isinstance(kind, types.Record) or array.attr not in kind.fields:
         return None
     axis = item.index if item.op == "static_getitem" else find_const(function, item.index)
-    return int(kind.typeof(array.attr).shape[axis])
+    field: Any = kind.typeof(array.attr)
+    return int(field.shape[axis])
 
 
 def _is_attribute(expression: Any) -> bool:
