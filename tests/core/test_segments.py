@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.core.segments import highest_point, local_motion
+from carom.core.segments import carry_through_chatter, highest_point, local_motion
 from carom.models import Jeffcott, Model
 from carom.motions import State, simulate
 from carom.orbits.recognising import segments_of
 from carom.orbits.shooting import Start, links_of, pack, unpack
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Phase
-from tests.compilation import sized
+from tests.compilation import COMPILED, sized
 from tests.linear_rotors import bending, tilting
 from tests.machines import PAPER
 
@@ -47,6 +47,8 @@ def arbitrary(rotor: Model, word: Word, rng: np.random.Generator) -> Start:
 
 @pytest.mark.parametrize(("modes", "planes"), [(2, 1), (4, 2), (8, 2)])
 def test_derivatives_of_flights_agree_with_differences(modes, planes):
+    if modes > 2 and not COMPILED:
+        pytest.skip("one number of modes goes through every line")
     rng = np.random.default_rng(modes)
     for seed in range(sized(4, 1)):
         rotor = rotor_of(modes, planes, seed)
@@ -57,6 +59,7 @@ def test_derivatives_of_flights_agree_with_differences(modes, planes):
         assert np.abs(differences(rotor, word, start) - links.jacobian).max() < 2e-7
 
 
+@pytest.mark.jit_only
 @pytest.mark.parametrize(("modes", "planes"), [(2, 1), (4, 2)])
 def test_derivatives_of_lasting_contact_agree_with_differences(modes, planes):
     rng = np.random.default_rng(modes + 1)
@@ -71,9 +74,10 @@ def test_derivatives_of_lasting_contact_agree_with_differences(modes, planes):
 
 
 def test_sliding_stays_on_the_wall_and_keeps_its_law():
-    rotor = rotor_of(4, 2, 1)
-    word = Word.of(*CONTACTS, plane=1)
+    rotor = rotor_of(4, 2, 1) if COMPILED else rotor_of(2, 1, 1)
+    word = Word.of(*CONTACTS, plane=1 if COMPILED else 0)
     start = arbitrary(rotor, word, np.random.default_rng(3))
+    start = start if COMPILED else start._replace(durations=0.1 * start.durations)
     arrivals = rotor.system.amplitudes_of(links_of(rotor, word, start).arrivals)
     excess, radial, slip, _, _ = local_motion(rotor.system.arrays, word.planes, arrivals).T
     assert np.abs(excess).max() < 1e-12 * (1.0 + np.abs(arrivals).max())
@@ -81,6 +85,7 @@ def test_sliding_stays_on_the_wall_and_keeps_its_law():
     assert abs(slip[2]) < 1e-11  # it rolls
 
 
+@pytest.mark.jit_only
 def test_a_motion_with_chatter_sliding_and_lift_off_is_made_of_its_segments():
     """Each segment, followed from its node for its duration, ends at the next node of the simulation."""
     rotor = Jeffcott(PAPER.replace(gamma=0.03, omega=0.76, rho=0.3, mu=0.3, d=0.3))
@@ -101,21 +106,47 @@ def test_a_motion_with_chatter_sliding_and_lift_off_is_made_of_its_segments():
         assert np.abs(links.values).max() < 1e-9
 
 
+@pytest.mark.parametrize("slip", [1, -1, 0])
+def test_after_a_chatter_no_change_leaves_the_wall(slip):
+    rotor, rng = rotor_of(2, 1, 1), np.random.default_rng(7)
+    arrays = rotor.system.arrays
+    start = arbitrary(rotor, Word.of(*[Kind.IMPACT_FORWARD] * 3), rng)
+    states = rotor.system.amplitudes_of(start.nodes)
+    directions = rng.normal(size=(4, 2, 2)) @ [1.0, 1j]
+    delays = np.empty(4)
+    landing = states[2].copy()
+    carry_through_chatter(arrays, 0, states[:2], np.array([0.3]), landing, slip, directions, delays)
+    excess, radial, drift, _, _ = local_motion(arrays, np.zeros(1, np.int64), landing[None])[0]
+    assert abs(excess) < 1e-13
+    assert abs(radial) < 1e-13
+    position, velocity = rotor.system.at_plane(landing, 0)
+    moved = directions @ arrays.rows[0]
+    rate = directions @ arrays.rate_rows[0]
+    size = 1e-12 * (1.0 + np.abs(directions).max())
+    assert np.abs((np.conj(position) * moved).real).max() < size
+    assert np.abs((np.conj(position) * rate + np.conj(moved) * velocity).real).max() < size
+    assert np.isfinite(delays).all()
+    if slip == 0:
+        assert abs(drift) < 1e-12
+        assert np.abs((np.conj(position) * rate + np.conj(moved) * velocity).imag).max() < size
+
+
 def test_the_highest_point_is_that_of_fine_samples():
     rng = np.random.default_rng(5)
     rotor = rotor_of(4, 2, 2)
+    fine = sized(20_001, 501)
     found = 0
-    for _ in range(sized(40, 3)):
+    for _ in range(sized(40, 2)):
         start = 0.5 * (rng.normal(size=(4, 2)) @ [1.0, 1j])
         duration = rng.uniform(0.5, 12.0)
         height, top = highest_point(rotor.system.arrays, 1, start, duration)
-        times = np.linspace(0.0, duration, 20_001)
+        times = np.linspace(0.0, duration, fine)
         squares = np.abs(rotor.system.at_plane(rotor.system.fly(start, times), 1)[0]) ** 2 - 1.0
         inner = (squares[1:-1] > squares[:-2]) & (squares[1:-1] > squares[2:]) & (times[1:-1] > 0.05 * duration)
         if not inner.any() or (not np.isnan(top) and top < 0.06 * duration):
             continue
         found += 1
         # Samples miss a maximum by a curvature of some hundred times the square of their spacing.
-        assert height == pytest.approx(squares[1:-1][inner].max(), abs=1e-3)
+        assert height == pytest.approx(squares[1:-1][inner].max(), abs=1e-3 * (20_001 / fine) ** 2)
         assert height >= squares[1:-1][inner].max() - 1e-12
-    assert found > 0
+    assert found > 0 or not COMPILED
