@@ -342,6 +342,25 @@ def test_boxes_of_machines_are_never_wrong(half):
                 assert claim.kind == "harmless" or Fraction(value.high) <= Fraction(entry.high)
 
 
+def test_decay_bounds_hold_beside_fifty_digits():
+    """The derivative of the response to an impulse stays below both bounds behind the longest period."""
+    random, closest = np.random.default_rng(5), 0.0
+    with mpmath.workdps(50):
+        for _ in range(sized(60, 60, 2000)):
+            parameters = random_parameters(random)
+            if parameters.gamma == 2 * parameters.omega:
+                continue
+            motion, time = ExactMotion(parameters), mpmath.mpf(10 ** random.uniform(-1, 2))
+            upper, lower = motion.upper, motion.lower
+            slope = abs((upper * mpmath.exp(upper * time) - lower * mpmath.exp(lower * time)) / (upper - lower))
+            slow = mpmath.exp(upper.real * time)
+            share = slope / slow * abs(upper - lower) / (abs(upper) + abs(lower))
+            assert share < 1 + mpmath.mpf(10) ** -30
+            assert slope <= slow * (1 + abs(mpmath.mpc(parameters.gamma / 2, 1)) * time)
+            closest = max(closest, float(share))
+    assert closest > 0.5
+
+
 @pytest.mark.parametrize(
     "changes",
     [

@@ -1,8 +1,9 @@
 """All roots of ``F₁``: the periods of orbits with one impact a period whose slip stays forward.
 
 **Far out there is none.**  Let ``γ > 0`` and ``r`` be the decay of the slower mode.  With :mod:`carom.proofs.rotor`,
-``|f' − δ| ≤ e^{−rT}(1 + |γ/2 + i|T) + e^{−2rT}``, since ``|cosh x| ≤ e^{|Re x|}`` and ``|sinh x / x| ≤ e^{|Re x|}``, and
-``|D| ≥ (1 − e^{−rT})²``.  So ``F₁ ≥ 1 − |q|(…)/(…)``, and this bound rises with ``T`` where ``rT ≥ 1``.
+``|f'| ≤ e^{−rT}(1 + |γ/2 + i|T)``, since ``|cosh x| ≤ e^{|Re x|}`` and ``|sinh x / x| ≤ e^{|Re x|}``.  Away from critical
+damping ``f' = (λ₊e^{λ₊T} − λ₋e^{λ₋T})/√Δ`` gives ``|f'| ≤ e^{−rT}(|λ₊| + |λ₋|)/|√Δ|`` too.  With ``|δ| ≤ e^{−2rT}`` and
+``|D| ≥ (1 − e^{−rT})²``, ``F₁ ≥ 1 − |q|(|f'| + |δ|)/|D|``, and either bound rises with ``T`` where ``rT ≥ 1``.
 
 **Next to zero** ``F₁ = (1 − d)/2 + (1 + d)(γ − 2μ)T/12 + O(T³)`` and ``P = |χ|²T⁴(1 + O(T))F₁``: the first coefficient that
 is not zero decides.
@@ -151,9 +152,12 @@ def _none_beyond(rotor: Rotor, period: Fraction) -> bool:
     if not (rotor.gamma > 0 and rate * time >= 1):
         return False
     slow = (-rate * time).exp()
-    swing = (squared(rotor.gamma) / 4 + 1).sqrt() * time
     size = (1 + rotor.d) * (1 + squared(rotor.mu)).sqrt()
-    return bool(size * (slow * (1 + swing) + squared(slow)) < squared(1 - slow))
+    swings = [1 + (squared(rotor.gamma) / 4 + 1).sqrt() * time]
+    if not rotor.split.contains(0):
+        gap = abs(rotor.split).sqrt()
+        swings.append((rotor.size_of_exponent(1) + rotor.size_of_exponent(-1)) / gap)
+    return any(size * (slow * swing + squared(slow)) < squared(1 - slow) for swing in swings)
 
 
 def _longest_period(rotor: Rotor) -> Fraction | None:

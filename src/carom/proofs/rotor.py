@@ -133,6 +133,13 @@ class Rotor:
             return self.gamma / 2
         return self.gamma / 2 - self.split.nonnegative_part().sqrt() / 2
 
+    def size_of_exponent(self, sign: int) -> Any:
+        """``|λ₊|`` or ``|λ₋|`` of the co-rotating frame, away from critical damping."""
+        half = sign * abs(self.split).sqrt() / 2
+        if self.split < 0:
+            return (squared(self.gamma / 2) + squared(half - 1)).sqrt()
+        return (squared(half - self.gamma / 2) + 1).sqrt()
+
     @cached_property
     def fastest(self) -> float:
         """Modulus of the faster exponent of the co-rotating frame, about."""
