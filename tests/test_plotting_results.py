@@ -26,6 +26,8 @@ def motion():
 EXAMPLES = {
     "Trajectory": motion,
     "EnergyLedger": lambda: energy_ledger(motion()),
+    "EquilibriumSet": lambda: carom.find_equilibria(PAPER),
+    "AttractorSet": lambda: carom.find_attractors(PAPER, count=12),
     "FullSpectrum": lambda: full_spectrum(motion()),
     "Orbit": lambda: carom.find_orbits(PAPER)["B1,d"],
     "OrbitSet": lambda: carom.find_orbits(PAPER),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -45,6 +46,8 @@ class AttractorSet(Result):
     patience : int
         Impacts without recurrence after which bouncing counts as irregular.
     """
+
+    figure: ClassVar[str] = "attractors"
 
     rotor: Model
     members: tuple[Attractor, ...]

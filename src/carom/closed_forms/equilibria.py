@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, overload
+from typing import Any, ClassVar, Literal, overload
 
 import numpy as np
 
@@ -95,6 +95,8 @@ class EquilibriumSet(Result):
     complete : bool
         Whether these are all isolated equilibria.
     """
+
+    figure: ClassVar[str] = "equilibria"
 
     rotor: Model
     members: tuple[Equilibrium, ...]

@@ -10,6 +10,7 @@ and times in units of ``1/Ω``, in SI units too if the machine is known.
 
 from __future__ import annotations
 
+from carom.plots.attractors import attractors
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
@@ -17,7 +18,7 @@ from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
 from carom.plots.motions import motion, orbit
-from carom.plots.overviews import equilibria_and_orbits, overview
+from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
 from carom.plots.regions import region_map
 from carom.plots.sheet import applied
 from carom.plots.spectra import multipliers, spectrum
@@ -32,9 +33,11 @@ __all__ = [
     "TWO_COLUMNS",
     "Look",
     "applied",
+    "attractors",
     "basin",
     "bifurcation_diagram",
     "energies",
+    "equilibria",
     "equilibria_and_orbits",
     "forces",
     "gain_map",

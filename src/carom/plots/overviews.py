@@ -19,6 +19,7 @@ from carom.plots.plane import (
     clearance_circle,
     direction_arrow,
     finish,
+    key,
     label_frame,
     look_closer,
     one_axes,
@@ -30,7 +31,7 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol
 
 if TYPE_CHECKING:
-    from carom.closed_forms.equilibria import Equilibrium
+    from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet
     from carom.orbits.orbit import Orbit
     from carom.orbits.single_impact import OrbitSet
     from carom.studies import Study
@@ -41,6 +42,8 @@ _MOST_VIRTUAL = 8
 """Number of virtual orbits above which their paths and names are left out, since they would hide the physical ones."""
 _MOST_IN_OVERVIEW = 16
 """Number of virtual orbits above which the figure of a study leaves them out."""
+_FARTHEST = 3.0
+"""Displacement beyond which an equilibrium is left out of a picture of a contact plane."""
 _LABEL_RING = 1.17
 """Radius of the ring around the clearance circle on which the names sit."""
 
@@ -114,7 +117,7 @@ def _draw(
     virtual = sum(drawn.meaning == "virtual" for drawn in shown)
     many = virtual > _MOST_VIRTUAL
     for equilibrium in equilibria:
-        _draw_equilibrium(axes, equilibrium)
+        _draw_equilibrium(axes, equilibrium, complex(equilibrium.places[0]))
     for drawn in shown:
         look = LOOKS["outside" if drawn.meaning == "virtual" else drawn.meaning]
         if drawn.meaning != "virtual" or not many:
@@ -140,14 +143,36 @@ def _draw(
         )
 
 
-def _draw_equilibrium(axes: Axes, equilibrium: Equilibrium) -> None:
+@styled
+def equilibria(found: EquilibriumSet, title: str | None = None) -> Figure:
+    """Draw the equilibria of any rotor, in the clearance circle of each contact plane.
+
+    Displacements are in the clearance of the plane.  Virtual equilibria that lie far outside are left out.
+    """
+    count = len(found[0].places)
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.55 * TWO_COLUMNS if count < 3 else 0.4 * TWO_COLUMNS))
+    panels = figure.subplots(1, count, squeeze=False)[0]
+    for plane, drawn in enumerate(panels):
+        shown = [entry for entry in found if abs(entry.places[plane]) <= _FARTHEST]
+        reach = max(1.12, *(1.06 * abs(entry.places[plane]) for entry in shown)) if shown else 1.12
+        clearance_circle(drawn, reach)
+        for entry in shown:
+            _draw_equilibrium(drawn, entry, complex(entry.places[plane]))
+        label_frame(drawn, "rotating", None, f"plane {plane}" if count > 1 else "")
+    if title:
+        figure.suptitle(title)
+    key(figure, panels, columns=2)
+    return figure
+
+
+def _draw_equilibrium(axes: Axes, equilibrium: Equilibrium, place: complex) -> None:
     """Draw it filled if it can be observed (stable and not virtual), hollow otherwise, grey if virtual."""
     virtual = equilibrium.status == "virtual"
     kind = "stable" if equilibrium.stable else "unstable"
     state = LOOKS["virtual"].words if virtual else f"{_STATUS[equilibrium.status]}, {kind}"
     point(
         axes,
-        equilibrium.position,
+        place,
         equilibrium.kind,
         hollow=virtual or not equilibrium.stable,
         size=6.0,

@@ -1,0 +1,43 @@
+"""Which share of the disturbances ends on each attractor."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from carom.plots.plane import one_axes
+from carom.plots.style import OUTCOMES, TWO_COLUMNS, styled
+
+if TYPE_CHECKING:
+    from carom.attractors import AttractorSet
+
+_ROW, _EDGES = 0.26, 0.9
+"""Height of a row and of everything else [inch]."""
+
+
+@styled
+def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | None = None) -> Figure:
+    """Draw the share of the disturbances that end on each attractor, of any rotor.
+
+    An attractor that only starts next to it have reached has no bar; motions that were given up are hatched.
+    """
+    figure, drawn = one_axes(axes, (TWO_COLUMNS, _EDGES + _ROW * len(found)))
+    total = len(found.disturbances)
+    for row, member in enumerate(found):
+        outcome = member.name.outcome
+        look = OUTCOMES.get("irregular" if member.name.irregular else outcome.label, OUTCOMES["time-reached"])
+        hatch = None if member.settled else "////"
+        drawn.barh(row, 100.0 * member.share, 0.7, color=look.colour, hatch=hatch, edgecolor="white", lw=0.0)
+        drawn.annotate(
+            f"{member.count} of {total}", (100.0 * member.share, row), (4, 0), textcoords="offset points", va="center"
+        )
+    drawn.set_yticks(range(len(found)), [str(member.name) for member in found])
+    drawn.invert_yaxis()
+    drawn.set_xlim(0.0, 115.0)
+    drawn.set_xticks(range(0, 101, 20))
+    drawn.set_xlabel("share of the disturbances (%)")
+    if title:
+        drawn.set_title(title)
+    return figure

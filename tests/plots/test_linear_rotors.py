@@ -1,0 +1,36 @@
+"""Figures of results of rotors with several coordinates and planes."""
+
+from __future__ import annotations
+
+import pytest
+from linear_rotors import single, tilting
+
+import carom
+from carom.motions import energy_ledger
+
+pytestmark = pytest.mark.jit_only
+
+
+def test_equilibria_are_drawn_in_the_circle_of_each_plane():
+    found = carom.find_equilibria(tilting().model)
+    figure = found.plot("rotor on two bearings")
+    assert [panel.get_title() for panel in figure.axes] == ["co-rotating frame, plane 0", "co-rotating frame, plane 1"]
+    for plane, panel in enumerate(figure.axes):
+        drawn = [line.get_xydata() for line in panel.lines if line.get_gid() != "wall"]
+        assert len(drawn) == sum(abs(at.places[plane]) <= 3.0 for at in found)
+        # Nothing drawn lies outside the frame.
+        reach = panel.get_xlim()[1]
+        assert all(abs(points).max() < reach for points in drawn)
+
+
+def test_shares_of_attractors_are_bars():
+    found = carom.find_attractors(single().model, [carom.kick(0.01), carom.kick(0.02), carom.kick(3.0)])
+    (drawn,) = found.plot("kicks").axes
+    assert [bar.get_width() for bar in drawn.patches] == [100.0 * member.share for member in found]
+    assert [label.get_text() for label in drawn.get_yticklabels()] == [str(member.name) for member in found]
+
+
+def test_energies_and_motions_of_two_planes_are_drawn():
+    motion = carom.simulate(tilting().model, carom.kick(1.5), until=20.0)
+    assert motion.seen_at(1).plot().axes
+    assert len(energy_ledger(motion).plot().axes[0].lines) == 7
