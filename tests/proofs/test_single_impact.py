@@ -118,14 +118,14 @@ def test_claims_of_the_papers_machine():
 def test_random_machines_beside_fifty_digits():
     random, compared, undecided, claims = np.random.default_rng(14), 0, 0, 0
     with mpmath.workdps(50):
-        for k in range(sized(4, 1, 200)):
+        for k in range(sized(4, 4, 200)):
             parameters = near_the_paper(random) if k % 2 else random_parameters(random)
             proof = prove(parameters)
             compared += assert_true(parameters, proof)
             if parameters.radius_ratio > 3:
                 undecided += len(proof.with_status("undecided"))
                 claims += len(proof)
-    assert compared > 2 * sized(4, 1, 200)
+    assert compared > 2 * sized(4, 4, 200)
     assert undecided <= 0.01 * claims
 
 
