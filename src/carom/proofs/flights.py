@@ -37,7 +37,8 @@ def stays_inside(height: Height, narrow: Height, period: Any, falls: tuple[Any, 
     half = 0.5 * float(period.mid())
     times = [half * 2 * k / _SAMPLES for k in range(1, _SAMPLES)]
     top, at = max((float(height(arb(time), False).mid()), time) for time in times)
-    if top > 0:
+    at = _peak(height, at, float(period.mid()))
+    if top > 0 or height(arb(at), False).mid() > 0:
         return False if narrow(arb(at), False) > 0 and at < period else None
     for backward, end in ((False, half), (True, float((period - half).upper()) * (1 + 1e-15))):
         touched = period - touch if touch is not None and backward else touch
@@ -53,6 +54,19 @@ def stays_inside(height: Height, narrow: Height, period: Any, falls: tuple[Any, 
             middle = 0.5 * (low + high)
             stack += [(middle, high), (low, middle)]
     return True
+
+
+def _peak(height: Height, near: float, period: float) -> float:
+    """Time of a maximum of the height next to a time, by Newton's method; that time itself if there is none."""
+    time = near
+    with terms(3):
+        for _ in range(6):
+            series = height(arb_series([arb(time), 1]), False)
+            slope, curve = float(series[1].mid()), 2 * float(series[2].mid())
+            time -= slope / curve if curve < 0.0 else period
+            if not 0.0 < time < period:
+                return near
+    return time
 
 
 def _touches(height: Height, cell: tuple[float, float], backward: bool, touch: Any) -> bool:
