@@ -9,6 +9,20 @@
 ``single_impact``   orbits with one impact a period: existence, course, stability
 ``slip``            no orbit stops its slip
 ``steady``          levitation, rubs, harmless kicks
+``series``          functions of balls and of power series of balls
+``courses``         orbits with one impact a period with their derivatives
+``krawczyk``        zeros of systems, enclosed and unique
+``lines``           machines that differ in one number
+``blocks``          an orbit on an interval of a parameter, by mean value forms
+``block_orbits``    all orbits on such an interval
+``crossings``       the one change inside an open interval
+``ranges``          claims about an interval of a parameter
+``points``          bifurcation points along a parameter
+``criticality``     whether a period doubling is super- or subcritical
+``flights``         whether a flight stays inside the wall
+``words``           motions with several impacts a period, by shooting
+``several_impacts`` claims about them
+``seeds``           what is looked at, found in double precision
 ``claims``          claims and proofs
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name

@@ -84,6 +84,8 @@ def first_cells(block: Block) -> list[Cell]:
     if end <= start:
         return []
     count = max(4, int((end - start) / 0.5))
+    if count > MOST_CELLS:
+        raise OpenError(f"the damping is weak: periods up to {end:.4g}/Omega take more than {MOST_CELLS} cells")
     edges = [start + (end - start) * (k / count) ** 1.5 for k in range(count)] + [end]
     return list(itertools.pairwise(edges))
 
