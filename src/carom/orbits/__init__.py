@@ -15,7 +15,7 @@
 """
 
 from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, stroboscopic_map
-from carom.orbits.orbit import Margins, Orbit
+from carom.orbits.orbit import Margins, Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
@@ -37,6 +37,7 @@ __all__ = [
     "find_orbits",
     "impact_map",
     "multipliers",
+    "orbit_near",
     "orbit_of_motion",
     "orbits_within_reach",
     "period_condition",
