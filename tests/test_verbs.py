@@ -89,6 +89,8 @@ CALLS = {
 }
 """A small call of each function that takes a rotor."""
 GENERAL = {
+    "attractors.find_attractors",
+    "bifurcations.sample_attractors",
     "attractors.follow_out",
     "basins.map_basins",
     "basins.map_gains",

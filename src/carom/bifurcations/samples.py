@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
+from carom.attractors.cycles import seen_in_contact
 from carom.disturbances import Plan
 from carom.models import Model, Subject, model_of
 from carom.models.axes import Ends, axis, read_interval
@@ -140,6 +141,6 @@ def _impacts(rotor: Model, attractor: Attractor) -> np.ndarray:
     """Radial speeds of the impacts on an attractor; for a periodic one those of one period."""
     if attractor.name.outcome not in REPEATING:
         return np.empty(0)
-    log = simulate(rotor, attractor.state, LONGEST, max_events=50 * SHOWN_IMPACTS).contacts
-    speeds = log.radial_speed[:SHOWN_IMPACTS]
+    motion = simulate(rotor, attractor.state, LONGEST, max_events=50 * SHOWN_IMPACTS)
+    speeds = seen_in_contact(motion).contacts.radial_speed[:SHOWN_IMPACTS]
     return speeds[-attractor.name.multiplicity :] if attractor.name.multiplicity <= len(speeds) else speeds
