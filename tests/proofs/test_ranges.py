@@ -175,6 +175,10 @@ def test_what_cannot_be_asked_is_told_in_one_line(arguments, words):
     assert "\n" not in str(problem.value)
 
 
+def test_interval_of_one_value():
+    assert proven_along(DECIMAL, "gamma", "0.1", "0.1")["B1,d stable"].status == "proven"
+
+
 def test_physical_parameters_have_units():
     claims = ranges("examples/keogh-cole.toml", "damping", "1400 N s/m", "1400.5 N s/m")
     stable = named(claims, "B1,d stable")

@@ -46,7 +46,10 @@ def doubles_of(hypotheses: Hypotheses) -> Parameters:
 def point_seeds(line: Line) -> list[tuple[str, str, list[float]]]:
     """Bifurcation points along a parameter: their kinds, the motions and guesses of the unknowns."""
     low, high = (float(end) for end in line.ends)
-    found = []
+    found: list[tuple[str, str, list[float]]] = []
+    if not low < high:
+        # Doubles cannot tell the ends apart.
+        return found
     for point in find_bifurcations(doubles_of(line.hypotheses), line.name, (low, high)).points:
         period, speed, value = point.period, point.radial_speed, point.value
         guess = {
