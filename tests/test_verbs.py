@@ -18,6 +18,7 @@ import carom as cm
 from carom.attractors import DisturbanceSet
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.models import Jeffcott
+from carom.orbits.shooting import Start
 from carom.outcome import InputError
 from carom.parameters import Case, Machine, Scales, Zones
 from carom.studies.safety import least_safe_damping, try_disturbances
@@ -78,6 +79,11 @@ CALLS = {
     "motions.settle": lambda m: settled(m),
     "motions.simulate": lambda m: cm.simulate(m, cm.kick(0.3), 5.0),
     "orbits.find_orbits": lambda m: cm.find_orbits(m, 10.0),
+    "orbits.orbit_near": lambda m: cm.orbits.orbit_near(
+        m,
+        cm.orbits.Word.of(cm.orbits.Kind.IMPACT_FORWARD),
+        Start(np.array([[1.0, 0.7 - 1.0j]]), np.array([2.9])),
+    ),
     "orbits.impact_map": lambda m: cm.orbits.impact_map(m, cm.orbits.Section(0.3, 0.7, -1.0)),
     "orbits.orbits_within_reach": cm.orbits.orbits_within_reach,
     "orbits.period_condition": lambda m: cm.orbits.period_condition(m, np.array([1.0, 2.0])),

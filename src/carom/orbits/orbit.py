@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.core.segments import highest_point, local_motion
-from carom.models import Model
+from carom.models import Model, Subject, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.admissibility import SLIPS, departure, why_virtual
@@ -264,19 +264,21 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     )
 
 
-def orbit_near(rotor: Model, word: Word, start: Start, name: OrbitName | CountedName | None = None) -> Orbit | None:
+def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | CountedName | None = None) -> Orbit | None:
     """Orbit of a word next to a start, by Newton's method; ``None`` if it does not converge.
 
     An orbit that repeats a shorter word becomes the shorter one, and it begins at its fastest impact.
 
     Parameters
     ----------
+    machine : Machine, Case, Parameters or model
     word : Word
     start : Start
         Coordinates and rates at the beginning of each segment, and the durations.
     name : OrbitName or CountedName, optional
         By default that of the first orbit with as many impacts.
     """
+    rotor = model_of(machine)
     links = converged(rotor, word, start)
     # A chatter that does not rebound at all takes no time.
     if links is None or (links.start.durations < np.where(word.kinds == Kind.LAND, 0.0, SHORTEST)).any():
