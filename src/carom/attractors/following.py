@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
 from carom.models import Model
-from carom.motions.ensembles import Endings
+from carom.motions.ensembles import MOST_EVENTS, Endings
 from carom.motions.trajectories import simulate
 from carom.outcome import Outcome
 from carom.progress import Reporter
@@ -28,7 +29,8 @@ Less than for basins: single motions are simulated once more where their impulse
 """
 
 SLOWER = 10
-"""Divisor of this cost, and of the number of motions followed, for rotors whose motions are followed one after another."""
+"""Divisor of this cost, of the irregular motions followed and of the events after which a motion is given up, for rotors whose
+motions are followed one after another."""
 
 
 @dataclass(frozen=True)
@@ -84,12 +86,13 @@ def follow_in_stages(
     long irregular motion lasts (``None`` if there was none).
     """
     seen = min(FIRST_PATIENCE, patience)
-    first = follow(rotor, starts, patience=seen, threads=threads, progress=tell.part(0.0, 0.8))
+    bounded: dict[str, Any] = {"max_events": MOST_EVENTS // less} if less > 1 else {}
+    first = follow(rotor, starts, patience=seen, threads=threads, progress=tell.part(0.0, 0.8), **bounded)
     endings, lasted = first, still_irregular(first)
     irregular = lasted
     while irregular.any() and seen < patience:
         span = min(seen, patience - seen)
-        endings = follow_further(rotor, endings, irregular, patience=span, threads=threads)
+        endings = follow_further(rotor, endings, irregular, patience=span, threads=threads, **bounded)
         irregular = still_irregular(endings)
         seen += span
         tell(0.8 + 0.1 * min(seen / patience, 1.0))
