@@ -29,8 +29,8 @@ from carom.motions import kick as kick
 from carom.motions import settle as settle
 from carom.motions import simulate as simulate
 from carom.orbits import find_orbits as find_orbits
-from carom.parameters import Machine as Machine
 from carom.parameters import load as load
+from carom.proofs import prove as prove
 from carom.studies import study as study
 from carom.sweeps import open_sweep as open_sweep
 from carom.sweeps import run_sweep as run_sweep

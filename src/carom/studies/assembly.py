@@ -158,7 +158,7 @@ def study(
         The disturbances followed at the machine's own damping and stiffness instead of the standard set, as in
         :func:`~carom.attractors.find_attractors`.  At other values the standard kinds are tried.
     proofs : bool
-        Prove equilibria and orbits too, by :func:`carom.proofs.prove`; needs the extra ``carom[proof]``.
+        Prove equilibria and orbits too, by :func:`carom.prove`; needs the extra ``carom[proof]``.
 
     Raises
     ------
