@@ -82,7 +82,7 @@ CALLS = {
     "orbits.orbit_near": lambda m: cm.orbits.orbit_near(
         m,
         cm.orbits.Word.of(cm.orbits.Kind.IMPACT_FORWARD),
-        Start(np.array([[1.0, 0.7 - 1.0j]]), np.array([2.9])),
+        Start(np.repeat([1.0, 0.7 - 1.0j], len(cm.models.model_of(m).system.rest))[None], np.array([2.9])),
     ),
     "orbits.impact_map": lambda m: cm.orbits.impact_map(m, cm.orbits.Section(0.3, 0.7, -1.0)),
     "orbits.orbits_within_reach": cm.orbits.orbits_within_reach,

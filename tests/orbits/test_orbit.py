@@ -16,7 +16,7 @@ from carom.orbits.orbit import Orbit, orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, converged, links_of
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError
+from carom.outcome import CaromError, InputError
 from tests.compilation import sized
 from tests.machines import PAPER, exact_matrix, random_parameters
 
@@ -247,6 +247,12 @@ def test_margins_of_the_doubled_orbit():
     assert orbit.margins.radius == pytest.approx(1.0 - radii[1:-1][inner].max() ** 2, abs=1e-6)
     motion = orbit.trajectory(2.0)
     assert np.abs(np.abs(motion.position(times)) - radii).max() < 1e-9
+
+
+def test_a_start_of_another_shape_is_refused():
+    one = find_orbits(PAPER)["B1,d"]
+    with pytest.raises(InputError, match="start"):
+        orbit_near(PAPER, one.word.repeated(2), Start(one.nodes, one.durations))
 
 
 def test_newton_fails_without_an_orbit():

@@ -19,7 +19,7 @@ from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, Start, converged, links_of
 from carom.orbits.stability import Multipliers, multipliers
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError
+from carom.outcome import CaromError, InputError
 from carom.results import Result
 
 ALIKE = 1e-8
@@ -277,8 +277,16 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
         Coordinates and rates at the beginning of each segment, and the durations.
     name : OrbitName or CountedName, optional
         By default that of the first orbit with as many impacts.
+
+    Raises
+    ------
+    InputError
+        The start does not fit the word and the rotor.
     """
     rotor = model_of(machine)
+    shape = len(word), 2 * len(rotor.system.rest)
+    if start.nodes.shape != shape or start.durations.shape != shape[:1]:
+        raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")
     links = converged(rotor, word, start)
     # A chatter that does not rebound at all takes no time.
     if links is None or (links.start.durations < np.where(word.kinds == Kind.LAND, 0.0, SHORTEST)).any():
