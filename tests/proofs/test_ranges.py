@@ -12,8 +12,11 @@ from machines import PAPER
 from carom.orbits import find_orbits
 from carom.outcome import InputError
 from carom.proofs import Claim, Proof, check, prove
+from carom.proofs.balls import at_precision, interval, rational
+from carom.proofs.block_orbits import _longest
 from carom.proofs.evidence import Evidence
 from carom.proofs.hypotheses import hypotheses_of
+from carom.proofs.lines import line_of
 from carom.proofs.proving import proof_of
 from carom.proofs.ranges import range_claims
 from carom.proofs.rotor import Rotor
@@ -221,3 +224,19 @@ def test_nothing_is_said_of_changes_at_a_fold():
     claims = ranges(DECIMAL, "gamma", "0.17802772", "0.17802773", blocks=2, narrowest="1/2")
     assert {claim.status for claim in claims if claim.kind == "orbits"} == {"undecided"}
     assert not any(claim.kind.startswith(("birth", "period doubling")) for claim in claims)
+
+
+def test_longest_period_of_a_block_bounds_that_of_every_machine_in_it():
+    line = line_of(hypotheses_of({**DECIMAL, "omega": "1", "mu": "5"}), "gamma", "0.5", "2.2")
+    with at_precision(64):
+        # The block lies on both sides of critical damping, at 2.
+        block = _longest(line.at(interval(Fraction(1), Fraction(11, 5))))
+        assert block >= _longest(line.at(rational(Fraction(1))))
+
+
+def test_periods_without_radial_speeds_are_not_counted_as_roots():
+    claims = ranges({**DECIMAL, "rho": "1/10"}, "gamma", "0.1", "0.101")
+    stated = [claim.statement for claim in claims if claim.kind == "orbits" and claim.status == "proven"]
+    assert stated
+    # F1 has two roots there, and no radial speed belongs to either.
+    assert all("none" in words and "F1" not in words for words in stated)

@@ -93,7 +93,9 @@ def first_cells(block: Block) -> list[Cell]:
 def _longest(n: Numbers) -> float:
     """Period beyond which ``F₁ > 0``; see :mod:`carom.proofs.periods` for the bound."""
     split, half = n.gamma * n.gamma / 4 - n.omega_squared, n.gamma / 2
-    slow = half if split < 0 else n.omega_squared / (half + split.nonnegative_part().sqrt())
+    root = split.nonnegative_part().sqrt()
+    # On both sides of critical damping only the difference bounds every machine of the block.
+    slow = half if split < 0 else n.omega_squared / (half + root) if split > 0 else half - root
     rate = arb(slow.lower())
     if not rate > 0:
         raise OpenError("without damping there are infinitely many periods")
@@ -255,7 +257,7 @@ def instability_of(orbit: OrbitBranch, positive: bool) -> str | None:
     if not positive:
         return "a multiplier is above 1"
     if orbit.along(lambda course: course.crowding) < 0:
-        return "two multipliers are above 1"
+        return "two multipliers are outside the unit circle"
     flip = orbit.along(lambda course: course.flip)
     if flip < 0:
         return "a multiplier is below -1"

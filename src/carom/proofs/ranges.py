@@ -273,7 +273,7 @@ def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequen
 def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
     """Claim about everything on one stretch."""
     about = f"{line.name} in {stretch.ends}"
-    statement = "F1 has the roots of exactly these orbits, and each keeps its properties: "
+    statement = "The closing conditions have exactly these solutions, and each keeps its properties: "
     told = []
     for fact in stretch.facts:
         nature = ["motion of the machine" if fact.admissible else f"no motion ({fact.reason})"]
