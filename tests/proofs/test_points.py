@@ -18,12 +18,16 @@ from carom.orbits import Section, find_orbits, impact_map
 from carom.outcome import InputError
 from carom.parameters import Numbers as Doubles
 from carom.proofs import check, prove
-from carom.proofs.balls import at_precision
+from carom.proofs.balls import at_precision, exact_ends
 from carom.proofs.courses import Course, Return
 from carom.proofs.criticality import flip_coefficient
+from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import hypotheses_of
+from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.lines import line_of
+from carom.proofs.points import _searched, _system, point_claims
 from carom.proofs.proving import proof_of
+from carom.proofs.rotor import Rotor
 
 DECIMAL = {
     "gamma": "0.1",
@@ -44,10 +48,6 @@ KNOWN = {
 
 
 def points(machine, along, low, high):
-    from carom.proofs.evidence import Evidence
-    from carom.proofs.points import point_claims
-    from carom.proofs.rotor import Rotor
-
     hypotheses = hypotheses_of(machine)
     with at_precision(128):
         claims = point_claims(Rotor(hypotheses), Evidence(), {"along": along, "from": low, "to": high})
@@ -230,3 +230,36 @@ def test_simulated_motion_stays_on_the_orbit_at_the_grazing_side(paper):
     assert orbit.admissible
     log = cm.simulate(orbit.rotor, orbit.departure, 1.5 * orbit.period).contacts
     assert log.time[0] == pytest.approx(orbit.period, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("kind", "guess", "low", "high"),
+    [
+        ("fold", [-11.5215292, -0.024264], "-0.1", "0.2"),
+        ("period-doubling", [2.9951852, 0.6931453, 0.0833814], "0.1", "0.2"),
+        ("grazing", [-7.906810, -1.343989, -0.133367, 0.352405], "0.1", "0.4"),
+    ],
+    ids=["negative period", "value outside of the interval", "touch before the impact"],
+)
+def test_zero_that_is_no_point_of_the_interval_is_refused(kind, guess, low, high):
+    hypotheses = hypotheses_of(DECIMAL)
+    line = line_of(hypotheses, "gamma", low, high)
+    with at_precision(128):
+        system = _system(line, kind)
+        centre = newton(system, guess)
+        found = enclosed_zero(system, centre)
+        assert found is not None
+        entry = {"kind": kind, "label": "B1,d", "near": guess, "width": found[1]}
+        entry["centre"] = [str(exact_ends(x)[0]) for x in centre]
+        assert "centre" not in _searched(line, kind, "B1,d", guess)
+        with pytest.raises(NotShownError, match="not at a value and at times"):
+            point_claims(Rotor(hypotheses), Evidence({"points": [entry]}), {"along": "gamma", "from": low, "to": high})
+
+
+@pytest.mark.parametrize("change", [{"label": "B1,d: no kick is lost"}, {"comment": "no kick is lost"}])
+def test_words_in_the_evidence_of_a_point_are_refused(change):
+    entry = {"kind": "fold", "label": "B1,d", "near": [0.1], **change}
+    with at_precision(128), pytest.raises(NotShownError, match="names no motion"):
+        point_claims(
+            Rotor(hypotheses_of(DECIMAL)), Evidence({"points": [entry]}), {"along": "gamma", "from": "0.1", "to": "0.2"}
+        )

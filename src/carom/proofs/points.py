@@ -8,6 +8,7 @@ function that vanishes at the point changes its sign there if its derivative alo
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -111,6 +112,8 @@ KINDS: Mapping[str, Kind] = {
     "rub-fold": Kind(("value",), _rub_fold, "the two synchronous rubs meet"),
 }
 """Kinds of points that can be proven."""
+_LABEL, _MOST_POINTS = re.compile(r"B[0-9]{1,4},[abcd]|contact-free|rub"), 1000
+"""Motions that points belong to, and how many a certificate may have."""
 
 
 def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
@@ -126,9 +129,14 @@ def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     """
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
     found = evidence.take("points", lambda: [_searched(line, *seed) for seed in point_seeds(line)])
-    claims, told = [], set()
+    claims: list[Claim] = []
+    told: set[tuple[str, str]] = set()
+    if len(found) > _MOST_POINTS:
+        raise NotShownError(f"the certificate has more than {_MOST_POINTS} points")
     for entry in found:
         label, count = str(entry["label"]), 1
+        if set(entry) - {"kind", "label", "near", "centre", "width"} or not _LABEL.fullmatch(label):
+            raise NotShownError(f"the certificate has a point of {label!r}, which names no motion")
         while (entry["kind"], label) in told:
             count += 1
             label = f"{entry['label']} ({count})"
@@ -143,7 +151,8 @@ def _searched(line: Line, kind: str, label: str, guess: list[float]) -> dict[str
     centre = newton(system, guess)
     found = None if centre is None else enclosed_zero(system, centre)
     entry: dict[str, Any] = {"kind": kind, "label": label, "near": guess}
-    if centre is not None and found is not None:
+    at = None if found is None else dict(zip(KINDS[kind].unknowns, found[0], strict=True))
+    if centre is not None and found is not None and at is not None and _in_range(line, at):
         entry |= {"centre": [str(exact_ends(x)[0]) for x in centre], "width": found[1]}
     return entry
 
@@ -166,6 +175,8 @@ def _claims_of(line: Line, label: str, entry: Mapping[str, Any]) -> list[Claim]:
     if found is None or len(centre) != len(kind.unknowns):
         raise NotShownError(f"the certificate does not show the {entry['kind']} of {label}")
     values = dict(zip(kind.unknowns, found[0], strict=True))
+    if not _in_range(line, values):
+        raise NotShownError(f"the {entry['kind']} of {label} is not at a value and at times that are looked at")
     enclosures = {name: enclosure_of(ball) for name, ball in values.items()}
     claims = [_claim(entry["kind"], f"of {label}", statement, 1, enclosures=enclosures)]
     try:
@@ -173,6 +184,14 @@ def _claims_of(line: Line, label: str, entry: Mapping[str, Any]) -> list[Claim]:
     except (ValueError, ZeroDivisionError) as problem:
         reason = f"a formula has a pole next to it: {problem}"
         return [*claims, _claim(entry["kind"], f"of {label} transversal", "It is transversal.", 0, reason)]
+
+
+def _in_range(line: Line, at: Mapping[str, Any]) -> bool:
+    """Whether the value is in the interval, the period positive and a touch between the impacts."""
+    low, high = exact_ends(at["value"])
+    period = at.get("period", arb(1))
+    touch = at.get("touch", period / 2)
+    return line.ends[0] <= high and low <= line.ends[1] and bool(period > 0 and 0 < touch < period)
 
 
 def _claim(
@@ -289,9 +308,11 @@ def _flip_claims(label: str, course: Course) -> list[Claim]:
     trace, _, determinant = course.invariants
     # The other two multipliers have the sum τ + 1 and the product −D.
     total, product = trace + 1, -determinant
-    others = min(decided(1 - total + product), decided(1 + total + product), decided(1 - product), decided(1 + product))
+    signs = [decided(x) for x in (1 - total + product, 1 + total + product, 1 - product, 1 + product)]
+    others = min(signs)
     coefficient = flip_coefficient(course)
-    sign = decided(coefficient)
+    # The normal form needs that no other multiplier is on the unit circle.
+    sign = decided(coefficient) if 0 not in signs else 0
     words = "super" if sign > 0 else "sub"
     born = "born stable" if sign > 0 and others > 0 else "unstable"
     return [
@@ -308,7 +329,7 @@ def _flip_claims(label: str, course: Course) -> list[Claim]:
             f"It is {words}critical: on the centre manifold the impact map is x -> -x + b x^3 with this b, not zero. Orbits of "
             f"twice the period next to it are {born}, as far as they stay inside the wall.",
             abs(sign),
-            reason="the sign of b is open",
+            reason="the sign of b is open, or another multiplier may be on the unit circle",
             enclosures={"b": enclosure_of(coefficient)},
         ),
     ]
