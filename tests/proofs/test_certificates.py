@@ -14,6 +14,7 @@ from machines import PAPER
 
 from carom.outcome import InputError
 from carom.proofs import check, prove
+from carom.proofs.balls import Enclosure
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 
 DECIMAL = {
@@ -178,3 +179,39 @@ def test_evidence_is_read_as_recorded():
         read.take("other", lambda: "1")
     with pytest.raises(NotShownError, match="no fraction"):
         rational_of("1e5")
+
+
+def test_number_stated_much_wider_than_known_is_refused(document):
+    changed = copy.deepcopy(document)
+    claim = next(entry for entry in changed["claims"] if entry["kind"] == "solution" and entry["about"] == "B1,a")
+    claim["enclosures"]["period"] = ["0", "100"]
+
+    with pytest.raises(InputError, match="much wider"):
+        check(changed)
+
+
+def test_option_that_the_theorem_does_not_know_is_refused(document):
+    with pytest.raises(InputError, match="its options must be longest_period, cells"):
+        check({**document, "options": {**document["options"], "note": "no other motion of any kind"}})
+
+
+def test_key_that_is_twice_in_a_file_is_refused(document, tmp_path):
+    text = json.dumps(document)
+    (tmp_path / "proof.json").write_text(text.replace('"gamma": "0.1"', '"gamma": "0.2", "gamma": "0.1"', 1))
+    with pytest.raises(InputError, match="must be a JSON file"):
+        check(tmp_path / "proof.json")
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        ("12", "123", "[12, 123]"),
+        ("15", "16", "[15, 16]"),
+        ("10.5", "105.2", "[10.5, 105.2]"),
+        ("12345678901234567.1", "12345678901234567.2", "[12345678901234567.1, 12345678901234567.2]"),
+        ("15.1", "15.2", "15.…"),
+        ("15", "15", "15"),
+    ],
+)
+def test_short_number_shows_no_digits_that_are_not_certain(low, high, words):
+    assert Enclosure(low, high, (Fraction(low), Fraction(high))).short == words

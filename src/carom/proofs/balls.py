@@ -98,6 +98,11 @@ class Enclosure:
             ratio /= Decimal(size.numerator) / Decimal(size.denominator)
             return max(0, -ratio.adjusted() - 1)
 
+    @property
+    def width(self) -> Fraction:
+        """Difference of both numbers."""
+        return Fraction(self.high) - Fraction(self.low)
+
     def holds(self, other: Enclosure) -> bool:
         """Whether the ball of another one lies between its numbers."""
         return Fraction(self.low) <= other.inner[0] and other.inner[1] <= Fraction(self.high)
@@ -107,7 +112,10 @@ class Enclosure:
         """The digits that both have in common, at most :data:`_SHOWN`, or both numbers."""
         pairs = zip(self.low, self.high, strict=False)
         common = "".join(one for one, _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
-        if not set(common) & set("123456789") or "E" in self.low + self.high:
+        places = {len(end.partition(".")[0]) for end in (self.low, self.high)}
+        # Digits in common say nothing where the decimal point is not at the same place, or is not shown.
+        shown = len(places) == 1 and max(places) <= min(len(common), _SHOWN) and set(common) & set("123456789")
+        if not shown or "E" in self.low + self.high:
             return str(self)
         return common if self.low == self.high and len(common) <= _SHOWN else f"{common[:_SHOWN]}…"
 

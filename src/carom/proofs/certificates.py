@@ -20,6 +20,8 @@ from carom.proofs.theorems import THEOREMS
 
 LARGEST_BYTES = 50_000_000
 _DECIMAL = re.compile(r"-?[0-9]{1,100}(?:\.[0-9]{1,100})?(?:E[+-][0-9]{1,4})?")
+_WIDEST = 64
+"""How many times wider than found here a number may be stated: another version of the arithmetic may know it a little better."""
 _KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence")
 
 
@@ -57,6 +59,8 @@ def _proof_of(document: Mapping[str, Any]) -> Proof:
     theorem, bits = document["theorem"], document["bits"]
     if theorem not in THEOREMS or not isinstance(bits, int) or not 2 <= bits <= MOST_BITS:
         raise NotShownError(f"it must name a known theorem and 2 to {MOST_BITS} bits")
+    if sorted(document["options"]) != sorted(THEOREMS[theorem].options):
+        raise NotShownError(f"its options must be {', '.join(THEOREMS[theorem].options)}")
     evidence = Evidence(document["evidence"])
     hypotheses = Hypotheses.from_document(document["hypotheses"])
     proof = proof_at(bits, theorem, hypotheses, dict(document["options"]), evidence)
@@ -90,15 +94,18 @@ def _held(found: Enclosure, stated: Sequence[str], name: str) -> Enclosure:
     told = Enclosure(stated[0], stated[1], found.inner)
     if not told.holds(found):
         raise NotShownError(f"a number is not between those stated: {name}")
+    if told.width > _WIDEST * found.width:
+        raise NotShownError(f"a number is stated much wider than it is known: {name}")
     return told
 
 
 def _read(path: str | os.PathLike[str]) -> dict[str, Any]:
     try:
-        data = Path(path).read_bytes()
+        with Path(path).open("rb") as file:
+            data = file.read(LARGEST_BYTES + 1)
         if len(data) > LARGEST_BYTES:
             raise ValueError("too long")
-        document = json.loads(data)
+        document = json.loads(data, object_pairs_hook=_each_once)
         if not isinstance(document, dict):
             raise TypeError("no object")
     except OSError as problem:
@@ -106,3 +113,11 @@ def _read(path: str | os.PathLike[str]) -> dict[str, Any]:
     except (RecursionError, TypeError, ValueError):
         raise InputError("certificate", shown(path), "must be a JSON file that carom prove has written") from None
     return document
+
+
+def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object of JSON; a key that is there twice would be read by a person otherwise than here."""
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a key twice")
+    return found

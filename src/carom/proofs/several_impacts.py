@@ -100,8 +100,8 @@ def _claims_of(rotor: Rotor, flights: Flights, name: str, entry: Mapping[str, An
     exists = claim_of(
         name,
         "exists",
-        f"The closing conditions of a motion with {count} impacts a period and forward slip have exactly one solution in a box "
-        f"around these values, and it is no shorter orbit run several times. Angles count from that of the contact-free equilibrium.",
+        f"The closing conditions of a motion with {count} impacts a period and forward slip have a solution with these values, "
+        f"the only one in a box around it, and it is no shorter orbit run several times. Angles count from that of the contact-free equilibrium.",
         1 if repeats is False else 0,
         reason="it may be a shorter orbit run several times",
         enclosures=enclosures,

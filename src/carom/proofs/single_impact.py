@@ -87,8 +87,8 @@ def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[li
     solution = claim_of(
         name,
         "solution",
-        "The closing conditions of an orbit with one impact a period and forward slip have exactly one solution with a period "
-        "and a radial speed in these intervals.",
+        "The closing conditions of an orbit with one impact a period and forward slip have a solution with a period and a "
+        "radial speed in these intervals; it is simple, so no other is next to it.",
         1,
         enclosures=enclosures_of(period=impact.period, radial_speed=impact.speed, angular_speed=impact.angular_speed),
     )

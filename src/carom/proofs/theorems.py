@@ -34,10 +34,13 @@ class Theorem:
     claims : callable
         Takes a :class:`~carom.proofs.rotor.Rotor`, :class:`~carom.proofs.evidence.Evidence` and options.
     not_claimed : tuple of str
+    options : tuple of str
+        Names of its options.
     """
 
     claims: Callable[[Rotor, Evidence, Options], list[Claim]]
     not_claimed: tuple[str, ...]
+    options: tuple[str, ...]
 
 
 def _single_impact(rotor: Rotor, evidence: Evidence, options: Options) -> list[Claim]:
@@ -107,6 +110,7 @@ THEOREMS: Mapping[str, Theorem] = {
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
             "that a rub attracts motions that bounce, not only those that slide",
         ),
+        ("longest_period", "cells"),
     ),
     "orbits of several impacts": Theorem(
         lambda rotor, evidence, options: [
@@ -118,6 +122,7 @@ THEOREMS: Mapping[str, Theorem] = {
             "that there are no orbits with lasting contact or with impacts that stop the slip, and no irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks above the harmless speed",
         ),
+        ("longest_period", "cells", "impacts"),
     ),
     "along a parameter": Theorem(
         lambda rotor, evidence, options: [
@@ -131,6 +136,7 @@ THEOREMS: Mapping[str, Theorem] = {
             "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
             "which disturbances lead to an orbit or to levitation: basins, and recovery from kicks",
         ),
+        ("along", "from", "to", "blocks", "narrowest"),
     ),
 }
 """Theorems by their names in certificates."""
