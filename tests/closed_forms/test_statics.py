@@ -47,8 +47,8 @@ def test_each_balances_all_forces():
         model = random_rotor(seed)
         for at in find_equilibria(model):
             residual, wall = misses(model, at)
-            # Newton's method stops at this distance from the walls.
-            assert residual < 1e-11
+            # Newton's method stops at 1e-11 from the walls, and the position is a sum of modes.
+            assert residual < 1e-12 * (10.0 + np.linalg.cond(model.system.basis))
             assert wall < 1e-10
             seen.add((len(at.planes), at.status))
     assert {(0, "admissible"), (1, "admissible"), (1, "virtual"), (2, "admissible"), (2, "virtual")} <= seen
