@@ -36,6 +36,8 @@ def test_json_is_the_certificate(capsys, tmp_path):
     [
         ([], "give a machine file"),
         ([PAPER, "--longest-period", "-1"], "a time above 0"),
+        ([PAPER, "--longest-period", "1e999999999"], "a time above 0"),
+        ([PAPER, "--along", "gamma", "--from", "[0.1, 0.2]", "--to", "0.3"], "must be one number"),
         ([PAPER, "--check", "proof.json"], "must stand alone"),
         (["--check", "absent.json"], "cannot be read"),
         (["absent.toml"], "there is no such file"),
@@ -68,3 +70,11 @@ def test_without_flint_one_line_names_the_extra():
 
     assert done.returncode == 2
     assert done.stderr == 'carom: proofs need python-flint; install it with: pip install "carom[proof]"\n'
+
+
+def test_value_of_the_parameter_along_which_is_proven_is_not_assumed(capsys):
+    ends = ["--along", "gamma", "--from", "0.1", "--to", "0.10001"]
+    assert main(["prove", PAPER, "--set", "gamma=0.3", *ends]) == 0
+    printed = capsys.readouterr().out
+    assert "gamma from 0.1 to 0.10001" in printed
+    assert "gamma = 0.3" not in printed

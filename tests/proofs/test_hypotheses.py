@@ -83,6 +83,8 @@ def test_document_reads_back_and_a_changed_digit_is_refused():
         ({"omega": "1e-999999999"}, "out of range"),
         ({"gamma": "9" * 300}, "too long"),
         ({"gamma": "double x"}, "not a number"),
+        ({"gamma": "double 1_0"}, "not a number"),
+        ({"gamma": "double ٣"}, "not a number"),
         ({"gamma": ("0.2", "0.1")}, "must increase"),
         ({"rho": "-0.1"}, "rho = -0.1"),
         ({"d": "1.0000000000000000001"}, "out of range"),

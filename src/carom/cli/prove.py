@@ -101,4 +101,9 @@ def _number(claim: Claim) -> str:
 
 def _assumed(proof: Proof) -> str:
     given = {**proof.hypotheses.values, **proof.hypotheses.settings}
-    return ", ".join(f"{name} = {text}" for name, text in given.items())
+    told = {name: f"{name} = {text}" for name, text in given.items()}
+    along = proof.options.get("along")
+    if along is not None:
+        # Its own value in the machine file is not assumed.
+        told[along] = f"{along} from {proof.options['from']} to {proof.options['to']}"
+    return ", ".join(told.values())

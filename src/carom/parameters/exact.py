@@ -78,10 +78,14 @@ def read_exact(field: Field, text: str) -> ExactNumber:
             raise field.error(text, "the ends of an interval must increase and have the same unit")
         return ExactNumber(low.low, high.high, low.turns)
     if text.startswith("double "):
+        digits = text.removeprefix("double ")
         try:
-            number = float(text.removeprefix("double "))
+            number = float(digits)
         except ValueError:
             raise field.error(text, "this is not a number") from None
+        # Python reads digits of all scripts, with underscores between them.
+        if "_" in digits or not digits.isascii():
+            raise field.error(text, "this is not a number")
         read_quantity(field, number)
         return ExactNumber(Fraction(number), Fraction(number))
     return _from_text(field, text)

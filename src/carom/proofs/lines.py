@@ -144,6 +144,9 @@ def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:
         raise unknown_name(name, f"{start} to {stop}", known, "parameter")
     if name in ("phi", "unbalance_phase"):
         raise InputError("parameter", name, "only turns motions: no claim depends on it")
+    for end in (start, stop):
+        if end.strip().startswith("["):
+            raise InputError(name, end, "an end must be one number")
     line = Line(hypotheses, name, start, stop)
     low, high = line.ends
     if not low <= high:

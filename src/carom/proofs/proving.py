@@ -23,6 +23,8 @@ MOST_BLOCKS, NARROWEST = 2000, "1/10000"
 """Blocks of a parameter after which the search ends, and the share of the interval at which a block is left open."""
 MOST_CELLS = 2000
 """Cells of the periods after which the search ends."""
+_EXPONENT = 4
+"""Characters that the exponent of a time may have."""
 
 
 def prove(
@@ -109,7 +111,9 @@ def proof_at(bits: int, theorem: str, hypotheses: Hypotheses, options: Options, 
 
 def _time(given: Given) -> Fraction:
     try:
-        time = Fraction(given)  # type: ignore[arg-type]
+        # A decimal number with a long exponent would be a fraction too long to compute with.
+        short = len(str(given).lower().partition("e")[2]) <= _EXPONENT
+        time = Fraction(given) if short else Fraction(0)  # type: ignore[arg-type]
     except (TypeError, ValueError, ZeroDivisionError, OverflowError):
         time = Fraction(0)
     if time <= 0:
