@@ -16,10 +16,12 @@ from carom.orbits import Section, impact_map
 from carom.outcome import InputError
 from carom.proofs import check, prove
 from carom.proofs.balls import at_precision
+from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.krawczyk import enclosed_zero, newton
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
+from carom.proofs.several_impacts import several_impact_claims
 from carom.proofs.words import Flights, ShootingOrbit
 
 NEAR_DOUBLING = PAPER.replace(gamma=0.0832)
@@ -129,3 +131,19 @@ def test_flight_through_the_wall_is_told():
         guess = newton(flights.equations, [angle, orbit.radial_speed, orbit.angular_speed, orbit.period])
         found, _ = enclosed_zero(flights.equations, guess)
         assert ShootingOrbit(flights, (tuple(found),)).stays_inside() is False
+
+
+@pytest.mark.parametrize("first", [0, 4], ids=["the same", "from its other impact"])
+def test_orbit_that_is_listed_twice_is_refused(proof, first):
+    (entry,) = proof.evidence["orbits"]
+    again = {**entry, "centre": [*entry["centre"][first:], *entry["centre"][:first]]}
+    evidence = Evidence({**proof.evidence, "orbits": [entry, again]})
+    with at_precision(proof.bits), pytest.raises(NotShownError, match="lists an orbit twice"):
+        several_impact_claims(Rotor(proof.hypotheses), evidence, proof.options)
+
+
+def test_words_in_the_evidence_of_an_orbit_are_refused(proof):
+    (entry,) = proof.evidence["orbits"]
+    evidence = Evidence({**proof.evidence, "orbits": [{**entry, "note": "the only one"}]})
+    with at_precision(proof.bits), pytest.raises(NotShownError, match="a centre and a width"):
+        several_impact_claims(Rotor(proof.hypotheses), evidence, proof.options)

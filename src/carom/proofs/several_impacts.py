@@ -36,9 +36,14 @@ def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> lis
     found = evidence.take("orbits", lambda: list(_searched(rotor, flights, int(options["impacts"]))))
     if any(len(entry["centre"]) > 4 * int(options["impacts"]) for entry in found):
         raise NotShownError("the certificate has an orbit with more impacts than its options")
-    claims = []
+    claims: list[Claim] = []
+    known: list[ShootingOrbit] = []
     for number, entry in enumerate(found, 1):
-        claims += _claims_of(rotor, flights, f"orbit {number}", entry)
+        orbit = _shown(flights, f"orbit {number}", entry)
+        if any(_same(orbit, other) for other in known):
+            raise NotShownError(f"the certificate lists an orbit twice: orbit {number}")
+        known.append(orbit)
+        claims += _claims_of(f"orbit {number}", orbit)
     return claims
 
 
@@ -76,7 +81,7 @@ def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
     for shift in range(count):
         turned = [other.impacts[(k + shift) % count] for k in range(count)]
         if all(
-            abs(a - b) < 1e-9
+            a.overlaps(b) or abs(a - b) < 1e-9
             for x, y in zip(one.impacts, turned, strict=True)
             for a, b in zip(x[1:], y[1:], strict=True)
         ):
@@ -84,14 +89,20 @@ def _same(one: ShootingOrbit, other: ShootingOrbit) -> bool:
     return False
 
 
-def _claims_of(rotor: Rotor, flights: Flights, name: str, entry: Mapping[str, Any]) -> list[Claim]:
+def _shown(flights: Flights, name: str, entry: Mapping[str, Any]) -> ShootingOrbit:
+    """Enclosure of the orbit of an entry of the evidence."""
+    if set(entry) != {"centre", "width"}:
+        raise NotShownError(f"the certificate must give a centre and a width of {name}")
     centre = [rational(rational_of(text)).mid() for text in entry["centre"]]
     if len(centre) % 4 or not 8 <= len(centre) <= 4 * MOST_IMPACTS:
         raise NotShownError(f"the certificate has no orbit of 2 to {MOST_IMPACTS} impacts as {name}")
     found = enclosed_zero(flights.equations, centre, int(entry["width"]))
     if found is None:
         raise NotShownError(f"the certificate does not show {name}")
-    orbit = _orbit_of(flights, found[0])
+    return _orbit_of(flights, found[0])
+
+
+def _claims_of(name: str, orbit: ShootingOrbit) -> list[Claim]:
     count = len(orbit.impacts)
     enclosures = {"period": enclosure_of(orbit.period)}
     for number, impact in enumerate(orbit.impacts, 1):
