@@ -14,7 +14,7 @@ from carom.outcome import InputError
 from carom.proofs import Claim, Proof, check, prove
 from carom.proofs.balls import at_precision, interval, rational
 from carom.proofs.block_orbits import _longest
-from carom.proofs.evidence import Evidence
+from carom.proofs.evidence import Evidence, NotShownError
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import line_of
 from carom.proofs.proving import proof_of
@@ -240,3 +240,11 @@ def test_periods_without_radial_speeds_are_not_counted_as_roots():
     assert stated
     # F1 has two roots there, and no radial speed belongs to either.
     assert all("none" in words and "F1" not in words for words in stated)
+
+
+@pytest.mark.parametrize("reason", ["\x1b[2Jproven", "x" * 1000])
+def test_reason_that_is_not_one_short_line_is_refused(reason):
+    evidence = Evidence({"blocks": [["1/10", ""], ["101/1000", reason]]})
+    options = {"along": "gamma", "from": "0.1", "to": "0.101", **LIMITS}
+    with at_precision(64), pytest.raises(NotShownError, match="not one short line"):
+        range_claims(Rotor(hypotheses_of(DECIMAL)), evidence, options)

@@ -25,6 +25,8 @@ from carom.proofs.rotor import Rotor
 from carom.proofs.series import hull
 from carom.proofs.slip import out_of_clearance, time_out
 
+_LONGEST = 300
+"""Characters of a reason."""
 BITS = 64
 """Precision."""
 _FIRST_STEPS = 4
@@ -159,6 +161,8 @@ def _pieces(
     ends = [rational_of(end) for end, _ in cuts]
     if ends[0] != low or ends[-1] != high or not 2 <= len(ends) <= most + 3 or any(a > b for a, b in pairwise(ends)):
         raise NotShownError("the blocks of the certificate do not cover the interval")
+    if not all(str(reason).isprintable() and len(str(reason)) < _LONGEST for _, reason in cuts):
+        raise NotShownError("a reason of the certificate why a block is open is not one short line")
     found = []
     for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
         try:
