@@ -10,7 +10,7 @@ and times in units of ``1/Ω``, in SI units too if the machine is known.
 
 from __future__ import annotations
 
-from carom.plots.attractors import attractors
+from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
