@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Machine, find_bifurcations, find_orbits
+from carom import find_bifurcations, find_orbits
 from carom.bifurcations import KINDS, Bifurcation, Curve, Plane, continue_curve, continue_orbit
 from carom.bifurcations.passing import passes
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import Numbers, Scales
+from carom.parameters import Machine, Numbers, Scales
 
 PLANE = Plane("gamma", "omega", (0.01, 0.4), (0.6, 1.0))
 

@@ -9,12 +9,12 @@ import pytest
 from compilation import sized
 from machines import PAPER, random_parameters
 
-from carom import Machine, find_equilibria, find_orbits
+from carom import find_equilibria, find_orbits
 from carom.bifurcations import Plane, find_bifurcations, map_regions, motions_at
 from carom.bifurcations.curves import STEPS
 from carom.models import Jeffcott
 from carom.outcome import InputError
-from carom.parameters import PARAMETERS, Scales
+from carom.parameters import PARAMETERS, Machine, Scales
 
 
 @pytest.fixture(scope="module")

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Machine, map_regions
+from carom import map_regions
 from carom.bifurcations import Motions, Plane, RegionMap, motions_at
 from carom.bifurcations import survey as module
 from carom.bifurcations.cells import regions_between
 from carom.bifurcations.changes import PlanePoint
 from carom.bifurcations.survey import Survey
 from carom.outcome import CaromError
-from carom.parameters import Parameters, Scales
+from carom.parameters import Machine, Parameters, Scales
 
 KEOGH = Machine.from_parameters(PAPER.replace(gamma=1400.0 / 9210.0), Scales(50.0, 0.7e-3, 184.2)).parameters
 SPINDLE_SPEED = 24000.0 * np.pi / 30.0

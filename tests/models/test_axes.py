@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from machines import PAPER
 
-from carom import Machine
 from carom.models import Jeffcott, axis
 from carom.models.axes import interval_around, read_interval
 from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Numbers, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Machine, Numbers, Scales
 
 MACHINE = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
 

@@ -7,8 +7,8 @@ import pytest
 from drawn_legends import fits, legend_words
 from machines import PAPER
 
-from carom import Machine, bifurcations, plots
-from carom.parameters import Scales
+from carom import bifurcations, plots
+from carom.parameters import Machine, Scales
 from carom.plots import diagrams
 from carom.plots.style import LOOKS
 

@@ -90,7 +90,8 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
 def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float]) -> tuple[EquilibriumBranch, ...]:
     """Levitation and both rubs on an evenly spaced grid of the parameter.
 
-    Of several stable rubs, or several others, the admissible one with the largest normal force.
+    Of several stable rubs, or several others, the admissible one with the largest normal force.  A virtual rub counts as
+    stable if it would attract sliding, so that a branch continues as the same one where its normal force changes sign.
     """
     grid = np.linspace(*interval, SAMPLES)
     kinds = ("contact-free", "stable rub", "saddle rub")
@@ -98,7 +99,10 @@ def equilibrium_branches(model: Model, along: Axis, interval: tuple[float, float
     for column, value in enumerate(grid.tolist()):
         found = find_equilibria(along.move(model, value))
         for equilibrium in sorted(found, key=lambda at: (at.status == "admissible", at.normal_force)):
-            place = 0 if equilibrium.kind == "contact-free" else 1 if equilibrium.stable else 2
+            attracts = (
+                equilibrium.stable if equilibrium.status == "admissible" else equilibrium.eigenvalues.real.max() < 0.0
+            )
+            place = 0 if equilibrium.kind == "contact-free" else 1 if attracts else 2
             table[place, column] = (
                 equilibrium.radius,
                 equilibrium.normal_force,
