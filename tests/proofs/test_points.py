@@ -263,3 +263,18 @@ def test_words_in_the_evidence_of_a_point_are_refused(change):
         point_claims(
             Rotor(hypotheses_of(DECIMAL)), Evidence({"points": [entry]}), {"along": "gamma", "from": "0.1", "to": "0.2"}
         )
+
+
+def test_a_pair_of_multipliers_leaves_the_unit_circle_where_continuation_says():
+    """The rotor on a softer bearing and better balanced: B1,d loses its stability to a torus."""
+    found = points({**DECIMAL, "omega": "0.35", "rho": "0.2"}, "gamma", "0.0772", "0.0773")
+    claims = [found[f"neimark-sacker of B1,d{part}"] for part in ("", " transversal", " complex", " motion")]
+    assert [claim.status for claim in claims] == ["proven"] * 4
+
+    branch = cm.continue_orbit(find_orbits(PAPER.replace(omega=0.35, rho=0.2))["B1,d"], "gamma", (0.07, 0.11))
+    (torus,) = [point for point in branch.special if point.kind == "neimark-sacker"]
+    assert claims[0].enclosures["value"].value == pytest.approx(torus.value, rel=1e-9)
+    pair = 2.0 * torus.orbit.multipliers.values[0].real
+    assert claims[2].enclosures["pair_sum"].value == pytest.approx(pair, abs=1e-7)
+    low, high = claims[0].enclosures["value"].low, claims[0].enclosures["value"].high
+    assert Fraction(high) - Fraction(low) < Fraction(1, 10**20)

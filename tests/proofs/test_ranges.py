@@ -248,3 +248,17 @@ def test_reason_that_is_not_one_short_line_is_refused(reason):
     options = {"along": "gamma", "from": "0.1", "to": "0.101", **LIMITS}
     with at_precision(64), pytest.raises(NotShownError, match="not one short line"):
         range_claims(Rotor(hypotheses_of(DECIMAL)), evidence, options)
+
+
+def test_an_open_interval_around_a_bifurcation_of_one_orbit_leaves_the_others_decided():
+    """Where B1,d doubles its period only its stability is open: all else is proven for all values."""
+    claims = ranges(DECIMAL, "gamma", "0.0833", "0.0834", narrowest="1/10000")
+    for name in "abcd":
+        assert named(claims, f"B1,{name} exists").status == "proven"
+        assert named(claims, f"B1,{name} admissible").status == "proven"
+    assert named(claims, "machine all-single-impact-orbits").status == "proven"
+    assert "open on" in named(claims, "B1,d stable").reason
+    assert not any("open on" in named(claims, f"B1,{name} stable").reason for name in "abc")
+    for value in np.random.default_rng(5).uniform(0.0833, 0.0834, 5):
+        orbits = {orbit.name: orbit for orbit in find_orbits(PAPER.replace(gamma=float(value)))}
+        assert all(orbits[f"B1,{name}"].admissible for name in "abcd")

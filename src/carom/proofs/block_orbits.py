@@ -46,7 +46,8 @@ class OrbitFact:
     Attributes
     ----------
     name : str
-    admissible, stable : bool
+    admissible, stable : bool or None
+        ``None`` where this is not decided.
     reason : str
         Why it is not admissible.
     instability : str
@@ -56,8 +57,8 @@ class OrbitFact:
     """
 
     name: str
-    admissible: bool
-    stable: bool
+    admissible: bool | None
+    stable: bool | None
     reason: str
     instability: str
     period: Any
@@ -67,6 +68,13 @@ class OrbitFact:
     def signature(self) -> tuple[Any, ...]:
         """What is the same along a stretch of the parameter."""
         return self.name, self.admissible, self.stable, self.reason, self.instability
+
+    @property
+    def doubt(self) -> str:
+        """What is not decided; empty if everything is."""
+        if self.stable is None:
+            return f"the stability of {self.name} is open"
+        return f"it is open whether {self.name} is a motion" if self.admissible is None else ""
 
 
 # ------------------------------------------------------------------------------------------------ periods
@@ -219,7 +227,7 @@ def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
     Raises
     ------
     OpenError
-        Something is not decided.
+        Their number is not decided.
     """
     facts = []
     branches = branches_on(block, cells)
@@ -236,13 +244,9 @@ def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
 
 
 def _fact(name: str, orbit: OrbitBranch, positive: bool) -> OrbitFact:
-    instability = instability_of(orbit, positive)
-    if instability is None:
-        raise OpenError(f"the stability of {name} is open")
-    reason = why_virtual(orbit)
-    if reason is None:
-        raise OpenError(f"it is open whether {name} is a motion")
-    return OrbitFact(name, not reason, not instability, reason, instability, orbit.branch.period, orbit.speed)
+    instability, reason = instability_of(orbit, positive), why_virtual(orbit)
+    admissible, stable = (None if why is None else not why for why in (reason, instability))
+    return OrbitFact(name, admissible, stable, reason or "", instability or "", orbit.branch.period, orbit.speed)
 
 
 def instability_of(orbit: OrbitBranch, positive: bool) -> str | None:

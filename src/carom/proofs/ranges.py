@@ -39,15 +39,15 @@ class Stretch:
     Attributes
     ----------
     low, high : Fraction
-    facts : tuple of OrbitFact
-        Periods and speeds on all of it.
+    facts : tuple of OrbitFact or None
+        All orbits, with periods and speeds on all of it; ``None`` if their number is not decided.
     reason : str
-        Why nothing is shown; empty if it is.
+        Why something is not decided; empty if everything is.
     """
 
     low: Fraction
     high: Fraction
-    facts: tuple[OrbitFact, ...]
+    facts: tuple[OrbitFact, ...] | None
     reason: str
 
     @property
@@ -62,7 +62,7 @@ class Stretch:
 
     def fact(self, name: str) -> OrbitFact | None:
         """What holds for an orbit of a name."""
-        return next((fact for fact in self.facts if fact.name == name), None)
+        return next((fact for fact in self.facts or () if fact.name == name), None)
 
 
 def _decimal(value: Fraction, upward: bool) -> str:
@@ -99,7 +99,7 @@ def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction
     stretches = _stretches(_pieces(line, cuts, most))
     slip = _slip_claim(line, evidence)
     claims = [slip, _all_claim(line, stretches, slip)]
-    for name in sorted({fact.name for stretch in stretches for fact in stretch.facts}):
+    for name in sorted({fact.name for stretch in stretches for fact in stretch.facts or ()}):
         claims += _orbit_claims(line, name, stretches)
     for stretch in stretches:
         claims.append(_stretch_claim(line, stretch))
@@ -120,7 +120,7 @@ def _cuts(line: Line, most: int, narrowest: Fraction) -> list[list[str]]:
     while place < high or len(found) == 1:
         end = high if place + step * Fraction(21, 20) >= high else _short(place + step, step)
         try:
-            _facts(line, place, end)
+            _decided_facts(line, place, end)
         except OpenError as problem:
             if len(found) < most and step > skip:
                 step = max(step / 2, skip)
@@ -153,9 +153,21 @@ def _facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
         raise OpenError(f"a formula has a pole next to it: {problem}") from None
 
 
-def _pieces(
-    line: Line, cuts: Sequence[Sequence[str]], most: int
-) -> list[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]:
+def _decided_facts(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...]:
+    facts = _facts(line, low, high)
+    for doubt in filter(None, (fact.doubt for fact in facts)):
+        raise OpenError(doubt)
+    return facts
+
+
+def _facts_if_counted(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitFact, ...] | None:
+    try:
+        return _facts(line, low, high)
+    except OpenError:
+        return None
+
+
+def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int) -> list[Stretch]:
     """What holds on each block."""
     low, high = line.ends
     ends = [rational_of(end) for end, _ in cuts]
@@ -166,30 +178,36 @@ def _pieces(
     found = []
     for before, after, (_, reason) in zip(ends, ends[1:], cuts[1:], strict=False):
         try:
-            facts = () if reason else _facts(line, before, after)
+            facts = _facts_if_counted(line, before, after) if reason else _decided_facts(line, before, after)
         except OpenError as problem:
             raise NotShownError(
                 f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
             ) from None
-        found.append((before, after, facts, str(reason)))
+        decided = facts is not None and not any(fact.doubt for fact in facts)
+        found.append(Stretch(before, after, facts, "" if decided else str(reason)))
     return found
 
 
-def _stretches(pieces: Sequence[tuple[Fraction, Fraction, tuple[OrbitFact, ...], str]]) -> list[Stretch]:
+def _signature(piece: Stretch) -> tuple[Any, ...]:
+    return piece.facts and tuple(fact.signature for fact in piece.facts), piece.facts is None, bool(piece.reason)
+
+
+def _stretches(pieces: Sequence[Stretch]) -> list[Stretch]:
     """Neighbouring blocks of the same signature, put together."""
     found = []
-    for _, group in groupby(pieces, key=lambda piece: (tuple(fact.signature for fact in piece[2]), bool(piece[3]))):
+    for _, group in groupby(pieces, key=_signature):
         members = list(group)
         facts = []
-        for same in zip(*(member[2] for member in members), strict=True):
+        for same in zip(*(member.facts or () for member in members), strict=True):
             period, speed = same[0].period, same[0].speed
             for fact in same[1:]:
                 period, speed = hull(period, fact.period), hull(speed, fact.speed)
             name, admissible, stable, reason, instability = same[0].signature
             facts.append(OrbitFact(name, admissible, stable, reason, instability, period, speed))
-        reasons = list(dict.fromkeys(member[3] for member in members if member[3]))
+        reasons = list(dict.fromkeys(member.reason for member in members if member.reason))
         more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
-        found.append(Stretch(members[0][0], members[-1][1], tuple(facts), reasons[0] + more if reasons else ""))
+        counted = None if members[0].facts is None else tuple(facts)
+        found.append(Stretch(members[0].low, members[-1].high, counted, reasons[0] + more if reasons else ""))
     return found
 
 
@@ -212,17 +230,16 @@ def _slip_claim(line: Line, evidence: Evidence) -> Claim:
 
 def _all_claim(line: Line, stretches: Sequence[Stretch], slip: Claim) -> Claim:
     """Claim about the number of orbits on the whole interval."""
-    names = sorted({fact.name for stretch in stretches for fact in stretch.facts})
-    motions = sorted({fact.name for stretch in stretches for fact in stretch.facts if fact.admissible})
-    doubts = [f"{stretch.ends} is open: {stretch.reason}" for stretch in stretches if stretch.reason]
-    always = (
-        all(
-            fact.admissible is (fact.name in motions) and len(stretch.facts) == len(names)
-            for stretch in stretches
-            if not stretch.reason
-            for fact in stretch.facts
-        )
-        and len({len(stretch.facts) for stretch in stretches if not stretch.reason}) <= 1
+    counted = [stretch.facts for stretch in stretches if stretch.facts is not None]
+    names = {fact.name for facts in counted for fact in facts}
+    motions = sorted({fact.name for facts in counted for fact in facts if fact.admissible})
+    doubts = [
+        f"{stretch.ends} is open: {stretch.reason}"
+        for stretch in stretches
+        if stretch.facts is None or any(fact.admissible is None for fact in stretch.facts)
+    ]
+    always = all(len(facts) == len(names) for facts in counted) and all(
+        fact.admissible in (None, fact.name in motions) for facts in counted for fact in facts
     )
     words = f"exactly these: {', '.join(motions)}" if motions else "none"
     statement = f"For all {line.words}, motions of the machine with one impact a period, synchronous with the shaft, are {words}."
@@ -252,7 +269,8 @@ def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequen
     told: list[tuple[bool | None, Stretch]] = []
     for stretch in stretches:
         fact = stretch.fact(name)
-        told.append((None if stretch.reason else fact is not None and bool(holds(fact)), stretch))
+        value = holds(fact) if fact else None if stretch.facts is None else False
+        told.append((value, stretch))
     runs = [(value, [stretch for _, stretch in group]) for value, group in groupby(told, key=lambda entry: entry[0])]
     shown = [run for value, run in runs if value]
     longest = max(shown, key=lambda run: run[-1].high - run[0].low, default=None)
@@ -277,27 +295,19 @@ def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequen
 def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
     """Claim about everything on one stretch."""
     about = f"{line.name} in {stretch.ends}"
-    statement = "The closing conditions have exactly these solutions, and each keeps its properties: "
+    if stretch.reason:
+        statement = "The orbits with one impact a period and what they are do not change."
+        return claim_of(about, "orbits", statement, 0, reason=stretch.reason, limited=False)
     told = []
-    for fact in stretch.facts:
+    for fact in stretch.facts or ():
         nature = ["motion of the machine" if fact.admissible else f"no motion ({fact.reason})"]
         nature.append("stable" if fact.stable else f"unstable ({fact.instability})")
         told.append(f"{fact.name}: {', '.join(nature)}")
     enclosures: dict[str, Enclosure] = {}
-    for fact in stretch.facts:
+    for fact in stretch.facts or ():
         enclosures |= {
             f"{fact.name} period": enclosure_of(fact.period),
             f"{fact.name} radial_speed": enclosure_of(fact.speed),
         }
-    statement += "; ".join(told) if told else "none"
-    if stretch.reason:
-        statement = "The orbits with one impact a period and what they are do not change."
-    return claim_of(
-        about,
-        "orbits",
-        statement,
-        0 if stretch.reason else 1,
-        reason=stretch.reason,
-        enclosures=enclosures,
-        limited=False,
-    )
+    statement = "The closing conditions have exactly these solutions, and each keeps its properties: "
+    return claim_of(about, "orbits", statement + ("; ".join(told) or "none"), 1, enclosures=enclosures, limited=False)
