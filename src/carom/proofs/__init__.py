@@ -18,6 +18,7 @@
 ``crossings``       the one change inside an open interval
 ``ranges``          claims about an interval of a parameter
 ``points``          bifurcation points along a parameter
+``steady_points``   those of levitation and rubs
 ``criticality``     whether a period doubling is super- or subcritical
 ``flights``         whether a flight stays inside the wall
 ``words``           motions with several impacts a period, by shooting

@@ -26,6 +26,7 @@ from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import point_seeds
 from carom.proofs.series import first, real, terms
+from carom.proofs.steady_points import boundary, rub_fold, steady_claims
 
 Enclosures = Mapping[str, Enclosure]
 
@@ -71,17 +72,6 @@ def _grazing(line: Line, time: Any, period: Any, speed: Any, value: Any) -> tupl
     return course.back.closing, course.balance, *course.height(time)
 
 
-def _boundary(line: Line, value: Any) -> tuple[Any, ...]:
-    n = line.at(value)
-    return ((n.omega_squared - 1) * (n.omega_squared - 1) + n.gamma * n.gamma - n.rho * n.rho,)
-
-
-def _rub_fold(line: Line, value: Any) -> tuple[Any, ...]:
-    n = line.at(value)
-    pull = n.gamma + n.mu * (1 - n.omega_squared)
-    return (n.rho * n.rho * (1 + n.mu * n.mu) - pull * pull,)
-
-
 def _tested(test: Callable[[Course], Any]) -> Callable[..., tuple[Any, ...]]:
     def equations(line: Line, period: Any, speed: Any, value: Any) -> tuple[Any, ...]:
         course = Course(Return(line.at(value), period), speed)
@@ -108,8 +98,8 @@ KINDS: Mapping[str, Kind] = {
     "non-smooth-hopf": Kind(
         ("period", "value"), _shrinking, "an orbit shrinks into the equilibrium on the wall, |U*| = 1"
     ),
-    "boundary-equilibrium": Kind(("value",), _boundary, "the contact-free equilibrium is on the wall, |U*| = 1"),
-    "rub-fold": Kind(("value",), _rub_fold, "the two synchronous rubs meet"),
+    "boundary-equilibrium": Kind(("value",), boundary, "the contact-free equilibrium is on the wall, |U*| = 1"),
+    "rub-fold": Kind(("value",), rub_fold, "the two synchronous rubs meet"),
 }
 """Kinds of points that can be proven."""
 _LABEL, _MOST_POINTS = re.compile(r"B[0-9]{1,4},[abcd]|contact-free|rub"), 1000
@@ -207,7 +197,7 @@ def _claim(
 def _nature(line: Line, kind: str, label: str, at: Mapping[str, Any]) -> list[Claim]:
     """Claims about transversality, criticality and the motion at a point."""
     if kind in ("boundary-equilibrium", "rub-fold"):
-        return _of_steady_motion(line, kind, label, at["value"])
+        return steady_claims(line, kind, label, at["value"])
     course = Course(Return(line.at(at["value"]), at["period"]), _speed(line, kind, label, at))
     claims = []
     if kind in ("fold", "speed-fold"):
@@ -389,40 +379,3 @@ def _motion_claim(kind: str, label: str, course: Course, at: Mapping[str, Any]) 
     what = "The small cycles next to it are motions" if small else "The orbit there is a motion"
     statement = f"{what} of the machine: inside the wall between the impacts{', but for the touch' if kind == 'grazing' else ''}."
     return _claim(kind, f"of {label} motion", statement, sign, reason="it is virtual" if sign < 0 else "this is open")
-
-
-def _of_steady_motion(line: Line, kind: str, label: str, value: Any) -> list[Claim]:
-    with terms(2):
-        slope = KINDS[kind].equations(line, arb_series([value, 1]))[0][1]
-    n = line.at(value)
-    claims = [
-        _claim(
-            kind,
-            f"of {label} transversal",
-            f"The condition vanishes with this slope by {line.name}, which is not zero.",
-            abs(decided(slope)),
-            reason="the sign of the slope is open",
-            enclosures={"slope": enclosure_of(slope)},
-        )
-    ]
-    if kind == "boundary-equilibrium":
-        balance = 1 - n.omega_squared - n.mu * n.gamma
-        sign = decided(balance)
-        words = "non-smooth fold" if sign > 0 else "persistence"
-        what = {
-            1: "It is a non-smooth fold: a synchronous rub, a saddle along the wall, exists on the side where the rotor levitates.",
-            -1: "It is persistence: a synchronous rub pressed on the wall exists where the contact-free equilibrium is outside.",
-            0: "It is a non-smooth fold or persistence.",
-        }[sign]
-        values = {"balance": enclosure_of(balance)}
-        claims.append(
-            _claim(
-                kind,
-                f"of {label} {words if sign else 'kind'}",
-                what,
-                abs(sign),
-                reason="this is open",
-                enclosures=values,
-            )
-        )
-    return claims
