@@ -45,7 +45,7 @@ class Result:
         return getattr(import_module("carom.plots"), self.figure)(self, *args, **options)
 
     def __repr__(self) -> str:
-        rows = self.rows()
+        rows = self.brief_rows()
         width = max((len(name) for name, _ in rows), default=0)
         return "\n".join([type(self).__name__, *(f"  {name:<{width}}  {text}".rstrip() for name, text in rows)])
 
@@ -62,6 +62,10 @@ class Result:
         names = self.shown or tuple(field.name for field in dataclasses.fields(self))  # type: ignore[arg-type]
         values = [(name, getattr(self, name)) for name in names]
         return [(name, in_a_line(value)) for name, value in values if not callable(value)]
+
+    def brief_rows(self) -> list[tuple[str, str]]:
+        """Rows of the text form: all of them, unless a kind of result can have too many."""
+        return self.rows()
 
 
 def fields_of(entry: object, *names: str, **renamed: str) -> dict[str, Any]:

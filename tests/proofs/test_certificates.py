@@ -6,6 +6,7 @@ import copy
 import json
 import random
 import re
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -215,3 +216,18 @@ def test_key_that_is_twice_in_a_file_is_refused(document, tmp_path):
 )
 def test_short_number_shows_no_digits_that_are_not_certain(low, high, words):
     assert Enclosure(low, high, (Fraction(low), Fraction(high))).short == words
+
+
+def test_text_of_a_proof_is_short_and_names_what_is_undecided(document):
+    proof = check(document)
+    lines = repr(proof).splitlines()
+    assert lines[1].split(maxsplit=1) == ["theorem", "single-impact orbits"]
+    assert "mu 0.15" in lines[2]
+    assert f"{len(proof.with_status('proven'))} proven" in repr(proof)
+    open_ = tuple(replace(claim, status="undecided") for claim in proof)
+    told = repr(replace(proof, claims=open_)).splitlines()
+    assert len(told) <= 16
+    assert told[4].split(maxsplit=1) == ["undecided", proof[0].name]
+    assert f"and {len(proof) - 10} more" in told[-1]
+    # The table keeps all.
+    assert len(proof.rows()) == len(proof) + 1

@@ -22,7 +22,7 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
-from carom.models import Jeffcott, Subject, jeffcott_of, model_of
+from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
@@ -48,6 +48,7 @@ class Diagram(Result):
 
     Attributes
     ----------
+    model : Model
     axis : Axis
         The parameter.
     interval : tuple of float
@@ -66,6 +67,7 @@ class Diagram(Result):
 
     figure: ClassVar[str] = "bifurcation_diagram"
 
+    model: Model
     axis: Axis
     interval: tuple[float, float]
     equilibria: tuple[EquilibriumBranch, ...]
@@ -146,6 +148,7 @@ def find_bifurcations(
         rolling = rolling_branch(model, along, limits)
     disturbances = DisturbanceSet(attractors, seed) if attractors else None
     return Diagram(
+        model=model,
         axis=along,
         interval=limits,
         equilibria=equilibrium_branches(model, along, limits),

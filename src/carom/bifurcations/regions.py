@@ -18,7 +18,7 @@ from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.rubbing import RubbingPoint
 from carom.bifurcations.survey import Survey
-from carom.models import Axis, Subject, jeffcott_of
+from carom.models import Axis, Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import combined
 from carom.outcome import CaromError
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -34,6 +34,8 @@ class RegionMap(Result):
 
     Attributes
     ----------
+    model : Jeffcott
+        The machine itself.
     plane : Plane
     axes : tuple of Axis
         The two parameters of the plane.
@@ -53,6 +55,7 @@ class RegionMap(Result):
     figure: ClassVar[str] = "region_map"
     shown: ClassVar[tuple[str, ...]] = ("plane", "curves", "regions", "present_motions", "unexplained", "lost")
 
+    model: Jeffcott
     plane: Plane
     axes: tuple[Axis, Axis]
     curves: tuple[Curve, ...]
@@ -162,7 +165,8 @@ def map_regions(
     InputError
         Unknown parameters, or a range they cannot have.
     """
-    parameters = jeffcott_of(machine).parameters
+    model = jeffcott_of(machine)
+    parameters = model.parameters
     axes = plane.axes(parameters)
     tell = Reporter.of(progress, "counting motions, following curves")
     place = plane.place_of(parameters)
@@ -187,6 +191,7 @@ def map_regions(
     if inside:
         survey.seen.setdefault(present, place)
     return RegionMap(
+        model=model,
         plane=plane,
         axes=axes,
         curves=tuple(survey.curves),

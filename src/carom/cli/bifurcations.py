@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
-from carom.outcome import InputError
+from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from carom.bifurcations import Diagram
     from carom.models import Axis
     from carom.parameters import Parameters
+    from carom.proofs import Proof
 
 Out = Annotated[
     str | None, typer.Option(metavar="DIR", help="Write the figure and the JSON document to this directory.")
@@ -42,6 +43,14 @@ Sampled = Annotated[
 Seed = Annotated[
     int | None, typer.Option(metavar="N", min=0, help="Seed of these disturbances, by default 0; with --attractors.")
 ]
+ProofFile = Annotated[
+    str | None,
+    typer.Option(
+        "--proof",
+        metavar="FILE",
+        help="Show in the figure what this certificate of carom prove --along proves; it is checked first.",
+    ),
+]
 NEAR = (0.25, 2.5)
 """Default range of a parameter, relative to its present value."""
 
@@ -58,6 +67,7 @@ def bifurcations(
     lasting: Lasting = False,
     attractors: Sampled = 0,
     seed: Seed = None,
+    proof: ProofFile = None,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
@@ -81,6 +91,7 @@ def bifurcations(
     if seed is not None and not attractors:
         raise InputError("--seed", seed, "allowed only with --attractors")
     check_output(out)
+    proven = _checked(proof, out)
     with progress("following orbits (the kernels are compiled on first use)") as tell:
         diagram = find_bifurcations(
             parameters,
@@ -94,7 +105,7 @@ def bifurcations(
         )
     document = diagram_document(parameters, diagram)
     if out is not None:
-        _write(Path(out), f"bifurcations-{varied.name}", diagram.plot(), document)
+        _write(Path(out), f"bifurcations-{varied.name}", diagram.plot(proof=proven), document)
     if as_json:
         print_document(document)
     else:
@@ -117,6 +128,7 @@ def regions(
     ] = 24,
     virtual: Virtual = False,
     lasting: Lasting = False,
+    proof: ProofFile = None,
     out: Out = None,
     as_json: AsJson = False,
 ) -> None:
@@ -140,6 +152,7 @@ def regions(
         for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
     ]
     check_output(out)
+    proven = _checked(proof, out)
     with progress("following curves (the kernels are compiled on first use)") as tell:
         found = map_regions(
             parameters,
@@ -151,13 +164,24 @@ def regions(
         )
     document = regions_document(parameters, found)
     if out is not None:
-        _write(Path(out), f"regions-{axes[0].name}-{axes[1].name}", found.plot(), document)
+        _write(Path(out), f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven), document)
     if as_json:
         print_document(document)
     else:
         from carom.cli.region_tables import print_map
 
         print_map(console(), found)
+
+
+def _checked(proof: str | None, out: str | None) -> Proof | None:
+    """Verify the certificate that the figure shows."""
+    if proof is None:
+        return None
+    if out is None:
+        raise InputError("--proof", shown(proof), "allowed only with --out, as it is shown in the figure")
+    from carom.proofs import check
+
+    return check(proof)
 
 
 def _range(parameters: Parameters, varied: Axis, option: str, given: str | None) -> tuple[float, float]:

@@ -15,11 +15,14 @@ from matplotlib.lines import Line2D
 
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
+from carom.plots.proven import proven_line
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
     from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
+    from carom.proofs import Proof
+    from carom.proofs.proven_lines import ProvenLine
 
 POINTS = MappingProxyType(
     {
@@ -75,14 +78,23 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 
 
 @styled
-def bifurcation_diagram(diagram: Diagram) -> Figure:
+def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
 
     Upper: the radial speed of the orbits at the impact.  Middle: the gap of contact-free levitation and the normal force
     of the rubs, which must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
     motions to which simulated disturbances settled.  The shaft speed is in rpm.
+
+    With a proof along the same parameter, a row below these bars shows where all orbits with one impact a period are
+    proven, and the proven points.
+
+    Raises
+    ------
+    InputError
+        The proof is along another parameter or of another machine, or the orbits drawn are not those proven.
     """
-    rows = len(rows_of(diagram))
+    proven = _proven(proof, diagram)
+    rows = len(rows_of(diagram)) + (proven is not None)
     strip = 0.18 * rows
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + 0.8 * strip))
     upper, lower, below = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 1.1, strip))
@@ -98,6 +110,7 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
         _equilibrium_branch(lower, equilibrium, unit)
     lower.axhline(0.0, color=LOOKS["wall"].colour, lw=1.0)
     coexistence(below, diagram, unit)
+    key = [] if proven is None else _proven_row(below, proven, unit)
     upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
     lower.set_ylabel("gap ($c_r$); force\n" r"of rub ($m c_r\Omega^2$)")
     below.set_xlabel(parameter_label(diagram.axis.field))
@@ -107,7 +120,27 @@ def bifurcation_diagram(diagram: Diagram) -> Figure:
     marked = _mark_points(diagram, (upper, lower, below), unit)
     figure.align_ylabels([upper, lower])
     figure.legend(handles=_diagram_key(diagram, marked), loc="outside lower center", ncols=4)
+    if key:
+        figure.legend(handles=key, loc="outside upper center", ncols=2)
     return figure
+
+
+def _proven(proof: Proof | None, diagram: Diagram) -> ProvenLine | None:
+    if proof is None:
+        return None
+    # Proofs need an extra, which whoever has a proof has.
+    from carom.proofs.proven_lines import proven_of_diagram
+
+    return proven_of_diagram(proof, diagram)
+
+
+def _proven_row(below: Axes, proven: ProvenLine, unit: float) -> list[Line2D]:
+    """Add a row to the bars of motions; return its legend entries."""
+    ticks, labels = below.get_yticks(), [text.get_text() for text in below.get_yticklabels()]
+    below.axhline(0.5, color="#808080", lw=0.5)
+    below.set_yticks([*ticks, 0.0], [*labels, "proven"])
+    below.set_ylim(-0.6, below.get_ylim()[1])
+    return proven_line(below, proven, "proven: these orbits with one impact a period and no others", 0.0, unit)
 
 
 def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float) -> list[Look]:

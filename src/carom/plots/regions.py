@@ -14,11 +14,13 @@ from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
 from carom.plots.numerals import number_regions
+from carom.plots.proven import proven_line
 from carom.plots.style import TWO_COLUMNS, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
     from carom.bifurcations import Region, RegionMap
+    from carom.proofs import Proof
 
 _BLACK, _MACHINE, _UNEXPLAINED = "#1a1a1a", "#f0e442", "#cc0000"
 _LONGEST_HALF = 92
@@ -28,11 +30,17 @@ _LINE, _ROOM = 0.135, 9
 
 
 @styled
-def region_map(found: RegionMap) -> Figure:
+def region_map(found: RegionMap, proof: Proof | None = None) -> Figure:
     """Draw the curves of bifurcations in the plane of two parameters, the points where they meet and the regions.
 
     Curves of virtual orbits are faint.  Regions have the numbers of the JSON document.  The numeral of a thin region
-    stands beside it, with a leader line.
+    stands beside it, with a leader line.  A proof along one of the two parameters is shown on the line through the
+    present machine.
+
+    Raises
+    ------
+    InputError
+        The proof is along another parameter or of another machine.
     """
     listed = [
         f"{number}: {region.motions.source_region}: {_words(found, region)}"
@@ -53,12 +61,27 @@ def region_map(found: RegionMap) -> Figure:
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
     lines = [*_curve_key(found), *_mark_points(drawn, found, units)]
+    if proof is not None:
+        lines += _draw_proof(drawn, found, proof, units)
     figure.legend(handles=lines, loc="outside upper center", ncols=3)
     handles = [Line2D([], [], ls="none", label=words) for words in listed]
     figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
     arrange(figure)
     number_regions(drawn, found, units)
     return figure
+
+
+def _draw_proof(axes: Axes, found: RegionMap, proof: Proof, units: np.ndarray) -> list[Line2D]:
+    """Draw what is proven on the line through the present machine; return the legend entries."""
+    # Proofs need an extra, which whoever has a proof has.
+    from carom.proofs.proven_lines import proven_of_plane
+
+    line = proven_of_plane(proof, found)
+    upright = int(line.parameter == found.axes[1].name)
+    height = found.axes[1 - upright].value(found.model) / units[1 - upright]
+    return proven_line(
+        axes, line, "proven: all orbits with one impact a period", float(height), float(units[upright]), bool(upright)
+    )
 
 
 def _words(found: RegionMap, region: Region) -> str:

@@ -25,6 +25,7 @@
 ``several_impacts`` claims about them
 ``seeds``           what is looked at, found in double precision
 ``claims``          claims and proofs
+``proven_lines``    what a proof shows of a diagram or a plane, for figures
 ``evidence``        what a search found, so that a check need not search
 ``theorems``        the theorems by name
 ``proving``         prove, at a precision that rises by itself

@@ -7,16 +7,19 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal, overload
+from textwrap import wrap
+from typing import Any, Literal, get_args, overload
 
 from carom.files import write_whole
 from carom.outcome import InputError
 from carom.proofs.balls import Enclosure
 from carom.proofs.hypotheses import Hypotheses
-from carom.results import Result
+from carom.results import WIDEST, Result
 
 FORMAT = "carom proof 1"
 Status = Literal["proven", "refuted", "undecided"]
+_MOST_NAMED = 10
+"""Undecided claims that the short text form names."""
 
 
 @dataclass(frozen=True)
@@ -126,6 +129,26 @@ class Proof(Result, Sequence[Claim]):
         """Each claim with its status, and the reason where it is not proven."""
         told = [(claim.name, ": ".join(filter(None, (claim.status, claim.reason)))) for claim in self.claims]
         return [*told, ("precision", f"{self.bits} bits")]
+
+    def brief_rows(self) -> list[tuple[str, str]]:
+        """The theorem, the machine, how many claims have each status, and which are undecided."""
+        given = {**self.hypotheses.values, **self.hypotheses.settings}
+        along = self.options.get("along")
+        if along is not None:
+            # Its own value is not assumed.
+            given[along] = f"{self.options['from']} to {self.options['to']}"
+        counts = [(status, len(self.with_status(status))) for status in get_args(Status)]
+        first, *more = wrap(", ".join(f"{name} {text}" for name, text in given.items()), WIDEST)
+        open_ = [claim.name for claim in self.with_status("undecided")]
+        rest = len(open_) - _MOST_NAMED
+        return [
+            ("theorem", self.theorem),
+            ("machine", first),
+            *(("", words) for words in more),
+            ("claims", ", ".join(f"{count} {status}" for status, count in counts)),
+            *(("undecided", name) for name in open_[:_MOST_NAMED]),
+            *([("", f"and {rest} more; rows() has all")] if rest > 0 else []),
+        ]
 
     def document(self) -> dict[str, Any]:
         """The certificate: plain data for JSON, which :func:`~carom.proofs.check` verifies."""
