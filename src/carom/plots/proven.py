@@ -25,7 +25,7 @@ def proven_line(
     bar: dict[str, Any] = {"color": _COLOUR, "lw": _THICK, "solid_capstyle": "butt"}
     for stretch in line.stretches:
         ends = [stretch.low / unit, stretch.high / unit]
-        axes.plot(*((here, ends) if upright else (ends, here)), **bar, zorder=1.7, gid="proven")
+        axes.plot(*((here, ends) if upright else (ends, here)), **bar, gid="proven")
     places = [value / unit for value in line.points]
     heights = [height] * len(places)
     axes.plot(*((heights, places) if upright else (places, heights)), **_POINT, zorder=4.5, gid="proven point")

@@ -53,16 +53,19 @@ def region_map(found: RegionMap, proof: Proof | None = None) -> Figure:
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.72 * TWO_COLUMNS + _LINE * max(rows - _ROOM, 0)))
     drawn = figure.subplots()
     units = np.array([parameter_unit(axis.field) for axis in found.axes])
-    # Draw the broad line of non-smooth Hopf bifurcations below that of the boundary equilibria.
-    for curve in sorted(found.curves, key=lambda curve: curve.kind != "non-smooth-hopf"):
-        curve_line(drawn, curve, units)
+    # Draw the broad line of non-smooth Hopf bifurcations below all others, and what is proven between them.
+    for curve in found.curves:
+        if curve.kind == "non-smooth-hopf":
+            curve_line(drawn, curve, units)
+    key = [] if proof is None else _draw_proof(drawn, found, proof, units)
+    for curve in found.curves:
+        if curve.kind != "non-smooth-hopf":
+            curve_line(drawn, curve, units)
     drawn.set_xlabel(parameter_label(found.axes[0].field))
     drawn.set_ylabel(parameter_label(found.axes[1].field))
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
-    lines = [*_curve_key(found), *_mark_points(drawn, found, units)]
-    if proof is not None:
-        lines += _draw_proof(drawn, found, proof, units)
+    lines = [*_curve_key(found), *_mark_points(drawn, found, units), *key]
     figure.legend(handles=lines, loc="outside upper center", ncols=3)
     handles = [Line2D([], [], ls="none", label=words) for words in listed]
     figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
