@@ -282,7 +282,8 @@ def _whole_claim(line: Line, name: str, kind: str, words: str, stretches: Sequen
             name: Enclosure(end, end, (Fraction(end), Fraction(end)))
             for name, end in zip(("from", "to"), widest.inner, strict=True)
         }
-        reasons.append(f"shown on {widest.ends}")
+    told_on = [Stretch(run[0].low, run[-1].high, (), "").ends for run in shown]
+    reasons += [f"shown on {', '.join(told_on)}"] if told_on else []
     contrary = [Stretch(run[0].low, run[-1].high, (), "").ends for value, run in runs if value is False]
     open_ = [Stretch(run[0].low, run[-1].high, (), "open").ends for value, run in runs if value is None]
     reasons += [f"the contrary on {', '.join(contrary)}"] if contrary else []
