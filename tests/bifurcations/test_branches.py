@@ -143,8 +143,7 @@ def test_coalescence_of_two_speeds_at_negative_damping():
 
 
 def test_physical_parameters_pass_the_same_points():
-    from carom import Machine
-    from carom.parameters import Scales
+    from carom.parameters import Machine, Scales
 
     machine = Machine.from_parameters(PAPER, Scales(50.0, 0.7e-3, 184.2))
     orbit = find_orbits(Jeffcott(machine.parameters))["B1,d"]

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+import re
 
 import pytest
 from studies import study_once
@@ -386,4 +387,5 @@ def test_few_that_came_back_do_not_hide_what_many_others_do():
         result, "Disturbances tried"
     )
     assert all(advice.value > result.safe_damping.simulated.gamma for advice in result.advice if advice.gain == "gamma")
-    assert "All fresh disturbances came back above 0.507" in finding(result, "What would change it")
+    stated = re.search(r"All fresh disturbances came back above ([\d.]+)", finding(result, "What would change it"))
+    assert 0.0 <= float(stated[1]) - result.safe_damping.simulated.above < 1e-3
