@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any, ClassVar, overload
 
 import numpy as np
 
@@ -333,3 +333,30 @@ def _turns(orbit: Orbit, word: Word) -> Sequence[np.ndarray]:
         return ()
     places = range(len(word))
     return [np.roll(orbit.nodes, -k, axis=0) for k in places if orbit.word.turned(k) == word]
+
+
+class OrbitSequence(Sequence[Orbit]):
+    """Orbits of a result, to look up by index or by name; ``if_none`` says what it means that there are none."""
+
+    if_none: ClassVar[str]
+
+    members: tuple[Orbit, ...]
+
+    def __len__(self) -> int:
+        return len(self.members)
+
+    def __iter__(self) -> Iterator[Orbit]:
+        return iter(self.members)
+
+    @overload
+    def __getitem__(self, key: int | str) -> Orbit: ...
+    @overload
+    def __getitem__(self, key: slice) -> tuple[Orbit, ...]: ...
+    def __getitem__(self, key: int | str | slice) -> Orbit | tuple[Orbit, ...]:
+        if not isinstance(key, str):
+            return self.members[key]
+        for orbit in self.members:
+            if orbit.name == key:
+                return orbit
+        names = ", ".join(orbit.name for orbit in self.members) or self.if_none
+        raise InputError("orbit", key, f"one of: {names}")

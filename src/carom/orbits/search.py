@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import overload
+from typing import ClassVar
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from carom.models import Model
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, orbit_of_links, same_orbit
+from carom.orbits.orbit import Orbit, OrbitSequence, orbit_of_links, same_orbit
 from carom.orbits.recognising import segments_of
 from carom.orbits.shooting import Start, converged, pack
 from carom.orbits.word import Word
@@ -37,7 +37,7 @@ SAME = 1e-7
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FoundOrbits(Result, Sequence[Orbit]):
+class FoundOrbits(Result, OrbitSequence):
     """Orbits with a given number of impacts a period that a search has found; look one up by index or name, ``found["P2,1"]``.
 
     A search proves nothing: an orbit that no start came near to is missing.
@@ -61,6 +61,8 @@ class FoundOrbits(Result, Sequence[Orbit]):
     last_new : int
         Number of the start, from 1, that led to the last new orbit; 0 if none did.
     """
+
+    if_none: ClassVar[str] = "none, no orbits were found"
 
     rotor: Model
     impacts: int
@@ -88,25 +90,6 @@ class FoundOrbits(Result, Sequence[Orbit]):
             f"of which {self.repeats} led to known orbits and {self.failures} to none; the last new orbit came from start "
             f"{self.last_new}; {self.virtual} solutions found are not motions."
         )
-
-    def __len__(self) -> int:
-        return len(self.members)
-
-    def __iter__(self) -> Iterator[Orbit]:
-        return iter(self.members)
-
-    @overload
-    def __getitem__(self, key: int | str) -> Orbit: ...
-    @overload
-    def __getitem__(self, key: slice) -> tuple[Orbit, ...]: ...
-    def __getitem__(self, key: int | str | slice) -> Orbit | tuple[Orbit, ...]:
-        if not isinstance(key, str):
-            return self.members[key]
-        for orbit in self.members:
-            if orbit.name == key:
-                return orbit
-        names = ", ".join(orbit.name for orbit in self.members) or "none, no orbits were found"
-        raise InputError("orbit", key, f"one of: {names}")
 
 
 def search_orbits(rotor: Model, impacts: int, starts: int, seed: int, tell: Reporter) -> FoundOrbits:

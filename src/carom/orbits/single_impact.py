@@ -16,12 +16,11 @@ from carom.models import Jeffcott, Subject, jeffcott_of, model_of
 from carom.orbits.admissibility import slip_stays_forward, why_virtual
 from carom.orbits.maps import Section
 from carom.orbits.names import OrbitName, Slip
-from carom.orbits.orbit import Orbit
+from carom.orbits.orbit import Orbit, OrbitSequence
 from carom.orbits.search import STARTS, FoundOrbits, search_orbits
 from carom.orbits.shooting import Start
 from carom.orbits.stability import Multipliers, multipliers_of_all
 from carom.orbits.word import Kind, Word
-from carom.outcome import InputError
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
@@ -33,7 +32,7 @@ FORWARD, BACKWARD = Word.of(Kind.IMPACT_FORWARD), Word.of(Kind.IMPACT_BACKWARD)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OrbitSet(Result, Sequence[Orbit]):
+class OrbitSet(Result, OrbitSequence):
     """All single-impact orbits of a rotor; look one up by index or by name, ``orbits["B1,d"]``.
 
     Attributes
@@ -53,6 +52,7 @@ class OrbitSet(Result, Sequence[Orbit]):
     """
 
     figure: ClassVar[str] = "equilibria_and_orbits"
+    if_none: ClassVar[str] = "none, there are no orbits"
 
     rotor: Jeffcott
     members: tuple[Orbit, ...]
@@ -81,25 +81,6 @@ class OrbitSet(Result, Sequence[Orbit]):
             f"{search}; {beyond if self.complete else 'longer periods were not searched'}; "
             f"{stopping if self.slip_stays_forward else 'orbits whose impacts stop the slip were not searched'}."
         )
-
-    def __len__(self) -> int:
-        return len(self.members)
-
-    def __iter__(self) -> Iterator[Orbit]:
-        return iter(self.members)
-
-    @overload
-    def __getitem__(self, key: int | str) -> Orbit: ...
-    @overload
-    def __getitem__(self, key: slice) -> tuple[Orbit, ...]: ...
-    def __getitem__(self, key: int | str | slice) -> Orbit | tuple[Orbit, ...]:
-        if not isinstance(key, str):
-            return self.members[key]
-        for orbit in self.members:
-            if orbit.name == key:
-                return orbit
-        names = ", ".join(orbit.name for orbit in self.members) or "none, there are no orbits"
-        raise InputError("orbit", key, f"one of: {names}")
 
 
 def period_condition(machine: Subject, periods: np.ndarray) -> np.ndarray:

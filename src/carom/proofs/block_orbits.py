@@ -17,7 +17,7 @@ so are the zeros of the derivative of the characteristic polynomial (Gauss, Luca
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -229,7 +229,17 @@ def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
     OpenError
         Their number is not decided.
     """
-    facts = []
+    return [_fact(*found) for found in orbit_branches_on(block, cells)]
+
+
+def orbit_branches_on(block: Block, cells: Sequence[Cell]) -> Iterator[tuple[str, OrbitBranch, bool]]:
+    """All orbits on a block: name, orbit as a function of the parameter, and whether ``det(1 − J)`` is positive.
+
+    Raises
+    ------
+    OpenError
+        Their number is not decided.
+    """
     branches = branches_on(block, cells)
     for count, branch in enumerate(branches, bool(branches) and branches[0].rising):
         discriminant = branch.along(lambda back: back.discriminant)
@@ -239,8 +249,7 @@ def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
             raise OpenError("two radial speeds of one period may meet")
         for faster in (False, True):
             name = f"B{count // 2 + 1},{'abcd'[branch.rising + 2 * faster]}"
-            facts.append(_fact(name, OrbitBranch(branch, faster), branch.rising is faster))
-    return facts
+            yield name, OrbitBranch(branch, faster), branch.rising is faster
 
 
 def _fact(name: str, orbit: OrbitBranch, positive: bool) -> OrbitFact:

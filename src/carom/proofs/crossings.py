@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from carom.proofs.balls import decided, enclosure_of, interval
-from carom.proofs.block_orbits import branches_on, first_cells, inside
+from carom.proofs.block_orbits import first_cells, inside, orbit_branches_on
 from carom.proofs.blocks import Block, OpenError, OrbitBranch
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.courses import Course
@@ -40,22 +40,13 @@ def crossing_claims(line: Line, low: Fraction, high: Fraction, ends: str) -> lis
     """
     block = Block(line, interval(low, low), interval(high, high))
     try:
-        return list(_claims_on(block, f"{line.name} in {ends}"))
+        return [
+            claim
+            for name, orbit, positive in orbit_branches_on(block, first_cells(block))
+            for claim in _of_orbit(block, orbit, name, positive, f"{line.name} in {ends}")
+        ]
     except (OpenError, ArithmeticError, ValueError):
         return []
-
-
-def _claims_on(block: Block, about: str) -> Iterator[Claim]:
-    branches = branches_on(block, first_cells(block))
-    for count, branch in enumerate(branches, bool(branches) and branches[0].rising):
-        discriminant = branch.along(lambda back: back.discriminant)
-        if discriminant < 0:
-            continue
-        if not (discriminant > 0 and branch.far.discriminant[0] > 0):
-            raise OpenError("two radial speeds of one period may meet")
-        for faster in (False, True):
-            name = f"B{count // 2 + 1},{'abcd'[branch.rising + 2 * faster]}"
-            yield from _of_orbit(block, OrbitBranch(branch, faster), name, branch.rising is faster, about)
 
 
 def _of_orbit(block: Block, orbit: OrbitBranch, name: str, positive: bool, about: str) -> Iterator[Claim]:

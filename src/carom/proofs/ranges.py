@@ -1,7 +1,7 @@
 """Ranges of a parameter: for every value in an interval these orbits with one impact a period and no others, and what they are.
 
-The interval is cut into blocks.  On each, :mod:`carom.proofs.block_orbits` decides everything for all of its values, or the block
-is open.  Neighbouring blocks on which the same holds make a stretch: as periods and radial speeds depend continuously on the
+The interval is cut into blocks.  On each, :mod:`carom.proofs.block_orbits` decides what it can for all of its values; what
+remains is open there.  Neighbouring blocks on which the same holds make a stretch: as periods and radial speeds depend continuously on the
 parameter and blocks share their ends, an orbit keeps its name along a stretch.
 """
 

@@ -130,7 +130,7 @@ THEOREMS: Mapping[str, Theorem] = {
             *range_claims(rotor, evidence, options),
         ],
         (
-            "anything about orbits on the intervals that are left open, but for the points listed there",
+            "what is said to be open on an interval, but for the points listed there",
             "that there are no other bifurcation points there: those listed are what a search in double precision found",
             "that the orbit at a point has the name it is listed by",
             "that there are no orbits with several impacts a period, with lasting contact, or irregular motions",
