@@ -60,7 +60,7 @@ bench: $(TEST) ## time carom beside its peers
 	$(BIN)/pytest -p benchmark --benchmark-only -o pythonpath=benchmarks benchmarks $(ARGS)
 
 docs: $(DOCS) ## build the documentation; its examples are executed
-	rm -rf docs/reference/generated
+	rm -rf docs/reference/generated docs/gallery
 	$(BIN)/sphinx-build -E -W --keep-going -j auto docs build/docs $(ARGS)
 	@echo "Documentation: $(CURDIR)/build/docs/index.html"
 
@@ -68,7 +68,7 @@ lock: ## lock the dependencies anew; ARGS=--upgrade takes the newest
 	tools/lock $(ARGS)
 
 clean: ## remove products and caches
-	rm -rf build dist demo-output docs/reference/generated htmlcov .coverage .coverage.* .benchmarks .hypothesis
+	rm -rf build dist demo-output docs/reference/generated docs/gallery htmlcov .coverage .coverage.* .benchmarks .hypothesis
 	rm -rf .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -path ./.venv -prune -o -name __pycache__ -type d -prune -exec rm -rf {} +
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 import importlib.metadata
 import importlib.util
 import os
+import sys
 from pathlib import Path
 
 # Cells run in processes of their own, each in the folder of its page; what they share is in _cells.
-os.environ["PYTHONPATH"] = str(Path(__file__).parent / "_cells")
+_CELLS = str(Path(__file__).parent / "_cells")
+os.environ["PYTHONPATH"] = _CELLS
+sys.path.insert(0, _CELLS)
 
 project = "carom"
 author = "The carom developers"
@@ -22,8 +25,17 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx.ext.mathjax",
     "numpydoc",
+    "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["_templates", "_cells"]
+exclude_patterns = [
+    "_templates",
+    "_cells",
+    "gallery/*.py",
+    "gallery/*.ipynb",
+    "gallery/*.md5",
+    "gallery/*.json",
+    "gallery/*.zip",
+]
 templates_path = ["_templates"]
 # The pages of the API are generated with the first of these.
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb"}
@@ -43,6 +55,23 @@ nb_execution_timeout = 300
 nb_output_stderr = "error"
 nb_merge_streams = True
 nb_render_markdown_format = "myst"
+
+# ------------------------------------------------------------------------------------------------ gallery
+
+
+sphinx_gallery_conf = {
+    "examples_dirs": "../examples/gallery",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"/\d\d_",
+    "image_scrapers": ("gallery_figures.named_figures",),
+    "capture_repr": (),
+    "reset_modules": (),
+    "write_computation_times": False,
+    "download_all_examples": False,
+    "show_signature": False,
+    "min_reported_time": 60,
+    "thumbnail_size": (400, 280),
+}
 
 # ------------------------------------------------------------------------------------------------ API
 

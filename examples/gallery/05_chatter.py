@@ -1,0 +1,22 @@
+"""
+5. Chatter
+==========
+
+Impacts may follow each other ever faster, infinitely many in a finite time.  carom sums the series of the bounces, and the rotor slides
+along the bearing afterwards.  With a restitution of 0.5 that takes few bounces.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml", ["restitution=0.5"])
+motion = cm.simulate(machine, cm.kick("100 mm/s"), until="120 ms")
+print(len(motion.contacts), "impacts;", [contact.kind for contact in motion.lasting_contacts])
+
+# %%
+# The last bounces before the slide, enlarged.
+first = motion.lasting_contacts[0]
+figure = cm.plots.radius(motion)
+(panel, *_) = figure.axes
+panel.set_xlim(first.start - 1.2, first.start + 0.4)
+panel.set_ylim(0.9, 1.01)
+print(f"it slides from t = {first.start:.6f} to {first.end:.6f}")

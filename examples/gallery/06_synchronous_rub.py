@@ -1,0 +1,20 @@
+"""
+6. Sliding into the rub
+=======================
+
+A rotor that is put on the bearing at rest in the turning frame slides to the stable rub.  In lasting contact there are forces instead
+of impulses.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml")
+equilibria = cm.find_equilibria(machine)
+motion = cm.simulate(machine, cm.State(1.0), settle=True)
+print(motion.outcome.meaning)
+
+# %%
+# The normal force ends at that of the equilibrium.
+scales = machine.parameters.scales
+print(f"{equilibria[1].normal_force * scales.force:.4g} N in equilibrium")
+figure = cm.plots.forces(motion)

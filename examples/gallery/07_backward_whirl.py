@@ -1,0 +1,24 @@
+"""
+7. Backward whirl
+=================
+
+Friction pulls a rotor that slides against its rotation ever faster backward, until it rolls round the bearing at many times the speed
+of the shaft.  This is the motion that destroys machines.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml")
+limit = cm.closed_forms.runaway_speed(machine)
+velocity = machine.parameters.scales.velocity
+print(f"beyond {limit.certain * velocity:.3g} m/s backward the whirl surely runs away")
+
+# %%
+# ``U`` is the position and ``U̇`` the velocity in the co-rotating frame; a whirl at ``-w`` in the fixed frame turns at ``-(w + 1)`` there.
+whirl = 1.2 * limit.certain
+motion = cm.simulate(machine, cm.State(1.0, -1j * (whirl + 1.0)), until=40.0)
+print([contact.kind for contact in motion.lasting_contacts])
+
+# %%
+# The ribbons show sliding, then rolling, both in backward whirl.
+figure = cm.plots.regimes(motion)

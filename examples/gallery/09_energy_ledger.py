@@ -1,0 +1,15 @@
+"""
+9. Where the energy comes from
+==============================
+
+The ledger of a motion lists what every force did to the rotor.  Contact itself never supplies energy, but through friction the drive of
+the shaft does.  The balance closes to rounding.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
+motion = cm.simulate(machine, cm.kick("210 mm/s", "26 deg"), until=18.0)
+ledger = cm.motions.energy_ledger(motion)
+print(f"error of the balance: {ledger.imbalance:.1e} of the largest energy")
+figure = ledger.plot()

@@ -1,0 +1,17 @@
+"""
+10. Full spectrum
+=================
+
+The motion in the fixed frame as a sum of forward and backward whirls.  Levitation has one line, at the speed of the shaft; bouncing has
+others that a vibration monitor shows.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml")
+settled = cm.simulate(machine, cm.kick("100 mm/s"), settle=True)
+bouncing = cm.simulate(machine, settled.final, until=400.0)
+spectrum = cm.motions.full_spectrum(bouncing)
+strongest = spectrum.orders[abs(spectrum.amplitudes).argsort()[::-1][:1]]
+print("strongest line at", strongest, "times the speed")
+figure = spectrum.plot()

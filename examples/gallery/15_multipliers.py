@@ -1,0 +1,14 @@
+"""
+15. Multipliers
+===============
+
+A small deviation from an orbit is multiplied by these complex numbers from one impact to the next: the orbit is stable if all of them lie
+inside the unit circle.
+"""
+
+import carom as cm
+
+orbits = cm.find_orbits(cm.load("../source-paper.toml"))
+for orbit in orbits:
+    print(orbit.name, abs(orbit.multipliers.values).round(4))
+figure = cm.plots.multipliers(orbits)

@@ -1,0 +1,16 @@
+"""
+17. The orbit on which a motion has settled
+===========================================
+
+A motion approaches its orbit without reaching it.  :func:`carom.orbits.orbit_of_motion` reads which contacts follow one another and closes
+the orbit exactly.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml")
+motion = cm.simulate(machine, cm.kick("100 mm/s"), settle=True)
+orbit = cm.orbits.orbit_of_motion(motion)
+print(f"period {orbit.period:.12f}, known exactly: {cm.find_orbits(machine)['B1,d'].period:.12f}")
+print(orbit.margins)
+figure = cm.plots.radius(orbit)

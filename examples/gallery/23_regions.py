@@ -1,0 +1,15 @@
+"""
+23. Regions of damping and stiffness
+====================================
+
+All curves of a plane, and which motions coexist in the regions between them.
+"""
+
+import carom as cm
+
+machine = cm.load("../source-paper.toml")
+plane = cm.bifurcations.Plane("gamma", "omega", (0.02, 0.3), (0.7, 0.85))
+regions = cm.map_regions(machine, plane, grid=8)
+for region in regions.regions[:3]:
+    print(region.motions)
+figure = regions.plot()

@@ -1,0 +1,18 @@
+"""
+24. Orbits that shrink into the wall
+====================================
+
+Where levitation meets the wall, bouncing orbits may shrink to nothing: the non-smooth Hopf bifurcation.  It decides what becomes of the
+rotor when the damping falls.
+"""
+
+import carom as cm
+
+machine = cm.load("../source-paper.toml")
+(boundary,) = cm.bifurcations.boundary_equilibria(machine)
+print(boundary.words)
+
+# %%
+# Close to it, on the side where the rotor levitates, the orbits are small.
+near = machine.replace(gamma=boundary.value + 0.002)
+figure = cm.find_orbits(near).plot(cm.find_equilibria(near))

@@ -1,0 +1,20 @@
+"""
+27. The smallest kick that is lost
+==================================
+
+A search over sizes and directions brackets the size at which kicks begin to be lost.  Up to a smaller size contact is impossible: that is
+proven.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
+kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.25)
+smallest = cm.basins.smallest_loss(machine, kicks)
+unit = 1e3 * machine.parameters.scales.velocity
+print(f"no contact up to {smallest.harmless * unit:.3g} mm/s; lost from {smallest.size * unit:.4g} mm/s on")
+
+# %%
+# It is marked in the basin.
+basin = cm.map_basins(machine, cm.Grid(kicks, (40, 60)))
+figure = basin.plot(smallest)

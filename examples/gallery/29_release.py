@@ -1,0 +1,13 @@
+"""
+29. Levitation switched on at the bearing
+=========================================
+
+The rotor rests on the touchdown bearing, at any angle, and the magnetic bearings are switched on.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
+basin = cm.map_basins(machine, cm.Grid(cm.disturbances.ContactRelease("fixed"), (360,)))
+print(basin.share_recovered.words)
+figure = basin.plot()

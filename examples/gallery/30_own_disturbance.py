@@ -1,0 +1,41 @@
+"""
+30. A disturbance of your own
+=============================
+
+A frozen dataclass with the coordinates by which it varies, and the starts to which it leads, goes wherever a built-in one does.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import carom as cm
+from carom.disturbances import Coordinate, Disturbance, Starts
+
+
+@dataclass(frozen=True)
+class HeldAside(Disturbance):
+    """The levitating rotor is held at some distance and let go."""
+
+    farthest: float = 0.8
+    measured_in = {"farthest": "length"}
+
+    @property
+    def coordinates(self):
+        """Distance and direction."""
+        return (
+            Coordinate("distance", "distance from levitation", 0.0, self.farthest, scale="length"),
+            Coordinate("direction", "direction", 0.0, 2 * np.pi, periodic=True),
+        )
+
+    def starts(self, rotor, distance, direction):
+        """States at rest inside the wall; the others do not exist."""
+        positions = rotor.equilibrium + distance * np.exp(1j * direction)
+        inside = np.abs(positions) < 1.0
+        return Starts.of(np.where(inside, positions, 0.0), 0.0, inside)
+
+
+machine = cm.load("../keogh-cole.toml")
+basin = cm.map_basins(machine, cm.Grid(HeldAside(), (40, 60)))
+print(basin.share_recovered.words)
+figure = basin.plot()

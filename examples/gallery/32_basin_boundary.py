@@ -1,0 +1,17 @@
+"""
+32. How unpredictable the end is
+================================
+
+Basin entropy measures how mixed the motions are in small boxes of a basin.  Above ln 2 at the boundaries, these cannot be smooth curves.
+"""
+
+import carom as cm
+
+machine = cm.load("../source-paper.toml", ["gamma=0.15"])
+basin = cm.map_basins(machine, cm.Grid(cm.disturbances.StateSlice(), (80, 80)))
+entropy = cm.basins.basin_entropy(basin)
+print(f"S_b = {entropy.whole:.3f}, at the boundaries {entropy.boundary:.3f}; fractal: {entropy.fractal}")
+
+# %%
+# All positions in which the rotor may be released at rest in the turning frame.
+figure = basin.plot()

@@ -1,0 +1,18 @@
+"""
+33. Which gains bring back more
+===============================
+
+The share of kicks that comes back, over stiffness (P gain) and damping (D gain).  The arrow is the least change found that brings back
+99 %.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml")
+kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+sample = cm.disturbances.Sample(kicks, 200, seed=1)
+ranges = (("5e5 N/m", "2e6 N/m"), ("700 N s/m", "5000 N s/m"))
+gains = cm.map_gains(machine, sample, ranges=ranges, shape=(10, 10))
+change = cm.basins.least_gain_change(gains, 0.98)
+print(change.values, change.share.words)
+figure = gains.plot(change)

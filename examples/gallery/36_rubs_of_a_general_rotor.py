@@ -1,0 +1,28 @@
+"""
+36. Rubs at two bearings at once
+================================
+
+The same rotor may rub at one bearing or at both.  At up to two planes all equilibria are found.
+"""
+
+import numpy as np
+
+import carom as cm
+
+ends = np.array([[1.0, 0.8], [1.0, -0.7]])
+rotor = cm.models.LinearRotor.in_fixed_frame(
+    mass=np.diag([1.0, 0.4]),
+    damping=0.05 * ends.T @ ends,
+    stiffness=0.3 * ends.T @ ends,
+    gyroscopic=np.diag([0.0, 0.3]),
+    forcing=[0.25, 0.05],
+    planes=ends,
+    friction=[0.15, 0.15],
+    restitution=[0.9, 0.9],
+    drive=[21.0, 21.0],
+    translation=[1.0, 0.0],
+)
+equilibria = cm.find_equilibria(rotor)
+for equilibrium in equilibria:
+    print(equilibrium.kind, equilibrium.status, "stable" if equilibrium.stable else "unstable")
+figure = equilibria.plot()
