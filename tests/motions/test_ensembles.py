@@ -8,6 +8,7 @@ from compilation import COMPILED
 from machines import PAPER
 
 import carom
+from carom.motions import ensembles
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import InputError, Outcome
 from carom.parameters import Scales
@@ -188,3 +189,37 @@ def test_a_time_may_have_a_unit():
     assert found.times.tolist() == [0.02 * 100.0, 0.02 * 184.2]
     with pytest.raises(InputError, match=r"^until = 0.02 s: must be a number without a unit"):
         settle(PAPER, 0.2, 0.1j, until="0.02 s")
+
+
+@pytest.mark.jit_only
+def test_whoever_interrupts_its_progress_ends_the_work(monkeypatch):
+    """Within one portion too: irregular bouncing that takes seconds ends at the first report."""
+    taken, real = [], ensembles.follow_each
+
+    def counted(*task):
+        taken.append(int(real(*task)))
+        return taken[-1]
+
+    def interrupt(report):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ensembles, "follow_each", counted)
+    rotor = PAPER.replace(gamma=0.2, mu=0.0, d=1.0)
+    with pytest.raises(KeyboardInterrupt):
+        settle(
+            rotor,
+            carom.models.model_of(rotor).equilibrium,
+            np.linspace(0.1, 1.5, 8000),
+            threads=2,
+            progress=interrupt,
+        )
+    assert len(taken) == 2
+    assert sum(taken) < 8000
+
+
+@pytest.mark.jit_only
+def test_progress_counts_the_motions_up_to_all_of_them():
+    told = []
+    settle(PAPER, 0.1, np.linspace(0.1, 0.6, 3000), threads=2, progress=lambda report: told.append(report.share))
+    assert told == sorted(told)
+    assert told[-1] == 1.0

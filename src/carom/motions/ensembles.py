@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -28,6 +28,8 @@ from carom.results import Result
 MOST_EVENTS = 1_000_000
 PORTION = 16_384
 """Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
+GLANCE = 0.1
+"""Seconds between two reports of progress."""
 FEW = 256
 """Starts of a portion that justify one more thread: some for each lane."""
 MODES = 2
@@ -254,15 +256,22 @@ class _Part(NamedTuple):
 
 
 def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator[int]:
-    """Follow all parts, in this thread if one suffices; yield the number of motions followed in each."""
+    """Follow all parts, in this thread if one suffices; yield now and then the number of motions followed since.
+
+    Whoever stops asking, or is interrupted, ends the work: no thread takes up another motion.
+    """
     if min(threads, len(parts)) == 1:
         yield from (_settle_part(part, limits) for part in parts)
         return
     with ThreadPoolExecutor(threads) as pool:
         try:
-            for finished in as_completed([pool.submit(_settle_part, part, limits) for part in parts]):
-                yield finished.result()
+            working = {pool.submit(_settle_part, part, limits) for part in parts}
+            while working:
+                finished, working = wait(working, GLANCE, FIRST_COMPLETED)
+                yield sum(one.result() for one in finished)
         except BaseException:
+            for part in parts:
+                part.counter.numbers[0] = len(part.motions)
             pool.shutdown(cancel_futures=True)
             raise
 

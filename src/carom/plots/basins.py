@@ -42,17 +42,38 @@ _BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")
 
 
 @dataclass(frozen=True)
-class _Shown:
-    """The look of a motion."""
+class MotionLook:
+    """The look of a motion.
+
+    Attributes
+    ----------
+    index : int
+        Its place in ``Basin.motions``.
+    colour : str
+        That of its outcome; paler for the second motion of one outcome.
+    share : float
+        Of the starts that end on it.
+    """
 
     index: int
+    name: MotionName
     look: Look
     colour: str
-    words: str
     share: float
 
     @property
+    def words(self) -> str:
+        """Words of the legend; the name of an orbit is mathematical text."""
+        return _words(self.look, self.name, orbit_symbol(self.name) if self.name.orbit else self.name)
+
+    @property
+    def plain_words(self) -> str:
+        """The same as plain text."""
+        return _words(self.look, self.name, self.name)
+
+    @property
     def patch(self) -> Patch:
+        """Entry of the legend of a figure."""
         percent = f"{100.0 * self.share:.3g} %"
         return Patch(
             facecolor=self.colour,
@@ -72,7 +93,7 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
     interval.  The figure is 180 mm wide, 88 mm for a ring.  `smallest` is the smallest kick or shock found that is lost;
     it is marked in a picture of kicks or shocks.
     """
-    motions = _shown(basin)
+    motions = motion_looks(basin)
     kind, grid = basin.plan.model.kind, basin.dataset["outcome"].dims != ("start",)
     if not grid:
         return _bars(basin, motions, title)
@@ -86,23 +107,23 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
     return _plane(basin, motions, smallest, title)
 
 
-def _shown(basin: Basin) -> list[_Shown]:
+def motion_looks(basin: Basin) -> list[MotionLook]:
     """Return the looks of the motions, sorted by outcome; those of one outcome differ in paleness."""
     shares = basin.fractions
-    shown: list[_Shown] = []
+    shown: list[MotionLook] = []
     for place, name in sorted(enumerate(basin.motions), key=lambda entry: (entry[1].outcome, -shares[entry[1]])):
         look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
         alike = sum(entry.look is look for entry in shown)
         colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
-        shown.append(_Shown(place, look, colour, _words(look, name), shares[name]))
+        shown.append(MotionLook(place, name, look, colour, shares[name]))
     return shown
 
 
-def _words(look: Look, name: MotionName) -> str:
+def _words(look: Look, name: MotionName, symbol: str) -> str:
     if name.irregular:
         return f"{look.words}, with rub" if name.outcome is Outcome.MIXED else look.words
     if name.multiplicity or name.outcome is Outcome.FORWARD_RUB:
-        return f"{look.words}: {orbit_symbol(name) if name.orbit else name}"
+        return f"{look.words}: {symbol}"
     return look.words
 
 
@@ -119,7 +140,7 @@ def _ink(colour: str) -> str:
 
 
 def _paint(
-    axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[_Shown], bend: Bend = lambda x, y: (x, y)
+    axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[MotionLook], bend: Bend = lambda x, y: (x, y)
 ) -> None:
     """Paint cells, given by their edges, in the colours of the motions; `bend` maps their corners to the axes."""
     order = {entry.index: place for place, entry in enumerate(motions)}
@@ -147,7 +168,7 @@ def _nodes(edges: Floats) -> Floats:
     return np.concatenate([edges[:1], 0.5 * (edges[1:] + edges[:-1]), edges[-1:]])
 
 
-def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions: Sequence[_Shown]) -> None:
+def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions: Sequence[MotionLook]) -> None:
     """Hatch the areas of motions, so that they can be distinguished in greyscale too."""
     for entry in motions:
         inside = (index == entry.index).astype(float)
@@ -158,7 +179,7 @@ def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions:
             area.set_rasterized(True)
 
 
-def _polar(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, title: str | None) -> Figure:
+def _polar(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | None, title: str | None) -> Figure:
     size, direction = basin.coordinates
     factor, label = _axis(size, basin.scales)
     dataset = basin.dataset
@@ -195,7 +216,7 @@ def _rule(axes: Axes, high: float) -> None:
         tick.set_bbox({"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8})
 
 
-def _stacked(axes: Axes, basin: Basin, motions: Sequence[_Shown]) -> None:
+def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
     """Draw the share of each motion at each size, stacked."""
     size = basin.coordinates[0]
     factor, label = _axis(size, basin.scales)
@@ -242,7 +263,7 @@ def _lost_handle(smallest: SmallestLoss) -> Line2D:
     return Line2D([], [], ls="none", label=f"smallest {smallest.kind} found that is lost", **_LOST)
 
 
-def _plane(basin: Basin, motions: list[_Shown], smallest: SmallestLoss | None, title: str | None) -> Figure:
+def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | None, title: str | None) -> Figure:
     x, y = basin.coordinates
     dataset, kind = basin.dataset, basin.plan.model.kind
     cells = dataset["outcome"].shape
@@ -281,7 +302,7 @@ def _outward(basin: Basin) -> complex:
     return rest / abs(rest) if rest else complex(np.exp(1j * basin.rotor.unbalance_phase))
 
 
-def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
+def _ring(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     """Draw the places on the wall, coloured by the motion to which a release there leads."""
     figure = StyledFigure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
     axes = figure.subplots()
@@ -304,7 +325,7 @@ def _ring(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
     return _finish(figure, motions, title, [rest], columns=1)
 
 
-def _bars(basin: Basin, motions: list[_Shown], title: str | None) -> Figure:
+def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     """Draw the shares of a sample with their confidence intervals."""
     figure = StyledFigure(figsize=(0.75 * TWO_COLUMNS, (0.16 + 0.075 * len(motions)) * TWO_COLUMNS))
     axes = figure.subplots()
@@ -349,7 +370,7 @@ def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
 
 
 def _finish(
-    figure: Figure, motions: Sequence[_Shown], title: str | None, more: Sequence[Artist], columns: int
+    figure: Figure, motions: Sequence[MotionLook], title: str | None, more: Sequence[Artist], columns: int
 ) -> Figure:
     """Add the title, and the legend below."""
     if title:
