@@ -105,11 +105,6 @@ def test_advice_names_the_change_and_how_it_was_checked(real):
         "1,096 disturbances of up to 0.258 m/s were simulated at each of 16 values of damping there: all came back"
         in text
     )
-    assert (
-        "The least change found that leaves only levitation is a stiffness of 2,495,000 N/m (2.55 times this machine's, "
-        "5 % beyond the end of the range). All of 2,000 fresh disturbances of up to 0.258 m/s came back"
-    ) in text
-    assert "Alternatively it takes a damping of 3,578 N s/m (2.56 times" in text
     first, second = real.to_dict()["advice"]
     assert (first["quantity"], second["quantity"]) == ("stiffness", "damping")
     assert first["recovered"] == first["disturbances"] == 2000

@@ -18,6 +18,7 @@ from carom.cli.fitting import fitted, plain_table
 from carom.motions.trajectories import Trajectory
 from carom.parameters.indentation import indentation_of_hit
 from carom.studies import Study, Wording
+from carom.studies.one_page import recommendation_lines
 from carom.studies.summaries import (
     MotionRow,
     State,
@@ -64,6 +65,8 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
     verdict = study.verdict
     headline = Text(f"{study.case.name}: {verdict.headline}", style=_LEVELS[verdict.level])
     console.print(headline, width=min(console.width, TEXT_WIDTH))
+    console.print()
+    _print_recommendation(console, study)
     for finding in verdict.findings:
         console.print()
         console.print(Text(finding.topic, style="bold"))
@@ -86,6 +89,18 @@ def print_study(console: Console, study: Study, report: Path | None) -> None:
         console.print("Figures, study.json and report.html: add --out DIR")
     else:
         console.print(f"Report: {report}", soft_wrap=True)
+
+
+def _print_recommendation(console: Console, study: Study) -> None:
+    """Print the recommendation: a table without lines, details indented."""
+    console.print(Text("Recommendation", style="bold"))
+    table = Table.grid(padding=(0, 2, 0, 0))
+    table.add_column(no_wrap=True)
+    table.add_column()
+    for line in recommendation_lines(study):
+        label = Text(f"    {line.label}" if line.detail else f"  {line.label}")
+        table.add_row(label, Text(line.text, style="bold" if line.label in ("Change", "Or") else ""))
+    console.print(table, width=min(console.width, TEXT_WIDTH))
 
 
 def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet) -> None:

@@ -43,6 +43,10 @@ class Field:
         Definition of a dimensionless number by physical ones.
     bare : str
         Unit of a number that is given without one; by default the SI unit.
+    usual : str
+        Unit in which people usually say it, such as ``"mm"``; by default the SI unit.
+    usual_size : float
+        That unit in the SI unit.
     """
 
     name: str
@@ -56,6 +60,17 @@ class Field:
     zero: bool = False
     formula: str = ""
     bare: str = ""
+    usual: str = ""
+    usual_size: float = 1.0
+
+    @property
+    def usual_unit(self) -> str:
+        """Unit for tables and figures; empty for a pure number."""
+        return self.usual or self.unit
+
+    def in_usual_unit(self, value: float) -> float:
+        """Return a value given in the SI unit in the unit for tables and figures."""
+        return value / self.usual_size
 
     @property
     def allowed(self) -> str:
@@ -119,10 +134,55 @@ MACHINE_FIELDS: Mapping[str, Field] = _by_name(
     Field("mass", "m", "rotor mass", "a mass", "kg", 1e-9, 1e9, '"50 kg"'),
     Field("damping", "c", "damping of the levitation", "a damping", "N s/m", 1e-30, 1e30, '"1400 N s/m"', zero=True),
     Field("stiffness", "k", "stiffness of the levitation", "a stiffness", "N/m", 1e-30, 1e30, '"9.8e5 N/m"'),
-    Field("eccentricity", "e_c", "eccentricity of the unbalance", "a length", "m", 1e-30, 1e6, '"0.3 mm"', zero=True),
-    Field("clearance", "c_r", "radius of the clearance circle", "a length", "m", 1e-9, 1e3, '"0.7 mm"'),
-    Field("rotor_radius", "R", "rotor radius at the contact", "a length", "m", 1e-9, 1e6, '"40 mm"'),
-    Field("speed", "Ω", "rotational speed", "an angular speed", "rad/s", 1e-6, 1e6, '"1759 rpm"'),
+    Field(
+        "eccentricity",
+        "e_c",
+        "eccentricity of the unbalance",
+        "a length",
+        "m",
+        1e-30,
+        1e6,
+        '"0.3 mm"',
+        zero=True,
+        usual="mm",
+        usual_size=1e-3,
+    ),
+    Field(
+        "clearance",
+        "c_r",
+        "radius of the clearance circle",
+        "a length",
+        "m",
+        1e-9,
+        1e3,
+        '"0.7 mm"',
+        usual="mm",
+        usual_size=1e-3,
+    ),
+    Field(
+        "rotor_radius",
+        "R",
+        "rotor radius at the contact",
+        "a length",
+        "m",
+        1e-9,
+        1e6,
+        '"40 mm"',
+        usual="mm",
+        usual_size=1e-3,
+    ),
+    Field(
+        "speed",
+        "Ω",
+        "rotational speed",
+        "an angular speed",
+        "rad/s",
+        1e-6,
+        1e6,
+        '"1759 rpm"',
+        usual="rpm",
+        usual_size=math.pi / 30.0,
+    ),
     # Beyond a million radians the spacing of doubles becomes visible in the angle: such a value is a typing error.
     Field("unbalance_phase", "φ", "phase of the unbalance", "an angle", "rad", -1e6, 1e6, '"12 deg"'),
     _pure("friction", "μ", "coefficient of friction", 0.0, 10.0, "0.15"),

@@ -19,6 +19,7 @@ from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
+from carom.studies.one_page import recommendation_lines
 from carom.studies.summaries import dimensionless_rows, kick_rows, machine_rows, motion_rows, range_rows, threshold_rows
 
 REPORT = "report.html"
@@ -86,6 +87,7 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
     return template.render(
         study=study,
         verdict=study.verdict,
+        recommendation=recommendation_lines(study),
         machine=machine_rows(study.case),
         dimensionless=dimensionless_rows(study.case),
         motions=motion_rows(study),

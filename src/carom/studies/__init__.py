@@ -10,6 +10,8 @@
 ``verdict``         the results in words
 ``findings``        the paragraphs of the verdict
 ``proven``          what a proof has decided, in words
+``recommendation``  the least change, its margin and its evidence
+``one_page``        the recommendation as lines of text
 ``remedies``        which changes would help, in words
 ``wording``         numbers with units
 ``summaries``       the tables of a study, as text
@@ -22,20 +24,25 @@ from carom.studies.alone import LevitationAlone, OtherMotion
 from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
 from carom.studies.ranges import Edge, MotionRange, Span, Threshold, free_spans
+from carom.studies.recommendation import Change, Margin, Recommendation, Tried
 from carom.studies.verdict import NOT_COVERED, Finding, Verdict
 from carom.studies.wording import Wording
 
 __all__ = [
     "NOT_COVERED",
     "Advice",
+    "Change",
     "Edge",
     "Finding",
     "LevitationAlone",
+    "Margin",
     "MotionRange",
     "OtherMotion",
+    "Recommendation",
     "Span",
     "Study",
     "Threshold",
+    "Tried",
     "Verdict",
     "Wording",
     "found_orbits_document",

@@ -23,6 +23,7 @@ from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document
 from carom.studies.orbit_ranges import single_impact_ranges
 from carom.studies.ranges import Motion, MotionRange, Threshold, steady_range
+from carom.studies.recommendation import Recommendation, recommend
 from carom.studies.safety import FRESH, DampingCheck, SafeDamping, least_safe_damping, try_disturbances
 from carom.studies.verdict import Verdict, verdict
 from carom.studies.wording import Wording
@@ -135,6 +136,11 @@ class Study(Result):
     def verdict(self) -> Verdict:
         """The verdict, in words."""
         return verdict(self)
+
+    @cached_property
+    def recommendation(self) -> Recommendation:
+        """The least change that leaves only levitation, with its margin and how sure it is."""
+        return recommend(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the study as it is written to ``study.json``."""

@@ -27,6 +27,7 @@ from carom.results import fields_of
 from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone
 from carom.studies.endings import came_back, hardest_impulse, largest_all_back, touching
+from carom.studies.one_page import recommendation_document
 from carom.studies.ranges import MotionRange, Span, Threshold
 from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
 from carom.studies.verdict import NOT_COVERED
@@ -102,6 +103,7 @@ def study_document(study: Study) -> dict[str, Any]:
         "zone_limits": list(case.zones.limits),
         "verdict": {
             "level": study.verdict.level,
+            "outcome": study.verdict.outcome,
             "headline": study.verdict.headline,
             "findings": [{"topic": finding.topic, "text": finding.text} for finding in study.verdict.findings],
         },
@@ -111,6 +113,7 @@ def study_document(study: Study) -> dict[str, Any]:
         "levitation_alone": dict.fromkeys(study.gains) | {entry.gain: _spans(entry.spans) for entry in study.alone},
         "levitation_alone_checks": [_alone(entry) for entry in study.alone],
         "advice": [_advice(entry, say) for entry in study.advice],
+        "recommendation": recommendation_document(study),
         "attractors": [_attractor(entry, case.parameters) for entry in study.attractors],
         "rolling": _rolling(study.rotor),
         "disturbances": _disturbances(study.attractors, case.parameters)

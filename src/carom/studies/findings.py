@@ -11,7 +11,7 @@ from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import KickSize, came_back, ending_phrase, hardest_impulse, kick_sizes, touching
 from carom.studies.ranges import Motion
-from carom.studies.remedies import advice_lines, alone_sentences
+from carom.studies.remedies import alone_sentences
 from carom.studies.safety.limits import share_words
 from carom.studies.wording import counted, listed, no_rigid_wall, number
 
@@ -279,7 +279,7 @@ def _with_weight(study: Study, force: float) -> str:
 def _remedies(study: Study) -> str:
     lines = [" ".join(_remedies_along(study, gain)) for gain in study.gains]
     lines[0] = f"{lines[0]} {study.safe_damping.words}"
-    return "\n".join([*lines, *advice_lines(study)])
+    return "\n".join(lines)
 
 
 def _remedies_along(study: Study, gain: Gain) -> list[str]:

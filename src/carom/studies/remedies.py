@@ -1,11 +1,9 @@
-"""Where levitation is the only motion found, and what is advised, in words."""
+"""Where levitation is the only motion found, and how an advised value was checked, in words."""
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
-from carom.studies.advice import WANTED
 from carom.studies.endings import ending_words
 from carom.studies.wording import counted, listed, number
 
@@ -52,33 +50,6 @@ def _came_back(study: Study, found: LevitationAlone) -> str:
         return "some got into backward whirl, at every value; all others came back"
     whirl = study.wording.where(found.gain, found.whirl, None)
     return f"some got into backward whirl ({whirl}), all others came back"
-
-
-def advice_lines(study: Study) -> list[str]:
-    """Return the advice, the least change first, and how it was checked: one paragraph or none."""
-    if not study.advice:
-        return []
-    sentences = [_advised(study, advice, first=place == 0) for place, advice in enumerate(study.advice)]
-    return [" ".join(sentences)]
-
-
-def _advised(study: Study, advice: Advice, *, first: bool) -> str:
-    say = study.wording
-    name, value = say.gain_name(advice.gain), say.gain(advice.gain, advice.value)
-    what = f"{name} = {value}" if say.scales is None else f"a {name} of {value}"
-    own = f"{number(advice.change, 3)} times this machine's"
-    if math.isinf(advice.change):
-        own = "this machine has none"
-    if advice.alone:
-        start = "The least change found that leaves only levitation is"
-        own += f", {number(100.0 * advice.margin, 2)} % beyond the end of the range"
-    else:
-        share = f"brings back {number(100.0 * WANTED, 3)} %"
-        start = f"No value searched leaves only levitation; the least change found that {share} is"
-    if not first:
-        start = "Alternatively it takes"
-    checked = check_words(study, advice)
-    return f"{start} {what} ({own}). {checked[0].upper()}{checked[1:]}."
 
 
 def check_words(study: Study, advice: Advice) -> str:

@@ -12,10 +12,11 @@ from carom.orbits.single_impact import OrbitSet
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import ending_words, kick_sizes
+from carom.studies.one_page import EVENTS
 from carom.studies.proven import is_proven
 from carom.studies.ranges import Motion
 from carom.studies.remedies import check_words
-from carom.studies.wording import Wording, no_rigid_wall, number
+from carom.studies.wording import Wording, no_rigid_wall
 
 if TYPE_CHECKING:
     from carom.attractors import Attractor, AttractorSet
@@ -75,28 +76,14 @@ MOTIONS: dict[Motion, str] = {
 }
 """Names of the motions whose ranges are known."""
 
-_EVENTS = {
-    "boundary-equilibrium": "the contact-free motion reaches the wall",
-    "rub-fold": "a stable and an unstable rub meet (fold)",
-    "fold": "two orbits meet (fold)",
-    "speed-fold": "two orbits of one period meet (fold)",
-    "grazing": "an orbit grazes the wall between its impacts",
-    "non-smooth-hopf": "an orbit shrinks into levitation on the wall (non-smooth Hopf)",
-    "slip-stop": "friction begins to stop the slip in the impacts of an orbit",
-    "contact-onset": "an orbit begins to stay on the wall after its impact",
-    "period-doubling": "an orbit loses its stability (period doubling)",
-    "neimark-sacker": "an orbit loses its stability (Neimark-Sacker)",
-    "vanishing-period": "the period of an orbit shrinks to zero",
-    "rolling-limit": "friction just keeps the rotor rolling at every angle",
-}
-
 
 def machine_rows(case: Case) -> list[ValueRow]:
     """Return the rows of the machine in SI units; empty if only dimensionless numbers are known."""
     if case.machine is None:
         return []
+    say = Wording(case.parameters.scales)
     return [
-        ValueRow(field.symbol, field.words, f"{number(getattr(case.machine, name), 6)} {field.unit}".strip())
+        ValueRow(field.symbol, field.words, say.field(name, getattr(case.machine, name), 6))
         for name, field in MACHINE_FIELDS.items()
     ]
 
@@ -207,7 +194,7 @@ def threshold_rows(study: Study) -> list[ThresholdRow]:
     say = study.wording
     rows = []
     for entry in study.thresholds:
-        what = _EVENTS.get(entry.edge.kind, f"an orbit ends ({entry.edge.kind})") + (
+        what = EVENTS.get(entry.edge.kind, f"an orbit ends ({entry.edge.kind})") + (
             "" if entry.edge.certified else " (located, but not confirmed by the orbits close by)"
         )
         rows.append(

@@ -48,9 +48,12 @@ class Verdict:
     ----------
     level : {"no-contact-free-motion", "may-not-come-back", "all-tried-came-back"}
         The verdict as a code for programs.
+    outcome : str
+        The verdict in a few words, with the zone of the vibration amplitude (ISO 14839-2).
     """
 
     level: Level
+    outcome: str
     headline: str
     findings: tuple[Finding, ...]
 
@@ -66,31 +69,38 @@ def verdict(study: Study) -> Verdict:
     if study.proof is not None:
         findings.append(Finding("Proven", proven_words(study.proof)))
     findings.append(Finding("Not covered", "\n".join(NOT_COVERED)))
-    level, headline = _headline(study)
-    return Verdict(level, headline, tuple(findings))
+    level, outcome, headline = _headline(study)
+    return Verdict(level, outcome, f"{outcome}: {headline}", tuple(findings))
 
 
-def _headline(study: Study) -> tuple[Level, str]:
+def _headline(study: Study) -> tuple[Level, str, str]:
     levitation = study.equilibria[0]
     if levitation.status != "admissible":
         what = "just reaches" if levitation.status == "boundary" else "would lie beyond"
         return (
             "no-contact-free-motion",
-            f"It cannot run without contact: its whirl from unbalance {what} the wall of the touchdown bearing.",
+            "Cannot run without contact",
+            f"its whirl from unbalance {what} the wall of the touchdown bearing.",
         )
     if not levitation.stable:
-        return "no-contact-free-motion", "Its levitation is not damped: a disturbance does not die out."
+        text = "its levitation is not damped, so that a disturbance does not die out."
+        return "no-contact-free-motion", f"Does not stay in levitation, zone {study.zone}", text
     holds = _what_may_hold(study)
     if holds:
         return (
             "may-not-come-back",
-            f"It levitates without contact, but after a touch it may not come back: {listed(holds)}.",
+            f"May not come back after a touch, zone {study.zone}",
+            f"it levitates, but {listed(holds)}.",
         )
     fastest = study.wording.velocity(study.attractors.fastest)
-    text = f"It levitates without contact and came back from every disturbance tried, of up to {fastest}."
+    text = f"it came back from every disturbance tried, of up to {fastest}"
     if rolling(study.rotor).holds:
-        text = f"{text[:-1]}; only backward whirl is known to be able to hold it."
-    return "all-tried-came-back", f"{text} That is no guarantee: see what is not covered."
+        text += "; only rolling backward whirl is known to be able to hold it"
+    return (
+        "all-tried-came-back",
+        f"Came back each time, zone {study.zone}",
+        f"{text}. That is no guarantee: see what is not covered.",
+    )
 
 
 def _what_may_hold(study: Study) -> list[str]:

@@ -99,6 +99,11 @@ class Wording:
             return f"{number(2.0 * math.pi / period, 3)} times a turn"
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
+    def field(self, name: str, value: float, digits: int = 4) -> str:
+        """A machine field given in SI units, in the unit in which people usually say it: ``1,759 rpm``."""
+        field = MACHINE_FIELDS[name]
+        return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
+
     def gain(self, gain: Gain, value: float) -> str:
         """Damping or stiffness given as ``gamma`` or ``omega``, with its unit if the machine is known."""
         if self.scales is None:
