@@ -28,6 +28,34 @@ def gaps(branch: Branch) -> np.ndarray:
     return np.linalg.norm(np.diff(x, axis=0), axis=1)
 
 
+def test_a_solver_at_fixed_parameter_is_used_away_from_folds():
+    calls, solved = [], []
+
+    def counted(u, p):
+        calls.append(p)
+        return cubic(u, p)
+
+    def solver(u, p):
+        solved.append(p)
+        roots = np.roots([1.0, 0.0, -1.0, p])
+        real = roots[np.abs(roots.imag) < 1e-9].real
+        return real[np.argmin(np.abs(real - u[0]))][None]
+
+    watch = Watch("crossing", lambda u, p: u[0] - 0.9)
+    with_solver, without = (
+        continue_branch(counted, np.array([-1.3]), 0.9, (-2.0, 3.0), watches=[watch], solver=each)
+        for each in (solver, None)
+    )
+    assert len(solved) > 20
+    for kind in ("fold", "crossing"):
+        assert places(with_solver, kind) == pytest.approx(places(without, kind), abs=1e-12)
+    assert with_solver.stops == without.stops
+    x, y = with_solver.unknowns[:, 0], with_solver.parameters
+    assert np.abs(x**3 - x + y).max() < 1e-11
+    none = continue_branch(cubic, np.array([-1.3]), 0.9, (-2.0, 3.0), solver=lambda u, p: None)
+    assert np.array_equal(none.parameters, continue_branch(cubic, np.array([-1.3]), 0.9, (-2.0, 3.0)).parameters)
+
+
 def test_circle_is_a_closed_loop_with_two_folds():
     branch = continue_branch(circle, np.array([1.0]), 0.0, (-2.0, 2.0))
     assert branch.stops == ("closed loop", "closed loop")

@@ -14,7 +14,7 @@ from carom.orbits.admissibility import why_virtual
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion, segments_of
-from carom.orbits.shooting import Start, converged, links_of
+from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 from tests.compilation import sized
@@ -258,6 +258,23 @@ def test_a_start_of_another_shape_is_refused():
 def test_newton_fails_without_an_orbit():
     one = find_orbits(PAPER)["B1,d"]
     assert converged(one.rotor, one.word, Start(np.full((1, 2), np.nan + 0j), one.durations)) is None
+
+
+def test_the_compiled_iteration_ends_where_the_other_ends():
+    orbit, rng = two_impacts(), np.random.default_rng(5)
+    for _ in range(6):
+        moved = pack(Start(orbit.nodes, orbit.durations)) + 1e-4 * rng.normal(size=10)
+        start = unpack(moved, 2)
+        links, found = converged(orbit.rotor, orbit.word, start), closed_flights(orbit.rotor, orbit.word, start)
+        assert links is not None
+        assert found is not None
+        assert np.abs(pack(found) - pack(links.start)).max() < 1e-12
+        # The start itself is left as it is.
+        assert np.array_equal(pack(start), moved)
+    lost = Start(np.full((2, 2), np.nan + 0j), orbit.durations)
+    assert closed_flights(orbit.rotor, orbit.word, lost) is None
+    # A duration that becomes negative on the way ends it.
+    assert closed_flights(orbit.rotor, orbit.word, Start(orbit.nodes, 1e-3 * orbit.durations)) is None
 
 
 def test_the_jacobian_of_a_grazing_impact_is_regular():

@@ -13,7 +13,7 @@ from carom.continuation import Watch
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.orbit import Margins, margins_of, on_section
-from carom.orbits.shooting import Links, links_of, unpack
+from carom.orbits.shooting import Links, closed_flights, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 
@@ -103,6 +103,14 @@ class Family:
         if point is None:
             return np.full((len(u), len(u) + 1), np.nan)
         return np.column_stack([point.links.jacobian, self._by_parameter(point, p)])
+
+    def solved(self, u: np.ndarray, p: float) -> np.ndarray | None:
+        """Orbit next to a point at the same parameter; ``None`` where the iteration fails, or the word has lasting contact."""
+        rotor = self.rotor_at(p)
+        if rotor is None or not self.word.flies:
+            return None
+        found = closed_flights(rotor, self.word, unpack(u, len(self.word)))
+        return None if found is None else pack(found)
 
     def _by_parameter(self, point: FamilyPoint, p: float) -> np.ndarray:
         """Derivative of the equations by the parameter, by a difference to a side where the rotor exists."""

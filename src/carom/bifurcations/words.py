@@ -215,6 +215,7 @@ def _follow(family: Family, start: np.ndarray, present: float, steps: Steps | No
         family.limits,
         jacobian=family.jacobian,
         watches=family.watches(start),
+        solver=family.solved,
         steps=steps or STEPS,
         scales=np.append(np.ones(len(start)), family.size),
     )

@@ -24,11 +24,14 @@ from carom.continuation.roots import bracketed_root, sign_change
 from carom.outcome import CaromError, InputError
 
 Function = Callable[[np.ndarray, float], np.ndarray]
+Solver = Callable[[np.ndarray, float], np.ndarray | None]
 
 DIFFERENCE = 6e-6
 """Step of central differences in scaled unknowns: the cube root of the rounding error."""
 STRAY = 0.3
 """Largest distance of a corrected point from its prediction, in steps: a point further away is on another branch."""
+UPRIGHT = 0.2
+"""Share of the parameter in the tangent above which points are sought at fixed parameter, if there is a solver for that."""
 JUMP = 1e-4
 """Largest remaining value of a watched function at a zero, relative to its values at the ends of the bracket.
 
@@ -47,6 +50,7 @@ def continue_branch(
     steps: Steps | None = None,
     scales: np.ndarray | None = None,
     reach: Callable[[np.ndarray], float] | None = None,
+    solver: Solver | None = None,
     folds: str = "fold",
 ) -> Branch:
     """Follow the branch of solutions through a point, in both directions.
@@ -69,6 +73,9 @@ def continue_branch(
         Typical sizes of the unknowns and the parameter, in which arclength is measured; ones by default.
     reach : callable, optional
         Of ``u``: the factor by which the largest step grows there; 1 by default.
+    solver : callable, optional
+        Of ``u`` and ``p``: the solution next to ``u`` at this parameter, or ``None``.  It is asked where the branch is not
+        close to a fold, and saves evaluations where the equations at another parameter take long to set up.
     folds : str
         Kind under which turning points of the parameter are listed; branch points are listed as ``"branch point"``.
 
@@ -83,7 +90,7 @@ def continue_branch(
         raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
     start = np.append(np.asarray(unknowns, float), parameter)
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
-    tracer = Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, reach)
+    tracer = Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, reach, solver)
     first, tangent = tracer.begin(start / sizes)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
@@ -128,6 +135,7 @@ class Tracer:
     steps: Steps
     folds: str
     reach: Callable[[np.ndarray], float] | None = None
+    solver: Solver | None = None
 
     def plain(self, x: np.ndarray) -> tuple[np.ndarray, float]:
         """Unknowns and parameter without scaling."""
@@ -185,6 +193,14 @@ class Tracer:
             x, previous, correction = x + change, size, max(map(abs, change.tolist()))
         return None
 
+    def near(self, guess: np.ndarray, here: _Point) -> np.ndarray | None:
+        """Point of the branch next to a guess ahead of a point: at the parameter of the guess, or in the normal hyperplane."""
+        if self.solver is not None and abs(here.tangent[-1]) >= UPRIGHT:
+            found = self.solver(*self.plain(guess))
+            if found is not None:
+                return np.append(found / self.scales[:-1], guess[-1])
+        return self.correct(guess, here.tangent, here.inverse)
+
     def walk(self, start: np.ndarray, heading: np.ndarray) -> _Path:
         """Follow the branch from a point in a direction."""
         path = _Path([start], [], "most points")
@@ -226,7 +242,7 @@ class Tracer:
     def _step(self, here: _Point, length: float) -> _Point | None:
         """Next point; ``None`` if the step is too long."""
         guess = here.x + length * here.tangent
-        x = self.correct(guess, here.tangent, here.inverse)
+        x = self.near(guess, here)
         if x is None or np.linalg.norm(x - guess) > STRAY * length:
             return None
         jacobian = self.jacobian(x)
@@ -300,8 +316,11 @@ class Tracer:
 
         def value(distance: float) -> float:
             if distance not in values:
-                guess = here.x + distance / length * (there.x - here.x)
-                x = self.correct(guess, here.tangent, here.inverse)
+                # On the chord between the nearest points known: the closer these are, the closer is the guess.
+                before = max(each for each in at if each < distance)
+                after = min(each for each in at if each > distance)
+                share = (distance - before) / (after - before)
+                x = self.near(at[before] + share * (at[after] - at[before]), here)
                 at[distance] = here.x if x is None else x
                 values[distance] = np.nan if x is None else self._watched_value(which, x, here)
             return values[distance]

@@ -8,8 +8,8 @@ here.  So all maps are smooth, even where an impact grazes or the motion is impo
 A chatter is one segment too.  Its bounces have been followed by :func:`carom.core.advance.advance`; their derivatives are
 multiplied here (:func:`carry_through_chatter`).
 
-Directions are changes of the amplitudes, to which everything here is real-linear: the ``2N`` directions ``1`` and ``i``
-of each amplitude stand for the derivative.
+Directions are changes of the amplitudes, to which everything here is real-linear: those by which each coordinate and each rate
+changes by ``1`` and by ``i``, ``2N`` in all, stand for the derivative.
 """
 
 from __future__ import annotations
@@ -43,108 +43,114 @@ __all__ = [
     "carry_through_chatter",
     "follow_contact",
     "follow_flights",
-    "highest_point",
-    "local_motion",
 ]
 
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
 """Kinds of segments; the first four are flights."""
 NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD = range(6)
 """Conditions at the end; the last two are the limits of the friction cone beyond which forward or backward slip begins."""
-SAMPLES, PER_RADIAN = 32, 10.0
-"""Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
-HALVINGS = 50
 
 
 @kernel
-def follow_flights(rotor, kinds, planes, targets, nodes, durations, arrivals, changes, rates, values, normals):
+def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes):
     """Follow each impact and flight from its node, with the derivatives of its end, where the wall is to be met.
 
     Parameters
     ----------
     rotor : record of :func:`~carom.core.layout.rotor_record`
+    basis, to_modes : complex arrays, shape (N, N)
+        State (coordinates, then their rates) per amplitude, and its inverse.
+    rest : complex array, shape (N,)
+        State whose amplitudes are zero.
     kinds, planes : int arrays, shape (m,)
         Kind of each segment and plane of the contact at its beginning; segments that do not fly are left out.
     targets : int array, shape (m,)
         Plane at whose wall it ends.
     nodes : complex array, shape (m, N)
-        Amplitudes at the beginning: just before the impact.
+        States at the beginning: just before the impact.
     durations : array, shape (m,)
     arrivals : complex array, shape (m, N)
-        Overwritten: amplitudes at the end.
-    changes : complex array, shape (m, 2N, N)
-        Overwritten: derivative of the end by each direction at the node.
-    rates : complex array, shape (m, N)
-        Overwritten: derivative of the end by the duration.
+        Overwritten: states at the end.
     values : array, shape (m,)
         Overwritten: value of the condition, ``(|y|² − 1)/2``.
-    normals : array, shape (m, 2N + 1)
-        Overwritten: its derivative by the directions at the node, and by the duration.
+    slopes : array, shape (m, 2N + 1, 2N + 1)
+        Overwritten: derivative of real and imaginary parts of the end, then of the condition, by those of the node, then
+        by the duration.
     """
     modes = nodes.shape[1]
     last = 2 * modes
     moved, increments = np.empty((last + 1, modes), np.complex128), np.empty((last + 1, modes), np.complex128)
+    rate = np.empty(modes, np.complex128)
     for i in range(kinds.shape[0]):
         if kinds[i] > LIFT:
             continue
-        directions = _set_out(nodes[i], moved)
+        directions = _set_out(to_modes, rest, nodes[i], moved)
         if kinds[i] < LIFT:
             _strike(rotor, planes[i], kinds[i], moved[last], directions)
         flight_increments(rotor, moved, durations[i], increments)
         for row in range(last + 1):
             for k in range(modes):
                 moved[row, k] += increments[row, k]
-        _hand_over(moved, arrivals[i], changes[i])
-        _flight_rate(rotor, moved[last], rates[i])
+        _flight_rate(rotor, moved[last], rate)
+        _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
         y = displacement(rotor, targets[i], moved[last])
         values[i] = 0.5 * (squared_modulus(y) - 1.0)
         for row in range(last + 1):
             part_of_y = 0j
             for k in range(modes):
-                part_of_y += rotor.rows[targets[i], k] * (rates[i, k] if row == last else moved[row, k])
-            normals[i, row] = (y.conjugate() * part_of_y).real
+                part_of_y += rotor.rows[targets[i], k] * (rate[k] if row == last else moved[row, k])
+            slopes[i, last, row] = (y.conjugate() * part_of_y).real
 
 
 @kernel
-def follow_contact(rotor, kinds, planes, ends, nodes, durations, rub, arrivals, changes, rates, values, normals):
+def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, durations, rub, arrivals, values, slopes):
     """:func:`follow_flights` for sliding and rolling at one plane; ``ends`` are the conditions at their ends.
 
     ``rub`` is a record of :func:`~carom.core.layout.rub_workspace`.
     """
     modes = nodes.shape[1]
-    moved = np.empty((2 * modes + 1, modes), np.complex128)
+    moved, rate = np.empty((2 * modes + 1, modes), np.complex128), np.empty(modes, np.complex128)
     contact = np.empty(rotor.rows.shape[0], np.int64)
     for i in range(kinds.shape[0]):
         if kinds[i] <= LAND:
             continue
-        directions, rolls = _set_out(nodes[i], moved), kinds[i] == ROLL
+        directions, rolls = _set_out(to_modes, rest, nodes[i], moved), kinds[i] == ROLL
         _rest(rotor, planes[i], moved[2 * modes], directions, 0.0, rolls)
         contact[:] = AWAY
         contact[planes[i]] = FORWARD_SLIP if kinds[i] == SLIDE_FORWARD else BACKWARD_SLIP
         if rolls:
             contact[planes[i]] = ROLLING
-        _slide(rotor, contact, planes[i], durations[i], moved[2 * modes], directions, rates[i], rub)
-        _hand_over(moved, arrivals[i], changes[i])
-        values[i] = _condition(rotor, planes[i], ends[i], arrivals[i], changes[i], rates[i], normals[i])
+        _slide(rotor, contact, planes[i], durations[i], moved[2 * modes], directions, rate, rub)
+        _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
+        normal = slopes[i, 2 * modes]
+        values[i] = _condition(rotor, planes[i], ends[i], moved[2 * modes], directions, rate, normal)
 
 
 @part
-def _set_out(node, moved):
-    """Write all directions, and below them the state; return the directions."""
+def _set_out(to_modes, rest, node, moved):
+    """Write the amplitudes of all changes of the state by one, and below them its own; return those of the changes."""
     modes = node.shape[0]
-    moved[:] = 0.0
     for k in range(modes):
-        moved[k, k], moved[modes + k, k], moved[2 * modes, k] = 1.0, 1j, node[k]
+        moved[2 * modes, k] = 0j
+        for j in range(modes):
+            moved[j, k], moved[modes + j, k] = to_modes[k, j], 1j * to_modes[k, j]
+            moved[2 * modes, k] += to_modes[k, j] * (node[j] - rest[j])
     return moved[: 2 * modes]
 
 
 @part
-def _hand_over(moved, arrival, changes):
-    """Copy the state and the directions."""
-    for k in range(arrival.shape[0]):
-        for row in range(changes.shape[0]):
-            changes[row, k] = moved[row, k]
-        arrival[k] = moved[changes.shape[0], k]
+def _hand_over(basis, rest, moved, rate, arrival, slopes):
+    """Write the state from its amplitudes, and the derivatives of its real and imaginary parts."""
+    modes = arrival.shape[0]
+    for j in range(modes):
+        for row in range(2 * modes + 1):
+            change = 0j
+            for k in range(modes):
+                change += basis[j, k] * (rate[k] if row == 2 * modes else moved[row, k])
+            slopes[j, row], slopes[modes + j, row] = change.real, change.imag
+        arrival[j] = rest[j]
+        for k in range(modes):
+            arrival[j] += basis[j, k] * moved[2 * modes, k]
 
 
 @kernel
@@ -337,61 +343,3 @@ def carry_through_chatter(rotor, plane, arrivals, durations, landing, slip, dire
             for row in range(delays.shape[0]):
                 delays[row] += later[row]
     _rest(rotor, plane, landing, directions, slip * rotor.friction[plane], slip == 0)
-
-
-@kernel
-def local_motion(rotor, planes, states):
-    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force and pull along the wall."""
-    local = np.empty((states.shape[0], 5))
-    for i in range(states.shape[0]):
-        y, v = displacement(rotor, planes[i], states[i]), velocity(rotor, planes[i], states[i])
-        a = acceleration(rotor, planes[i], states[i])
-        normal = unit(y)
-        local[i, 0] = squared_modulus(y) - 1.0
-        local[i, 1] = (normal.conjugate() * v).real
-        local[i, 2] = rotor.drive[planes[i]] + (normal.conjugate() * v).imag
-        local[i, 3] = (normal.conjugate() * a).real + (normal.conjugate() * v).imag ** 2
-        local[i, 4] = (normal.conjugate() * a).imag
-    return local
-
-
-@kernel
-def highest_point(rotor, plane, start, duration):
-    """Largest ``|y|² − 1`` of the local maxima inside a flight, by samples, and its time; ``nan`` if there is none.
-
-    A flight from rest on the wall begins at such a maximum, which is left out with the first sample.
-    """
-    starts, increments = start.reshape(1, -1), np.empty((1, start.shape[0]), np.complex128)
-    fastest = 0.0
-    for k in range(start.shape[0]):
-        fastest = max(fastest, math.sqrt(squared_modulus(rotor.exponents[k])))
-    count = SAMPLES + int(PER_RADIAN * fastest * duration)
-    height, top = np.nan, np.nan
-    _, before = _radial(rotor, plane, starts, duration / count, increments)
-    for i in range(2, count + 1):
-        late = duration * i / count
-        _, after = _radial(rotor, plane, starts, late, increments)
-        if before > 0.0 and after < 0.0:
-            early = duration * (i - 1) / count
-            for _ in range(HALVINGS):
-                middle = 0.5 * (early + late)
-                _, slope = _radial(rotor, plane, starts, middle, increments)
-                if slope > 0.0:
-                    early = middle
-                else:
-                    late = middle
-            excess, _ = _radial(rotor, plane, starts, early, increments)
-            if not excess <= height:
-                height, top = excess, early
-        before = after
-    return height, top
-
-
-@part
-def _radial(rotor, plane, starts, time, increments):
-    """``|y|² − 1`` and ``Re(ȳẏ)`` of a flight at a time."""
-    flight_increments(rotor, starts, time, increments)
-    for k in range(starts.shape[1]):
-        increments[0, k] += starts[0, k]
-    y, v = displacement(rotor, plane, increments[0]), velocity(rotor, plane, increments[0])
-    return squared_modulus(y) - 1.0, (y.conjugate() * v).real

@@ -77,7 +77,7 @@ class System(Result):
         fields = arrays.offsets.tolist(), arrays.rows, arrays.rate_rows, arrays.columns.T, *numbers
         return tuple(map(Contact._make, zip(*fields, strict=True)))
 
-    @property
+    @cached_property
     def exponents(self) -> np.ndarray:
         """Exponents ``λ`` of free flight, shape (N,)."""
         return np.asarray(self.arrays.exponents)
@@ -90,7 +90,9 @@ class System(Result):
     @cached_property
     def rates(self) -> np.ndarray:
         """Rates of the coordinates per amplitude, shape (n, N)."""
-        return self.shapes @ self.generator
+        rates = self.shapes * self.exponents
+        rates[:, :-1] += self.shapes[:, 1:] * self.arrays.driven[1:]
+        return rates
 
     @cached_property
     def basis(self) -> np.ndarray:
@@ -105,6 +107,12 @@ class System(Result):
     @cached_property
     def _whole_rest(self) -> np.ndarray:
         return np.concatenate([self.rest, np.zeros(len(self.rest))])
+
+    @cached_property
+    def coordinates(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """``basis``, ``to_modes`` and the state (2n,) at rest, as the kernels take them."""
+        basis, to_modes = np.ascontiguousarray(self.basis), np.ascontiguousarray(self.to_modes)
+        return basis, to_modes, self._whole_rest.astype(complex)
 
     def amplitudes_of(self, states: np.ndarray) -> np.ndarray:
         """Mode amplitudes of states (m, 2n), each the coordinates and then their rates; shape (m, N)."""

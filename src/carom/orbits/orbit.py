@@ -9,7 +9,7 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
-from carom.core.segments import highest_point, local_motion
+from carom.core.margins import highest_point, local_motion
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
@@ -228,20 +228,20 @@ def on_section(links: Links) -> np.ndarray:
     if not np.isfinite(monodromy).all():
         return np.full((len(monodromy) - 1,) * 2, np.inf)
     # Its range is the section: the last passage ends there.
-    normal = np.linalg.svd(links.passages[-1])[0][:, -1]
-    basis = np.linalg.svd(normal[None])[2][1:]
-    return basis @ monodromy @ basis.T
+    basis = np.linalg.svd(links.passages[-1])[0][:, :-1]
+    return basis.T @ monodromy @ basis
 
 
 def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     """How far an orbit is from a change of its word."""
-    arrays, nodes = rotor.system.arrays, rotor.system.amplitudes_of(links.start.nodes)
+    arrays, contacts = rotor.system.arrays, rotor.system.contacts
+    nodes = rotor.system.amplitudes_of(links.start.nodes)
     _, radial, slips, push, pull = local_motion(arrays, word.planes, nodes).T
     heights, left, cones = [], [], []
     for i, segment in enumerate(word):
-        friction = float(arrays.friction[segment.plane])
+        friction = contacts[segment.plane].friction
         if segment.kind.is_impact:
-            taken = friction * (1.0 + float(arrays.restitution[segment.plane])) * radial[i]
+            taken = friction * (1.0 + contacts[segment.plane].restitution) * radial[i]
             if segment.kind is Kind.IMPACT_STOPPED:
                 left.append(taken - abs(slips[i]))
             else:
@@ -250,9 +250,7 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
             cones.append(friction * push[i] - abs(pull[i]))
         if segment.kind.flies:
             after = departure(rotor, segment, nodes[i])
-            tops = [
-                highest_point(arrays, p, after, float(links.start.durations[i]))[0] for p in range(len(arrays.rows))
-            ]
+            tops = [highest_point(arrays, p, after, float(links.start.durations[i]))[0] for p in range(len(contacts))]
             heights += [top for top in tops if not np.isnan(top)]
     rests = np.array([segment.kind.lasts for segment in word])
     return Margins(

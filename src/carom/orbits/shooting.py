@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from carom.core.closure import close_flights
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace
 from carom.core.segments import carry_through_chatter, follow_contact, follow_flights
@@ -64,10 +66,11 @@ class Links:
     values: np.ndarray
     slopes: np.ndarray
 
-    @property
+    @cached_property
     def residual(self) -> np.ndarray:
         """Left sides of the equations, shape (m (2N + 1),)."""
-        apart = self.arrivals - np.roll(self.start.nodes, -1, axis=0)
+        nodes = self.start.nodes
+        apart = self.arrivals - (nodes if len(nodes) == 1 else np.concatenate([nodes[1:], nodes[:1]]))
         return pack(Start(apart, self.values))
 
     @property
@@ -117,59 +120,61 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
         Its ``values`` are ``nan`` where a chatter does not end in the lasting contact that follows in the word.
     """
     system = rotor.system
-    arrays, nodes, durations = system.arrays, system.amplitudes_of(start.nodes), start.durations
+    arrays, coordinates, (nodes, durations) = system.arrays, system.coordinates, start
     m, modes = nodes.shape
-    arrivals, rates = np.empty_like(nodes), np.zeros_like(nodes)
-    changes = np.empty((m, 2 * modes, modes), complex)
-    values, normals = np.empty(m), np.zeros((m, 2 * modes + 1))
-    ends = arrivals, changes, rates, values, normals
-    follow_flights(arrays, word.kinds, word.planes, word.targets, nodes, durations, *ends)
+    arrivals, values, slopes = _room(m, modes)
+    follow_flights(
+        arrays, *coordinates, word.kinds, word.planes, word.targets, nodes, durations, arrivals, values, slopes
+    )
     if not word.flies:
-        rub = rub_workspace(modes, len(arrays.rows))
-        follow_contact(arrays, word.kinds, word.planes, word.conditions, nodes, durations, rub, *ends)
-    for i in np.flatnonzero(word.kinds == Kind.LAND):
-        taken = _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], changes[i], normals[i])
-        values[i] = durations[i] - taken
-    slopes = np.empty((m, 2 * modes + 1, 2 * modes + 1))
-    slopes[:, :modes, :-1], slopes[:, modes:-1, :-1] = changes.real.swapaxes(1, 2), changes.imag.swapaxes(1, 2)
-    slopes[:, :modes, -1], slopes[:, modes:-1, -1] = rates.real, rates.imag
-    slopes[:, -1] = normals
-    slopes = _real(system.basis) @ slopes @ _real(system.to_modes)
-    return Links(start, system.states_of(arrivals), values, slopes)
+        at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(modes, len(arrays.rows))
+        follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
+        for i in np.flatnonzero(word.kinds == Kind.LAND):
+            values[i] = durations[i] - _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], slopes[i])
+    return Links(start, arrivals, values, slopes)
 
 
-def _real(matrix: np.ndarray) -> np.ndarray:
-    """A complex matrix (N, N) as it acts on real and then imaginary parts, and on one more number, which it keeps."""
-    modes = len(matrix)
-    whole = np.zeros((2 * modes + 1, 2 * modes + 1))
-    whole[:modes, :modes] = whole[modes:-1, modes:-1] = matrix.real
-    whole[modes:-1, :modes], whole[:modes, modes:-1] = matrix.imag, -matrix.imag
-    whole[-1, -1] = 1.0
-    return whole
+def _room(m: int, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Arrays for the ends of ``m`` segments, the values of their conditions, and their derivatives."""
+    return np.empty((m, modes), complex), np.empty(m), np.empty((m, 2 * modes + 1, 2 * modes + 1))
 
 
-def _land(
-    rotor: Model, following: Segment, node: np.ndarray, arrival: np.ndarray, changes: np.ndarray, normal: np.ndarray
-) -> float:
+def closed_flights(rotor: Model, word: Word, start: Start) -> Start | None:
+    """Solve the equations of a word of impacts by plain Newton steps from a start next to an orbit.
+
+    ``None`` if the iteration does not converge; it takes no shorter steps, and knows no lasting contact (:func:`converged`).
+    """
+    system = rotor.system
+    nodes, durations = start.nodes.copy(), start.durations.copy()
+    at = word.kinds, word.planes, word.targets, nodes, durations
+    room = _room(*nodes.shape)
+    return (
+        Start(nodes, durations)
+        if close_flights(system.arrays, *system.coordinates, *at, *room, TOLERANCE, ITERATIONS)
+        else None
+    )
+
+
+def _land(rotor: Model, following: Segment, node: np.ndarray, arrival: np.ndarray, slopes: np.ndarray) -> float:
     """Follow a chatter and write its end and derivatives; return its duration, ``nan`` if it does not end as it should."""
-    arrays, modes = rotor.system.arrays, len(arrival)
-    contact = np.full(len(arrays.rows), -1)
+    system, modes = rotor.system, len(arrival)
+    basis, to_modes, rest = system.coordinates
+    contact = np.full(len(system.arrays.rows), -1)
     contact[following.plane] = Phase.FLIGHT
     log = EventLog.empty(MOST_BOUNCES, modes, len(contact))
-    amplitudes = node.copy()
-    recollection = memory(modes, stop_at_landing=True)
-    outcome, time, count = follow(rotor, amplitudes, np.inf, contact, log, recollection)
-    changes[:] = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
+    landing, slopes[:] = to_modes @ (node - rest), 0.0
+    outcome, time, count = follow(rotor, landing, np.inf, contact, log, memory(modes, stop_at_landing=True))
     if outcome is not Outcome.CHATTER or not count or (log.planes[:count] != following.plane).any():
+        arrival[:] = node
         return float("nan")
-    slip = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: -1}.get(following.kind, 0)
-    arrival[:] = amplitudes
-    bounces = log.first(count)
-    carry_through_chatter(
-        arrays, following.plane, bounces.before, np.diff(bounces.times), arrival, slip, changes, normal[:-1]
-    )
-    normal *= -1.0
-    normal[-1] = 1.0
+    slip, bounces = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: -1}.get(following.kind, 0), log.first(count)
+    changes, delays = np.concatenate([to_modes.T, 1j * to_modes.T]), np.empty(2 * modes)
+    at = following.plane, bounces.before, np.diff(bounces.times), landing, slip
+    carry_through_chatter(system.arrays, *at, changes, delays)
+    arrival[:] = basis @ landing + rest
+    moved = basis @ changes.T
+    slopes[:modes, :-1], slopes[modes:-1, :-1] = moved.real, moved.imag
+    slopes[-1, :-1], slopes[-1, -1] = -delays, 1.0
     return time
 
 

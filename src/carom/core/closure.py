@@ -1,0 +1,93 @@
+"""Newton's method for the equations of multiple shooting, for words of impacts with the flights after them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.core.layout import kernel, part
+from carom.core.segments import follow_flights
+
+__all__ = ["close_flights", "eliminate"]
+
+
+@kernel
+def close_flights(
+    rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes, tolerance, steps
+):
+    """Correct nodes and durations in place until each segment ends at the next node; see :func:`follow_flights`.
+
+    Parameters
+    ----------
+    tolerance : float
+        Largest residual accepted, relative to one plus the size of the nodes; one more step follows.
+    steps : int
+        Number of steps after which to give up.
+
+    Returns
+    -------
+    bool
+        Whether it converged, to positive durations.
+    """
+    m, modes = nodes.shape
+    width = 2 * modes + 1
+    matrix = np.empty((m * width, m * width + 1))
+    before = np.inf
+    for _ in range(steps):
+        follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes)
+        largest, size = 0.0, 1.0
+        matrix[:] = 0.0
+        for i in range(m):
+            after = (i + 1) % m
+            for row in range(width):
+                for column in range(width):
+                    matrix[i * width + row, i * width + column] += slopes[i, row, column]
+            for k in range(modes):
+                apart = nodes[after, k] - arrivals[i, k]
+                matrix[i * width + k, after * width + k] -= 1.0
+                matrix[i * width + modes + k, after * width + modes + k] -= 1.0
+                matrix[i * width + k, m * width] = apart.real
+                matrix[i * width + modes + k, m * width] = apart.imag
+                size = max(size, 1.0 + abs(nodes[i, k]))
+            matrix[i * width + 2 * modes, m * width] = -values[i]
+            for row in range(width):
+                largest = max(largest, abs(matrix[i * width + row, m * width]))
+        # Rounding lets the residual fall no further: the last step has converged too.
+        done = largest <= tolerance * size or (largest <= 1e3 * tolerance * size and largest >= 0.5 * before)
+        if not (largest < np.inf and eliminate(matrix)):
+            return False
+        before = largest
+        for i in range(m):
+            for k in range(modes):
+                nodes[i, k] += complex(matrix[i * width + k, m * width], matrix[i * width + modes + k, m * width])
+            durations[i] += matrix[i * width + 2 * modes, m * width]
+            if not durations[i] > 0.0:
+                return False
+        if done:
+            return True
+    return False
+
+
+@part
+def eliminate(matrix):
+    """Solve linear equations whose right side is the last column, which receives the solution; whether there is one."""
+    n = matrix.shape[0]
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(matrix[i, k]) > abs(matrix[best, k]):
+                best = i
+        if not abs(matrix[best, k]) > 0.0:
+            return False
+        if best != k:
+            for j in range(k, n + 1):
+                matrix[k, j], matrix[best, j] = matrix[best, j], matrix[k, j]
+        for i in range(k + 1, n):
+            share = matrix[i, k] / matrix[k, k]
+            if share != 0.0:
+                for j in range(k + 1, n + 1):
+                    matrix[i, j] -= share * matrix[k, j]
+    for k in range(n - 1, -1, -1):
+        for j in range(k + 1, n):
+            matrix[k, n] -= matrix[k, j] * matrix[j, n]
+        matrix[k, n] /= matrix[k, k]
+    return True

@@ -1,0 +1,75 @@
+"""How far the segments of an orbit are from a change of its word: motion at the nodes, and highest points of flights."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
+from carom.core.impact import unit
+from carom.core.layout import kernel, part
+
+__all__ = ["highest_point", "local_motion"]
+
+SAMPLES, PER_RADIAN = 32, 10.0
+"""Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
+HALVINGS = 50
+
+
+@kernel
+def local_motion(rotor, planes, states):
+    """Of each state (m, N) at its plane (m,): ``|y|² − 1``, radial speed, slip, normal force and pull along the wall."""
+    local = np.empty((states.shape[0], 5))
+    for i in range(states.shape[0]):
+        y, v = displacement(rotor, planes[i], states[i]), velocity(rotor, planes[i], states[i])
+        a = acceleration(rotor, planes[i], states[i])
+        normal = unit(y)
+        local[i, 0] = squared_modulus(y) - 1.0
+        local[i, 1] = (normal.conjugate() * v).real
+        local[i, 2] = rotor.drive[planes[i]] + (normal.conjugate() * v).imag
+        local[i, 3] = (normal.conjugate() * a).real + (normal.conjugate() * v).imag ** 2
+        local[i, 4] = (normal.conjugate() * a).imag
+    return local
+
+
+@kernel
+def highest_point(rotor, plane, start, duration):
+    """Largest ``|y|² − 1`` of the local maxima inside a flight, by samples, and its time; ``nan`` if there is none.
+
+    A flight from rest on the wall begins at such a maximum, which is left out with the first sample.
+    """
+    starts, increments = start.reshape(1, -1), np.empty((1, start.shape[0]), np.complex128)
+    fastest = 0.0
+    for k in range(start.shape[0]):
+        fastest = max(fastest, math.sqrt(squared_modulus(rotor.exponents[k])))
+    count = SAMPLES + int(PER_RADIAN * fastest * duration)
+    height, top = np.nan, np.nan
+    _, before = _radial(rotor, plane, starts, duration / count, increments)
+    for i in range(2, count + 1):
+        late = duration * i / count
+        _, after = _radial(rotor, plane, starts, late, increments)
+        if before > 0.0 and after < 0.0:
+            early = duration * (i - 1) / count
+            for _ in range(HALVINGS):
+                middle = 0.5 * (early + late)
+                _, slope = _radial(rotor, plane, starts, middle, increments)
+                if slope > 0.0:
+                    early = middle
+                else:
+                    late = middle
+            excess, _ = _radial(rotor, plane, starts, early, increments)
+            if not excess <= height:
+                height, top = excess, early
+        before = after
+    return height, top
+
+
+@part
+def _radial(rotor, plane, starts, time, increments):
+    """``|y|² − 1`` and ``Re(ȳẏ)`` of a flight at a time."""
+    flight_increments(rotor, starts, time, increments)
+    for k in range(starts.shape[1]):
+        increments[0, k] += starts[0, k]
+    y, v = displacement(rotor, plane, increments[0]), velocity(rotor, plane, increments[0])
+    return squared_modulus(y) - 1.0, (y.conjugate() * v).real
