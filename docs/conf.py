@@ -62,6 +62,7 @@ nb_render_markdown_format = "myst"
 sphinx_gallery_conf = {
     "examples_dirs": "../examples/gallery",
     "gallery_dirs": "gallery",
+    "within_subsection_order": "FileNameSortKey",
     "filename_pattern": r"/\d\d_",
     "image_scrapers": ("gallery_figures.named_figures",),
     "capture_repr": (),

@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.outcome import InputError
+from carom.references import REFERENCES, Citations, carom_itself
 
 WIDEST = 120
 """Largest number of characters of a line, without the name before it."""
@@ -25,11 +26,13 @@ class Result:
     """Result of a function: a frozen dataclass that is shown by its attributes, large ones by their size only.
 
     ``shown`` names the attributes to show, which may be properties; if it is empty, all fields are shown.  ``figure``
-    names the function of :mod:`carom.plots` that draws such a result; it is empty if there is none.
+    names the function of :mod:`carom.plots` that draws such a result; it is empty if there is none.  ``rests_on`` names the
+    publications of :mod:`carom.references` behind the methods that make such a result.
     """
 
     shown: ClassVar[tuple[str, ...]] = ()
     figure: ClassVar[str] = ""
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014",)
 
     def plot(self, *args: Any, **options: Any) -> Any:
         """Draw this result: ``result.plot(...)`` is ``carom.plots.<figure>(result, ...)``.
@@ -66,6 +69,53 @@ class Result:
     def brief_rows(self) -> list[tuple[str, str]]:
         """Rows of the text form: all of them, unless a kind of result can have too many."""
         return self.rows()
+
+
+def citations(result: object) -> Citations:
+    """What to cite for a result: carom, and the literature on which the methods behind it rest.
+
+    Parameters
+    ----------
+    result : motion, orbits, basin, diagram, study, proof or another result of carom
+        The results that it holds count too.
+
+    Returns
+    -------
+    Citations
+        :attr:`~carom.references.Citations.text` for people, :attr:`~carom.references.Citations.bibtex` for a file.
+
+    Raises
+    ------
+    InputError
+        It is no result of carom.
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> found = cm.results.citations(cm.find_orbits(machine))
+    >>> [reference.key for reference in found.references]
+    ['carom', 'mora2014']
+    """
+    if not hasattr(result, "rests_on"):
+        raise InputError("result", type(result).__name__, "a result of carom: a motion, orbits, a basin, a study, …")
+    keys: dict[str, None] = {}
+    _collect(result, keys, set())
+    return Citations((carom_itself(), *(REFERENCES[key] for key in keys)))
+
+
+def _collect(value: object, keys: dict[str, None], seen: set[int]) -> None:
+    """Add the publications behind a result, and behind those that it holds."""
+    if id(value) in seen:
+        return
+    seen.add(id(value))
+    if isinstance(value, tuple | list):
+        for entry in value:
+            _collect(entry, keys, seen)
+    elif dataclasses.is_dataclass(value):
+        keys.update(dict.fromkeys(getattr(value, "rests_on", ())))
+        for field in dataclasses.fields(value):
+            _collect(getattr(value, field.name), keys, seen)
 
 
 def fields_of(entry: object, *names: str, **renamed: str) -> dict[str, Any]:

@@ -47,6 +47,8 @@ class AttractorSet(Result):
         Impacts without recurrence after which bouncing counts as irregular.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
+
     figure: ClassVar[str] = "attractors"
 
     rotor: Model

@@ -38,6 +38,8 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
 class Mapped(Result):
     """What becomes of disturbances, as a dataset whose attributes hold what is needed to repeat the computation."""
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980", "wilson1927")
+
     needed: ClassVar[tuple[str, ...]] = ()
 
     dataset: xarray.Dataset

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -34,6 +35,8 @@ class BasinEntropy:
     boxes, mixed : int
         Number of boxes, and of boxes with more than one motion.
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("daza2016",)
 
     whole: float
     boundary: float

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -35,6 +36,8 @@ class Integrity:
     whole : float
         Radius of the largest ball that fits into the range, dimensionless.
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("thompson1989", "lenci2003")
 
     local: float
     largest: float

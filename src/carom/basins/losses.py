@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -81,6 +82,8 @@ class SmallestLoss:
     tried : int
         Number of starts followed.
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
 
     kind: str
     size: float | None

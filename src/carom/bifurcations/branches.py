@@ -70,6 +70,8 @@ class OrbitBranch(Result):
         Reason for its end at both ends: ``"radial speed without bound"``, or see :class:`~carom.continuation.Branch`.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
+
     shown: ClassVar[tuple[str, ...]] = ("parameter", "pair", "values", "period", "radial_speed", "special", "stops")
 
     axis: Axis

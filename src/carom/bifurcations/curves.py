@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -100,6 +100,8 @@ class Curve(Result):
         ``"grazing meets the impact"`` (the time of grazing reaches an end of the period), ``"period vanishes"``,
         ``"radial speed without bound"``, or why the continuation gave up (:class:`~carom.continuation.Branch`).
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
 
     kind: str
     plane: Plane

@@ -65,6 +65,8 @@ class Diagram(Result):
         Disturbances followed at each of the values of ``attractors``.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
+
     figure: ClassVar[str] = "bifurcation_diagram"
 
     model: Model

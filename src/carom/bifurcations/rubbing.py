@@ -20,7 +20,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -128,6 +128,8 @@ class RubbingBranch(Result):
         ``"parameter limit"``, ``"longest period"``, ``"other contacts"`` (the sequence of contacts changes: another impact
         or lift-off), or as in :class:`~carom.continuation.Branch`.
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977")
 
     axis: Axis
     whirl: Whirl

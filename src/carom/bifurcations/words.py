@@ -82,6 +82,8 @@ class WordBranch(Result):
         Reason for its end at both ends: ``"period-halving"``, or see :class:`~carom.continuation.Branch`.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977")
+
     shown: ClassVar[tuple[str, ...]] = ("axis", "word", "values", "period", "special", "stops")
 
     axis: Axis

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -90,6 +91,8 @@ class Branch(Result):
         the watch that ended it, ``"end of domain"`` (the equations are not defined beyond), ``"closed loop"`` (the last
         point is the first), ``"step too small"`` or ``"most points"``.
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("keller1977",)
 
     unknowns: np.ndarray
     parameters: np.ndarray

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -55,6 +55,8 @@ class Endings(Result):
         State at that time, co-rotating frame; where the outcome was proven in advance, a state on the way to it.  For a
         rotor of ``n > 1`` coordinates with a last axis of that length.
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
 
     outcomes: np.ndarray
     times: np.ndarray

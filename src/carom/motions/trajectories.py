@@ -94,6 +94,8 @@ class Trajectory(Result):
         Contact plane that positions, contacts and forces refer to; :meth:`seen_at` gives the motion at another.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980")
+
     figure: ClassVar[str] = "motion"
     shown: ClassVar[tuple[str, ...]] = (
         "rotor",

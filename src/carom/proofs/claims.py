@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, Literal, get_args, overload
+from typing import Any, ClassVar, Literal, get_args, overload
 
 from carom.files import write_whole
 from carom.outcome import InputError
@@ -112,6 +112,8 @@ class Proof(Result, Sequence[Claim]):
     evidence : mapping
         Plain data from which :func:`~carom.proofs.check` decides the claims again without any search.
     """
+
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "johansson2017", "krawczyk1969")
 
     theorem: str
     hypotheses: Hypotheses

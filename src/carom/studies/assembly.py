@@ -62,6 +62,8 @@ class Study(Result):
         Theorems about equilibria and orbits, if they were asked for.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "iso14839")
+
     figure: ClassVar[str] = "overview"
 
     case: Case
