@@ -37,6 +37,7 @@ EXAMPLES = {
     "RegionMap": lambda: carom.map_regions(
         PAPER, carom.bifurcations.Plane("gamma", "omega", (0.1, 0.12), (0.75, 0.77)), grid=2
     ),
+    "UnbalanceResponse": lambda: carom.studies.unbalance_response(carom.load("examples/keogh-cole.toml")),
     "Study": lambda: study_once(PAPER.replace(gamma=0.65, mu=0.0)),
 }
 

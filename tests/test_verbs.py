@@ -70,6 +70,7 @@ CALLS = {
     "closed_forms.rub_limit": cm.closed_forms.rub_limit,
     "closed_forms.rub_neighbourhood": cm.closed_forms.rub_neighbourhood,
     "closed_forms.runaway_speed": cm.closed_forms.runaway_speed,
+    "closed_forms.speed_response": cm.closed_forms.speed_response,
     "disturbances.outward_from": cm.disturbances.outward_from,
     "models.axis": lambda m: cm.models.axis(m, "gamma"),
     "models.case_of": lambda m: cm.models.case_of(m).parameters,
@@ -91,6 +92,7 @@ CALLS = {
     "studies.safety.try_disturbances": lambda m: try_disturbances(m, DisturbanceSet(3)),
     "studies.safety.least_safe_damping": lambda m: least_safe_damping(m, count=2, highest=0.7),
     "studies.study": lambda m: dataclasses.replace(cm.study(m, FEW), case=None),
+    "studies.unbalance_response": lambda m: dataclasses.replace(cm.studies.unbalance_response(m), case=None),
     "sweeps.plan_sweep": lambda m: cm.sweeps.plan_sweep(m, [GridAxis.of("gamma", [0.4])], KICKS).case_at((0,)),
 }
 """A small call of each function that takes a rotor."""

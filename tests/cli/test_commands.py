@@ -231,7 +231,7 @@ def test_help_lists_the_commands(carom, arguments):
     assert {"study", "simulate", "orbits"} <= set(out.split())
 
 
-@pytest.mark.parametrize("command", ["study", "simulate", "orbits"])
+@pytest.mark.parametrize("command", ["study", "simulate", "orbits", "response"])
 def test_help_of_commands(carom, command):
     code, out, _ = carom(command, "--help")
 

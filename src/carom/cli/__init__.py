@@ -1,6 +1,6 @@
 """The command line.
 
-A module for each command (``study``, ``simulate``, ``orbits``, ``bifurcations`` with ``regions``, ``basins``, ``sweep``,
+A module for each command (``study``, ``simulate``, ``orbits``, ``response``, ``bifurcations`` with ``regions``, ``basins``, ``sweep``,
 ``paper``), and what they share:
 
 =================  ==========================================================

@@ -20,6 +20,7 @@ from carom.cli.bifurcations import bifurcations, regions
 from carom.cli.orbits import orbits
 from carom.cli.paper import paper
 from carom.cli.prove import prove
+from carom.cli.response import response
 from carom.cli.simulate import simulate
 from carom.cli.study import study
 from carom.cli.sweep import sweep
@@ -46,6 +47,7 @@ app.command("study", help=study.__doc__)(study)
 app.command("simulate", help=simulate.__doc__)(simulate)
 app.command("orbits", help=orbits.__doc__)(orbits)
 app.command("prove", help=prove.__doc__)(prove)
+app.command("response", help=response.__doc__)(response)
 app.command("bifurcations", help=bifurcations.__doc__)(bifurcations)
 app.command("regions", help=regions.__doc__)(regions)
 app.command("basins", help=basins.__doc__)(basins)

@@ -5,6 +5,7 @@
 ``statics``         forces of rubs at rest, at one plane and at several
 ``rub_stability``   whether a rub at rest attracts sliding
 ``thresholds``      where motions begin and end, and disturbances that never reach the wall
+``unbalance``       contact-free response over the speed of the shaft
 ``whirl``           backward whirl: runaway and rolling
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
 ``periods``         periods of all orbits with one impact a period
@@ -17,6 +18,7 @@ from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equi
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
 from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_step, rub_limit
+from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 
 __all__ = [
@@ -30,6 +32,7 @@ __all__ = [
     "Rolling",
     "RubNeighbourhood",
     "Runaway",
+    "SpeedResponse",
     "cycle_determinant",
     "find_equilibria",
     "harmless_kick",
@@ -40,4 +43,5 @@ __all__ = [
     "rub_limit",
     "rub_neighbourhood",
     "runaway_speed",
+    "speed_response",
 ]

@@ -20,6 +20,7 @@ from carom.plots.histories import radius
 from carom.plots.motions import motion, orbit
 from carom.plots.overviews import equilibria, equilibria_and_orbits, overview
 from carom.plots.regions import region_map
+from carom.plots.responses import unbalance_response
 from carom.plots.sheet import applied
 from carom.plots.spectra import multipliers, spectrum
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look
@@ -53,4 +54,5 @@ __all__ = [
     "spectrum",
     "sweep_map",
     "touchdown",
+    "unbalance_response",
 ]

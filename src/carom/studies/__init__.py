@@ -10,12 +10,15 @@
 ``verdict``         the results in words
 ``findings``        the paragraphs of the verdict
 ``proven``          what a proof has decided, in words
+``response``        :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
+``response_words``  what it says about the machine, in sentences
+``standards``       limits of vibration: API 617, ISO 14839-2
 ``recommendation``  the least change, its margin and its evidence
 ``one_page``        the recommendation as lines of text
 ``remedies``        which changes would help, in words
 ``wording``         numbers with units
 ``summaries``       the tables of a study, as text
-``document``        results as JSON
+``document``        results as JSON; those of a response over speed in ``response_document``
 ==================  ==================================================================================
 """
 
@@ -25,6 +28,7 @@ from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
 from carom.studies.ranges import Edge, MotionRange, Span, Threshold, free_spans
 from carom.studies.recommendation import Change, Margin, Recommendation, Tried
+from carom.studies.response import Separation, Steady, Stretch, UnbalanceResponse, unbalance_response
 from carom.studies.verdict import NOT_COVERED, Finding, Verdict
 from carom.studies.wording import Wording
 
@@ -39,10 +43,14 @@ __all__ = [
     "MotionRange",
     "OtherMotion",
     "Recommendation",
+    "Separation",
     "Span",
+    "Steady",
+    "Stretch",
     "Study",
     "Threshold",
     "Tried",
+    "UnbalanceResponse",
     "Verdict",
     "Wording",
     "found_orbits_document",
@@ -50,4 +58,5 @@ __all__ = [
     "orbits_document",
     "study",
     "trajectory_document",
+    "unbalance_response",
 ]

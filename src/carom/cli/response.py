@@ -1,0 +1,127 @@
+"""``carom response``: amplitude and phase over the speed of the shaft."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+from carom.outcome import InputError
+
+if TYPE_CHECKING:
+    from carom.parameters import Case
+    from carom.studies.response import UnbalanceResponse
+
+
+def response(
+    machine: MachineFile,
+    settings: Settings = None,
+    start: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            metavar="SPEED",
+            help="Lowest speed, such as '500 rpm'; by default a range around critical and present speed.",
+        ),
+    ] = None,
+    end: Annotated[
+        str | None, typer.Option("--to", metavar="SPEED", help="Highest speed, such as '12000 rpm'.")
+    ] = None,
+    operating: Annotated[
+        str | None,
+        typer.Option(
+            metavar="A,B",
+            help="Lowest and highest operating speed, for the separation margin; by default the present speed.",
+        ),
+    ] = None,
+    out: Annotated[
+        str | None, typer.Option(metavar="DIR", help="Write the figure and response.json to this directory.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show the response to the unbalance over speed: amplitude, phase, critical speed, and where the rotor touches.
+
+    Compared with the vibration limit and the separation margin of API 617 and the zones of ISO 14839-2.  Where the rotor
+    touches, the synchronous rubs that are possible are shown too.  Stiffness and damping are the same at every speed.
+    """
+    from carom.parameters import load
+
+    case = load(machine, settings or ())
+    interval, run = _read(case, start, end, operating)
+    check_output(out)
+    with progress("response over speed"):
+        from carom.studies.response import unbalance_response
+
+        found = unbalance_response(case, interval, operating=run)
+        document = found.to_dict() if as_json or out is not None else {}
+        if out is not None:
+            from carom.files import filled_at_once, write_json
+            from carom.plots import save
+
+            with filled_at_once(out, "--out") as directory:
+                save(found.plot(), directory / "figures" / "response")
+                write_json(directory / "response.json", document)
+    if as_json:
+        print_document(document)
+    else:
+        _print(found, out)
+    if out is not None:
+        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+
+
+def _read(
+    case: Case, start: str | None, end: str | None, operating: str | None
+) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
+    """Read both ranges, and refuse a machine without a speed."""
+    from carom.cli.starts import read_range, read_value
+    from carom.models import axis
+
+    if case.parameters.scales is None:
+        raise InputError(
+            "machine file",
+            case.name,
+            "must hold a [machine] table: without mass and clearance in SI units no speed is known",
+        )
+    along = axis(case, "speed")
+    if (start is None) != (end is None):
+        option, given = ("--to", start) if end is None else ("--from", end)
+        raise InputError(option, None, f"give both --from and --to, or none of them (the other one is {given})")
+    interval = None
+    if start is not None and end is not None:
+        first, last = read_value("--from", start, along), read_value("--to", end, along)
+        if first == last:
+            raise InputError(
+                "--to", end, "must be another speed than --from; which of the two is larger does not matter"
+            )
+        interval = min(first, last), max(first, last)
+    return interval, None if operating is None else read_range("--operating", operating, along)
+
+
+def _print(found: UnbalanceResponse, out: str | None) -> None:
+    from carom.cli.fitting import fitted, plain_table
+    from carom.studies.response_words import rpm
+
+    screen = console()
+    ends = " to ".join(rpm(speed) for speed in found.interval)
+    screen.print(f"{found.case.name}: response to the unbalance, {ends}")
+    screen.print()
+    for sentence in found.words:
+        screen.print(sentence)
+    screen.print()
+    columns = ("from", "to", "contact-free motion", "synchronous rubs", "rolling in backward whirl")
+    table = plain_table("Steady motions over speed", *columns, right=("from", "to"), no_wrap=("from", "to"))
+    for stretch in found.stretches:
+        steady = stretch.what
+        kinds = {"stable": steady.stable_rubs, "unstable": steady.unstable_rubs}
+        rubs = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count) or "none"
+        free = "possible" if steady.contact_free else "virtual: the rotor touches"
+        table.add_row(rpm(stretch.low), rpm(stretch.high), free, rubs, "holds" if steady.rolls else "does not hold")
+    screen.print(fitted(screen, table))
+    zones = plain_table("Zones of ISO 14839-2 of the contact-free motion", "from", "to", "zone", right=("from", "to"))
+    for stretch in found.zones:
+        zones.add_row(rpm(stretch.low), rpm(stretch.high), stretch.what or "in contact")
+    screen.print(fitted(screen, zones))
+    if out is None:
+        screen.print()
+        screen.print("Figure and response.json: add --out DIR")

@@ -1,0 +1,171 @@
+"""Contact-free unbalance response of the planar rotor over the speed of the shaft.
+
+Mass, damping, stiffness and eccentricity are fixed in SI units, so that ``γ = c/(mΩ)`` and ``ω = ω_n/Ω`` change with the
+speed and ``ρ`` does not.  With ``y = (ω_n/Ω)²``, ``ω_n = √(k/m)`` and ``ζ = c/(2√(km))`` the displacement along the
+unbalance is ``U*e^{−iφ} = ρ/(y − 1 + 2iζ√y)`` and
+
+    (ρ/|U*|)² = y² − 2by + 1,      b = 1 − 2ζ²,
+
+a quadratic in ``y``.  So the peak is at ``y = b``, where ``(ρ/|U*|)² = 1 − b² = 4ζ²(1 − ζ²)``, and the speeds at which the
+amplitude has any given value ``a`` are its two roots for ``ρ²/a²``.
+
+Where steady motions in contact begin and end is a quadratic too, in ``u = 1/Ω``: a rub in a fold at
+``c u/m + μ(1 − ω_n²u²) = ±ρ√(1 + μ²)``, rolling at ``μ(s² − ω_n²u²) − |c|su/m = ρ√(1 + μ²)``
+(:mod:`carom.closed_forms.thresholds`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.closed_forms.thresholds import largest_pull
+from carom.models import Jeffcott, Subject, jeffcott_of
+from carom.outcome import InputError
+from carom.results import Result
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SpeedResponse(Result):
+    """Contact-free response to the unbalance at any speed; speeds are in rad/s, amplitudes in clearances.
+
+    Attributes
+    ----------
+    rotor : Jeffcott
+        The rotor at its present speed.
+    natural_frequency : float
+        ``ω_n = √(k/m)``, rad/s.
+    damping_ratio : float
+        ``ζ = c/(2√(km))``.
+    critical_speed : float or None
+        Speed of the largest amplitude, ``ω_n/√(1 − 2ζ²)``; ``None`` if ``ζ ≥ 1/√2``, where the amplitude only grows.
+    peak : float
+        Amplitude there, ``ρ/(2ζ√(1 − ζ²))``; without a critical speed its limit at high speed, ``ρ``.
+    half_power : tuple of float, or None
+        Speeds below and above the critical one at which the amplitude is ``1/√2`` of the peak.  The upper one is infinite
+        if the amplitude does not fall so far (``ζ ≥ sin(π/8)``).  ``None`` without a critical speed.
+    amplification_factor : float or None
+        Critical speed over the difference of these two speeds: the definition of API 617 and API RP 684, where 0.707
+        stands for ``1/√2``.  Infinite without damping; ``None`` if there is no critical speed or the upper one of the two is
+        infinite.
+    """
+
+    rotor: Jeffcott
+    natural_frequency: float
+    damping_ratio: float
+    critical_speed: float | None
+    peak: float
+    half_power: tuple[float, float] | None
+    amplification_factor: float | None
+
+    def displacement(self, speeds: np.ndarray) -> np.ndarray:
+        """Displacement ``U*e^{−iφ}`` in the co-rotating frame, seen along the unbalance; of the shape of ``speeds``."""
+        ratio = self.natural_frequency / np.asarray(speeds, float)
+        stiffness = ratio * ratio - 1.0 + 2j * self.damping_ratio * ratio
+        nowhere = stiffness == 0.0
+        response: np.ndarray = self.rotor.parameters.rho / np.where(nowhere, 1.0, stiffness)
+        return np.where(nowhere, np.inf + 0j, response)
+
+    def amplitude(self, speeds: np.ndarray) -> np.ndarray:
+        """Radius ``|U*|`` of the whirl, in clearances."""
+        radius: np.ndarray = np.abs(self.displacement(speeds))
+        return radius
+
+    def beyond(self, radius: float) -> tuple[float, float] | None:
+        """Range of speeds at which the amplitude exceeds a radius above 0; its end may be infinite.  ``None``: nowhere."""
+        return _range(self.natural_frequency, self.damping_ratio, self.rotor.parameters.rho / radius)
+
+    def rub_angles(self, speeds: np.ndarray) -> np.ndarray:
+        """Angles ``x`` of the synchronous rubs relative to the unbalance, in rad, shape (2, n) for speeds of shape (n,).
+
+        With ``p = ρ√(1 + μ²)`` and ``δ = atan μ`` they solve ``p sin(x + δ) = −γ − μ(1 − ω²)``.  First the one with
+        ``cos(x + δ) > 0``, to which sliding returns where ``γ + 2μ > 0``; then the saddle.  ``nan`` where there is none, or
+        the wall would have to pull: ``ρ cos x + 1 − ω² ≤ 0``.
+        """
+        at = self.rotor.parameters
+        ratio = self.natural_frequency / np.asarray(speeds, float)
+        room, lean, pull = 1.0 - ratio * ratio, math.atan(at.mu), largest_pull(at)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            turned = -np.arcsin((2.0 * self.damping_ratio * ratio + at.mu * room) / pull)
+        angles = np.array([turned - lean, math.pi - turned - lean])
+        return np.where(at.rho * np.cos(angles) + room > 0.0, angles, np.nan)
+
+    def contact_changes(self) -> tuple[float, ...]:
+        """Speeds at which steady motions in contact can begin or end, in ascending order.
+
+        Levitation meets the wall, two rubs meet in a fold, or rolling begins or ceases to hold at every angle.  Between
+        two neighbours the steady motions are the same; not every one of these speeds changes them.
+        """
+        at, rigidity = self.rotor.parameters, self.natural_frequency**2
+        rate, pull = 2.0 * self.damping_ratio * self.natural_frequency, largest_pull(at)
+        found = list(self.beyond(1.0) or ())
+        for edge in (pull, -pull):
+            found += _inverses(-at.mu * rigidity, rate, at.mu - edge)
+        slip = at.radius_ratio
+        found += _inverses(-at.mu * rigidity, -abs(rate) * slip, at.mu * slip * slip - pull)
+        return tuple(sorted({speed for speed in found if 0.0 < speed < math.inf}))
+
+
+def speed_response(machine: Subject) -> SpeedResponse:
+    """Response to the unbalance over the speed of the shaft, without contact, in closed form.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+        The planar rotor, with mass, clearance and speed.
+
+    Raises
+    ------
+    InputError
+        Another model, or a rotor without scales: its damping and stiffness are not known apart from its speed.
+    """
+    rotor = jeffcott_of(machine)
+    at = rotor.parameters
+    if at.scales is None:
+        allowed = "needed for a response over speed: use a file with a [machine] table, or parameters with scales"
+        raise InputError("scales", None, allowed)
+    natural, ratio = at.omega * at.scales.speed, 0.5 * at.gamma / at.omega
+    least = 1.0 - 2.0 * ratio * ratio
+    if least <= 0.0:
+        return SpeedResponse(rotor, natural, ratio, None, at.rho, None, None)
+    critical = natural / math.sqrt(least)
+    depth = 2.0 * abs(ratio) * math.sqrt((1.0 - ratio) * (1.0 + ratio))
+    peak = at.rho / depth if depth else (math.inf if at.rho else 0.0)
+    half = _range(natural, ratio, math.sqrt(2.0) * depth) or (critical, critical)
+    width = half[1] - half[0]
+    factor = None if width == math.inf else critical / width if width else math.inf
+    return SpeedResponse(rotor, natural, ratio, critical, peak, half, factor)
+
+
+def _range(natural: float, ratio: float, factor: float) -> tuple[float, float] | None:
+    """Speeds between which ``y² − 2by + 1`` is less than the square of a factor."""
+    middle = 1.0 - 2.0 * ratio * ratio
+    depth = 4.0 * ratio * ratio * (1.0 - ratio) * (1.0 + ratio)
+    inside = factor * factor - depth
+    if inside <= 0.0:
+        return None
+    reach, product = math.sqrt(inside), (1.0 - factor) * (1.0 + factor)
+    # The root of larger modulus, and the other one from their product: without cancellation.
+    if middle >= 0.0:
+        upper = middle + reach
+        lower = product / upper
+    else:
+        lower = middle - reach
+        upper = product / lower
+    if upper <= 0.0:
+        return None
+    return natural / math.sqrt(upper), natural / math.sqrt(lower) if lower > 0.0 else math.inf
+
+
+def _inverses(square: float, linear: float, constant: float) -> list[float]:
+    """``1/u`` for the positive roots of ``square u² + linear u + constant``: roots of the reversed polynomial."""
+    if constant == 0.0:
+        return [-square / linear] if linear else []
+    inside = linear * linear - 4.0 * square * constant
+    if inside < 0.0:
+        return []
+    larger = -0.5 * (linear + math.copysign(math.sqrt(inside), linear))
+    roots = [larger / constant, square / larger if larger else 0.0]
+    return [root for root in roots if root > 0.0]

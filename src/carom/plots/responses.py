@@ -1,0 +1,188 @@
+"""Response to the unbalance over the speed of the shaft: amplitude and phase, with limits and contact."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from carom.plots.figure import StyledFigure
+from carom.plots.plane import Floats, key
+from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
+from carom.plots.words import number
+
+if TYPE_CHECKING:
+    from carom.studies import UnbalanceResponse
+
+RPM = math.pi / 30.0
+"""One revolution per minute in rad/s."""
+_FREE = Look("#009e73", "contact-free motion", line="-", width=1.5)
+_VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
+_RUB = Look("#cc79a7", "synchronous rub, stable", line="-", width=3.0)
+_SADDLE = Look("#a34f7e", "synchronous rub, unstable", line="--", width=1.1)
+_LIMIT = Look("#d55e00", "limit of API 617", line="-.", width=1.1)
+_PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
+_CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
+_HALF = Look("#0072b2", "0.707 of the peak, for the amplification factor", line="-", width=1.0)
+_HIGHEST = 1.3
+"""Largest amplitude shown, in clearances: what lies beyond is virtual."""
+_LOWEST = 0.05
+"""Least top of the panel, in clearances."""
+
+
+@styled
+def unbalance_response(response: UnbalanceResponse) -> Figure:
+    """Draw amplitude and phase over the speed of the shaft in two panels.
+
+    Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the limit of API 617; on the
+    right as radius in clearances.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.  A
+    stable rub is drawn along the wall, an unstable one just above it.  Lower: the angle by which the rotor lags its unbalance.  The present and the critical speed are
+    marked in both.
+    """
+    figure = StyledFigure(figsize=(TWO_COLUMNS, 0.78 * TWO_COLUMNS))
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1.0))
+    speeds, width = response.speeds / RPM, 2e6 * response.scales.clearance
+    _amplitudes(upper, response, speeds, width)
+    _phases(lower, response, speeds)
+    for axes in (upper, lower):
+        _marks(axes, response)
+        axes.set_xlim(response.interval[0] / RPM, response.interval[1] / RPM)
+    lower.set_xlabel("speed of the shaft (rpm)")
+    figure.align_ylabels([upper, lower])
+    figure.suptitle(_title(response))
+    key(figure, (upper, lower), columns=3)
+    return figure
+
+
+def _title(response: UnbalanceResponse) -> str:
+    free, present = response.contact_free, response.present
+    radius = float(free.amplitude(np.array(present)))
+    now = f"{2e6 * response.scales.clearance * radius:,.4g} µm peak to peak, zone {response.zone_at(present)}"
+    parts = [f"{response.case.name} at {present / RPM:,.0f} rpm: {now if radius <= 1.0 else 'no contact-free motion'}"]
+    if free.critical_speed is not None:
+        parts.append(f"critical speed {free.critical_speed / RPM:,.0f} rpm")
+        if free.amplification_factor is not None and math.isfinite(free.amplification_factor):
+            parts[-1] += f", amplification factor {number(free.amplification_factor, 3)}"
+    return "\n".join(parts)
+
+
+def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: float) -> None:
+    radius = np.abs(response.displacement)
+    inside = radius <= 1.0
+    top = _top(response, radius)
+    limits = (0.0, *response.case.zones.limits, 1.0)
+    for low, high, shade, letter in zip(limits[:-1], limits[1:], ZONE_SHADES, response.case.zones.labels, strict=True):
+        axes.axhspan(width * low, width * high, color=shade, lw=0.0, zorder=0)
+        if low < 0.95 * top:
+            place = width * min(high, top)
+            axes.annotate(
+                f"zone {letter}",
+                (0.992, place),
+                (0.0, -2.0),
+                axes.get_yaxis_transform(),
+                "offset points",
+                ha="right",
+                va="top",
+            )
+            axes.axhline(width * low, color="#808080", lw=0.3, zorder=0)
+    axes.plot(speeds, width * np.where(inside, radius, np.nan), **_FREE.stroke, label=_FREE.words, zorder=3)
+    shown = ~inside | np.append(~inside[1:], False) | np.append(False, ~inside[:-1])
+    if not inside.all():
+        axes.plot(speeds, width * np.where(shown, radius, np.nan), **_VIRTUAL.stroke, label=_VIRTUAL.words, zorder=2)
+    wall = LOOKS["wall"]
+    if top > 1.0:
+        axes.axhline(width, **wall.stroke, label="wall (touchdown bearing)", zorder=2)
+        for look, angles, height in ((_RUB, response.rubs[0], 1.0), (_SADDLE, response.rubs[1], 1.025)):
+            if not np.isnan(angles).all():
+                line = np.where(np.isnan(angles), np.nan, width * height)
+                axes.plot(speeds, line, **look.stroke, label=look.words, zorder=2.5)
+    limit = 1e6 * _limit(response)
+    axes.plot(speeds, limit, **_LIMIT.stroke, label=_LIMIT.words, zorder=2)
+    _half_power(axes, response, width, top)
+    axes.set_ylim(0.0, width * top)
+    axes.set_ylabel("vibration (µm peak to peak)")
+    radius_now = float(response.contact_free.amplitude(np.array(response.present)))
+    if radius_now <= 1.0 and response.interval[0] <= response.present <= response.interval[1]:
+        axes.plot(
+            response.present / RPM,
+            width * radius_now,
+            marker="o",
+            ms=4.5,
+            color=_FREE.colour,
+            mec="#1a1a1a",
+            mew=0.8,
+            zorder=5,
+        )
+    right = axes.secondary_yaxis(
+        "right", functions=(lambda value: np.asarray(value) / width, lambda share: np.asarray(share) * width)
+    )
+    right.set_ylabel("radius (clearances)")
+
+
+def _limit(response: UnbalanceResponse) -> Floats:
+    from carom.studies.standards import vibration_limit
+
+    return vibration_limit(response.speeds)
+
+
+def _top(response: UnbalanceResponse, radius: Floats) -> float:
+    """Largest amplitude shown, in clearances."""
+    limit = float(_limit(response).max()) / (2.0 * response.scales.clearance)
+    needed = max(1.15 * float(radius.max()), 1.15 * limit, _LOWEST)
+    touches = float(radius.max()) > 0.8 or not np.isnan(response.rubs).all()
+    return min(max(needed, 1.1), _HIGHEST) if touches else min(needed, 1.1)
+
+
+def _half_power(axes: Axes, response: UnbalanceResponse, width: float, top: float) -> None:
+    """Mark the width of the peak, where it is on the page."""
+    free = response.contact_free
+    if free.half_power is None or not math.isfinite(free.peak):
+        return
+    height, (low, high) = free.peak / math.sqrt(2.0), free.half_power
+    if height < top and math.isfinite(high):
+        axes.plot(
+            [low / RPM, high / RPM],
+            [width * height] * 2,
+            **_HALF.stroke,
+            marker="|",
+            ms=5.0,
+            label=_HALF.words,
+            zorder=4,
+        )
+
+
+def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
+    inside = np.abs(response.displacement) <= 1.0
+    lag = np.degrees(response.lag)
+    axes.plot(speeds, np.where(inside, lag, np.nan), **_FREE.stroke, zorder=3)
+    shown = ~inside | np.append(~inside[1:], False) | np.append(False, ~inside[:-1])
+    axes.plot(speeds, np.where(shown, lag, np.nan), **_VIRTUAL.stroke, zorder=2)
+    for look, rub in zip((_RUB, _SADDLE), np.degrees(response.rub_lags), strict=True):
+        axes.plot(speeds, rub, **look.stroke, zorder=2)
+    axes.set_ylim(0.0, 270.0 if np.nanmax(np.append(response.rub_lags, 0.0)) > math.pi else 180.0)
+    axes.set_yticks([0, 45, 90, 135, 180, *([225, 270] if axes.get_ylim()[1] > 200.0 else [])])
+    axes.set_ylabel("lag behind the\nunbalance (degrees)")
+
+
+def _marks(axes: Axes, response: UnbalanceResponse) -> None:
+    """Mark the present and the critical speed, and where no contact-free motion is possible."""
+    words = "no contact-free motion possible"
+    for stretch in response.stretches:
+        if not stretch.what.contact_free:
+            axes.axvspan(
+                stretch.low / RPM,
+                stretch.high / RPM,
+                fc="none",
+                ec="#d6d6d6",
+                hatch="////",
+                lw=0.0,
+                label=words,
+                zorder=0.5,
+            )
+    marked = [(_PRESENT, response.present), (_CRITICAL, response.contact_free.critical_speed)]
+    for look, speed in marked:
+        if speed is not None and response.interval[0] <= speed <= response.interval[1]:
+            axes.axvline(speed / RPM, **look.stroke, label=look.words, zorder=1)

@@ -1,0 +1,71 @@
+"""``carom response`` as a user calls it."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+
+def test_json(carom, machine):
+    code, out, err = carom("response", machine, "--from", "500 rpm", "--to", "4000 rpm", "--json")
+    assert (code, err) == (0, "")
+    document = json.loads(out)
+    assert document["critical"]["rpm"] == pytest.approx(1350.474, abs=1e-3)
+    assert document["amplification_factor"] == pytest.approx(4.796906, abs=1e-6)
+    assert document["separation"] == {"side": "below", "met": True} | {
+        key: pytest.approx(value, abs=1e-6) for key, value in (("actual", 0.232240), ("required", 0.118437))
+    }
+    assert document["present"]["zone"] == "D"
+    assert document["present"]["steady"] == {"contact_free": True, "stable_rubs": 1, "unstable_rubs": 1, "rolls": True}
+    assert document["present"]["peak_to_peak_si"] == pytest.approx(1.3368e-3, abs=1e-7)
+    assert not document["critical"]["admissible"]
+    assert document["critical"]["zone"] is None
+    curve = document["curve"]
+    assert len({len(values) for values in curve.values()}) == 1
+    assert document["speeds_si"] == pytest.approx([500.0 * math.pi / 30.0, 4000.0 * math.pi / 30.0])
+    assert [curve["speed_si"][0], curve["speed_si"][-1]] == document["speeds_si"]
+    steady = document["steady"]
+    assert [entry["to_si"] for entry in steady[:-1]] == [entry["from_si"] for entry in steady[1:]]
+    (over,) = document["exceeds_api_617"]
+    assert [over["from_si"], over["to_si"]] == document["speeds_si"]
+
+
+def test_text_and_files(carom, machine, tmp_path):
+    code, out, err = carom("response", machine, "--operating", "1700 rpm,1800 rpm", "--out", tmp_path / "out")
+    assert code == 0
+    assert "1,337 µm peak to peak" in out
+    assert "No contact-free motion is possible from 1,147 rpm to 1,725 rpm" in out
+    assert "of 1,700 rpm below the operating speeds" in out
+    assert "virtual: the rotor touches" in out
+    assert "add --out" not in out
+    assert str(tmp_path / "out") in err
+    files = {str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*.*")}
+    assert files == {"figures/response.png", "figures/response.svg", "response.json"}
+    assert json.loads((tmp_path / "out" / "response.json").read_text())["operating_si"] == pytest.approx(
+        [1700.0 * math.pi / 30.0, 1800.0 * math.pi / 30.0]
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--from", "500 rpm"), "--to = nothing given: give both --from and --to"),
+        (("--to", "500 rpm"), "--from = nothing given: give both --from and --to"),
+        (("--from", "500 rpm", "--to", "500 rpm"), "must be another speed than --from"),
+        (("--from", "5 kg", "--to", "500 rpm"), "--from = 5 kg: speed must be an angular speed"),
+        (("--operating", "5"), "--operating = 5: must be"),
+    ],
+)
+def test_bad_input(carom, machine, options, words):
+    code, out, err = carom("response", machine, *options)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1
+
+
+def test_a_dimensionless_file_has_no_speed(carom, dimensionless):
+    code, out, err = carom("response", dimensionless)
+    assert (code, out) == (2, "")
+    assert "must hold a [machine] table" in err

@@ -1,0 +1,80 @@
+"""The figure of the response over speed: what is drawn, and in which look."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from drawn_legends import fits, legend_words
+
+import carom as cm
+from carom import plots
+from carom.plots import responses
+from carom.studies import unbalance_response
+
+RPM = math.pi / 30.0
+
+
+@pytest.fixture(scope="module")
+def real():
+    return unbalance_response(cm.load("examples/keogh-cole.toml"), ("500 rpm", "4000 rpm"))
+
+
+def lines_in(axes, look):
+    return [line for line in axes.lines if line.get_color() == look.colour and line.get_linestyle() == look.line]
+
+
+def test_contact_free_motion_is_solid_only_where_it_is_possible(real):
+    figure = plots.unbalance_response(real)
+    upper, lower = figure.axes
+    for axes in (upper, lower):
+        (free,) = [line for line in lines_in(axes, responses._FREE) if len(line.get_xdata()) > 100]
+        drawn = np.asarray(free.get_xdata())[np.isfinite(free.get_ydata())] * RPM
+        np.testing.assert_allclose(drawn, real.speeds[np.abs(real.displacement) <= 1.0], rtol=1e-15)
+    (curve,) = [line for line in lines_in(upper, responses._FREE) if len(line.get_xdata()) > 100]
+    assert np.nanmax(curve.get_ydata()) == pytest.approx(1400.0, rel=1e-9)
+    (rub,) = lines_in(lower, responses._RUB)
+    np.testing.assert_allclose(rub.get_ydata(), np.degrees(real.rub_lags[0]))
+    words = legend_words(figure)
+    for expected in (
+        "contact-free",
+        "virtual",
+        "rub, stable",
+        "rub, unstable",
+        "API 617",
+        "present speed",
+        "critical speed",
+    ):
+        assert any(expected in entry for entry in words)
+    assert fits(figure)
+
+
+def test_zones_and_marks(real):
+    upper, lower = plots.unbalance_response(real).axes
+    texts = [text.get_text() for text in upper.texts]
+    assert texts == ["zone A", "zone B", "zone C", "zone D"]
+    for axes in (upper, lower):
+        upright = {round(line.get_xdata()[0] * RPM, 6) for line in axes.lines if len(set(line.get_xdata())) == 1}
+        assert {round(real.present, 6), round(real.contact_free.critical_speed, 6)} <= upright
+    title = upper.figure.get_suptitle()
+    assert "1,759 rpm" in title
+    assert "1,337 µm" in title
+
+
+def test_a_machine_far_from_its_clearance_is_shown_on_its_own_scale():
+    machine = cm.load("examples/keogh-cole.toml").machine.replace(eccentricity="5 um")
+    figure = plots.unbalance_response(unbalance_response(machine))
+    upper, _ = figure.axes
+    assert upper.get_ylim()[1] < 100.0
+    words = legend_words(figure)
+    assert not any("virtual" in entry or "rub" in entry for entry in words)
+    assert any("0.707" in entry for entry in words)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"damping": 0.0}, {"damping": "12000 N s/m"}, {"eccentricity": 0.0}, {"speed": "1350 rpm"}]
+)
+def test_special_machines_are_drawn(changes):
+    machine = cm.load("examples/keogh-cole.toml").machine.replace(**changes)
+    assert fits(plots.unbalance_response(unbalance_response(machine)))

@@ -1,0 +1,196 @@
+"""Response over speed: limits, margins, words, and whether simulated motions do what is said of each speed."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from compilation import sized
+
+import carom as cm
+from carom.models import Jeffcott
+from carom.motions.ensembles import settle
+from carom.outcome import InputError, Outcome
+from carom.parameters import Machine
+from carom.studies import unbalance_response
+from carom.studies.standards import vibration_limit
+
+RPM = math.pi / 30.0
+LIGHT = Machine(
+    mass="20 kg",
+    damping="3000 N s/m",
+    stiffness="8e6 N/m",
+    eccentricity="5 um",
+    clearance="0.2 mm",
+    rotor_radius="30 mm",
+    speed="9000 rpm",
+    unbalance_phase=0.4,
+    friction=0.15,
+    restitution=0.9,
+)
+
+
+@pytest.fixture(scope="module")
+def real():
+    return unbalance_response(cm.load("examples/keogh-cole.toml"), ("500 rpm", "4000 rpm"))
+
+
+def test_the_real_machine(real):
+    free = real.contact_free
+    assert free.critical_speed / RPM == pytest.approx(1350.474, abs=1e-3)
+    assert free.amplification_factor == pytest.approx(4.796906, abs=1e-6)
+    assert [steady.what for steady in real.stretches] == [
+        (True, 0, 0, True),
+        (False, 1, 0, True),
+        (True, 1, 1, True),
+    ]
+    assert [stretch.what for stretch in real.zones] == ["A", "B", "C", "D", "", "D", "C"]
+    # Ends of the stretches are where the diagram along the speed has its special points.
+    points = cm.find_bifurcations(cm.load("examples/keogh-cole.toml"), "speed", (100.0, 200.0)).points
+    touching = [point.value for point in points if point.kind == "boundary-equilibrium"]
+    assert [stretch.high for stretch in real.stretches[:-1]] == pytest.approx(touching, rel=1e-9)
+
+
+def test_the_present_and_the_critical_speed_are_on_the_curve(real):
+    for speed in (real.present, real.contact_free.critical_speed):
+        assert speed in real.speeds
+    place = int(np.flatnonzero(real.speeds == real.present)[0])
+    equilibrium = cm.find_equilibria(real.case)[0]
+    assert abs(real.displacement[place]) == pytest.approx(equilibrium.radius, rel=1e-12)
+    assert real.peak_to_peak_si[place] == pytest.approx(2.0 * 0.7e-3 * equilibrium.radius, rel=1e-12)
+
+
+def random_machine(random: np.random.Generator, least_unbalance: float = 0.003) -> Machine:
+    """Machines whose critical and operating speeds are of the size of those of compressors and turbines."""
+    mass, natural, clearance = 10 ** random.uniform(0, 3), 10 ** random.uniform(2, 3.5), 10 ** random.uniform(-4, -3)
+    return Machine(
+        mass=mass,
+        damping=2.0 * 10 ** random.uniform(-1.7, -0.4) * mass * natural,
+        stiffness=mass * natural**2,
+        eccentricity=clearance * 10 ** random.uniform(math.log10(least_unbalance), -0.2),
+        clearance=clearance,
+        rotor_radius=clearance * random.uniform(30, 150),
+        speed=natural * random.uniform(0.5, 2.5),
+        unbalance_phase=random.uniform(-3, 3),
+        friction=random.uniform(0.05, 0.3),
+        restitution=random.uniform(0.4, 0.95),
+    )
+
+
+def test_where_the_limit_of_api_617_is_exceeded():
+    """At fresh speeds, the vibration of the contact-free equilibrium is compared with the limit again."""
+    random = np.random.default_rng(11)
+    crossings = 0
+    for _ in range(sized(compiled=60, interpreted=20, deep=1000)):
+        machine = random_machine(random)
+        low, high = machine.speed * 0.2, machine.speed * 8.0
+        response = unbalance_response(machine, (low, high))
+        ends = [low, *(stretch.high for stretch in response.exceeds_api_617)]
+        crossings += len(ends) - 2
+        assert ends[-1] == high
+        for stretch, (first, last) in zip(response.exceeds_api_617, pairwise(ends), strict=True):
+            speed = first + (last - first) * random.uniform(1e-6, 1.0 - 1e-6, 20)
+            width = np.array([2.0 * machine.clearance * abs(_equilibrium(machine, one)) for one in speed])
+            assert ((width > vibration_limit(speed)) == stretch.what).all()
+    assert crossings > 40
+
+
+def _equilibrium(machine: Machine, speed: float) -> complex:
+    return Jeffcott(machine.parameters.replace(speed=speed)).equilibrium
+
+
+@pytest.mark.jit_only
+def test_motions_do_what_is_said_of_each_speed():
+    """Motions from fresh starts at fresh speeds, followed to their ends.
+
+    Where no contact-free motion is possible none ends there; where it is possible the levitating rotor stays so; next to a
+    stable rub the motion settles in it; and a rotor that rolls goes on rolling.
+    """
+    random = np.random.default_rng(12)
+    seen = {"virtual": 0, "free": 0, "rub": 0, "rolls": 0}
+    for _ in range(sized(compiled=12, interpreted=2, deep=150)):
+        machine = random_machine(random, least_unbalance=0.05)
+        response = unbalance_response(machine)
+        for stretch in response.stretches:
+            low, high = stretch.low, stretch.high
+            speed = low + (high - low) * random.uniform(0.02, 0.98)
+            rotor = Jeffcott(machine.parameters.replace(speed=speed))
+            if stretch.what.contact_free:
+                (end,) = _ends(rotor, [rotor.equilibrium], [0j])
+                assert end == Outcome.LEVITATED
+                seen["free"] += 1
+            else:
+                places = [cmath.rect(math.sqrt(random.uniform()), random.uniform(0, 6.3)) for _ in range(20)]
+                ends = _ends(rotor, places, [complex(*random.normal(0.0, 0.5, 2)) for _ in places])
+                assert Outcome.LEVITATED not in ends
+                seen["virtual"] += 1
+            if stretch.what.stable_rubs:
+                angle = response.contact_free.rub_angles(np.array([speed]))[0, 0] + rotor.unbalance_phase
+                (end,) = _ends(rotor, [cmath.rect(1.0, angle + 1e-3)], [0j])
+                assert end == Outcome.FORWARD_RUB
+                seen["rub"] += 1
+            if stretch.what.rolls:
+                place = cmath.rect(1.0, random.uniform(0, 6.3))
+                (end,) = _ends(rotor, [place], [-1j * (1.0 + rotor.parameters.radius_ratio) * place])
+                assert end == Outcome.ROLLING
+                seen["rolls"] += 1
+    assert min(seen.values()) >= 3, seen
+
+
+def _ends(rotor: Jeffcott, places: list[complex], velocities: list[complex]) -> list[int]:
+    return settle(rotor, np.array(places), np.array(velocities)).outcomes.tolist()
+
+
+def test_separation_margin():
+    below = unbalance_response(LIGHT, operating=("8000 rpm", "10000 rpm"))
+    critical = below.contact_free.critical_speed
+    assert below.separation.side == "below"
+    assert below.separation.actual == pytest.approx(1.0 - critical / (8000.0 * RPM))
+    assert below.separation.required == pytest.approx(
+        0.17 * (1.0 - 1.0 / (below.contact_free.amplification_factor - 1.5))
+    )
+    assert below.separation.met
+    above = unbalance_response(LIGHT, operating=("2000 rpm", "5500 rpm"))
+    assert above.separation.side == "above"
+    assert above.separation.actual == pytest.approx(critical / (5500.0 * RPM) - 1.0)
+    assert not above.separation.met
+    inside = unbalance_response(LIGHT, operating=("2000 rpm", "9000 rpm"))
+    assert (inside.separation.side, inside.separation.actual, inside.separation.met) == ("inside", 0.0, False)
+    assert "which is not met" in " ".join(inside.words)
+    flat = unbalance_response(LIGHT.replace(damping="12000 N s/m"))
+    assert flat.contact_free.amplification_factor is None
+    assert flat.separation.met
+    assert "requires no separation" in " ".join(flat.words)
+    assert unbalance_response(LIGHT.replace(damping="20000 N s/m")).separation is None
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({}, "17.5 µm peak to peak (0.0437 of the clearance: zone A of ISO 14839-2), 164° behind the unbalance"),
+        ({}, "exceeded from 5,323 rpm to 7,455 rpm"),
+        ({}, "the rotor touches nowhere in this range"),
+        ({"eccentricity": "0.15 um"}, "nowhere exceeded"),
+        ({"eccentricity": "0.1 mm"}, "times the clearance, so the rotor touches before"),
+        ({"eccentricity": "0.1 mm", "speed": "6000 rpm"}, "the clearance allows 400 µm: the rotor touches"),
+        ({"eccentricity": "0.1 mm", "restitution": 1.0}, "No stable synchronous rub exists there"),
+        ({"damping": "20000 N s/m"}, "There is no critical speed"),
+        ({"damping": 0.0}, "amplification factor is infinite"),
+    ],
+)
+def test_words(changes, words):
+    assert words in " ".join(unbalance_response(LIGHT.replace(**changes)).words)
+
+
+def test_short_text_and_bad_input(real):
+    assert "500 to 4,000 rpm" in repr(real)
+    assert len(repr(real)) < 2000
+    with pytest.raises(InputError, match="scales"):
+        unbalance_response(cm.load("examples/source-paper.toml"))
+    with pytest.raises(InputError, match="speed"):
+        unbalance_response(LIGHT, (500.0, 400.0))
+    with pytest.raises(InputError, match="operating"):
+        unbalance_response(LIGHT, operating=(500.0, 400.0))
