@@ -17,6 +17,7 @@ from carom.parameters import (
     Scales,
     read_quantity,
 )
+from carom.parameters.terms import BEARING_FIELDS
 
 SI = {
     "mass": 50,
@@ -91,7 +92,8 @@ def machines(draw, digits=15):
 
 
 def test_every_field_of_the_models_is_described():
-    assert list(Machine.model_fields) == list(MACHINE_FIELDS) == list(SI) == list(ALLOWED)
+    assert list(Machine.model_fields) == [*MACHINE_FIELDS, *BEARING_FIELDS]
+    assert list(MACHINE_FIELDS) == list(SI) == list(ALLOWED)
     assert list(Parameters(**NUMBERS).as_dict()) == list(DIMENSIONLESS_FIELDS) == list(PHYSICAL_PARTNER)
     assert set(PHYSICAL_PARTNER.values()) | {"mass", "clearance", "speed"} == set(MACHINE_FIELDS)
 
@@ -108,7 +110,7 @@ def test_the_machine_of_keogh_and_cole_has_the_printed_parameters():
     assert parameters.scales == Scales(50, 0.7e-3, 184.2)
 
 
-@pytest.mark.parametrize("field", SI)
+@pytest.mark.parametrize("field", [name for name in SI if name != "unbalance_phase"])
 def test_a_missing_field_is_named(field):
     error = error_of(lambda: Machine(**{name: value for name, value in SI.items() if name != field}))
 
@@ -299,7 +301,7 @@ def test_physical_changes_come_first():
         ({"gamma": 0.1, "damping": 3}, "gamma = 0.1: sets damping, which is set too"),
         ({"gamma": 2000}, "gamma = 2000: must be a number, -1000 to 1000"),
         ({"omega": 1, "gamma": 0}, "gamma = 0: sets damping to 0.0, which gives gamma"),
-        ({"damping": 0, "omega": 1}, "damping = 0.0: gives gamma"),
+        ({"damping": 0, "omega": 1}, "damping = 0: gives gamma"),
         ({"omega": 0}, "omega = 0: must be a number, > 0"),
         ({"gama": 1}, "gama = 1: unknown name in a machine or its parameters; did you mean gamma?"),
         ({"mass": "3 m"}, "mass = 3 m: must be a mass in kg"),

@@ -136,7 +136,7 @@ def test_a_machine_written_to_a_file_is_read_back_in_every_bit(tmp_path_factory,
 
 
 def test_si_numbers_and_text_with_units_are_the_same_machine(write):
-    plain = {**dict.fromkeys(ENTRIES), **Machine.load(REAL).model_dump()}
+    plain = {**dict.fromkeys(ENTRIES), **{name: getattr(Machine.load(REAL), name) for name in ENTRIES}}
 
     assert Machine.load(write(text_of("machine", plain))) == Machine.load(REAL)
 
@@ -156,7 +156,7 @@ def test_angles_of_a_dimensionless_file_may_have_units(write):
 # ------------------------------------------------------------------------------------------ entries
 
 
-@pytest.mark.parametrize("field", ENTRIES)
+@pytest.mark.parametrize("field", [name for name in ENTRIES if name != "unbalance_phase"])
 def test_a_missing_entry_is_named(write, field):
     error = error_of(write(text_of("machine", {k: v for k, v in ENTRIES.items() if k != field})))
 

@@ -1,6 +1,7 @@
 """Text with units becomes SI numbers; names that do not exist get a suggestion."""
 
 import decimal
+import math
 import subprocess
 import sys
 from fractions import Fraction
@@ -12,8 +13,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carom.outcome import InputError
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, quantities, read_quantity, unknown_name
+from carom.parameters import (
+    DIMENSIONLESS_FIELDS,
+    ENTRIES,
+    MACHINE_FIELDS,
+    Scales,
+    Size,
+    quantities,
+    read_quantity,
+    read_size,
+    unknown_name,
+)
 from carom.parameters.common_units import COMMON_UNITS
+from carom.parameters.quantities import read_decimal, without_separators
 
 ALLOWED = {
     "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
@@ -84,7 +96,9 @@ def test_text_with_a_unit_is_its_si_number(field, text, number):
     [
         ("speed", "rpm", lambda: mpmath.mp.pi / 30),
         ("speed", "RPM", lambda: mpmath.mp.pi / 30),
+        ("speed", "r/min", lambda: mpmath.mp.pi / 30),
         ("speed", "rev/s", lambda: 2 * mpmath.mp.pi),
+        ("speed", "Hz", lambda: 2 * mpmath.mp.pi),
         ("speed", "rev/min", lambda: mpmath.mp.pi / 30),
         ("speed", "deg/s", lambda: mpmath.mp.pi / 180),
         ("unbalance_phase", "deg", lambda: mpmath.mp.pi / 180),
@@ -108,12 +122,11 @@ def test_lengths_are_rounded_once(number, scale):
     assert read == float(Fraction(repr(number)) / 10**places)
 
 
-@pytest.mark.parametrize("text", ["30 Hz", "30 1/s", "30 s^-1", "1759 min^-1", "0.03 kHz"])
+@pytest.mark.parametrize("text", ["30 1/s", "30 s^-1", "1759 min^-1", "0.03 1/ms"])
 def test_speed_without_turns_or_radians_is_ambiguous(text):
     error = error_of(lambda: read_quantity(MACHINE_FIELDS["speed"], text))
 
-    if "min" in text or "k" in text:
-        assert text.split()[1] in str(error)
+    assert text.split()[1] in str(error)
     assert "rpm" in error.allowed
     assert "rad/s" in error.allowed
 
@@ -235,6 +248,51 @@ def test_pint_is_loaded_by_the_first_uncommon_unit_only():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
     assert done.stdout.split() == ["False", "False", "False", "True", "False", "True", "True"]
+
+
+# ------------------------------------------------------------------------------------------ thousands
+
+
+@pytest.mark.parametrize("gap", [" ", "\u00a0", "\u2009", "\u202f", "\u2007", "'", "’"])
+def test_thousands_may_be_separated(gap):
+    for text, number in [
+        (f"12{gap}000", "12000"),
+        (f"1{gap}234{gap}567.5 rpm", "1234567.5 rpm"),
+        (f"-1{gap}000", "-1000"),
+    ]:
+        assert without_separators(text) == number
+
+
+def test_a_size_with_separated_thousands_and_no_unit_is_in_units_of_the_equations():
+    assert read_size("peak", "1 000", "acceleration", None) == Size(1000.0, False, "acceleration")
+    assert read_size("until", "1 000 s", "time", Scales(1.0, 1.0, 2.0)) == Size(1000.0, True, "time")
+
+
+@pytest.mark.parametrize("text", ["12,000 rpm", "12,000rpm", "12,000 r/min", "+12,000 RPM"])
+def test_a_comma_separates_thousands_of_turns_a_minute(text):
+    assert read_quantity(MACHINE_FIELDS["speed"], text) == 400 * math.pi
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        *[("speed", "12,000 rad/s"), ("speed", "12,00 rpm"), ("speed", "12,0000 rpm"), ("speed", "1,5 rpm")],
+        *[("mass", "1,500 kg"), ("clearance", "0,7 mm"), ("clearance", "1,400 mm"), ("friction", "0,15")],
+        *[("balance_grade", "G 2,5"), ("unbalance", "1,500 g mm"), ("natural_frequency", "1,500 Hz")],
+    ],
+)
+def test_any_other_comma_is_refused(name, text):
+    error = error_of(lambda: read_decimal(ENTRIES[name], text))
+
+    assert "a comma may mark decimals or thousands" in error.allowed
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["12 00", "1 0000", "0 123", "12  000", "12 000'000", "1 2345", "1'000 000", "12' 000", "12 000 00", "' 000"],
+)
+def test_other_groups_are_no_numbers(text):
+    error_of(lambda: read_decimal(MACHINE_FIELDS["mass"], f"{text} kg"))
 
 
 # ------------------------------------------------------------------------------------------ names

@@ -116,7 +116,7 @@ def test_nonsense_settings_are_named(path, settings, start):
         ("mass=3 m", "mass = 3 m: must be a mass"),
         ("damping=-3 N s/m", "damping = -3 N s/m: must be a damping in N s/m, >= 0"),
         ("damping=many", "damping = many: must be a damping"),
-        ("speed=30 Hz", "speed = 30 Hz: must be an angular speed"),
+        ("speed=30 1/s", "speed = 30 1/s: must be an angular speed"),
         ("gamma=-0.1", "gamma = -0.1: sets damping to -921.0, which must be a damping"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
@@ -117,3 +118,20 @@ def test_settings_may_be_fractions_and_intervals():
 
     assert numbers["rho"].rational == Fraction(3, 7)
     assert (numbers["gamma"].low, numbers["gamma"].high) == (Fraction(1, 10), Fraction(1, 9))
+
+
+def test_numbers_given_in_other_terms_count_by_their_doubles(tmp_path):
+    path = tmp_path / "terms.toml"
+    text = Path(KEOGH).read_text(encoding="utf-8")
+    text = text.replace('eccentricity = "0.3 mm"', 'unbalance = "15000 g mm"')
+    text = text.replace('unbalance_phase = "0.21 rad"', 'force_limit = "5 kN"')
+    path.write_text(text, encoding="utf-8")
+
+    numbers = hypotheses_of(path)
+
+    exact = hypotheses_of(KEOGH, ["unbalance_phase=0"]).numbers
+    assert numbers.numbers["rho"].rational == Fraction(0.3e-3) / Fraction("0.7e-3")
+    assert {**numbers.numbers, "rho": 0} == {**exact, "rho": 0}
+    assert numbers.document()["values"]["eccentricity"] == "double 0.0003"
+    with_grade = hypotheses_of(path, ["balance_grade=G 6.3", "mu=0.2"])
+    assert with_grade.numbers["rho"].rational == Fraction(0.0063 / 184.2) / Fraction("0.7e-3")

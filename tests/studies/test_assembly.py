@@ -10,7 +10,7 @@ from studies import study_once
 
 from carom.files import as_json
 from carom.outcome import InputError, Outcome
-from carom.parameters import Case, Machine, Parameters, Scales, Zones
+from carom.parameters import Case, Machine, Parameters, Scales, Zones, load
 from carom.studies import NOT_COVERED, free_spans, study
 from carom.studies.summaries import kick_rows, machine_rows, motion_rows, range_rows, threshold_rows
 
@@ -294,12 +294,26 @@ def test_json_has_the_stable_keys(real):
         assert set(entry) >= ORBIT_KEYS
         assert [len(value) for value in entry["multipliers"]] == [2, 2, 2]
     assert document["machine_si"]["damping"] == 1400.0
+    assert document["machine_given"]["damping"] == {"damping": "1400 N s/m"}
     disturbances = document["disturbances"]
     smallest = disturbances["smallest_unrecovered_kick"]
     assert disturbances["smallest_unrecovered_kick_si"] == pytest.approx(smallest * 0.7e-3 * 184.2, rel=1e-14)
     assert sum(entry["count"] for entry in document["attractors"]) == disturbances["count"] == 200
     assert document["safe_damping"]["within_reach"]["motion"] == "synchronous rub"
     assert document["verdict"]["level"] == real.verdict.level
+
+
+def test_the_machine_is_shown_with_what_it_was_given_by():
+    case = load("examples/keogh-cole.toml", ["unbalance=100 g mm", "force_current_factor=100 N/A", "gamma=0.1"])
+
+    rows = {row.words: (row.value, row.given) for row in machine_rows(case)}
+
+    assert rows["eccentricity of the unbalance"] == ("0.002 mm", "unbalance = 100 g mm, mass = 50 kg")
+    assert rows["damping of the levitation"] == ("921 N s/m", "gamma = 0.1")
+    assert rows["rotor mass"] == ("50 kg", "50 kg")
+    assert rows["number of equal bearings"] == ("1", "not given")
+    assert rows["derivative gain, current over velocity"] == ("9.21 A s/m", "from stiffness and damping")
+    assert case.machine.given_texts["eccentricity"] == {"unbalance": "100 g mm", "mass": "50 kg"}
 
 
 def test_json_values_are_those_of_the_study(real):

@@ -72,6 +72,34 @@ def test_point_is_the_machine_of_the_same_settings(write, settings):
     assert plan.case_at(point) == load(EXAMPLES.parent / write().with_name("machine.toml"), [*settings, *here])
 
 
+def test_axes_and_settings_in_other_terms_are_the_machines_of_the_same_settings(write, tmp_path):
+    machine = tmp_path / "machine.toml"
+    text = machine.read_text(encoding="utf-8").replace(
+        "stiffness =", "negative_stiffness = 2e5\nproportional_gain = 1e4 #"
+    )
+    machine.write_text(f"{text}".replace("[machine]", '[machine]\nforce_current_factor = "118 N/A"'), encoding="utf-8")
+    gain = '[axes.proportional_gain]\nfrom = "5 A/mm"\nto = "20 A/mm"\ncount = 3'
+    grade = '[axes.balance_grade]\nvalues = ["G 2.5", "G 6.3"]'
+    plan = load_sweep(write(damping=gain, grade=grade), ["damping_ratio=7.7 %"])
+
+    for point in np.ndindex(*plan.shape):
+        here = [f"{name}={value!r}" for name, value in plan.values(point).items()]
+        assert plan.case_at(point).parameters == load(machine, [*here, "damping_ratio=7.7 %"]).parameters
+    assert [plan.case_at((place, 0, 0)).machine.stiffness for place in range(3)] == [390e3, 1275e3, 2160e3]
+    assert plan.axes[2].field.unit == "mm/s"
+
+    before = plan.digest
+    machine.write_text(machine.read_text(encoding="utf-8").replace("118", "119").replace("1e4", "9915.96638655462185"))
+    other = load_sweep(write(damping=gain, grade=grade), ["damping_ratio=7.7 %"])
+    assert other.case.parameters == plan.case.parameters
+    assert other.digest != before
+
+
+def test_an_axis_and_a_setting_of_one_number_are_both_named(write):
+    with pytest.raises(InputError, match="damping_ratio = set: sets damping, which is set too"):
+        load_sweep(write(), ["damping_ratio=0.1"])
+
+
 def test_sizes_with_units_stay_and_plain_ones_scale(write):
     with_unit = load_sweep(write())
     plain = load_sweep(write(do=GOOD["do"].replace('"0.1 m/s"', "0.5")))

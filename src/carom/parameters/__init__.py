@@ -3,11 +3,13 @@
 ========================  =================================================================
 ``fields``                names, symbols, units and ranges of all numbers
 ``common_units``          units of machine files as pint converts them
+``terms``                 terms that stand for the numbers of a machine, with their formulas
 ``quantities``            text with units -> float in SI units
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           TOML file -> raw tables
 ``numbers``               :class:`Numbers`: plain dimensionless numbers, conversion from and to SI units
 ``scaling``               :class:`Scales` and their units, :class:`Parameters`
+``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
@@ -28,12 +30,18 @@ from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import UNITS, Parameters, Scales
 from carom.parameters.sizes import Size, read_size
+from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",
+    "ENTRIES",
+    "HELPER_FIELDS",
     "MACHINE_FIELDS",
     "PARAMETERS",
     "PHYSICAL_PARTNER",
+    "SETTABLE",
+    "TERMS",
+    "TERM_FIELDS",
     "UNITS",
     "Case",
     "Field",
@@ -43,6 +51,7 @@ __all__ = [
     "Scales",
     "Size",
     "Zones",
+    "field_to_set",
     "field_to_vary",
     "load",
     "read_quantity",

@@ -18,8 +18,9 @@ _DEGREE = "0.01745329251994329576923690768488612713443"
 _TURN_A_MINUTE = "0.1047197551196597746154214461093167628066"
 _POUND_FORCE_PER_INCH = "175126.8352464763779527559055118110236220"
 
-# Exponents of metre, gram, second and radian; then the factors, to the 40 digits requested from pint.
-_WRITTEN: Mapping[tuple[int, int, int, int], Mapping[str, str]] = {
+# Exponents of metre, gram, second, radian and ampere, zeros at the end left out; then the factors, to the 40 digits
+# requested from pint.
+_WRITTEN: Mapping[tuple[int, ...], Mapping[str, str]] = {
     (0, 0, 0, 0): {"": "1", "%": "0.01", "percent": "0.01"},
     (1, 0, 0, 0): {
         "m": "1",
@@ -40,6 +41,7 @@ _WRITTEN: Mapping[tuple[int, int, int, int], Mapping[str, str]] = {
         "rpm": _TURN_A_MINUTE,
         "RPM": _TURN_A_MINUTE,
         "rev/min": _TURN_A_MINUTE,
+        "r/min": _TURN_A_MINUTE,
         "rev/s": "6.283185307179586476925286766559005768394",
         "deg/s": _DEGREE,
     },
@@ -80,11 +82,25 @@ _WRITTEN: Mapping[tuple[int, int, int, int], Mapping[str, str]] = {
         "kN s/m": "1E+6",
         "lbf s/in": _POUND_FORCE_PER_INCH,
     },
+    (1, 1): {
+        "kg m": "1E+3",
+        "kg mm": "1",
+        "g m": "1",
+        "g cm": "0.01",
+        "g mm": "0.001",
+        "g*mm": "0.001",
+        "g·mm": "0.001",
+        "gmm": "0.001",
+    },
+    (0, 0, 0, 0, 1): {"A": "1", "mA": "0.001"},
+    (-1, 0, 0, 0, 1): {"A/m": "1", "A/mm": "1E+3", "mA/mm": "1", "A/µm": "1E+6", "A/μm": "1E+6", "A/um": "1E+6"},
+    (-1, 0, 1, 0, 1): {"A s/m": "1", "A*s/m": "1", "A·s/m": "1", "As/m": "1", "A s/mm": "1E+3", "mA s/mm": "1"},
+    (1, 1, -2, 0, -1): {"N/A": "1E+3", "kN/A": "1E+6"},
 }
 
 
-def _roots(exponents: tuple[int, int, int, int]) -> Roots:
-    named = zip(("meter", "gram", "second", "radian"), exponents, strict=True)
+def _roots(exponents: tuple[int, ...]) -> Roots:
+    named = zip(("meter", "gram", "second", "radian", "ampere"), exponents, strict=False)
     return frozenset((name, Decimal(exponent)) for name, exponent in named if exponent)
 
 

@@ -8,15 +8,16 @@ from decimal import Context, Decimal, localcontext
 from fractions import Fraction
 
 from carom.parameters.fields import Field
-from carom.parameters.quantities import read_quantity, unit_factor
+from carom.parameters.quantities import read_quantity, unit_factor, without_separators
 
 _NUMBER = re.compile(
     r"(?P<number>[+-]?[0-9]+ */ *[0-9]+|[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(?P<unit>.*)"
 )
 _TURNS = {
-    **dict.fromkeys(("rpm", "RPM", "rev/min"), Fraction(1, 30)),
+    **dict.fromkeys(("rpm", "RPM", "rev/min", "r/min"), Fraction(1, 30)),
     **dict.fromkeys(("deg", "degree", "degrees", "°", "deg/s"), Fraction(1, 180)),
-    "rev/s": Fraction(2),
+    **dict.fromkeys(("rev/s", "Hz"), Fraction(2)),
+    "kHz": Fraction(2000),
 }
 """Units of angles and angular speeds in multiples of π."""
 _LONGEST, _DIGITS, _MOST_DIGITS, _LARGEST_EXPONENT = 200, 40, 30, 400
@@ -92,7 +93,7 @@ def read_exact(field: Field, text: str) -> ExactNumber:
 
 
 def _from_text(field: Field, text: str) -> ExactNumber:
-    match = _NUMBER.fullmatch(text)
+    match = _NUMBER.fullmatch(without_separators(text))
     if not match:
         raise field.error(text, "this is not a decimal number or a fraction")
     number, unit = match["number"].replace(" ", ""), match["unit"].strip()

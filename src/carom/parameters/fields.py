@@ -7,11 +7,10 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from carom.outcome import InputError, Problems, shown
+from carom.outcome import InputError, shown
 
 _LONGEST_NAME = 60
 _MOST_SUGGESTIONS = 100
@@ -47,6 +46,10 @@ class Field:
         Unit in which people usually say it, such as ``"mm"``; by default the SI unit.
     usual_size : float
         That unit in the SI unit.
+    letter : str
+        Letter that may precede the number in place of a unit: ``"G"`` of a balance quality grade.
+    whole : bool
+        Whether it must be a whole number.
     """
 
     name: str
@@ -62,6 +65,8 @@ class Field:
     bare: str = ""
     usual: str = ""
     usual_size: float = 1.0
+    letter: str = ""
+    whole: bool = False
 
     @property
     def usual_unit(self) -> str:
@@ -117,10 +122,13 @@ class Field:
             raise self.error(given, "this is not a finite number")
         if not self.contains(number):
             raise self.error(given, "this is too close to 0" if self.zero and 0 < number < self.lowest else "")
+        if self.whole and number != int(number):
+            raise self.error(given)
         return number + 0.0
 
 
-def _by_name(*fields: Field) -> dict[str, Field]:
+def by_name(*fields: Field) -> dict[str, Field]:
+    """Fields by their names."""
     return {field.name: field for field in fields}
 
 
@@ -130,7 +138,7 @@ def _pure(name: str, symbol: str, words: str, lowest: float, highest: float, exa
 
 # Ranges: far wider than any machine from a micro-turbine to a hydro generator, and narrow enough that every
 # product the scaling needs (mass * speed**2 and the like) stays a normal double with all its digits.
-MACHINE_FIELDS: Mapping[str, Field] = _by_name(
+MACHINE_FIELDS: Mapping[str, Field] = by_name(
     Field("mass", "m", "rotor mass", "a mass", "kg", 1e-9, 1e9, '"50 kg"'),
     Field("damping", "c", "damping of the levitation", "a damping", "N s/m", 1e-30, 1e30, '"1400 N s/m"', zero=True),
     Field("stiffness", "k", "stiffness of the levitation", "a stiffness", "N/m", 1e-30, 1e30, '"9.8e5 N/m"'),
@@ -192,7 +200,7 @@ MACHINE_FIELDS: Mapping[str, Field] = _by_name(
 
 # Ranges: exponents and forcing of order 1e3 per 1/Ω still leave the flight kernel many digits; a rotor outside
 # them does not bounce on the time scale of its rotation, which is what the equations are scaled for.
-DIMENSIONLESS_FIELDS: Mapping[str, Field] = _by_name(
+DIMENSIONLESS_FIELDS: Mapping[str, Field] = by_name(
     _pure("gamma", "γ", "scaled damping", -1e3, 1e3, "0.1", "damping/(mass speed)"),
     _pure("omega", "ω", "natural frequency over speed", 1e-3, 1e3, "0.76", "sqrt(stiffness/(mass speed^2))"),
     _pure("rho", "ρ", "eccentricity over clearance", 0.0, 1e3, "0.43", "eccentricity/clearance"),
@@ -218,6 +226,32 @@ PHYSICAL_PARTNER: Mapping[str, str] = {
 """The machine field that is set by each dimensionless number while mass, speed and clearance are fixed."""
 
 _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICAL_PARTNER.items()}}
+_SYNONYMS = {
+    "bearing_count": "magnetic_bearings",
+    "clearance_diameter": "diametral_clearance",
+    "current_stiffness": "force_current_factor",
+    "d_gain": "derivative_gain",
+    "displacement_stiffness": "negative_stiffness",
+    "grade": "balance_grade",
+    "imbalance": "unbalance",
+    "k_i": "force_current_factor",
+    "k_s": "negative_stiffness",
+    "kd": "derivative_gain",
+    "ki": "force_current_factor",
+    "kp": "proportional_gain",
+    "ks": "negative_stiffness",
+    "max_current": "current_limit",
+    "max_force": "force_limit",
+    "number_of_bearings": "magnetic_bearings",
+    "p_gain": "proportional_gain",
+    "phase": "unbalance_phase",
+    "position_stiffness": "negative_stiffness",
+    "quality_grade": "balance_grade",
+    "radial_clearance": "clearance",
+    "rpm": "speed",
+    "zeta": "damping_ratio",
+}
+"""Other names in use; none of them is accepted, but errors suggest the right one."""
 
 
 def unknown_name(name: str, given: object, known: Mapping[str, object], where: str) -> InputError:
@@ -259,33 +293,12 @@ def field_to_vary(name: str) -> Field:
     return PARAMETERS[name]
 
 
-def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
-    """Check that names are machine fields or dimensionless parameters, and that no two set the same thing.
-
-    Parameters
-    ----------
-    changes : iterable or mapping
-        The names; the values of a mapping appear in the message.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, or if, for example, both ``damping`` and ``gamma`` are there.  It reports all errors at
-        once.
-    """
-    values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
-    problems = Problems()
-    for name, value in values.items():
-        partner = PHYSICAL_PARTNER.get(name)
-        if name not in PARAMETERS:
-            problems.errors.append(unknown_name(name, value, PARAMETERS, "a machine or its parameters"))
-        elif partner in values:
-            allowed = f"sets {partner}, which is set too; give one of the two"
-            problems.errors.append(InputError(name, shown(value), allowed))
-    problems.tell()
-
-
-def name_errors(table: Mapping[str, object], fields: Mapping[str, Field], where: str) -> list[InputError]:
+def name_errors(
+    table: Mapping[str, object],
+    fields: Mapping[str, Field],
+    where: str,
+    ways: Mapping[str, tuple[str, ...]] | None = None,
+) -> list[InputError]:
     """Errors for all names of a table that are unknown or missing.
 
     If an unknown name seems to be a misspelt missing one, only the unknown name is reported.
@@ -295,19 +308,22 @@ def name_errors(table: Mapping[str, object], fields: Mapping[str, Field], where:
     table : mapping
         What the user wrote.
     fields : mapping
-        What must stand there, and nothing else.
+        What may stand there.
     where : str
         Name of the table, for example ``"[machine]"``.
+    ways : mapping, optional
+        The numbers that must be given, each with the names that give it; by default each of `fields` by its own name.
     """
+    ways = {name: (name,) for name in fields} if ways is None else ways
     unknown = [name for name in table if name not in fields]
-    absent = {name: field for name, field in fields.items() if name not in table}
+    absent = {name: names for name, names in ways.items() if not any(way in table for way in names)}
     meant = {nearest_name(name, fields) for name in unknown[:_MOST_SUGGESTIONS]}
     errors = [unknown_name(name, table[name], fields, where) for name in unknown[:_MOST_SUGGESTIONS]]
     errors += [InputError(name, shown(table[name]), f"unknown name in {where}") for name in unknown[_MOST_SUGGESTIONS:]]
     return errors + [
-        InputError(name, None, f"missing in {where}; {field.allowed}")
-        for name, field in absent.items()
-        if name not in meant
+        InputError(name, None, "; or give ".join([f"missing in {where}; {fields[name].allowed}", *names[1:]]))
+        for name, names in absent.items()
+        if meant.isdisjoint(names)
     ]
 
 
@@ -317,5 +333,5 @@ def nearest_name(name: str, known: Mapping[str, object]) -> str | None:
     lookup = {key.lower(): key for key in known}
     wanted = name[:_LONGEST_NAME].strip().lower().replace("-", "_").replace(" ", "_")
     near = difflib.get_close_matches(wanted, lookup, n=1, cutoff=0.6)
-    partner = _PARTNERS.get(wanted)
-    return symbols.get(name) or (partner if partner in known else lookup[near[0]] if near else None)
+    other = next((other for other in (_PARTNERS.get(wanted), _SYNONYMS.get(wanted)) if other in known), None)
+    return symbols.get(name) or other or (lookup[near[0]] if near else None)

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import math
+import json
 import os
 from collections.abc import Mapping
-from decimal import Context, Decimal, localcontext
-from typing import Any, Self, cast
+from typing import Any, cast
 
 import pydantic
 
-from carom.outcome import InputError, Problems, shown, together
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER, check_names, name_errors
+from carom.outcome import InputError, Problems, shown
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
 from carom.parameters.numbers import CONVERSIONS
-from carom.parameters.quantities import read_quantity
+from carom.parameters.resolution import Resolved, resolve, solved
 from carom.parameters.scaling import Parameters, Scales
+from carom.parameters.terms import DEFAULTS, ENTRIES
 from carom.parameters.toml_reader import read_machine_tables
 
 
@@ -41,18 +41,29 @@ class Machine(pydantic.BaseModel):
         Radius R of the rotor where it touches, m.
     speed : float or str
         Rotational speed Ω, rad/s; text in rpm, rev/s, rad/s or deg/s.
-    unbalance_phase : float or str
-        Phase φ of the unbalance, rad.
+    unbalance_phase : float or str, optional
+        Phase φ of the unbalance, rad; 0 by default.  It only fixes from where angles on the rotor are counted.
     friction : float or str
         Coefficient μ of friction between rotor and touchdown bearing.
     restitution : float or str
         Coefficient d of restitution of the impacts, 0 to 1.
+    magnetic_bearings : float or str, optional
+        Number n of equal magnetic bearings; 1 by default.
+    force_current_factor, negative_stiffness : float or str, optional
+        Force a current ki (N/A) and size ks of the negative stiffness (N/m, not negative) of one of them.
+    force_limit, current_limit : float or str, optional
+        Largest force (N) and control current (A) of one of them.
 
     Raises
     ------
     InputError
-        If a field is missing, unknown, of another dimension, out of range, or if the machine as a whole has a
-        dimensionless parameter out of range.  It reports all errors at once.
+        If a field is missing, unknown, of another dimension, out of range, or given in two ways, or if the machine as a
+        whole has a dimensionless parameter out of range.  It reports all errors at once.
+
+    Notes
+    -----
+    A field may be given by an entry of :data:`carom.parameters.TERM_FIELDS` instead, such as ``eccentricity`` by
+    ``unbalance="15 g mm"`` or ``balance_grade="G 2.5"``; the formulas are those of :data:`carom.parameters.TERMS`.
     """
 
     model_config = pydantic.ConfigDict(frozen=True, extra="forbid")
@@ -67,28 +78,53 @@ class Machine(pydantic.BaseModel):
     unbalance_phase: float
     friction: float
     restitution: float
+    magnetic_bearings: float = DEFAULTS["magnetic_bearings"]
+    force_current_factor: float | None = None
+    negative_stiffness: float | None = None
+    force_limit: float | None = None
+    current_limit: float | None = None
+    _resolved: Resolved = pydantic.PrivateAttr()
 
-    def __init__(self, /, **values: Any) -> None:
-        try:
-            super().__init__(**values)
-        except pydantic.ValidationError as problem:
-            raise together(_input_errors(problem, values)) from None
+    def __init__(self, /, **entries: Any) -> None:
+        self._fill(resolve(entries), entries)
 
-    @pydantic.field_validator("*", mode="before")
-    @classmethod
-    def _read(cls, given: object, info: pydantic.ValidationInfo) -> float:
-        return read_quantity(MACHINE_FIELDS[str(info.field_name)], given)
-
-    @pydantic.model_validator(mode="after")
-    def _check_parameters(self) -> Self:
+    def _fill(self, resolved: Resolved, entries: Mapping[str, Any]) -> None:
+        super().__init__(**resolved.values)
+        self._resolved = resolved
         try:
             self.parameters  # noqa: B018
         except InputError as problem:
-            physical = PHYSICAL_PARTNER[problem.field]
-            definition = f"{problem.field} = {DIMENSIONLESS_FIELDS[problem.field].formula}"
-            allowed = f"gives {definition} = {problem.value}, which {problem.allowed}"
-            raise InputError(physical, getattr(self, physical), allowed) from None
-        return self
+            raise self._out_of_proportion(problem, entries) from None
+
+    def _out_of_proportion(self, problem: InputError, entries: Mapping[str, Any]) -> InputError:
+        """The error of a dimensionless parameter, as one of the entry that it follows from."""
+        field = PHYSICAL_PARTNER[problem.field]
+        value = getattr(self, field)
+        gives = f"gives {problem.field} = {DIMENSIONLESS_FIELDS[problem.field].formula} = {problem.value}, which {problem.allowed}"
+        source = self._resolved.source(field) or field
+        if source == field or source not in entries:
+            return InputError(field, shown(entries.get(field, value)), gives)
+        if source in DIMENSIONLESS_FIELDS:
+            return InputError(source, shown(entries[source]), f"sets {field} to {value}, which {gives}")
+        unit = MACHINE_FIELDS[field].unit
+        return InputError(source, shown(entries[source]), f"gives {field} = {value:.6g} {unit}, which {gives}")
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are equal, whatever they were given by."""
+        return isinstance(other, Machine) and self._resolved.values == other._resolved.values
+
+    def __hash__(self) -> int:
+        return hash(tuple(self._resolved.values.values()))
+
+    @property
+    def given(self) -> Mapping[str, Mapping[str, Any]]:
+        """For each number the entries that gave it, as they were written, the one that sets it first.
+
+        A number that was not given, and has its default, is left out.  ``{"eccentricity": {"unbalance": "15 g mm",
+        "mass": "2 kg"}}`` says that the eccentricity is the quotient of the two; a mass that was set later does not
+        change it.
+        """
+        return self._resolved.given
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Machine:
@@ -140,7 +176,7 @@ class Machine(pydantic.BaseModel):
         if scales is None:
             raise InputError("scales", None, "these parameters have none: give mass, clearance and speed")
         values = {
-            physical: _solved(name, getattr(parameters, name), scales) for name, physical in PHYSICAL_PARTNER.items()
+            physical: solved(name, getattr(parameters, name), scales) for name, physical in PHYSICAL_PARTNER.items()
         }
         return cls(**values, mass=scales.mass, clearance=scales.clearance, speed=scales.speed)
 
@@ -159,72 +195,66 @@ class Machine(pydantic.BaseModel):
         }
         return Parameters(**numbers, scales=scales)
 
+    @property
+    def given_texts(self) -> dict[str, dict[str, str]]:
+        """What :attr:`given` holds, as texts that can be shown anywhere."""
+        return {name: {entry: shown(value) for entry, value in given.items()} for name, given in self.given.items()}
+
+    @property
+    def controller_gains(self) -> dict[str, float]:
+        """Proportional (A/m) and derivative gain (A s/m) that give this stiffness and damping.
+
+        Only those that the force-current factor and the negative stiffness are known for.
+        """
+        factor, count = self.force_current_factor, self.magnetic_bearings
+        if factor is None:
+            return {}
+        derivative = {"derivative_gain": self.damping / (count * factor)}
+        if self.negative_stiffness is None:
+            return derivative
+        return {"proportional_gain": (self.stiffness / count + self.negative_stiffness) / factor, **derivative}
+
     def replace(self, /, **changes: Any) -> Machine:
         """Return a copy with other values, physical or dimensionless.
 
         Parameters
         ----------
         **changes
-            New values by the names of machine fields or of dimensionless parameters. Physical ones are set first;
-            a dimensionless one then keeps mass, speed and clearance and sets its partner (``gamma`` sets
-            ``damping``, ``omega`` ``stiffness``, ``rho`` ``eccentricity``, ...), as closely as doubles allow.
+            New values by the names of machine fields, of terms that stand for them, or of dimensionless parameters.
+            Mass, speed and clearance are set first, then the stiffness, then all others.  A dimensionless number sets
+            its partner (``gamma`` sets ``damping``, ``omega`` ``stiffness``, ``rho`` ``eccentricity``, ...), as closely
+            as doubles allow.  A field that is not set keeps its value in SI units, but one that follows from a
+            controller gain, a force-current factor or a rated speed follows again if one of those is set.
 
         Raises
         ------
         InputError
             If a name is unknown, a value not allowed, or a field is set in two ways.
         """
-        check_names(changes)
-        fields = {**self.model_dump(), **{name: changes[name] for name in changes if name in MACHINE_FIELDS}}
-        machine = Machine(**fields)
-        given = {name: changes[name] for name in changes if name in DIMENSIONLESS_FIELDS}
-        solved = {}
-        for name, value in given.items():
-            number = read_quantity(DIMENSIONLESS_FIELDS[name], value)
-            solved[PHYSICAL_PARTNER[name]] = _solved(name, number, machine.scales)
-        try:
-            return Machine(**{**machine.model_dump(), **solved})
-        except InputError as problem:
-            for name, value in given.items():
-                if PHYSICAL_PARTNER[name] == problem.field:
-                    advice = f"sets {problem.field} to {problem.value}, which {problem.allowed}"
-                    raise InputError(name, shown(value), advice) from None
-            raise
+        machine = Machine.__new__(Machine)
+        machine._fill(resolve(changes, self._resolved), changes)
+        return machine
 
     def to_toml(self) -> str:
-        """Return the text of a machine file that :meth:`load` reads back to an equal machine."""
-        lines = ["[machine]"]
-        for name, field in MACHINE_FIELDS.items():
-            number = repr(getattr(self, name))
-            value = f'"{number} {field.unit}"' if field.unit else number
-            lines.append(f"{name} = {value}  # {field.symbol}: {field.words}")
-        return "\n".join(lines) + "\n"
+        """Return the text of a machine file that :meth:`load` reads back to an equal machine.
+
+        It holds the entries as they were written, if they still give this machine, and otherwise numbers in SI units.
+        """
+        written = {name: value for given in self.given.values() for name, value in given.items()}
+        written = {name: written[name] for name in ENTRIES if name in written}
+        try:
+            same = Machine(**written) == self
+        except InputError:
+            same = False
+        entries = written if same else dict(self._resolved.values)
+        return "\n".join(["[machine]", *(_line(name, value) for name, value in entries.items())]) + "\n"
 
 
-def _solved(name: str, number: float, scales: Scales) -> float:
-    """Return the value, in SI units, of the partner of a dimensionless parameter that gives this number.
-
-    Short decimals are tried first: rounding to 15 digits finds the value that a person wrote. The conversion rounds at
-    most three times, so every double it maps to `number` lies within four units in the last place of the exact value.
-    """
-    conversion = CONVERSIONS[name]
-    with localcontext(Context(prec=60)):
-        exact = conversion.value(Decimal(number), scales)
-        candidates = [float(f"{exact:.{digits - 1}e}") for digits in (15, 16, 17)]
-    nearest = below = above = float(exact)
-    candidates.append(nearest)
-    for _ in range(4):
-        below, above = math.nextafter(below, -math.inf), math.nextafter(above, math.inf)
-        candidates += [below, above]
-    candidates = [value for value in candidates if value >= 0 or exact < 0]
-    return min(candidates, key=lambda value: abs(conversion.number(value, scales) - number))
-
-
-def _input_errors(problem: pydantic.ValidationError, values: Mapping[str, Any]) -> list[InputError]:
-    """All errors, those of names first: an unknown name is mostly a misspelt missing one."""
-    found = name_errors(values, MACHINE_FIELDS, "[machine]")
-    for error in problem.errors():
-        cause = error.get("ctx", {}).get("error")
-        if isinstance(cause, InputError):  # with the value as the user wrote it, including its unit
-            found.append(InputError(cause.field, shown(values[cause.field]), cause.allowed))
-    return found
+def _line(name: str, value: Any) -> str:
+    field = ENTRIES[name]
+    if isinstance(value, str):
+        text = json.dumps(value, ensure_ascii=False)
+    else:
+        number = repr(float(value))
+        text = f'"{number} {field.unit}"' if field.unit else number
+    return f"{name} = {text}  # {field.symbol}: {field.words}"

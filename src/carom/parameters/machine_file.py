@@ -12,16 +12,15 @@ from typing import Any, cast
 from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters.fields import (
     DIMENSIONLESS_FIELDS,
-    MACHINE_FIELDS,
     PHYSICAL_PARTNER,
     Field,
-    check_names,
     name_errors,
     unknown_name,
 )
 from carom.parameters.machine import Machine
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters
+from carom.parameters.terms import SETTABLE, check_names, set_by
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
 
 _SETTING = "--set"
@@ -115,7 +114,9 @@ class Case:
         if self.machine is None:
             return Case(self.name, self.parameters.replace(**changes), None, self.zones)
         machine = self.machine.replace(**changes)
-        numbers = {name: value for name, value in changes.items() if name in DIMENSIONLESS_FIELDS}
+        numbers = {
+            name: read_quantity(field, changes[name]) for name, field in DIMENSIONLESS_FIELDS.items() if name in changes
+        }
         return Case(self.name, machine.parameters.replace(**numbers), machine, self.zones)
 
 
@@ -158,16 +159,16 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         problems.attempt(Machine, **tables.values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
     texts = _split(settings, problems)
-    dimensionless = _read_settings(texts, DIMENSIONLESS_FIELDS, problems)
+    numbers = _read_settings(texts, SETTABLE if of_machine else DIMENSIONLESS_FIELDS, problems)
     if not of_machine:
-        problems.attempt(_refuse_physical, {name: text for name, text in texts.items() if name in MACHINE_FIELDS})
-    physical = _read_settings(texts, MACHINE_FIELDS, problems) if of_machine else {}
+        physical = {name: text for name, text in texts.items() if name in SETTABLE and name not in DIMENSIONLESS_FIELDS}
+        problems.attempt(_refuse_physical, physical)
     problems.tell()
     name = printable(Path(path).stem)
     zones = zones or Zones()
     if isinstance(base, Machine):
-        return Case(name, base.parameters, base, zones).replace(**physical, **dimensionless)
-    return Case(name, cast("Parameters", base), None, zones).replace(**dimensionless)
+        return Case(name, base.parameters, base, zones).replace(**texts)
+    return Case(name, cast("Parameters", base), None, zones).replace(**numbers)
 
 
 def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:
@@ -197,7 +198,8 @@ def _refuse_physical(physical: Mapping[str, str]) -> None:
     partners = {partner: name for name, partner in PHYSICAL_PARTNER.items()}
     problems = Problems()
     for name, text in physical.items():
-        advice = f"set {partners[name]} instead" if name in partners else "use a file with a [machine] table"
+        partner = partners.get(set_by(name))
+        advice = f"set {partner} instead" if partner else "use a file with a [machine] table"
         allowed = f"cannot be set: the file is dimensionless and has no mass, clearance and speed; {advice}"
         problems.errors.append(InputError(name, shown(text), allowed))
     problems.tell()

@@ -23,6 +23,13 @@ _UNIT = re.compile(
     r"(?:[A-Za-z°%µμ_ ()*/·⋅]|1(?![0-9])|(?:\^|\*\*) *[+-]?[0-9](?!(?: *(?:\^|\*\*))|[0-9])|⁻?[¹²³⁴](?![¹²³⁴]))*"
 )
 _LONGEST_UNIT = 60
+_SPACES = str.maketrans(dict.fromkeys("\u00a0\u2007\u2009\u202f", " ") | {"’": "'"})
+_GROUPS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?P<gap>[ '])[0-9]{3}(?:(?P=gap)[0-9]{3})*(?![0-9'])")
+_COMMAS = re.compile(r"([+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]*)?) *(rpm|RPM|rev/min|r/min)")
+_DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]")
+_HYPHEN = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")
+_TURNS_A_SECOND = {"Hz": 1, "kHz": 1000}
+"""Frequencies as units of an angular speed: one turn a second is 2π rad/s.  To pint, 1 Hz is 1 rad/s."""
 _DIGITS = decimal.Context(prec=40)
 # Errors that pint raises besides its own, which derive from some of these.
 _PARSER_ERRORS = (
@@ -62,7 +69,7 @@ def read_quantity(field: Field, given: object) -> float:
         If `given` is anything else, of another dimension, not finite or out of range.
     """
     if isinstance(given, str):
-        number = _from_text(field, given)
+        number = float(_from_text(field, given))
     elif isinstance(given, Real) and not isinstance(given, bool):
         try:
             number = float(given)
@@ -73,33 +80,83 @@ def read_quantity(field: Field, given: object) -> float:
     return field.check(number, given)
 
 
-def _from_text(field: Field, text: str) -> float:
-    match = _TEXT.fullmatch(text.strip())
+def read_decimal(field: Field, given: object) -> Decimal:
+    """Read a number like :func:`read_quantity`, but without rounding it to a double.
+
+    Parameters
+    ----------
+    field : Field
+        What is read: its unit and its range.
+    given : object
+        A real number, which stands for its shortest decimal, or text.
+
+    Returns
+    -------
+    Decimal
+        In the SI unit of `field`, to 40 digits.
+
+    Raises
+    ------
+    InputError
+        As for :func:`read_quantity`.
+    """
+    number = read_quantity(field, given)
+    return Decimal(_from_text(field, given)) if isinstance(given, str) and number else Decimal(repr(number))
+
+
+def without_separators(text: str) -> str:
+    """Text of a number without the separators of its thousands, and with plain spaces.
+
+    Thousands may be separated by spaces or apostrophes.  Commas separate them before ``rpm`` only: in many countries
+    ``1,500 mm`` is a millimetre and a half.
+    """
+    text = text.translate(_SPACES).strip()
+    groups = _GROUPS.match(text)
+    if groups:
+        return text[: groups.end()].replace(groups["gap"], "") + text[groups.end() :]
+    commas = _COMMAS.fullmatch(text)
+    return f"{commas[1].replace(',', '')} {commas[2]}" if commas else text
+
+
+def _from_text(field: Field, text: str) -> float | Decimal:
+    plain = without_separators(text)
+    lettered = bool(field.letter) and plain.startswith(field.letter)
+    plain = plain.removeprefix(field.letter).lstrip() if lettered else plain
+    match = _TEXT.fullmatch(plain)
+    if _DECIMAL_COMMA.match(plain):
+        raise field.error(
+            text, "a comma may mark decimals or thousands: write a decimal point, and thousands with spaces"
+        )
     if not match:
         raise field.error(text, "this does not start with a number" if text.strip() else "this is empty")
     number, unit = float(match["number"]), match["unit"].strip()
-    if not unit:
+    if lettered and unit:
+        raise field.error(text, f"a number after {field.letter} has no unit")
+    if number == 0 or not math.isfinite(number):  # also decimals too long for Decimal, such as 1e-999999999999
+        if unit:
+            unit_factor(field, unit, text)
         return number
     with decimal.localcontext(_DIGITS):
-        factor = unit_factor(field, unit, text)
-        if number == 0 or not math.isfinite(number):  # also decimals too long for Decimal, such as 1e-999999999999
-            return number
-        return float(Decimal(match["number"]) * factor)
+        return Decimal(match["number"]) * unit_factor(field, unit, text) if unit else Decimal(match["number"])
 
 
 def unit_factor(field: Field, unit: str, text: str) -> Decimal:
     """Size of one `unit` in SI units of the field, to the digits of the context; `text` is shown in errors."""
     try:
-        if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(unit):
+        if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(_HYPHEN.sub("*", unit)):
             raise ValueError(unit)
-        scale, roots = _roots(unit)
+        if field.unit == "rad/s" and unit in _TURNS_A_SECOND:
+            return _TURNS_A_SECOND[unit] * _roots("rev/s")[0]
+        scale, roots = _roots(_HYPHEN.sub("*", unit))
         field_scale, field_roots = _roots(field.unit)
     except _PARSER_ERRORS:
         raise field.error(text, f"{unit!r} is not a unit that can be used here") from None
     if roots == field_roots:
         return scale / field_scale
     if field.unit == "rad/s" and roots == _roots("1/s")[1]:
-        raise field.error(text, f"{unit!r} leaves open whether turns or radians are counted: write rpm, rev/s or rad/s")
+        raise field.error(
+            text, f"{unit!r} leaves open whether turns or radians are counted: write rpm, Hz, rev/s or rad/s"
+        )
     kind = field.kind.split(" ", 1)[1]
     raise field.error(text, f"{unit!r} is not a unit of {kind}" if field.unit else f"this number has no unit {unit!r}")
 
@@ -129,6 +186,9 @@ def _registry() -> Any:
     registry: Any = pint.UnitRegistry(non_int_type=Decimal)
     # Notations that engineers use and pint does not define.
     registry.define("rev = revolution")
+    registry.define("r = revolution")
     registry.define("@alias rpm = RPM")
     registry.define("Ns = newton * second")
+    registry.define("As = ampere * second")
+    registry.define("gmm = gram * millimeter")
     return registry

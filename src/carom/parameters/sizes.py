@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from carom.outcome import InputError, shown
 from carom.parameters.fields import Field
-from carom.parameters.quantities import read_quantity
+from carom.parameters.quantities import read_quantity, without_separators
 from carom.parameters.scaling import Scales
 
 _HUGE = 1e12
@@ -74,7 +74,7 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Siz
     """
     words, unit, own, example = _KINDS[kind]
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
-    if not isinstance(given, str) or _PLAIN.fullmatch(given):
+    if not isinstance(given, str) or _PLAIN.fullmatch(without_separators(given)):
         return Size(read_quantity(field, given), False, kind)
     gravities = _GRAVITIES.fullmatch(given) if kind == "acceleration" else None
     try:

@@ -19,7 +19,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFormatter
 
 from carom.outcome import InputError
-from carom.parameters import PARAMETERS, Field
+from carom.parameters import SETTABLE, Field
 from carom.plots.plane import Floats, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
@@ -122,7 +122,7 @@ def _field(coordinate: xarray.DataArray) -> Field:
     """The parameter of a coordinate; one of another model than the planar rotor has its name for a symbol."""
     name, words, unit = str(coordinate.name), coordinate.attrs["long_name"], coordinate.attrs["units"]
     own = Field(name, name.replace("_", r"\_"), words, "a number", "" if unit == "1" else unit, -np.inf, np.inf, "")
-    return PARAMETERS.get(name, own)
+    return SETTABLE.get(name, own)
 
 
 def _plain_ticks(axis: Axis, values: np.ndarray) -> None:

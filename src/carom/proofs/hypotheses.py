@@ -18,9 +18,10 @@ from typing import Any, Literal, cast
 
 from carom.models import Subject, jeffcott_of
 from carom.outcome import InputError, Problems, shown, together
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Machine, load
 from carom.parameters.exact import ExactNumber, read_exact
-from carom.parameters.fields import check_names, name_errors, unknown_name
+from carom.parameters.fields import name_errors, unknown_name
+from carom.parameters.terms import DEFAULTS, check_names
 from carom.parameters.toml_reader import read_machine_tables
 
 Given = str | int | float | Fraction | Decimal | tuple[Any, Any]
@@ -179,8 +180,24 @@ def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
     problems.tell()
     content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
     table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
+    if table == "machine":
+        return _of_machine_file(path, content[table], texts)
     read = Hypotheses(table, {name: written_exactly(value) for name, value in content[table].items()}, {})
     return read.replace(**texts)
+
+
+def _of_machine_file(
+    path: str | os.PathLike[str], entries: Mapping[str, Given], texts: Mapping[str, str]
+) -> Hypotheses:
+    """Numbers of a machine as they are written; of those that follow from other terms, the nearest doubles."""
+    values = {name: value for name, value in {**DEFAULTS, **entries}.items() if name in MACHINE_FIELDS}
+    terms = [name for name in texts if name not in PARAMETERS]
+    if terms or not entries.keys() <= MACHINE_FIELDS.keys():
+        settings = [f"{name}={text}" for name, text in texts.items()] if terms else []
+        machine = cast("Machine", load(path, settings).machine)
+        values |= {name: getattr(machine, name) for name, source in machine.given.items() if name not in source}
+    read = Hypotheses("machine", {name: written_exactly(value) for name, value in values.items()}, {})
+    return read.replace(**{name: text for name, text in texts.items() if name not in terms})
 
 
 def written_exactly(value: Given) -> str:

@@ -45,6 +45,7 @@ def orbits_document(
     return {
         "parameters": parameters.as_dict(),
         "machine_si": {name: getattr(machine, name) for name in MACHINE_FIELDS} if machine is not None else None,
+        "machine_given": machine.given_texts if machine is not None else None,
         "equilibria": [_equilibrium(entry, parameters) for entry in equilibria],
         "orbits": [_orbit(entry, scales) for entry in orbits],
         **fields_of(orbits, "complete", "longest_period", "argument"),

@@ -9,7 +9,8 @@ from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case, Parameters
+from carom.outcome import shown
+from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
 from carom.studies.endings import ending_words, kick_sizes
 from carom.studies.one_page import EVENTS
@@ -25,11 +26,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ValueRow:
-    """A parameter: symbol, description, and value with its unit."""
+    """A parameter: symbol, description, value with its unit, and by what the user gave it, if by something else."""
 
     symbol: str
     words: str
     value: str
+    given: str = ""
 
 
 State = Literal["stable", "unstable", "not possible", "seen", "transient", "undecided"]
@@ -79,13 +81,36 @@ MOTIONS: dict[Motion, str] = {
 
 def machine_rows(case: Case) -> list[ValueRow]:
     """Return the rows of the machine in SI units; empty if only dimensionless numbers are known."""
-    if case.machine is None:
+    machine = case.machine
+    if machine is None:
         return []
+    found = {name: getattr(machine, name) for name in MACHINE_FIELDS}
+    known = {name: getattr(machine, name) for name in HELPER_FIELDS if name in type(machine).model_fields}
+    if machine.force_current_factor is None and machine.force_limit is None:
+        del known["magnetic_bearings"]
     say = Wording(case.parameters.scales)
+    found |= {name: value for name, value in known.items() if value is not None} | machine.controller_gains
     return [
-        ValueRow(field.symbol, field.words, say.field(name, getattr(case.machine, name), 6))
-        for name, field in MACHINE_FIELDS.items()
+        ValueRow(
+            ENTRIES[name].symbol,
+            ENTRIES[name].words,
+            say.field(name, value, 6),
+            given_words(machine, name),
+        )
+        for name, value in found.items()
     ]
+
+
+def given_words(machine: Machine, name: str) -> str:
+    """Return the entries that gave a number, such as ``unbalance = 15 g mm, mass = 2 kg``."""
+    if name in machine.controller_gains:
+        return "from stiffness and damping"
+    given = machine.given.get(name, {})
+    if not given:
+        return "not given"
+    return ", ".join(
+        f"{shown(value)}" if entry == name else f"{entry} = {shown(value)}" for entry, value in given.items()
+    )
 
 
 def dimensionless_rows(case: Case) -> list[ValueRow]:

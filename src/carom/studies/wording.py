@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from carom.closed_forms.thresholds import Gain
-from carom.parameters import MACHINE_FIELDS, PHYSICAL_PARTNER, Scales
+from carom.parameters import ENTRIES, MACHINE_FIELDS, PHYSICAL_PARTNER, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.numbers import CONVERSIONS
 from carom.studies.ranges import Span
@@ -100,8 +100,8 @@ class Wording:
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
     def field(self, name: str, value: float, digits: int = 4) -> str:
-        """A machine field given in SI units, in the unit in which people usually say it: ``1,759 rpm``."""
-        field = MACHINE_FIELDS[name]
+        """An entry of a machine given in SI units, in the unit in which people usually say it: ``1,759 rpm``."""
+        field = ENTRIES[name]
         return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
 
     def gain(self, gain: Gain, value: float) -> str:

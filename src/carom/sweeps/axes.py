@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 
 from carom.outcome import InputError, Problems, shown
-from carom.parameters import PARAMETERS, Field, field_to_vary, read_quantity
+from carom.parameters import SETTABLE, Field, field_to_set, read_quantity
 
 if TYPE_CHECKING:
     from carom.models import Axis
@@ -28,7 +28,7 @@ class GridAxis:
     Attributes
     ----------
     name : str
-        A field of a machine, a dimensionless parameter, or a parameter of another model.
+        A field of a machine or a term that stands for one, a dimensionless parameter, or a parameter of another model.
     spacing : {"linear", "log", "list"}
     given : tuple of float
         First and last value, or all values of a list; in SI units or dimensionless.
@@ -109,7 +109,7 @@ class GridAxis:
     @property
     def field(self) -> Field:
         """Words, symbol and unit of the parameter."""
-        return self.own or PARAMETERS[self.name]
+        return self.own or SETTABLE[self.name]
 
     def describe(self) -> dict[str, Any]:
         """Return what identifies the axis, as plain data for JSON."""
@@ -117,7 +117,7 @@ class GridAxis:
 
 
 def _field(parameter: str | Axis) -> Field:
-    return field_to_vary(parameter) if isinstance(parameter, str) else parameter.field
+    return field_to_set(parameter) if isinstance(parameter, str) else parameter.field
 
 
 def _own(parameter: str | Axis) -> Field | None:

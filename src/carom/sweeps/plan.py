@@ -13,8 +13,8 @@ import numpy as np
 
 from carom.disturbances import Grid, Plan, Sample
 from carom.outcome import InputError, shown
-from carom.parameters import MACHINE_FIELDS, Case
-from carom.parameters.fields import check_names
+from carom.parameters import DIMENSIONLESS_FIELDS, HELPER_FIELDS, TERM_FIELDS, Case
+from carom.parameters.terms import check_names
 from carom.sweeps.axes import GridAxis
 from carom.sweeps.basins import BasinsTask
 from carom.sweeps.studies import StudyTask
@@ -74,8 +74,9 @@ class SweepPlan:
         Points of a chunk along each axis.
     seed : int
         The random numbers of a point follow from this seed and the number of the point alone.
-    fixed : mapping of str to float
-        Dimensionless numbers that were set.  They keep their values when the axes change mass, clearance or speed.
+    fixed : mapping of str to float or str
+        Dimensionless numbers, and terms such as ``damping_ratio``, that were set.  They keep their values when the axes
+        change what they are related to.
     sources : mapping of str to str
         Texts of the sweep file and of the machine file, which the store keeps.
     """
@@ -85,7 +86,7 @@ class SweepPlan:
     task: Task
     chunk_shape: tuple[int, ...]
     seed: int = 0
-    fixed: Mapping[str, float] = field(default_factory=dict)
+    fixed: Mapping[str, float | str] = field(default_factory=dict)
     sources: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     @property
@@ -166,7 +167,7 @@ class SweepPlan:
             machine = {
                 "parameters": self.case.parameters.as_dict(),
                 "scales": None if scales is None else [scales.mass, scales.clearance, scales.speed],
-            }
+            } | self._terms(self.case)
         else:
             machine = self.case.attributes()
         return machine | {
@@ -176,6 +177,13 @@ class SweepPlan:
             "chunk": list(self.chunk_shape),
             "seed": self.seed,
         }
+
+    def _terms(self, case: Case) -> dict[str, Any]:
+        """Return how the machine was given, if axes or settings are in terms whose effect depends on that."""
+        names = {*self.fixed, *(axis.name for axis in self.axes)}
+        if case.machine is None or names.isdisjoint(TERM_FIELDS.keys() | HELPER_FIELDS.keys()):
+            return {}
+        return {"given": case.machine.given_texts}
 
     @property
     def digest(self) -> str:
@@ -212,7 +220,7 @@ def check_varied(case: Case | Model, name: str) -> None:
         from carom.models.axes import axis
 
         axis(case, name)
-    elif name in MACHINE_FIELDS and case.machine is None:
+    elif name not in DIMENSIONLESS_FIELDS and case.machine is None:
         allowed = "the machine is dimensionless; vary dimensionless parameters"
         raise InputError(f"axes.{name}", shown(name), allowed)
 

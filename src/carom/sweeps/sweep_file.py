@@ -12,8 +12,9 @@ import pydantic
 
 from carom.disturbances import MODELS, Sample
 from carom.outcome import InputError, Problems, shown, together
-from carom.parameters import DIMENSIONLESS_FIELDS, PARAMETERS, Case, Scales, Zones, load, read_size, unknown_name
-from carom.parameters.fields import check_names, nearest_name
+from carom.parameters import DIMENSIONLESS_FIELDS, SETTABLE, TERMS, Case, Scales, Zones, load, read_size, unknown_name
+from carom.parameters.fields import nearest_name
+from carom.parameters.terms import check_names
 from carom.parameters.toml_reader import read_toml
 from carom.sweeps.axes import LONGEST_AXIS, GridAxis
 from carom.sweeps.basins import BasinsTask
@@ -108,7 +109,12 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     case, axes, task, top = cast("tuple[Case, tuple[GridAxis, ...], Task, _Top]", (case, axes, task, top))
     chunk = cut(tuple(axis.count for axis in axes), task, top.chunk)
     names = [setting.partition("=")[0].strip() for setting in listed]
-    fixed = {name: getattr(case.parameters, name) for name in names if name in DIMENSIONLESS_FIELDS}
+    fixed: dict[str, float | str] = {
+        name: getattr(case.parameters, name) for name in names if name in DIMENSIONLESS_FIELDS
+    }
+    if case.machine is not None:
+        texts = {name: setting.partition("=")[2].strip() for name, setting in zip(names, listed, strict=True)}
+        fixed |= {name: texts[name] for name in names if name in TERMS}
     sources = {
         "sweep_file": Path(name).read_text(encoding="utf-8-sig"),
         "machine_file": machine.read_text(encoding="utf-8-sig"),
@@ -146,7 +152,7 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
         raise InputError("axes", None if tables is None else shown(tables), _ALLOWED["axes"])
     problems = Problems()
     problems.attempt(_check_varied, list(tables), settings)
-    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in PARAMETERS]
+    axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in SETTABLE]
     problems.tell()
     return cast("tuple[GridAxis, ...]", tuple(axes))
 
@@ -158,7 +164,7 @@ def _check_varied(axes: list[str], settings: list[str]) -> None:
     problems.errors += [
         InputError(f"axes.{name}", "varied", "is set too; do only one of the two") for name in axes if name in names
     ]
-    unknown = [name for name in names if name not in PARAMETERS]  # reported as an error of the settings
+    unknown = [name for name in names if name not in SETTABLE]  # reported as an error of the settings
     problems.attempt(
         check_names,
         {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},

@@ -1,0 +1,261 @@
+"""Terms that engineers use for the numbers of a machine: unbalance, balance grade, diameters, gains of magnetic bearings.
+
+Each term sets one field of the machine by a formula, and each field is given in one way only, so no two entries can
+disagree.  The formulas are evaluated with exact decimals and rounded once.
+
+A magnetic bearing is described along each of two perpendicular axes by its force on the rotor, linear in the control
+current ``i`` and in the displacement ``x`` from the centre, and by a controller with proportional and derivative gain::
+
+    F = ki i + ks x,     i = -(P x + D x')        so that n bearings act like
+    k = n (ki P - ks),   c = n ki D
+
+``ks >= 0`` is the size of the negative stiffness: the magnets pull the rotor away from the centre (G. Schweitzer,
+E. H. Maslen, eds., Magnetic Bearings, 2009, chapter 4; some authors write ``F = ki i - ks x`` with ``ks < 0``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from decimal import Decimal
+from typing import Any, NamedTuple
+
+from carom.outcome import InputError, Problems, shown
+from carom.parameters.fields import MACHINE_FIELDS, PARAMETERS, PHYSICAL_PARTNER, Field, by_name, unknown_name
+
+Decimals = Mapping[str, Decimal]
+
+
+class Term(NamedTuple):
+    """A formula by which an entry sets a field of the machine."""
+
+    sets: str
+    """The field of the machine."""
+    formula: str
+    """Its value, in words."""
+    needs: tuple[str, ...]
+    """What the formula needs besides the entry: fields of the machine, and entries that set nothing themselves."""
+    value: Callable[[Decimals], Decimal]
+    """The formula, from decimals in the units of the fields."""
+
+
+TERM_FIELDS: Mapping[str, Field] = by_name(
+    Field(
+        "unbalance",
+        "U",
+        "unbalance: mass times eccentricity",
+        "an unbalance",
+        "kg m",
+        1e-30,
+        1e12,
+        '"15 g mm"',
+        True,
+        usual="g mm",
+        usual_size=1e-6,
+    ),
+    # By definition a velocity in mm/s: a plain number is the grade.
+    Field(
+        "balance_grade",
+        "G",
+        "balance quality grade (ISO 21940-11) that the rotor just meets",
+        "a balance grade",
+        "mm/s",
+        1e-12,
+        1e9,
+        '"G 2.5"',
+        zero=True,
+        letter="G",
+    ),
+    Field(
+        "rotor_diameter",
+        "2R",
+        "rotor diameter at the contact",
+        "a length",
+        "m",
+        2e-9,
+        2e6,
+        '"80 mm"',
+        usual="mm",
+        usual_size=1e-3,
+    ),
+    Field(
+        "diametral_clearance",
+        "2c_r",
+        "diameter of the clearance circle",
+        "a length",
+        "m",
+        2e-9,
+        2e3,
+        '"1.4 mm"',
+        usual="mm",
+        usual_size=1e-3,
+    ),
+    Field(
+        "natural_frequency",
+        "ω_n",
+        "undamped natural frequency",
+        "an angular speed",
+        "rad/s",
+        1e-9,
+        1e9,
+        '"22 Hz"',
+        usual="Hz",
+        usual_size=2.0 * math.pi,
+    ),
+    Field("damping_ratio", "ζ", "damping over critical damping", "a number", "", 1e-30, 1e6, "0.1", True),
+    Field(
+        "proportional_gain", "P", "proportional gain, current over displacement", "a gain", "A/m", 0, 1e15, '"2e4 A/m"'
+    ),
+    Field("derivative_gain", "D", "derivative gain, current over velocity", "a gain", "A s/m", 0, 1e15, '"20 A s/m"'),
+)
+"""Entries that stand for a field of the machine."""
+
+HELPER_FIELDS: Mapping[str, Field] = by_name(
+    Field(
+        "rated_speed",
+        "Ω_r",
+        "speed for which a balance grade is meant",
+        "an angular speed",
+        "rad/s",
+        1e-6,
+        1e6,
+        '"30 Hz"',
+        usual="rpm",
+        usual_size=math.pi / 30.0,
+    ),
+    Field("magnetic_bearings", "n", "number of equal bearings", "a whole number", "", 1, 1000, "2", whole=True),
+    Field(
+        "force_current_factor",
+        "k_i",
+        "force over current of a bearing",
+        "a force a current",
+        "N/A",
+        1e-9,
+        1e12,
+        '"150 N/A"',
+    ),
+    Field(
+        "negative_stiffness",
+        "k_s",
+        "size of the negative stiffness of a bearing",
+        "a stiffness without its sign",
+        "N/m",
+        1e-30,
+        1e30,
+        '"4e5 N/m"',
+        zero=True,
+    ),
+    Field("force_limit", "F_max", "largest force of a bearing", "a force", "N", 1e-12, 1e15, '"500 N"'),
+    Field("current_limit", "i_max", "largest control current of a bearing", "a current", "A", 1e-12, 1e9, '"3 A"'),
+)
+"""Entries that set nothing themselves: those that formulas need, and limits."""
+
+BEARING_FIELDS = tuple(name for name in HELPER_FIELDS if name != "rated_speed")
+"""Entries about the magnetic bearings, which a machine keeps."""
+
+TERMS: Mapping[str, Term] = {
+    "unbalance": Term("eccentricity", "unbalance/mass", ("mass",), lambda given: given["unbalance"] / given["mass"]),
+    "balance_grade": Term(
+        "eccentricity",
+        "balance_grade/rated_speed",
+        ("rated_speed",),
+        lambda given: given["balance_grade"] / 1000 / given["rated_speed"],
+    ),
+    "rotor_diameter": Term("rotor_radius", "rotor_diameter/2", (), lambda given: given["rotor_diameter"] / 2),
+    "diametral_clearance": Term(
+        "clearance", "diametral_clearance/2", (), lambda given: given["diametral_clearance"] / 2
+    ),
+    "natural_frequency": Term(
+        "stiffness",
+        "mass natural_frequency^2",
+        ("mass",),
+        lambda given: given["mass"] * given["natural_frequency"] ** 2,
+    ),
+    "damping_ratio": Term(
+        "damping",
+        "2 damping_ratio sqrt(stiffness mass)",
+        ("mass", "stiffness"),
+        lambda given: 2 * given["damping_ratio"] * (given["stiffness"] * given["mass"]).sqrt(),
+    ),
+    "proportional_gain": Term(
+        "stiffness",
+        "magnetic_bearings (force_current_factor proportional_gain - negative_stiffness)",
+        ("magnetic_bearings", "force_current_factor", "negative_stiffness"),
+        lambda given: (
+            given["magnetic_bearings"]
+            * (given["force_current_factor"] * given["proportional_gain"] - given["negative_stiffness"])
+        ),
+    ),
+    "derivative_gain": Term(
+        "damping",
+        "magnetic_bearings force_current_factor derivative_gain",
+        ("magnetic_bearings", "force_current_factor"),
+        lambda given: given["magnetic_bearings"] * given["force_current_factor"] * given["derivative_gain"],
+    ),
+}
+"""The formula of each entry of :data:`TERM_FIELDS`."""
+
+ENTRIES: Mapping[str, Field] = {**MACHINE_FIELDS, **TERM_FIELDS, **HELPER_FIELDS}
+"""All that a ``[machine]`` table may hold."""
+SETTABLE: Mapping[str, Field] = {**PARAMETERS, **TERM_FIELDS, **HELPER_FIELDS}
+"""All that ``--set`` may change."""
+DEFAULTS: Mapping[str, float] = {"unbalance_phase": 0.0, "magnetic_bearings": 1.0}
+"""Entries that may be left out."""
+WAYS: Mapping[str, tuple[str, ...]] = {
+    name: (name, *(other for other, term in TERMS.items() if term.sets == name))
+    for name in MACHINE_FIELDS
+    if name not in DEFAULTS
+}
+"""The fields that must be given, each with the entries that give it."""
+
+
+def set_by(name: str) -> str:
+    """Field of the machine that an entry or a dimensionless number sets; helpers set none but themselves."""
+    return TERMS[name].sets if name in TERMS else PHYSICAL_PARTNER.get(name, name)
+
+
+def field_to_set(name: str) -> Field:
+    """Field of anything that a setting, or an axis of a sweep, may change."""
+    if name not in SETTABLE:
+        raise unknown_name(name, "to vary", SETTABLE, "the parameters")
+    return SETTABLE[name]
+
+
+def conflicts(entries: Mapping[str, Any]) -> list[InputError]:
+    """Errors for entries that set the same field of the machine, such as ``damping`` and ``damping_ratio``."""
+    found, first = [], dict[str, str]()
+    for name in sorted(entries, key=lambda name: name != set_by(name)):  # fields of the machine come first
+        field = set_by(name)
+        if field not in first:
+            first[field] = name
+            continue
+        other = first[field]
+        which = "is set too" if other == field else f"{other} = {shown(entries[other])} sets too"
+        allowed = f"sets {field}, which {which}; give one of the two"
+        found.append(InputError(name, shown(entries[name]), allowed))
+    return found
+
+
+def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
+    """Check that names can be set, and that no two set the same thing.
+
+    Parameters
+    ----------
+    changes : iterable or mapping
+        The names; the values of a mapping appear in the message.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or if, for example, both ``damping`` and ``gamma`` are there.  It reports all errors at
+        once.
+    """
+    values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
+    problems = Problems()
+    problems.errors += [
+        unknown_name(name, value, SETTABLE, "a machine or its parameters")
+        for name, value in values.items()
+        if name not in SETTABLE
+    ]
+    problems.errors += conflicts({name: value for name, value in values.items() if name in SETTABLE})
+    problems.tell()

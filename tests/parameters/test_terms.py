@@ -1,0 +1,379 @@
+"""Terms that stand for numbers of a machine: the same machine in every bit, whatever it is given by."""
+
+import math
+import tomllib
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+from compilation import sized
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from carom.outcome import InputError
+from carom.parameters import (
+    ENTRIES,
+    HELPER_FIELDS,
+    MACHINE_FIELDS,
+    TERM_FIELDS,
+    TERMS,
+    Machine,
+)
+from carom.parameters.quantities import read_decimal
+
+REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+PLAIN = {
+    "mass": "50 kg",
+    "damping": "1400 N s/m",
+    "stiffness": "9.8e5 N/m",
+    "eccentricity": "0.3 mm",
+    "clearance": "0.7 mm",
+    "rotor_radius": "40 mm",
+    "speed": "184.2 rad/s",
+    "unbalance_phase": "0.21 rad",
+    "friction": 0.15,
+    "restitution": 0.95,
+}
+BEARING = {"magnetic_bearings": 2, "force_current_factor": "70 N/A", "negative_stiffness": "210 N/mm"}
+
+
+def machine(without=(), **entries):
+    without = (without,) if isinstance(without, str) else without
+    return Machine(**{name: value for name, value in PLAIN.items() if name not in without}, **entries)
+
+
+def error_of(call):
+    """The input error a call raises; its message is one printable line."""
+    with pytest.raises(InputError) as caught:
+        call()
+    assert str(caught.value).isprintable()
+    return caught.value
+
+
+def near(number):
+    """The double nearest to a number of many digits."""
+    return float(number)
+
+
+# ------------------------------------------------------------------------------------------ one machine, given in many ways
+
+
+@pytest.mark.parametrize(
+    ("without", "entries"),
+    [
+        ("eccentricity", {"unbalance": "15000 g mm"}),
+        ("eccentricity", {"unbalance": "15 000 g·mm"}),
+        ("eccentricity", {"unbalance": "15000 g-mm"}),
+        ("eccentricity", {"unbalance": "15 kg mm"}),
+        ("eccentricity", {"unbalance": 0.015}),
+        ("eccentricity", {"balance_grade": "G 55.26"}),
+        ("eccentricity", {"balance_grade": "G55.26"}),
+        ("eccentricity", {"balance_grade": "55.26 mm/s"}),
+        ("eccentricity", {"balance_grade": 55.26}),
+        ("eccentricity", {"balance_grade": "G 3", "rated_speed": "10 rad/s"}),
+        ("rotor_radius", {"rotor_diameter": "80 mm"}),
+        ("rotor_radius", {"rotor_diameter": 0.08}),
+        ("clearance", {"diametral_clearance": "1.4 mm"}),
+        ("clearance", {"diametral_clearance": "1 400 µm"}),
+        ("stiffness", {"natural_frequency": "140 rad/s"}),
+        ("damping", {"damping_ratio": 0.1}),
+        ("damping", {"damping_ratio": "10 %"}),
+        (("stiffness", "damping"), {"natural_frequency": "140 rad/s", "damping_ratio": "10 %"}),
+        ("stiffness", {**BEARING, "proportional_gain": "10 A/mm"}),
+        ("damping", {**BEARING, "derivative_gain": "10 A s/m"}),
+        (("stiffness", "damping"), {**BEARING, "proportional_gain": "1e4 A/m", "derivative_gain": "10 mA s/mm"}),
+        (
+            ("stiffness", "damping"),
+            {
+                "proportional_gain": 1e4,
+                "damping_ratio": 0.1,
+                "force_current_factor": "140 N/A",
+                "negative_stiffness": "4.2e5 N/m",
+            },
+        ),
+    ],
+)
+def test_every_way_to_give_a_number_gives_the_same_machine_to_the_last_bit(without, entries):
+    expected, found = Machine(**PLAIN), machine(without, **entries)
+
+    assert all(getattr(found, name) == getattr(expected, name) for name in MACHINE_FIELDS)
+    assert found.parameters == expected.parameters
+
+
+def test_all_terms_at_once():
+    found = Machine(
+        mass="50 kg",
+        unbalance="15000 g mm",
+        diametral_clearance="1.4 mm",
+        rotor_diameter="8 cm",
+        **{**BEARING, "proportional_gain": "1e4 A/m", "derivative_gain": "10 A s/m", "speed": "184.2 rad/s"},
+        unbalance_phase=0.21,
+        friction=0.15,
+        restitution=0.95,
+    )
+
+    assert found.parameters == Machine(**PLAIN).parameters
+
+
+def test_every_term_is_tried_above():
+    marks = test_every_way_to_give_a_number_gives_the_same_machine_to_the_last_bit.pytestmark
+    tried = {name for mark in marks for _, entries in mark.args[1] for name in entries}
+
+    assert tried == TERM_FIELDS.keys() | {"rated_speed", *BEARING}
+    assert TERM_FIELDS.keys() == TERMS.keys()
+
+
+@st.composite
+def decimals(draw, lowest, highest):
+    """Texts of decimal numbers, log-uniform in size, with up to 12 digits."""
+    number = 10 ** draw(st.floats(math.log10(lowest), math.log10(highest)))
+    return f"{number:.{draw(st.integers(0, 11))}e}"
+
+
+@settings(max_examples=sized(60, 60, 3000))
+@given(
+    mass=decimals(1e-2, 1e4),
+    unbalance=decimals(1e-3, 1e4),
+    diameter=decimals(1, 1e3),
+    clearance=decimals(0.1, 2),
+    frequency=decimals(5, 500),
+    ratio=decimals(1e-3, 1),
+    speed=decimals(500, 50000),
+)
+def test_formulas_are_exact_and_rounded_once(mass, unbalance, diameter, clearance, frequency, ratio, speed):
+    entries = {
+        "mass": f"{mass} kg",
+        "unbalance": f"{unbalance} g mm",
+        "rotor_diameter": f"{diameter} mm",
+        "diametral_clearance": f"{clearance} mm",
+        "natural_frequency": f"{frequency} Hz",
+        "damping_ratio": ratio,
+        "speed": f"{speed} rpm",
+        "friction": 0.1,
+        "restitution": 0.9,
+    }
+    try:
+        found = Machine(**entries)
+    except InputError as problem:
+        assume("rho" not in str(problem) and "omega" not in str(problem))
+        raise
+
+    own, radii = Fraction(repr(found.mass)), {"rotor_radius": diameter, "clearance": clearance}
+    assert found.mass == float(mass)
+    assert found.eccentricity == float(Fraction(unbalance) / 10**6 / own)
+    assert all(getattr(found, name) == float(Fraction(text) / 2000) for name, text in radii.items())
+    with mpmath.workprec(300):
+        tau = 2 * mpmath.mp.pi
+        assert found.speed == near(mpmath.mpf(speed) * tau / 60)
+        assert found.stiffness == near(mpmath.mpf(mass) * (tau * mpmath.mpf(frequency)) ** 2)
+        k, m = mpmath.mpf(repr(found.stiffness)), mpmath.mpf(repr(found.mass))
+        assert found.damping == near(2 * mpmath.mpf(ratio) * mpmath.sqrt(k * m))
+    assert found.unbalance_phase == 0.0
+
+
+@settings(max_examples=sized(60, 60, 3000))
+@given(
+    grade=decimals(0.1, 4000),
+    rated=decimals(100, 1e5),
+    factor=decimals(1, 1e3),
+    negative=decimals(1e3, 1e6),
+    surplus=decimals(0.05, 20),
+    derivative=decimals(1e-2, 1e3),
+    count=st.integers(1, 4),
+)
+def test_gains_and_grades_are_exact_and_rounded_once(grade, rated, factor, negative, surplus, derivative, count):
+    gain = Decimal(f"{(1 + float(surplus)) * float(negative) / float(factor):.6e}")
+    kept = {name: value for name, value in PLAIN.items() if name not in ("eccentricity", "stiffness", "damping")}
+    entries = {"balance_grade": f"G {grade}", "rated_speed": f"{rated} rpm", "magnetic_bearings": count}
+    entries |= {"force_current_factor": f"{factor} N/A", "negative_stiffness": f"{negative} N/m"}
+    entries |= {"proportional_gain": f"{gain} A/m", "derivative_gain": f"{derivative} A s/m"}
+    found = Machine(**kept, **entries)
+
+    ki, ks = Fraction(repr(float(factor))), Fraction(repr(float(negative)))
+    assert found.stiffness == float(count * (ki * Fraction(gain) - ks))
+    assert found.damping == float(count * ki * Fraction(derivative))
+    with mpmath.workprec(300):
+        speed = mpmath.mpf(repr(near(mpmath.mpf(rated) * 2 * mpmath.mp.pi / 60)))
+        assert found.eccentricity == near(mpmath.mpf(grade) / 1000 / speed)
+    gains = found.controller_gains
+    assert gains["proportional_gain"] == pytest.approx(float(gain), rel=1e-14)
+    assert gains["derivative_gain"] == pytest.approx(float(derivative), rel=1e-14)
+
+
+# ------------------------------------------------------------------------------------------ factors of 2 and 2 pi
+
+
+def test_a_hertz_is_a_turn_a_second_and_a_turn_is_two_pi():
+    turns = [
+        machine("speed", speed=text).speed for text in ("50 Hz", "0.05 kHz", "3000 rpm", "3 000 r/min", "50 rev/s")
+    ]
+    by_radians = machine("speed", speed="50 rad/s").speed
+
+    assert set(turns) == {100 * math.pi}
+    assert by_radians == 50.0
+    frequency = machine("stiffness", natural_frequency="50 Hz")
+    assert math.sqrt(frequency.stiffness / 50) / (2 * math.pi) == pytest.approx(50, rel=1e-14)
+    assert machine("stiffness", natural_frequency="50 rad/s").stiffness == 50 * 50**2
+    assert machine("stiffness", natural_frequency="3000 rpm") == frequency
+
+
+@pytest.mark.parametrize("name", ["speed", "natural_frequency", "rated_speed"])
+@pytest.mark.parametrize("unit", ["1/s", "s^-1", "1/min", "min^-1", "1/ms"])
+def test_a_number_a_second_that_may_be_turns_or_radians_is_refused(name, unit):
+    error = error_of(lambda: read_decimal(ENTRIES[name], f"50 {unit}"))
+
+    assert f"{unit!r} leaves open whether turns or radians are counted" in error.allowed
+
+
+def test_the_whirl_of_a_machine_given_by_frequency_and_ratio_has_that_frequency_and_ratio():
+    found = machine(("stiffness", "damping"), natural_frequency="22 Hz", damping_ratio="5 %")
+
+    poles = np.roots([found.mass, found.damping, found.stiffness])
+    assert float(abs(poles[0])) / (2 * math.pi) == pytest.approx(22, rel=1e-14)
+    assert float(-poles[0].real / abs(poles[0])) == pytest.approx(0.05, rel=1e-14)
+
+
+def test_the_gains_of_a_magnetic_bearing_move_the_poles_of_its_closed_loop():
+    count, ki, ks, gain, derivative, mass = 2, 70.0, 2.1e5, 1.1e4, 8.0, 50.0
+    found = machine(("stiffness", "damping"), **{**BEARING, "proportional_gain": gain, "derivative_gain": derivative})
+
+    # m z'' = n (ki i + ks z),  i = -(P z + D z'), written as it stands
+    loop = mpmath.matrix([[0, 1], [count * (-ki * gain + ks) / mass, -count * ki * derivative / mass]])
+    expected = sorted(mpmath.eig(loop)[0], key=lambda pole: pole.imag)
+    poles = sorted(np.roots([found.mass, found.damping, found.stiffness]), key=lambda pole: pole.imag)
+    assert all(abs(one - other) < 1e-10 * abs(one) for one, other in zip(poles, expected, strict=True))
+
+
+def test_a_balance_grade_is_the_velocity_of_the_mass_centre_at_the_rated_speed():
+    found = machine(("eccentricity", "speed"), balance_grade="G 2.5", speed="3000 rpm")
+
+    assert found.eccentricity == pytest.approx(7.957747154594768e-6, rel=1e-14)  # 2500/(100 pi) micrometres
+    assert found.eccentricity * found.speed == pytest.approx(2.5e-3, rel=1e-14)
+    slow = machine(("eccentricity", "speed"), balance_grade="G 2.5", speed="3000 rpm", rated_speed="6000 rpm")
+    assert 2 * slow.eccentricity == pytest.approx(found.eccentricity, rel=1e-14)
+
+
+# ------------------------------------------------------------------------------------------ what may be combined
+
+
+@pytest.mark.parametrize(
+    ("entries", "start"),
+    [
+        ({"unbalance": "3 g mm"}, "unbalance = 3 g mm: sets eccentricity, which is set too; give one of the two"),
+        ({"balance_grade": "G 1"}, "balance_grade = G 1: sets eccentricity, which is set too"),
+        ({"rotor_diameter": "8 cm"}, "rotor_diameter = 8 cm: sets rotor_radius, which is set too"),
+        ({"diametral_clearance": "1 mm"}, "diametral_clearance = 1 mm: sets clearance, which is set too"),
+        ({"natural_frequency": "3 Hz"}, "natural_frequency = 3 Hz: sets stiffness, which is set too"),
+        ({"damping_ratio": 0.1}, "damping_ratio = 0.1: sets damping, which is set too"),
+        ({**BEARING, "proportional_gain": 1e4}, "proportional_gain = 10000.0: sets stiffness, which is set too"),
+        ({**BEARING, "derivative_gain": 10}, "derivative_gain = 10: sets damping, which is set too"),
+        ({"rated_speed": "3 Hz"}, "rated_speed = 3 Hz: has no effect without balance_grade"),
+        ({"magnetic_bearings": 2}, "magnetic_bearings = 2: has no effect without force_current_factor or force_limit"),
+        ({"negative_stiffness": 2}, "negative_stiffness = 2: has no effect without force_current_factor"),
+        (
+            {**BEARING, "current_limit": "3 A", "negative_stiffness": None},
+            "current_limit = 3 A: needs negative_stiffness too",
+        ),
+    ],
+)
+def test_entries_that_could_disagree_or_change_nothing_are_named(entries, start):
+    assert str(error_of(lambda: machine((), **entries))).startswith(start)
+
+
+def test_two_terms_for_one_field_are_both_named():
+    error = error_of(lambda: machine("eccentricity", unbalance="3 g mm", balance_grade="G 1"))
+
+    assert (
+        str(error) == "balance_grade = G 1: sets eccentricity, which unbalance = 3 g mm sets too; give one of the two"
+    )
+
+
+@pytest.mark.parametrize(
+    ("without", "entries", "start"),
+    [
+        (
+            "stiffness",
+            {"proportional_gain": 1e4},
+            "proportional_gain = 10000.0: needs force_current_factor too, which must",
+        ),
+        ("damping", {"derivative_gain": 10}, "derivative_gain = 10: needs force_current_factor too, which must be"),
+        (
+            "stiffness",
+            {"proportional_gain": 1e4, "force_current_factor": 70},
+            "proportional_gain = 10000.0: needs negative_stiffness too, which must be a stiffness without its sign",
+        ),
+        (
+            "stiffness",
+            {**BEARING, "proportional_gain": "2000 A/m"},
+            "proportional_gain = 2000 A/m: gives stiffness = magnetic_bearings (force_current_factor proportional_gain",
+        ),
+        (
+            "stiffness",
+            {"negative_stiffness": "-2e5 N/m", "proportional_gain": 1e4, "force_current_factor": 70},
+            "negative_stiffness = -2e5 N/m: must be a stiffness without its sign in N/m, >= 0",
+        ),
+        (
+            "eccentricity",
+            {"unbalance": "1e9 kg m"},
+            "unbalance = 1e9 kg m: gives eccentricity = unbalance/mass = 2e+07 m",
+        ),
+        ("eccentricity", {"unbalance": "50 kg m"}, "unbalance = 50 kg m: gives eccentricity = 1 m, which gives rho"),
+        ("eccentricity", {"balance_grade": "g 2.5"}, "balance_grade = g 2.5: must be a balance grade in mm/s"),
+        ("eccentricity", {"balance_grade": "2.5 G"}, "balance_grade = 2.5 G: must be a balance grade in mm/s"),
+        ("eccentricity", {"balance_grade": "G 2.5 mm/s"}, "balance_grade = G 2.5 mm/s: must be a balance grade"),
+        ("eccentricity", {"unbalance": "15 g/mm"}, "unbalance = 15 g/mm: must be an unbalance in kg m"),
+        ("eccentricity", {"unbalance": "15 N m"}, "unbalance = 15 N m: must be an unbalance in kg m"),
+        ("eccentricity", {}, "eccentricity = nothing given: missing in [machine]; must be a length"),
+        (
+            "stiffness",
+            {"natural_freqency": "3 Hz"},
+            "natural_freqency = 3 Hz: unknown name in [machine]; did you mean natural_",
+        ),
+    ],
+)
+def test_terms_that_make_no_machine_are_named_as_they_were_written(without, entries, start):
+    assert str(error_of(lambda: machine(without, **entries))).startswith(start)
+
+
+def test_a_gain_too_small_says_which_is_enough():
+    error = error_of(lambda: machine("stiffness", **BEARING, proportional_gain="3000 A/m"))
+
+    assert error.allowed.endswith("the gain must be above negative_stiffness/force_current_factor = 3000 A/m")
+    assert machine("stiffness", **BEARING, proportional_gain="3001 A/m").stiffness == 140.0
+
+
+def test_a_missing_field_names_its_terms():
+    error = error_of(lambda: machine("eccentricity"))
+
+    assert error.allowed.endswith("; or give unbalance; or give balance_grade")
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        *[("ki", "force_current_factor"), ("ks", "negative_stiffness"), ("Kp", "proportional_gain")],
+        *[("imbalance", "unbalance"), ("unbalanse", "unbalance"), ("clearance_diameter", "diametral_clearance")],
+        *[
+            ("diameter", "rotor_diameter"),
+            ("zeta", "damping_ratio"),
+            ("grade", "balance_grade"),
+            ("G", "balance_grade"),
+        ],
+        *[("max_force", "force_limit"), ("rated speed", "rated_speed"), ("P", "proportional_gain")],
+    ],
+)
+def test_other_names_suggest_the_right_one(written, meant):
+    with pytest.raises(InputError) as caught:
+        machine("eccentricity", **{written: 3})
+
+    assert f"did you mean {meant}?" in caught.value.errors[0].allowed
+
+
+def test_every_entry_of_a_machine_is_described():
+    assert ENTRIES.keys() == MACHINE_FIELDS.keys() | TERM_FIELDS.keys() | HELPER_FIELDS.keys()
+    for name, field in ENTRIES.items():
+        example = tomllib.loads(f"x = {field.example}")["x"]
+        assert field.contains(float(read_decimal(field, example))), name
