@@ -8,12 +8,14 @@
 ``single_impact``   all orbits with one impact a period
 ``search``          orbits with any number of impacts, from simulated starts
 ``recognising``     the orbit that a simulated motion repeats
+``exponents``       Lyapunov exponents of motions and of orbits
 ``names``           names of orbits
 ``maps``            impact map and stroboscopic map, with their derivatives
 ``stability``       multipliers of an orbit
 ==================  =======================================================
 """
 
+from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, stroboscopic_map
 from carom.orbits.orbit import Margins, Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_motion
@@ -26,6 +28,7 @@ __all__ = [
     "FoundOrbits",
     "ImpactMap",
     "Kind",
+    "LyapunovExponents",
     "Margins",
     "Multipliers",
     "Orbit",
@@ -36,7 +39,9 @@ __all__ = [
     "Word",
     "find_orbits",
     "impact_map",
+    "lyapunov_exponents",
     "multipliers",
+    "orbit_exponents",
     "orbit_near",
     "orbit_of_motion",
     "orbits_within_reach",

@@ -1,36 +1,47 @@
-"""Lyapunov exponents of a motion through impacts, chatter, sliding and rolling."""
+"""Lyapunov exponents of a motion through impacts, chatter, sliding and rolling, and of a periodic orbit."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from carom.core.growth import carry_orthogonal
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State, check_whole
 from carom.motions.trajectories import Trajectory, simulate
+from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import segments_of
-from carom.orbits.shooting import Links, Start, links_of
+from carom.orbits.shooting import Links, links_of
 from carom.orbits.word import Kind, Word
-from carom.outcome import CaromError, InputError, Outcome, shown
+from carom.outcome import CaromError, InputError, Outcome
 from carom.results import Result
 
 REPEATED = 1e-8
 """Largest distance, relative to one plus the size of the state, between the simulated and the repeated end of a segment."""
-LEFT = 0.1
-"""Largest part of the time asked for that may pass without an impact at the end."""
-SAME_TIME = 1e-6
-"""Difference below which two times are those of the same impact, in ``1/Ω``."""
+CHUNK, FURTHER = 4096, 256
+"""Events that are simulated at a time, and by how much more if there are fewer than two impacts among them."""
+LONGEST = 1e6
+"""Time in ``1/Ω`` within which a motion has to hit the wall again."""
+CONFIDENT = 3.0
+"""Standard errors by which an exponent has to differ from zero to have a sign."""
+LOST = {Kind.LAND: 1, Kind.SLIDE_FORWARD: 2, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
+"""Directions of the section at an impact that a segment takes away.
+
+A chatter leads to states in lasting contact, which have two dimensions fewer; the section at the end of sliding has two
+fewer than that at an impact, and at the end of rolling three.
+"""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LyapunovExponents(Result):
-    """Mean rates at which small disturbances of a motion grow over a finite time.
+    """Mean rates at which small disturbances of a motion grow.
 
-    A positive value does not prove chaos: the motion may be a long transient, and the errors hold for batches that are
-    independent of each other and as many as they need to be typical.
+    A positive value does not prove chaos: the motion may be a long transient (:class:`carom.attractors.Survival` tells
+    how long it lasts), and the errors hold for batches that are independent of each other.
 
     Attributes
     ----------
@@ -50,11 +61,9 @@ class LyapunovExponents(Result):
         Chatters that ended in lasting contact in this time.
     time : float
         Time measured, in ``1/Ω``: from an impact to an impact.
-    transient : float
-        Time left out before, in ``1/Ω``.
     """
 
-    shown: ClassVar[tuple[str, ...]] = ("values", "errors", "impacts", "landings", "time", "transient")
+    shown: ClassVar[tuple[str, ...]] = ("values", "errors", "lost", "impacts", "landings", "time")
 
     values: np.ndarray
     errors: np.ndarray
@@ -63,143 +72,225 @@ class LyapunovExponents(Result):
     impacts: int
     landings: int
     time: float
-    transient: float
+
+    @property
+    def across(self) -> tuple[float, float]:
+        """Largest exponent of disturbances across the motion, in ``Ω``, and its standard error."""
+        place = int(np.argmax(self.values == self.along))
+        largest = 1 if place == 0 else 0
+        return float(self.values[largest]), float(self.errors[largest])
+
+    @property
+    def per_impact(self) -> np.ndarray:
+        """The exponents per impact instead of per time."""
+        rates: np.ndarray = self.values * (self.time / self.impacts)
+        return rates
+
+    @property
+    def lost(self) -> int:
+        """Number of directions that are taken away: how many exponents are minus infinity."""
+        return int(np.isneginf(self.values).sum())
+
+    @property
+    def positive(self) -> bool:
+        """Whether the largest exponent across the motion is above zero by more than three standard errors."""
+        value, error = self.across
+        return value > CONFIDENT * error
+
+    @property
+    def negative(self) -> bool:
+        """Whether the largest exponent across the motion is below zero by more than three standard errors."""
+        value, error = self.across
+        return value < -CONFIDENT * error
 
 
 def lyapunov_exponents(
     machine: Subject,
     start: State | Kick,
-    duration: float = 1e4,
+    impacts: int = 10_000,
     *,
-    transient: float = 1e3,
+    transient: int = 1000,
     batches: int = 20,
-    max_events: int = 1_000_000,
 ) -> LyapunovExponents:
     """Lyapunov exponents of the motion from a start, by QR decomposition of the exact derivatives of its segments.
 
     The method is that of Benettin, Galgani, Giorgilli and Strelcyn (1980), with the change of the time of each event in the
-    derivatives (Müller 1995).  During the transient the directions turn towards those that grow fastest.
+    derivatives (Müller 1995).  During the transient the directions turn towards those that grow fastest.  For a periodic
+    orbit :func:`orbit_exponents` is exact.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
-        With one contact plane.
     start : State or Kick
-    duration : float
-        Time to measure, in ``1/Ω``.
-    transient : float
-        Time to leave out before, in ``1/Ω``.
+        Co-rotating frame.
+    impacts : int
+        Number of impacts to measure, those of chatter included.
+    transient : int
+        Number of impacts to leave out before.
     batches : int
         Number of stretches of the motion from which the errors are computed.
-    max_events : int
-        Impacts and steps of lasting contact after which to give up.
 
     Raises
     ------
     InputError
-        The rotor has several contact planes, or a number is out of range.
+        A number is out of range.
     CaromError
-        The motion stops hitting the wall, has too few segments, or its segments cannot be repeated to eight digits.
+        The motion stops hitting the wall, has too few segments, its segments cannot be repeated to eight digits, or two
+        planes touch at a time while one of the contacts lasts.
     """
-    rotor = model_of(machine)
-    if len(rotor.system.arrays.rows) > 1:
-        raise InputError("machine", shown(machine), "a rotor with one contact plane")
-    for name, time in (("duration", duration), ("transient", transient)):
-        if not 0.0 < time < math.inf:
-            raise InputError(name, time, "a finite time above 0, in 1/Omega")
+    check_whole("impacts", impacts, 1)
+    check_whole("transient", transient, 1)
     check_whole("batches", batches, 2)
-    motion = simulate(rotor, start, transient + duration, max_events=max_events)
-    word, begin, first = _segments(motion, duration, transient, batches)
-    links = links_of(rotor, word, begin)
-    _check_repeated(links)
-    logarithms, along = _growth(links, first)
-    section, durations = logarithms.shape[1], begin.durations[first:]
-    kept, time = _directions_kept(word, first, section), float(durations.sum())
-    rate = float(along[kept]) / time
-    values, errors = np.full(section + 1, -np.inf), np.zeros(section + 1)
-    values[:kept], errors[:kept] = _means(logarithms[:, :kept], durations, batches)
-    values[-1], errors[-1] = rate, abs(rate)
-    order = np.argsort(-values, kind="stable")
-    ends = motion.segment_starts[1:]
-    last = float(ends[motion.is_impact][-1])
-    # Between the first and the last impact of the time measured, to rounding.
-    inside = (ends > last - time - SAME_TIME) & (ends < last - SAME_TIME)
-    impacts, landings = int((motion.is_impact & inside).sum()), int((motion.is_landing & inside).sum())
-    volume = _growth_of_volume(rotor, impacts, time) if kept == section else -math.inf
-    return LyapunovExponents(values[order], errors[order], rate, volume, impacts, landings, time, last - time)
+    rotor = model_of(machine)
+    state = start.state(rotor) if isinstance(start, Kick) else start
+    directions = np.eye(2 * len(rotor.system.exponents))[:, 1:]
+    for stretch in _stretches(rotor, state, transient):
+        directions, _ = _carried(stretch.passages, directions)
+        state = stretch.end
+    before, grown, durations, words = _apart(stretch.rate, directions), [], [], []
+    struck, landings = np.zeros(len(rotor.system.arrays.rows)), 0
+    for stretch in _stretches(rotor, state, impacts):
+        directions, factors = _carried(stretch.passages, directions)
+        grown.append(factors)
+        durations.append(stretch.durations)
+        words.append(stretch.word)
+        struck += stretch.struck
+        landings += stretch.landings
+    if sum(map(len, words)) < batches:
+        raise CaromError(f"only {sum(map(len, words))} segments were measured: raise impacts or lower batches")
+    return _result(
+        rotor, np.concatenate(grown), np.concatenate(durations), _apart(stretch.rate, directions) - before,
+        words, struck, landings, batches,
+    )  # fmt: skip
 
 
-def _segments(motion: Trajectory, duration: float, transient: float, batches: int) -> tuple[Word, Start, int]:
-    """Segments of a motion from its first impact to its last, and the number of the first one after the transient."""
-    impacts = np.flatnonzero(motion.is_impact)
-    times = motion.segment_starts[1:][impacts]
-    if motion.outcome is not Outcome.TIME_REACHED:
-        raise CaromError(
-            f"the motion was followed only to {motion.time:.6g} ({motion.outcome.label}): raise max_events"
+def orbit_exponents(orbit: Orbit) -> LyapunovExponents:
+    """Lyapunov exponents of a periodic orbit from its multipliers: ``log|m|/T``, and 0 along the motion."""
+    rotor, kept = orbit.rotor, _directions_kept(orbit.rotor, [orbit.word])
+    values = np.full(len(orbit.multipliers.values) + 1, -np.inf)
+    values[:kept] = np.log(np.abs(orbit.multipliers.values[:kept])) / orbit.period
+    values[-1] = 0.0
+    landings = int((orbit.word.kinds == Kind.LAND).sum())
+    volume = -math.inf
+    if kept == len(values) - 1:
+        struck = np.bincount(orbit.word.planes, minlength=len(rotor.system.arrays.rows))
+        volume = _growth_of_volume(rotor, struck, orbit.period)
+    errors = np.zeros(len(values))
+    return LyapunovExponents(-np.sort(-values), errors, 0.0, volume, orbit.impacts, landings, orbit.period)
+
+
+class _Stretch(NamedTuple):
+    """Segments of a motion from an impact to an impact: derivatives of their ends by their nodes, and ``ċ`` at the end."""
+
+    word: Word
+    durations: np.ndarray
+    passages: np.ndarray
+    rate: np.ndarray
+    struck: np.ndarray
+    landings: int
+    end: State
+
+
+def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
+    """Follow a motion for a number of impacts; each stretch begins with the impact with which the last one ended."""
+    further = 1
+    while impacts > 0:
+        motion = simulate(rotor, state, LONGEST, max_events=further * min(CHUNK, 2 * impacts))
+        hits = np.flatnonzero(motion.is_impact)
+        if len(hits) < 2:
+            further *= 4
+            if motion.outcome is not Outcome.EVENT_LIMIT or further > FURTHER:
+                raise CaromError(
+                    f"the motion stops hitting the wall ({motion.outcome.label}): it has no such exponents"
+                )
+            continue
+        further = 1
+        count = min(impacts, len(hits) - 1)
+        first, last = int(hits[0]), int(hits[count])
+        word, links = _followed(rotor, motion, first, last)
+        struck = np.bincount(motion.event_planes[hits[:count]], minlength=len(rotor.system.arrays.rows))
+        landings, state = int(motion.is_landing[first:last].sum()), _state_at(motion, last)
+        yield _Stretch(
+            word, links.start.durations[:-1], links.passages[:-1], links.slopes[-2, :-1, -1], struck, landings, state
         )
-    if not len(times) or motion.time - times[-1] > LEFT * duration:
-        raise CaromError("the motion stops hitting the wall: it has no exponents of impacts")
-    word, begin = segments_of(motion, int(impacts[0]), int(impacts[-1]))
-    begins = times[0] + np.concatenate([[0.0], np.cumsum(begin.durations)[:-1]])
-    strikes = (word.kinds <= Kind.IMPACT_STOPPED) | (word.kinds == Kind.LAND)
-    chosen = np.flatnonzero(strikes & (begins >= transient) & (np.arange(len(word)) > 0))
-    if not len(chosen) or len(word) - chosen[0] < batches:
-        raise CaromError(f"fewer than {batches} segments follow the transient: raise duration or lower batches")
-    return word, begin, int(chosen[0])
+        impacts -= count
 
 
-def _check_repeated(links: Links) -> None:
-    """Refuse segments that do not end where the simulated ones did."""
-    nodes = links.start.nodes
-    apart = np.abs(links.arrivals[:-1] - nodes[1:]).max(initial=0.0) / (1.0 + np.abs(nodes).max())
+def _followed(rotor: Model, motion: Trajectory, first: int, last: int) -> tuple[Word, Links]:
+    """Segments from one impact up to another, and that impact: it says at which plane the segment before it ends."""
+    try:
+        word, begin = segments_of(motion, first, last + 1, brief=True)
+    except InputError:
+        raise CaromError(
+            "two planes touch at a time: exponents need lasting contact at one plane while no other touches"
+        ) from None
+    links = links_of(rotor, word, begin)
+    apart = np.abs(links.arrivals[:-1] - begin.nodes[1:]).max() / (1.0 + np.abs(begin.nodes).max())
     if not (apart <= REPEATED and np.isfinite(links.values).all()):
         raise CaromError(f"the segments of the motion cannot be repeated: their ends are {apart:.3g} apart")
+    return Word(word[:-1]), links
 
 
-def _growth(links: Links, first: int) -> tuple[np.ndarray, np.ndarray]:
-    """Logarithm of the growth of each direction in each segment from the first, and of the distance along the motion.
+def _state_at(motion: Trajectory, event: int) -> State:
+    """State just before an impact."""
+    return State.of(*motion.rotor.system.state(motion.arrivals[event]))
 
-    The directions lie in the section at the node: disturbances that reach the event at the same time.  What a disturbance
-    has along the motion is measured by the part of ``ċ`` that is orthogonal to them.
 
-    Returns
-    -------
-    logarithms : ndarray, shape (m, 2N − 1)
-    along : ndarray, shape (2N,)
-        Over the whole time, for each number of directions kept.
+def _carried(passages: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Directions at the end of a stretch, and the factor by which each grew in each segment, shape (m, 2N − 1).
+
+    The directions lie in the section at the node: disturbances that reach the event at the same time.
     """
-    passages, rates = links.passages, links.slopes[:, :-1, -1]
-    size = passages.shape[1]
-    directions = np.eye(size)[:, 1:]
-    factors = np.empty((len(passages) - first, size - 1))
-    along = np.zeros(size)
-    for i, passage in enumerate(passages):
-        if i == first:
-            along -= _apart(rates[i - 1], directions)
-        directions, triangle = np.linalg.qr(passage @ directions)
-        if i >= first:
-            factors[i - first] = np.abs(np.diagonal(triangle))
-    along += _apart(rates[-1], directions)
-    with np.errstate(divide="ignore"):
-        return np.log(factors), along
+    factors, carried = np.empty((len(passages), directions.shape[1])), directions.copy()
+    carry_orthogonal(passages, carried, factors)
+    return carried, factors
 
 
 def _apart(rate: np.ndarray, directions: np.ndarray) -> np.ndarray:
-    """Logarithm of the part of a rate that is orthogonal to none, one, … and all of the directions, shape (2N,)."""
-    shares = np.concatenate([[0.0], np.cumsum((directions.T @ rate) ** 2)])
-    apart = [np.linalg.norm(rate - directions[:, :k] @ (directions[:, :k].T @ rate)) for k in range(len(shares))]
+    """Logarithm of the part of ``ċ`` that is orthogonal to none, one, … and all of the directions, shape (2N,).
+
+    It measures what a disturbance has along the motion.
+    """
+    apart = [np.linalg.norm(rate - directions[:, :k] @ (directions[:, :k].T @ rate)) for k in range(len(rate))]
     logarithms: np.ndarray = np.log(apart)
     return logarithms
 
 
-def _directions_kept(word: Word, first: int, section: int) -> int:
-    """Number of directions of the section that no segment takes away.
+def _result(
+    rotor: Model,
+    factors: np.ndarray,
+    durations: np.ndarray,
+    along: np.ndarray,
+    words: list[Word],
+    struck: np.ndarray,
+    landings: int,
+    batches: int,
+) -> LyapunovExponents:
+    """Exponents from the growth of each direction in each segment, and of the distance along the motion."""
+    section, time = factors.shape[1], float(durations.sum())
+    kept = _directions_kept(rotor, words)
+    rate = float(along[kept]) / time
+    values, errors = np.full(section + 1, -np.inf), np.zeros(section + 1)
+    values[:kept], errors[:kept] = _means(np.log(factors[:, :kept]), durations, batches)
+    values[-1], errors[-1] = rate, abs(rate)
+    order = np.argsort(-values, kind="stable")
+    volume = _growth_of_volume(rotor, struck, time) if kept == section else -math.inf
+    return LyapunovExponents(values[order], errors[order], rate, volume, int(struck.sum()), landings, time)
 
-    Each event lies on a section of the state space, or of the states in lasting contact (two dimensions fewer; in rolling
-    three).  A stopped slip takes away one direction, a landing one of the section besides the event itself.
+
+def _directions_kept(rotor: Model, words: list[Word]) -> int:
+    """Number of directions of the section at an impact that no segment takes away.
+
+    A stopped slip takes away one, and so does the normal velocity that is lost without restitution.
     """
-    lost = {Kind.IMPACT_STOPPED: 1, Kind.LAND: 1, Kind.SLIDE_FORWARD: 2, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
-    return section - max(lost.get(Kind(kind), 0) for kind in np.unique(word.kinds[first:]))
+    restitution, lost = rotor.system.arrays.restitution, 0
+    for word in words:
+        for kind, plane in np.unique([word.kinds, word.planes], axis=1).T.tolist():
+            taken = LOST.get(Kind(kind), 0)
+            if Kind(kind).is_impact:
+                taken = int(kind == Kind.IMPACT_STOPPED) + int(restitution[plane] == 0.0)
+            lost = max(lost, taken)
+    return 2 * len(rotor.system.exponents) - 1 - lost
 
 
 def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple[np.ndarray, np.ndarray]:
@@ -210,11 +301,11 @@ def _means(logarithms: np.ndarray, durations: np.ndarray, batches: int) -> tuple
     return values, np.sqrt(batches / (batches - 1) * (apart**2).sum(axis=0)) / durations.sum()
 
 
-def _growth_of_volume(rotor: Model, impacts: int, time: float) -> float:
-    """Rate at which volumes of the state space grow: ``2 Re Σλ`` in flight, and a factor ``d²`` at each impact.
+def _growth_of_volume(rotor: Model, struck: np.ndarray, time: float) -> float:
+    """Rate at which volumes of the state space grow: ``2 Re Σλ`` in flight, and a factor ``d²`` at each impact of a plane.
 
     An impact with slip multiplies the normal velocity by ``−d``; the other velocities change by what depends on it and on
     the position alone.  The change of the time of impact gives the same factor once more.
     """
-    restitution = float(rotor.system.arrays.restitution[0])
-    return float(2.0 * rotor.system.exponents.real.sum()) + 2.0 * impacts * math.log(restitution) / time
+    losses = np.log(rotor.system.arrays.restitution)
+    return float(2.0 * rotor.system.exponents.real.sum() + 2.0 * (struck @ losses) / time)

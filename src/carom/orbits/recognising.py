@@ -56,28 +56,32 @@ def _between_lift_offs(motion: Trajectory, period: float) -> Orbit | None:
     return orbit_near(motion.rotor, *segments_of(motion, int(lifts[0]), int(lifts[last])))
 
 
-def segments_of(motion: Trajectory, first: int, last: int) -> tuple[Word, Start]:
+def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = False) -> tuple[Word, Start]:
     """Word, nodes and durations of a motion from one event up to another, which the last segment reaches.
 
-    Impacts that lead to a landing without anything else in between become one chatter.
+    Impacts that lead to a landing without anything else in between become one chatter; if it is to be ``brief``, only
+    those from which on each bounce is shorter than the one before.
     """
     steps: list[tuple[Segment, np.ndarray, float]] = []
     times = np.append(motion.segment_starts[1:], motion.time)
-    for event in range(first, last):
-        plane = int(motion.event_planes[event])
-        before, after = int(motion.segment_phases[event, plane]), int(motion.segment_phases[event + 1, plane])
-        node, kind = motion.segment_amplitudes[event + 1], Kind.of_phase(after)
+    kinds, places = _impact_kinds(motion, first, last).tolist(), np.arange(first, last)
+    planes = motion.event_planes[first:last]
+    phases = zip(*(motion.segment_phases[places + later, planes].tolist() for later in (0, 1)), strict=True)
+    for event, struck, plane, (before, after) in zip(places.tolist(), kinds, planes.tolist(), phases, strict=True):
         if before == after == Phase.FLIGHT:
-            node, kind = motion.arrivals[event], _impact_kind(motion, event, plane)
-        elif before == after:
+            steps.append((Segment(Kind(struck), plane), motion.arrivals[event], float(times[event])))
+            continue
+        if before == after:
             continue  # a long contact is logged in steps
-        elif before == Phase.FLIGHT:
+        if before == Phase.FLIGHT:
             bounces = next((k for k, step in enumerate(reversed(steps)) if not _bounces(step[0], plane)), len(steps))
+            if brief:
+                bounces = _getting_shorter([step[2] for step in steps[len(steps) - bounces :]])
             chatter = steps[len(steps) - bounces :]
             del steps[len(steps) - bounces :]
             if chatter:
                 steps.append((Segment(Kind.LAND, plane), chatter[0][1], chatter[0][2]))
-        steps.append((Segment(kind, plane), node, float(times[event])))
+        steps.append((Segment(Kind.of_phase(after), plane), motion.segment_amplitudes[event + 1], float(times[event])))
     segments, nodes, begins = zip(*steps, strict=True)
     states = motion.rotor.system.states_of(np.array(nodes))
     return Word(segments), Start(states, np.diff([*begins, float(times[last])]))
@@ -87,15 +91,22 @@ def _bounces(segment: Segment, plane: int) -> bool:
     return segment.kind.is_impact and segment.plane == plane
 
 
-def _impact_kind(motion: Trajectory, event: int, plane: int) -> Kind:
-    """Kind of an impact, from the state before it."""
-    system = motion.rotor.system
-    position, before = system.at_plane(motion.arrivals[event], plane)
-    slip = float(system.arrays.drive[plane]) + float((np.conj(position) * before).imag)
-    friction, d = float(system.arrays.friction[plane]), float(system.arrays.restitution[plane])
-    if friction * (1.0 + d) * float((np.conj(position) * before).real) >= abs(slip):
-        return Kind.IMPACT_STOPPED
-    return Kind.IMPACT_FORWARD if slip > 0.0 else Kind.IMPACT_BACKWARD
+def _getting_shorter(times: list[float]) -> int:
+    """Number of the last bounces of which each is shorter than the one before, the last one included."""
+    growing = np.flatnonzero(np.diff(np.diff(times)) >= 0.0)
+    return len(times) - 1 - int(growing[-1]) if len(growing) else len(times)
+
+
+def _impact_kinds(motion: Trajectory, first: int, last: int) -> np.ndarray:
+    """Kinds of impacts from the states before them, shape (last − first,); of other events they mean nothing."""
+    arrays, planes = motion.rotor.system.arrays, motion.event_planes[first:last]
+    position, before = motion.rotor.system.at_planes(motion.arrivals[first:last], planes)
+    local = position.conj() * before
+    slip = arrays.drive[planes] + local.imag
+    taken = arrays.friction[planes] * (1.0 + arrays.restitution[planes]) * local.real
+    sliding = np.where(slip > 0.0, Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD)
+    kinds: np.ndarray = np.where(taken >= np.abs(slip), Kind.IMPACT_STOPPED, sliding)
+    return kinds
 
 
 def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:

@@ -1,0 +1,317 @@
+"""Lyapunov exponents: volumes, multipliers of orbits, nearby motions, and a variational integration written down again."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from scipy.optimize import brentq
+
+from carom.models import Jeffcott, LinearRotor
+from carom.motions import State, kick, settle, simulate
+from carom.orbits import find_orbits
+from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
+from carom.orbits.recognising import orbit_of_motion, segments_of
+from carom.orbits.shooting import links_of
+from carom.orbits.word import Kind
+from carom.outcome import CaromError, InputError, Outcome
+from carom.parameters import Parameters
+from tests.compilation import sized
+from tests.linear_rotors import tilting
+from tests.machines import PAPER, flight_matrix, random_parameters, rest_position, strike
+
+CHAOTIC = Parameters(0.0772, 1.098, 0.615, 0.0, 0.1356, 0.95, 3.04)
+STOPPING = Parameters(0.047, 0.745, 0.78, 0.0, 0.34, 0.95, 0.786)
+LANDING = Parameters(0.0274, 1.0566, 0.42048, 0.0, 0.35408, 0.0269, 1.0477)
+WITHOUT_REBOUND = Parameters(0.0245, 0.837, 0.0621, 0.0, 0.349, 0.0, 6.71)
+ROLLING = Parameters(0.11455, 0.40645, 0.21684, 0.0, 0.39103, 0.0, 0.7208)
+
+
+def lively(rng: np.random.Generator) -> Jeffcott:
+    """A machine on which many motions keep bouncing."""
+    return Jeffcott(
+        random_parameters(
+            rng,
+            omega=rng.uniform(0.3, 1.5),
+            gamma=10 ** rng.uniform(-1.7, -0.3),
+            rho=rng.uniform(0.05, 0.8),
+            mu=rng.uniform(0.0, 0.4),
+            d=rng.choice([0.95, *rng.uniform(0.3, 1.0, 5)]),
+            radius_ratio=10 ** rng.uniform(0.0, 2.0),
+        )
+    )
+
+
+def bouncing_from(rotor, starts: int, seed: int = 0, wanted=(Outcome.BOUNCING, Outcome.MIXED)) -> list[State]:
+    """States just before an impact of motions that keep hitting the wall, from random starts."""
+    rng = np.random.default_rng(seed)
+    place, speed = rng.uniform(size=(2, starts))
+    turn, way = np.exp(2j * np.pi * rng.uniform(size=(2, starts)))
+    ends = settle(rotor, np.sqrt(place) * turn, 2.0 * np.sqrt(speed) * way, patience=1000)
+    chosen = np.isin(ends.outcomes, wanted)
+    return [State(complex(u), complex(v)) for u, v in zip(ends.positions[chosen], ends.velocities[chosen], strict=True)]
+
+
+@pytest.mark.jit_only
+def test_exponents_add_up_to_the_growth_of_volumes():
+    rng, compared, lost = np.random.default_rng(5), 0, 0
+    for _ in range(sized(120, 1, 1500)):
+        rotor = lively(rng)
+        for state in bouncing_from(rotor, 30)[:2]:
+            found = lyapunov_exponents(rotor, state, 300, transient=50)
+            if found.time < 10.0:
+                continue  # cut off within a chatter, whose bounces are too short for rates
+            lost += found.lost > 0
+            if not found.lost:
+                compared += 1
+                # The promised accuracy; rounding of some hundred factors gives 1e-11.
+                assert abs(found.values.sum() - found.volume) < 1e-9 * (1.0 + abs(found.volume))
+            else:
+                assert found.volume == -math.inf
+            assert np.isneginf(found.values).sum() == found.lost
+    assert compared > 10
+    assert lost > 2
+
+
+@pytest.mark.jit_only
+def test_sliding_keeps_the_volumes_of_its_divergence():
+    """``∂θ̈/∂θ̇ = −γ − 2μ(1 + θ̇)sgn v`` in ``θ, θ̇``, integrated over the segment."""
+    compared = 0
+    for rotor in (Jeffcott(LANDING), Jeffcott(LANDING.replace(d=0.0)), Jeffcott(ROLLING)):
+        for state in bouncing_from(rotor, 60, wanted=(Outcome.MIXED,))[:2]:
+            motion = simulate(rotor, state, 50.0)
+            hits = np.flatnonzero(motion.is_impact)
+            word, start = segments_of(motion, int(hits[0]), int(hits[-1]), brief=True)
+            slopes = links_of(rotor, word, start).slopes
+            for i, segment in enumerate(word):
+                if segment.kind not in (Kind.SLIDE_FORWARD, Kind.SLIDE_BACKWARD):
+                    continue
+                ends = start.nodes[i], start.nodes[(i + 1) % len(word)]
+                frames = [_along_wall(*node) for node in ends]
+                carried = np.linalg.lstsq(frames[1], slopes[i, :-1, :-1] @ frames[0], rcond=None)[0]
+                sign, lasted = (1.0 if segment.kind is Kind.SLIDE_FORWARD else -1.0), start.durations[i]
+                turned = _turned(motion, float(_begin(motion, hits, start, i)), lasted)
+                divergence = -rotor.parameters.gamma * lasted - 2.0 * sign * rotor.parameters.mu * (lasted + turned)
+                assert abs(math.log(np.linalg.det(carried)) - divergence) < 1e-9
+                compared += 1
+    assert compared > 3
+
+
+def _along_wall(position: complex, velocity: complex) -> np.ndarray:
+    """Changes of real parts, then imaginary parts, of position and velocity by the angle and the angular speed."""
+    turn, spin = np.array([1j * position, 1j * velocity]), np.array([0.0, 1j * position])
+    return np.array([[*each.real, *each.imag] for each in (turn, spin)]).T
+
+
+def _begin(motion, hits, start, i):
+    return motion.segment_starts[1:][hits[0]] + start.durations[:i].sum()
+
+
+def _turned(motion, begin, lasted):
+    angles = np.unwrap(np.angle(motion.at(np.linspace(begin, begin + lasted, 400))[0]))
+    return angles[-1] - angles[0]
+
+
+@pytest.mark.parametrize("parameters", [PAPER, PAPER.replace(gamma=0.083), LANDING, WITHOUT_REBOUND, ROLLING])
+@pytest.mark.jit_only
+def test_exponents_of_orbits_are_those_of_their_multipliers(parameters):
+    if parameters.mu == PAPER.mu:
+        one = find_orbits(parameters)["B1,d"].departure
+        start = State(one.position, 1.0001 * one.velocity)
+    else:
+        start = bouncing_from(Jeffcott(parameters), 60)[0]
+    orbit = orbit_of_motion(simulate(parameters, start, settle=True))
+    exact = orbit_exponents(orbit)
+    impacts = 20_000 if not exact.landings else 300
+    found = lyapunov_exponents(parameters, orbit.departure, impacts, transient=impacts // 5)
+    assert found.lost == exact.lost
+    finite = np.isfinite(exact.values)
+    # Conjugate pairs oscillate, so that their errors fall like one over the time.
+    assert np.abs(found.values[finite] - exact.values[finite]).max() < 5.0 / found.time
+    assert exact.across[0] == exact.values[1]
+    if exact.lost:
+        return
+    assert abs(exact.values.sum() - exact.volume) < 1e-9
+    if abs(orbit.multipliers.values[0].imag) == 0.0:
+        assert abs(found.across[0] - exact.across[0]) < 1e-6
+
+
+def test_directions_that_contact_takes_away_have_no_finite_exponent():
+    """Counted by hand: sliding keeps the angle at which it ends, rolling keeps nothing, a stopped slip two of three."""
+    for parameters, wanted, lost in (
+        (STOPPING, Outcome.BOUNCING, 1),
+        (LANDING, Outcome.MIXED, 2),
+        (WITHOUT_REBOUND, Outcome.BOUNCING, 1),
+        (ROLLING, Outcome.MIXED, 3),
+    ):
+        state = bouncing_from(Jeffcott(parameters), sized(60, 10), wanted=(wanted,))[0]
+        found = lyapunov_exponents(parameters, state, sized(100, 30), transient=sized(50, 10))
+        assert found.lost == lost
+        assert (found.landings > 0) == (wanted is Outcome.MIXED)
+
+
+def nearby_growth(rotor, state: State, time: float, count: int) -> tuple[float, float]:
+    """Growth rate of the distance of a second motion that is brought back to 1e-8 again and again, and its error."""
+    near, rates = 1e-8, []
+    other = State(state.position * (1.0 - near), state.velocity)
+    for _ in range(count):
+        first, second = (simulate(rotor, one, time).final for one in (state, other))
+        apart = math.hypot(abs(second.position - first.position), abs(second.velocity - first.velocity))
+        if 0.0 < apart < 1e-3:  # otherwise only one of them has just hit the wall
+            rates.append(math.log(apart / near) / time)
+        else:
+            apart = near
+            second = State(first.position * (1.0 - near), first.velocity)
+        other = State(
+            first.position + (second.position - first.position) * near / apart,
+            first.velocity + (second.velocity - first.velocity) * near / apart,
+        )
+        if abs(other.position) > 1.0:
+            other = State(other.position / abs(other.position) * (1.0 - 1e-9), other.velocity)
+        state = first
+    return float(np.mean(rates[10:])), float(np.std(rates[10:]) / math.sqrt(len(rates) - 10))
+
+
+@pytest.mark.parametrize("parameters", [CHAOTIC, STOPPING])
+@pytest.mark.jit_only
+def test_nearby_motions_separate_at_the_largest_exponent(parameters):
+    rotor = Jeffcott(parameters)
+    state = bouncing_from(rotor, 20, wanted=(Outcome.BOUNCING,))[0]
+    found = lyapunov_exponents(rotor, state, 20_000)
+    rate, error = nearby_growth(rotor, state, 10.0, sized(600, 1, 20_000))
+    assert found.positive
+    assert not found.negative
+    # Batches of a finite motion, so more than three errors may occur.
+    assert abs(found.across[0] - rate) < 5.0 * math.hypot(error, found.across[1])
+
+
+def test_all_exponents_agree_with_a_variational_integration():
+    """Matrix exponentials, root finding, and the derivative of the impact law and of the time of impact by hand."""
+    state = bouncing_from(Jeffcott(CHAOTIC), 20, wanted=(Outcome.BOUNCING,))[0]
+    transient, impacts = 10, sized(40, 5)
+    found = lyapunov_exponents(CHAOTIC, state, impacts, transient=transient, batches=2)
+    position, velocity = state.position, state.velocity
+    directions, grown, lasted = np.eye(4)[:, 1:], np.zeros(3), 0.0
+    for impact in range(transient + impacts):
+        passage, time, position, velocity = _to_next_impact(CHAOTIC, position, velocity)
+        directions, triangle = np.linalg.qr(passage @ directions)
+        if impact >= transient:
+            grown += np.log(np.abs(np.diag(triangle)))
+            lasted += time
+    assert abs(lasted - found.time) < 1e-6 * lasted
+    expected = np.sort(grown / lasted)[::-1]
+    others = found.values[found.values != found.along]
+    # The error of the root finding grows with the motion.
+    np.testing.assert_allclose(others, expected, atol=1e-6)
+
+
+def _to_next_impact(parameters: Parameters, position: complex, velocity: complex):
+    """Derivative from just before an impact to just before the next, in real and then imaginary parts."""
+
+    def struck(values: np.ndarray) -> np.ndarray:
+        place, speed = values[0] + 1j * values[2], values[1] + 1j * values[3]
+        normal = place / abs(place)
+        local = speed / normal
+        after = normal * complex(*strike(parameters, local.real, local.imag))
+        return np.array([place.real, after.real, place.imag, after.imag])
+
+    matrix, rest = flight_matrix(parameters), rest_position(parameters)
+    whole = np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
+    offset = np.array([rest.real, 0.0, rest.imag, 0.0])
+
+    def flown(values: np.ndarray, time: float) -> np.ndarray:
+        return offset + expm(whole * time) @ (values - offset)
+
+    before = np.array([position.real, velocity.real, position.imag, velocity.imag])
+    step = 1e-5
+    # Differences of fourth order: their error is far below that of the integration.
+    jumps = np.array(
+        [
+            (8.0 * (struck(before + h) - struck(before - h)) - struck(before + 2 * h) + struck(before - 2 * h))
+            / (12.0 * step)
+            for h in step * np.eye(4)
+        ]
+    ).T
+    after = struck(before)
+    times = np.linspace(1e-6, 20.0, 2001)
+    propagate, state, heights = expm(whole * (times[1] - times[0])), flown(after, times[0]), []
+    for _ in times:
+        heights.append(state[0] ** 2 + state[2] ** 2 - 1.0)
+        state = offset + propagate @ (state - offset)
+    first = int(np.flatnonzero((np.array(heights[:-1]) < 0.0) & (np.array(heights[1:]) >= 0.0))[0])
+
+    def height(time: float) -> float:
+        there = flown(after, time)
+        return float(there[0] ** 2 + there[2] ** 2 - 1.0)
+
+    time = brentq(height, times[first], times[first + 1], xtol=1e-15, rtol=1e-14)
+    end = flown(after, time)
+    rate, normal = whole @ (end - offset), np.array([end[0], 0.0, end[2], 0.0])
+    carried = expm(whole * time) @ jumps
+    carried -= np.outer(rate, normal @ carried) / (normal @ rate)
+    return carried, time, complex(end[0], end[2]), complex(end[1], end[3])
+
+
+@pytest.mark.jit_only
+def test_a_coordinate_that_feels_no_contact_adds_its_own_rates():
+    orbit = find_orbits(PAPER)["B1,d"]
+    rotor = LinearRotor.in_fixed_frame(
+        mass=np.eye(2),
+        damping=np.diag([PAPER.gamma, 0.3]),
+        stiffness=np.diag([PAPER.omega**2, 0.7]),
+        forcing=[PAPER.rho * np.exp(1j * PAPER.phi), 0.3],
+        planes=[[1.0, 0.0]],
+        friction=[PAPER.mu],
+        restitution=[PAPER.d],
+        drive=[PAPER.radius_ratio + 1.0],
+        translation=[1.0, 0.0],
+    )
+    start = State(np.array([orbit.departure.position, 0.1]), np.array([orbit.departure.velocity, 0.0]))
+    found = lyapunov_exponents(rotor, start, 5000)
+    expected = np.sort(np.concatenate([orbit_exponents(orbit).values, np.full(4, -0.15)]))[::-1]
+    # Conjugate pairs oscillate.
+    assert np.abs(found.values - expected).max() < 5.0 / found.time
+    assert abs(found.values.sum() - found.volume) < 1e-9
+
+
+@pytest.mark.jit_only
+def test_two_planes_that_are_hit_in_turn():
+    rotor = tilting(friction=0.02, restitution=0.97, forcing=np.array([0.3, 0.05])).model
+    compared = 0
+    rng = np.random.default_rng(0)
+    for _ in range(4):
+        place, speed = rng.normal(size=(2, 2, 2)) @ [1.0, 1j]
+        state = State(0.5 * place / np.abs(rotor.system.planes @ place).max(), 1.5 * speed / np.abs(speed).max())
+        found = lyapunov_exponents(rotor, state, 150, transient=20)
+        assert found.values.shape == (8,)
+        # Impacts of two planes in one instant are thousands in no time.
+        if not found.lost and found.time > 1.0:
+            compared += 1
+            assert abs(found.values.sum() - found.volume) < 1e-9 * (1.0 + abs(found.volume))
+    assert compared > 1
+
+
+def test_what_has_no_exponents_of_impacts_is_refused():
+    with pytest.raises(CaromError, match="stops hitting the wall"):
+        lyapunov_exponents(PAPER, State(0.1), 10)
+    for name in ("impacts", "transient", "batches"):
+        with pytest.raises(InputError, match=name):
+            lyapunov_exponents(PAPER, kick(1.0), **{name: 0})
+    with pytest.raises(CaromError, match="raise impacts or lower batches"):
+        lyapunov_exponents(PAPER, find_orbits(PAPER)["B1,d"].departure, 5, transient=1)
+
+
+def test_signs_of_exponents_need_more_than_their_errors():
+    def made(values, errors):
+        return LyapunovExponents(np.array(values), np.array(errors), 0.0, math.nan, 100, 0, 300.0)
+
+    unsure = made([0.02, 0.0, -0.3, -0.4], [0.01, 0.0, 0.1, 0.1])
+    assert unsure.across == (0.02, 0.01)
+    assert not unsure.positive
+    assert not unsure.negative
+    assert made([0.04, 0.0, -0.3, -0.4], [0.01, 0.0, 0.1, 0.1]).positive
+    assert made([0.0, -0.3, -0.4, -math.inf], [0.0, 0.01, 0.1, 0.0]).negative
+    np.testing.assert_allclose(unsure.per_impact, 3.0 * unsure.values)
+    assert made([0.0, -math.inf], [0.0, 0.0]).lost == 1
