@@ -26,8 +26,8 @@ NAMES = {
     "irregular bouncing with rub": MotionName(Outcome.MIXED),
     "synchronous rub": MotionName(Outcome.FORWARD_RUB),
     "drifting rub": MotionName(Outcome.FORWARD_RUB, drifting=True),
-    "backward whirl": MotionName(Outcome.BACKWARD_WHIRL),
-    "rolling": MotionName(Outcome.ROLLING),
+    "sliding backward whirl": MotionName(Outcome.BACKWARD_WHIRL),
+    "rolling backward whirl": MotionName(Outcome.ROLLING),
     "unresolved: time-reached": MotionName(Outcome.TIME_REACHED),
     "unresolved: grazing": MotionName(Outcome.GRAZING),
 }

@@ -46,13 +46,13 @@ def test_all_attractors_of_the_source_machine(found):
     orbit = find_orbits(found.rotor)["B1,d"]
     rub = find_equilibria(found.rotor)[1]
 
-    assert {member.name for member in found} == {"levitation", "B1,d", "synchronous rub", "rolling"}
+    assert {member.name for member in found} == {"levitation", "B1,d", "synchronous rub", "rolling backward whirl"}
     bouncing = found["B1,d"]
     assert (bouncing.name.outcome, bouncing.name.multiplicity) == (Outcome.BOUNCING, 1)
     assert bouncing.period == pytest.approx(orbit.period, rel=1e-7)
     assert bouncing.largest_impulse == pytest.approx(1.95 * orbit.radial_speed, rel=1e-7)
     assert found["synchronous rub"].largest_force == pytest.approx(rub.normal_force, rel=1e-8)
-    assert found["rolling"].whirl == "backward"
+    assert found["rolling backward whirl"].whirl == "backward"
     assert found["levitation"].whirl == found["synchronous rub"].whirl == "forward"
 
 
@@ -78,8 +78,8 @@ def test_all_random_starts_end_in_synchronous_rub_with_twice_the_damping(seed):
 def test_nearly_all_random_starts_roll_with_little_damping(gamma, fastest):
     ends = shares(Jeffcott(SOURCE.replace(gamma=gamma)), random_starts(100, fastest))
 
-    assert set(ends) <= {"rolling", "synchronous rub"}
-    assert ends["rolling"] > 0.9
+    assert set(ends) <= {"rolling backward whirl", "synchronous rub"}
+    assert ends["rolling backward whirl"] > 0.9
 
 
 @pytest.mark.jit_only
@@ -87,7 +87,7 @@ def test_irregular_bouncing_at_gamma_0_08_is_a_long_transient():
     found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.08)), random_starts(40, 0.5), known=False)
 
     impacts = np.array([ending.impacts for ending in found.endings])
-    assert {member.name for member in found} == {"rolling", "synchronous rub"}
+    assert {member.name for member in found} == {"rolling backward whirl", "synchronous rub"}
     assert 0.4 < (impacts > 1000).mean() < 0.9
     assert impacts.max() > 3000
 
@@ -115,7 +115,7 @@ def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience
     """Half-lives counted over 1500 fresh starts every 250 impacts, to 4 %."""
     found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000)
 
-    assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling"}
+    assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling backward whirl"}
     transient = found.transient
     assert transient is not None
     low, high = transient.interval
@@ -189,16 +189,16 @@ def test_attractors_are_ordered_by_what_they_attract(found):
 
     assert counts == sorted(counts, reverse=True)
     assert found.recovered == found["levitation"].share
-    assert {member.name for member in found.touching} == {"B1,d", "synchronous rub", "rolling"}
+    assert {member.name for member in found.touching} == {"B1,d", "synchronous rub", "rolling backward whirl"}
 
 
 @pytest.mark.jit_only
 def test_known_motion_is_found_though_no_disturbance_reaches_it():
     found = find_attractors(Jeffcott(SOURCE.replace(gamma=0.4)))
 
-    assert found["rolling"].count == 0
-    assert found["rolling"].known == 2
-    assert found["rolling"].representative.kind == "whirl"
+    assert found["rolling backward whirl"].count == 0
+    assert found["rolling backward whirl"].known == 2
+    assert found["rolling backward whirl"].representative.kind == "whirl"
     assert found["levitation"].share == 1.0
     assert found.smallest_unrecovered_kick is None
 

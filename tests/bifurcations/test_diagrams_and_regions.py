@@ -89,7 +89,7 @@ def test_region_of_levitation_alone_still_holds_the_rub():
     assert (motions.source_region, motions.rub) == ("R3", True)
     motions = motions_at(PAPER.replace(gamma=0.38))
     assert (motions.source_region, motions.rub) == ("R3", False)
-    assert motions.words == "contact-free levitation, no stable rub, no impacting orbit, backward rolling"
+    assert motions.words == "levitation, no stable rub, no impacting orbit, rolling backward whirl"
     assert motions.region == "R3 (no rub)"
 
 
@@ -202,7 +202,7 @@ def test_regions_in_words():
     motions = motions_at(PAPER)
     assert motions.region == "R4 (stable orbit, rub)"
     assert motions.words == (
-        "contact-free levitation, stable forward rub, B1,d stable and B1,a/b/c unstable, backward rolling"
+        "levitation, stable synchronous rub, B1,d stable and B1,a/b/c unstable, rolling backward whirl"
     )
     assert "levitation virtual" in motions_at(PAPER.replace(omega=0.9)).words
     without_friction = motions_at(PAPER.replace(mu=0.0))
@@ -213,6 +213,6 @@ def test_regions_in_words():
 def test_points_of_thin_regions_lie_inside():
     plane = Plane("gamma", "omega", (0.02, 0.4), (0.6, 1.05))
     found = map_regions(PAPER, plane, grid=sized(8, 8, 16))
-    assert found.everywhere == ("backward rolling",)
+    assert found.everywhere == ("rolling backward whirl",)
     for region in found.regions:
         assert motions_at(plane.at(PAPER, *region.point)) == region.motions

@@ -161,7 +161,10 @@ def test_what_cannot_be_followed_is_listed(monkeypatch):
     assert found.curves == []
     assert found.unexplained
     for change in found.unexplained:
-        assert change.words in ("stable forward rub -> no stable rub", "no stable rub -> stable forward rub")
+        assert change.words in (
+            "stable synchronous rub -> no stable rub",
+            "no stable rub -> stable synchronous rub",
+        )
         assert change.reason == "rub-fold: not today"
         gamma, omega = change.point
         assert gamma + PAPER.mu * (1.0 - omega**2) == pytest.approx(PAPER.rho * np.hypot(1.0, PAPER.mu), abs=1e-8)

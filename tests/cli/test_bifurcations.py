@@ -51,7 +51,7 @@ def test_run_up_with_all_motions(capsys):
     assert details == {"persistence", "non-smooth fold"}
     assert all(document["rolling"]["holds"])
     samples = document["attractors"]
-    assert {"levitation", "rolling", "synchronous rub", "B1,d"} <= {sample["name"] for sample in samples}
+    assert {"levitation", "rolling backward whirl", "synchronous rub", "B1,d"} <= {sample["name"] for sample in samples}
     assert len({sample["value"] for sample in samples}) == 31
     (levitation,) = [branch for branch in document["equilibria"] if branch["kind"] == "contact-free"]
     there = dict(zip(levitation["values"], levitation["admissible"], strict=True))
@@ -109,7 +109,7 @@ def test_plane_as_json(capsys):
     for region in document["regions"]:
         assert len(region["stable_orbit_names"]) == region["stable_orbits"]
         assert region["name"].startswith(region["source_region"])
-        assert ("stable forward rub" in region["words"]) is region["rub"]
+        assert ("stable synchronous rub" in region["words"]) is region["rub"]
     for curve in document["curves"]:
         assert set(curve["ends"]) <= {"edge of the plane", "closed loop"}
 

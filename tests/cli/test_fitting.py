@@ -13,7 +13,7 @@ from rich.table import Table
 from carom.cli.fitting import fitted
 
 ROWS = (
-    ("contact-free levitation", "5.81 ms", "116 of 200", "disturbances grow steadily to one side"),
+    ("levitation", "5.81 ms", "116 of 200", "disturbances grow steadily to one side"),
     ("boundary equilibrium (persistence)", "12.6 ms", "", "friction keeps the rotor rolling"),
 )
 

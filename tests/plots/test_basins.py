@@ -26,7 +26,7 @@ from carom.disturbances import (
 )
 from carom.orbits.names import OrbitName
 from carom.outcome import InputError, Outcome
-from carom.plots.basins import _words
+from carom.plots.basins import MotionLook
 
 pytestmark = pytest.mark.jit_only
 
@@ -55,20 +55,22 @@ def words(figure):
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        (MotionName(Outcome.LEVITATED), "levitates without contact"),
-        (MotionName(Outcome.ROLLING), "rolls in backward whirl"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), r"keeps bouncing: $B_{\mathrm{1,d}}$"),
-        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(2, True, True, -1)), r"keeps bouncing: $R_{\mathrm{2,d}}$"),
-        (MotionName(Outcome.BOUNCING, 3, number=2), "keeps bouncing: 3-impact bouncing (2)"),
-        (MotionName(Outcome.FORWARD_RUB), "rubs in forward whirl: synchronous rub"),
-        (MotionName(Outcome.BOUNCING), "keeps bouncing irregularly"),
-        (MotionName(Outcome.MIXED), "keeps bouncing irregularly, with rub"),
+        (MotionName(Outcome.LEVITATED), "levitation"),
+        (MotionName(Outcome.ROLLING), "rolling backward whirl"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), r"bouncing on $B_{\mathrm{1,d}}$"),
+        (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(2, True, True, -1)), r"bouncing on $R_{\mathrm{2,d}}$"),
+        (MotionName(Outcome.BOUNCING, 3, number=2), "3-impact bouncing (2)"),
+        (MotionName(Outcome.FORWARD_RUB), "synchronous rub"),
+        (MotionName(Outcome.BOUNCING), "irregular bouncing"),
+        (MotionName(Outcome.MIXED), "irregular bouncing with rub"),
         (MotionName(Outcome.TIME_REACHED), "time reached"),
     ],
 )
 def test_legends_say_which_motion_it_is(name, said):
     look = plots.OUTCOMES["irregular" if name.irregular else name.outcome.label]
-    assert _words(look, name) == said
+    shown = MotionLook(0, name, look, look.colour, 0.5)
+    assert shown.words == said
+    assert shown.plain_words == (f"bouncing on {name}" if name.orbit else said)
 
 
 def test_every_settled_outcome_has_a_look_of_its_own():
@@ -104,7 +106,7 @@ def test_kicks_by_size_and_direction(rotor):
     assert "(mm/s)" in round_.get_xlabel()
     assert max(round_.get_yticks()) < 0.99 * round_.get_ylim()[1]
     assert beside.get_xlabel() == "size of the kick (mm/s)"
-    assert any(text.startswith("levitates without contact, ") for text in words(figure))
+    assert any(text.startswith("levitation, ") for text in words(figure))
     assert "smallest kick found that is lost" in words(figure)
 
 
@@ -188,7 +190,7 @@ def test_gain_map(rotor):
     said = words(figure)
     assert any(text.startswith("present machine: ") for text in said)
     assert any(text.startswith("least change found for 90 %: P gain ") for text in said)
-    assert "no levitation without contact" in said
+    assert "no levitation" in said
     levitates = found.dataset["levitates"].values.T > 0.0
     shares = next(entry for entry in axes.collections if isinstance(entry, QuadMesh)).get_array()
     np.testing.assert_array_equal(np.ma.getmaskarray(shares), ~levitates)
@@ -211,7 +213,7 @@ def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
     for measure in ("recovered", "levitates"):
         found.dataset[measure].values[node] = 0.0
     assert found.present_share.count
-    assert "no levitation without contact (in the middle of the cell)" in words(plots.gain_map(found))
+    assert "no levitation (in the middle of the cell)" in words(plots.gain_map(found))
 
     found.dataset["levitates"].values[:] = 1.0
     found.dataset["basin_entropy"].values[:] = 0.5

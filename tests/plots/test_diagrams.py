@@ -60,8 +60,8 @@ def test_bars_say_what_exists_where():
     found = bifurcations.find_bifurcations(PAPER, "gamma", (0.03, 0.4), attractors=3)
     below = plots.bifurcation_diagram(found).axes[2]
     rows = {text.get_text(): height for text, height in zip(below.get_yticklabels(), below.get_yticks(), strict=True)}
-    assert list(rows)[:3] == ["levitation", "forward rub", "bouncing"]
-    assert "backward whirl" in rows
+    assert list(rows)[:3] == ["levitation", "synchronous rub", "bouncing"]
+    assert "rolling backward whirl" in rows
 
     def bars(row, width):
         return sorted(
@@ -71,9 +71,9 @@ def test_bars_say_what_exists_where():
         )
 
     assert np.ravel(bars("levitation", 4.5)) == pytest.approx([0.0724686787, 0.4], abs=1e-9)
-    assert np.ravel(bars("forward rub", 4.5)) == pytest.approx([0.03, 0.3700060375], abs=1e-9)
+    assert np.ravel(bars("synchronous rub", 4.5)) == pytest.approx([0.03, 0.3700060375], abs=1e-9)
     assert np.ravel(bars("bouncing", 4.5)) == pytest.approx([0.0833814175, 0.1780277257], abs=1e-9)
-    assert np.ravel(bars("backward whirl", 4.5)) == pytest.approx([0.03, 0.4])
+    assert np.ravel(bars("rolling backward whirl", 4.5)) == pytest.approx([0.03, 0.4])
     dots = [collection for collection in below.collections if len(collection.get_offsets())]
     assert len(dots) == len(found.attractors)
 

@@ -52,7 +52,7 @@ def test_words_of_an_orbit(damped, read):
         "orbit (admissible, stable)",
         "impact, backward whirl",
         "start, just after an impact",
-        "contact-free equilibrium",
+        "levitation",
     ]
 
 

@@ -29,9 +29,9 @@ def test_words(damped, read):
     assert figure.get_suptitle() == "A machine"
     assert set(read.legend(figure)) == {
         "clearance circle (touchdown bearing)",
-        "contact-free equilibrium: admissible, stable",
-        "rub equilibrium: admissible, stable",
-        "rub equilibrium: admissible, unstable",
+        "levitation: admissible, stable",
+        "synchronous rub: admissible, stable",
+        "synchronous rub: admissible, unstable",
         "periodic orbit: admissible, stable",
         "periodic orbit: admissible, unstable",
     }
@@ -63,7 +63,7 @@ def test_virtual_orbits_are_faint(weak, read):
     assert len(faint) >= len(virtual)
     assert len(strong) == 1
     assert strong[0].get_color() == plots.LOOKS["unstable"].colour
-    assert "contact-free equilibrium: virtual, not physical" in read.legend(figure)
+    assert "levitation: virtual, not physical" in read.legend(figure)
 
 
 def test_many_virtual_orbits_do_not_hide_the_physical_ones(damped, read):

@@ -104,7 +104,7 @@ def test_cells_without_a_value_say_why(failing, studies):
     figure = plots.sweep_map(known, "value")
     blank = known.value.isnull()
 
-    assert words(figure) == ["no levitation without contact", "no such value", "not computed yet", "failed"]
+    assert words(figure) == ["no levitation", "no such value", "not computed yet", "failed"]
     np.testing.assert_array_equal(cells(figure, "waiting"), (blank & (known.status == 0)).values)
     np.testing.assert_array_equal(cells(figure, "failed"), (blank & (known.status == 2)).values)
     computed = blank & (known.status == 1)
@@ -119,9 +119,9 @@ def test_a_number_that_no_machine_has_needs_no_bar(studies):
     figure = plots.sweep_map(studies, "rub_force")
 
     assert len(figure.axes) == 1
-    assert words(figure) == ["no stable rub"]
+    assert words(figure) == ["no stable synchronous rub"]
     assert figure.legends[0].get_title().get_text() == "normal force of the stable synchronous rub"
-    assert "no levitation without contact" in words(plots.sweep_map(studies, "zone"))
+    assert "no levitation" in words(plots.sweep_map(studies, "zone"))
 
 
 def test_shares_are_in_percent_and_counts_whole(failing, studies):

@@ -98,7 +98,7 @@ def test_figures_are_files_too(written):
     result, path, _ = written
     names = {picture.name for picture in pictures(result)}
 
-    assert names >= {"overview", "period-condition", "multipliers", "disturbance-rolling"}
+    assert names >= {"overview", "period-condition", "multipliers", "disturbance-rolling-backward-whirl"}
     assert names >= {f"{kind}-{orbit.name.replace(',', '')}" for kind in ("orbit", "radius") for orbit in result.orbits}
     files = {file.name for file in (path.parent / "figures").iterdir()}
     assert files == {f"{name}.svg" for name in names}

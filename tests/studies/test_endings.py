@@ -8,7 +8,7 @@ from carom.motions.trajectories import simulate
 from carom.orbits.names import OrbitName
 from carom.outcome import Outcome
 from carom.parameters import Parameters
-from carom.studies.endings import ending_phrase, ending_words, hardest_impulse, kick_sizes, shown_example, touching
+from carom.studies.endings import ending_phrase, hardest_impulse, kick_sizes, shown_example, touching
 
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
@@ -25,7 +25,7 @@ def found():
     [
         (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "bouncing on B1,d"),
         (MotionName(Outcome.BOUNCING), "in irregular bouncing"),
-        (MotionName(Outcome.LEVITATED), "in contact-free levitation"),
+        (MotionName(Outcome.LEVITATED), "in levitation"),
         (MotionName(Outcome.ROLLING), "in rolling backward whirl"),
         (MotionName(Outcome.TIME_REACHED), "unresolved: time-reached"),
     ],
@@ -73,7 +73,7 @@ def test_example_has_contact_where_there_is_one_with_contact(found):
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        (MotionName(Outcome.LEVITATED), "contact-free levitation"),
+        (MotionName(Outcome.LEVITATED), "levitation"),
         (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(1, True, True)), "bouncing on B1,d"),
         (MotionName(Outcome.BOUNCING, 1, orbit=OrbitName(12, False, False, -1)), "bouncing on R12,a"),
         (MotionName(Outcome.ROLLING), "rolling backward whirl"),
@@ -82,4 +82,4 @@ def test_example_has_contact_where_there_is_one_with_contact(found):
     ],
 )
 def test_words(name, words):
-    assert ending_words(name) == words
+    assert name.words == words

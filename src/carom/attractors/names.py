@@ -60,6 +60,11 @@ class MotionName(str):
         return cls(**{**parts, "outcome": Outcome(parts["outcome"]), "orbit": orbit})
 
     @property
+    def words(self) -> str:
+        """The name where nothing around it says what it names: ``"bouncing on B1,d"``; of other motions the name."""
+        return f"bouncing on {self}" if self.orbit else str(self)
+
+    @property
     def irregular(self) -> bool:
         """Whether it is bouncing, with or without rub, that did not repeat itself as far as it was followed."""
         return self.outcome in _REPEATING and not self.multiplicity
@@ -69,8 +74,8 @@ _REPEATING = {Outcome.BOUNCING: "bouncing", Outcome.MIXED: "bouncing with rub"}
 _NAMES = {
     Outcome.LEVITATED: "levitation",
     Outcome.FORWARD_RUB: "synchronous rub",
-    Outcome.BACKWARD_WHIRL: "backward whirl",
-    Outcome.ROLLING: "rolling",
+    Outcome.BACKWARD_WHIRL: "sliding backward whirl",
+    Outcome.ROLLING: "rolling backward whirl",
 }
 
 LEVITATION = MotionName(Outcome.LEVITATED)

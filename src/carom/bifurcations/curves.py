@@ -120,7 +120,7 @@ class Curve(Result):
 
     @property
     def subject(self) -> str:
-        """The motion that bifurcates: ``"B1,c/d"``, ``"levitation"``, ``"rub"`` or ``"rolling"``."""
+        """The motion that bifurcates, such as ``"B1,c/d"``, ``"levitation"`` or ``"synchronous rub"``."""
         return combined(self.orbits) if self.orbits else _SUBJECTS.get(self.kind, "")
 
 
@@ -160,7 +160,11 @@ KINDS: dict[str, _Kind] = {
     "rolling-limit": _Kind(0, ("boundary-equilibrium", "rub-fold")),
 }
 """Bifurcations that can be followed in two parameters."""
-_SUBJECTS = {"boundary-equilibrium": "levitation", "rub-fold": "rub", "rolling-limit": "rolling"}
+_SUBJECTS = {
+    "boundary-equilibrium": "levitation",
+    "rub-fold": "synchronous rub",
+    "rolling-limit": "rolling backward whirl",
+}
 
 
 def can_be_followed(point: Bifurcation) -> bool:

@@ -21,7 +21,7 @@ class Motions:
     Attributes
     ----------
     contact_free : bool
-        Whether contact-free levitation is admissible; it is stable then, as damping is positive.
+        Whether levitation is admissible; it is stable then, as damping is positive.
     orbits, stable_orbits : int
         Number of admissible single-impact orbits, and of the stable ones among them.
     rub : bool
@@ -63,10 +63,10 @@ class Motions:
             if names
         ]
         return (
-            "contact-free levitation" if self.contact_free else "levitation virtual",
-            "stable forward rub" if self.rub else "no stable rub",
+            "levitation" if self.contact_free else "levitation virtual",
+            "stable synchronous rub" if self.rub else "no stable rub",
             " and ".join(orbits) if orbits else "no impacting orbit",
-            "backward rolling" if self.rolling else "no lasting rolling",
+            "rolling backward whirl" if self.rolling else "no lasting rolling",
         )
 
     @property

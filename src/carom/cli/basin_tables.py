@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
     from carom.basins import Basin, GainChange, GainMap, SmallestLoss
     from carom.disturbances import Coordinate
-    from carom.parameters import Scales
+    from carom.outcome import Outcome
+    from carom.parameters import Field, Scales
 
 _UNITS = {"velocity": "c_r Ω", "length": "c_r", "acceleration": "c_r Ω²", "time": "/Ω"}
 _SHOWN = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
@@ -40,7 +41,9 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         share = basin.share_of(name)
         when = float(np.median(times[index == basin.motions.index(name)]))
         interval = [f"{100 * share.low:.3g} to {100 * share.high:.3g} %"] if drawn else []
-        table.add_row(name, str(share.count), f"{100 * share.fraction:.4g} %", *interval, _time(when, basin.scales))
+        table.add_row(
+            name.words, str(share.count), f"{100 * share.fraction:.4g} %", *interval, _time(when, basin.scales)
+        )
     screen.print(table)
     screen.print(
         "Known after: time from the start until it was known where the motion ends, proven or by the criterion of that outcome; "
@@ -61,9 +64,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     share = found.dataset["recovered"].values
     able = found.dataset["levitates"].values > 0.0
     back = f"{100 * found.present_share.fraction:.4g} %"
-    here = ", ".join(
-        _value(axis.field.words, value, axis.field.unit) for axis, value in zip(found.axes, found.present, strict=True)
-    )
+    here = ", ".join(_value(axis.field, value) for axis, value in zip(found.axes, found.present, strict=True))
     screen.print(f"Present machine: {here}; {back} of the disturbances come back.")
     shape = " x ".join(str(size) for size in share.shape)
     reach = int((share >= wanted).sum())
@@ -71,7 +72,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
     of_what = f"the {found.present_share.total} tried" if drawn else "the disturbances"
     screen.print(
         f"Of {shape} machines with other {found.axes[0].name} and {found.axes[1].name}, {reach} of {share.size} bring back at least "
-        f"{100 * wanted:g} % of {of_what}; {100 * (1 - able.mean()):.3g} % cannot levitate without contact."
+        f"{100 * wanted:g} % of {of_what}; {100 * (1 - able.mean()):.3g} % cannot levitate."
     )
     if drawn:
         screen.print(_sure(found, wanted, reach))
@@ -84,7 +85,7 @@ def print_gains(screen: Console, found: GainMap, change: GainChange | None, want
         screen.print("No change is needed.")
     else:
         parts = ", ".join(
-            f"{_value(axis.field.words, value, axis.field.unit)} ({100 * part:+.3g} %)"
+            f"{_value(axis.field, value)} ({100 * part:+.3g} %)"
             for axis, value, part in zip(found.axes, change.values, change.changes, strict=True)
         )
         screen.print(
@@ -149,7 +150,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     noun = _LOSSES[smallest.kind]
     lines = []
     if smallest.size is not None:
-        ending = f"; it ends in {smallest.outcome.label.replace('-', ' ')}" if smallest.outcome else ""
+        ending = f"; it ends {_ending(basin, smallest.outcome)}" if smallest.outcome else ""
         where = _where(basin, smallest)
         lines.append(f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {where}{ending}.")
     if smallest.all_back is None:
@@ -219,11 +220,19 @@ def _size(coordinate: Coordinate, value: float, scales: Scales | None, digits: i
     return f"{value * coordinate.si(scales) * factor:.{digits}g} {unit} ({own})"
 
 
+def _ending(basin: Basin, outcome: Outcome) -> str:
+    """Name the motion with an outcome, if only one of the basin has it; otherwise what they have in common."""
+    from carom.studies.endings import ending_phrase
+
+    names = [name for name in basin.motions if name.outcome is outcome]
+    return ending_phrase(names[0]) if len(names) == 1 else f"in {outcome.label.replace('-', ' ')}"
+
+
 def _time(value: float, scales: Scales | None) -> str:
     return f"{value:.4g} /Ω" if scales is None else f"{value * scales.time:.3g} s"
 
 
-def _value(words: str, value: float, unit: str) -> str:
+def _value(field: Field, value: float) -> str:
     from carom.studies.wording import number
 
-    return f"{words} {number(value, 5)}{' ' + unit if unit else ''}"
+    return f"{field.words} {number(field.in_usual_unit(value), 5)} {field.usual_unit}".rstrip()

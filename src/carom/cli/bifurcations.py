@@ -206,12 +206,13 @@ def _write(directory: Path, stem: str, figure: Figure, document: dict[str, Any])
     console(errors=True).print(f"Written: {', '.join(str(path) for path in (*written, target))}", soft_wrap=True)
 
 
-def _shown(varied: Axis, value: float) -> str:
-    """Write a value with its unit; a shaft speed also in rpm."""
-    import math
+_SUBJECTS = {"contact-free": "levitation", "rub": "synchronous rub", "rolling": "rolling backward whirl"}
+"""Names of the steady motions to which something happens."""
 
-    text = f"{value:.10g}" + (f" {varied.field.unit}" if varied.field.unit else "")
-    return f"{text} ({value * 30.0 / math.pi:.6g} rpm)" if varied.name == "speed" else text
+
+def _shown(varied: Axis, value: float) -> str:
+    """Write a value in the unit in which people usually say it."""
+    return f"{varied.field.in_usual_unit(value):.10g} {varied.field.usual_unit}".rstrip()
 
 
 def _print_diagram(diagram: Diagram, present: float) -> None:
@@ -228,7 +229,7 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
         table.add_row(
             _shown(diagram.axis, point.value),
             f"{named(point.kind)} ({point.detail})" if point.detail else named(point.kind),
-            point.name,
+            _SUBJECTS.get(point.name, point.name),
             "" if point.period != point.period else f"{point.period:.8g}",
             "" if point.radial_speed != point.radial_speed else f"{round(point.radial_speed, 6) + 0.0:.6f}",
             "" if point.admissible else "virtual",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from rich.console import Console
@@ -43,7 +43,7 @@ def print_map(screen: Console, found: RegionMap) -> None:
 def _tables(found: RegionMap, names: tuple[str, ...]) -> Iterator[Table]:
     table = plain_table("Curves", "bifurcation", "of", f"from {', '.join(names)}", "to", "ends", "")
     for curve in found.curves:
-        ends = [_place(tuple(curve.points[end])) for end in (0, -1)]
+        ends = [_place(found, curve.points[end]) for end in (0, -1)]
         virtual = "" if curve.admissible.all() else "in part virtual" if curve.admissible.any() else "virtual"
         stops = ", ".join(dict.fromkeys(map(named, curve.stops)))
         style = "dim" if virtual == "virtual" else ""
@@ -53,29 +53,39 @@ def _tables(found: RegionMap, names: tuple[str, ...]) -> Iterator[Table]:
     for point in found.codimension2:
         kinds = " + ".join(map(named, point.kinds))
         period = "" if point.period != point.period else f"{point.period:.6g}"
-        table.add_row(kinds, *(f"{value:.8g}" for value in point.value), period, "" if point.admissible else "virtual")
+        table.add_row(
+            kinds,
+            *(f"{value:.8g}" for value in _usual(found, point.value)),
+            period,
+            "" if point.admissible else "virtual",
+        )
     yield table
     headings = ("#", "share", f"for example at {', '.join(names)}", "region", "motions")
     table = plain_table("Regions", *headings, no_wrap=headings[:2])
     for number, region in enumerate(found.regions, start=1):
         share = f"{100 * region.share:.1f} %" if region.share else "thin"
         own = ", ".join(part for part in region.motions.parts if part not in found.everywhere)
-        table.add_row(str(number), share, _place(region.point), region.motions.region, own)
+        table.add_row(str(number), share, _place(found, region.point), region.motions.region, own)
     yield table
     at = f"at {', '.join(names)}"
     table = plain_table("Changes of motions on no curve found", at, "what changes", "why no curve")
     for change in found.unexplained:
-        table.add_row(_place(change.point), change.words, change.reason)
+        table.add_row(_place(found, change.point), change.words, change.reason)
     yield table
 
 
-def _place(point: tuple[float, float]) -> str:
-    return ", ".join(f"{value:.6g}" for value in point)
+def _place(found: RegionMap, point: Sequence[float]) -> str:
+    return ", ".join(f"{value:.6g}" for value in _usual(found, point))
+
+
+def _usual(found: RegionMap, point: Sequence[float]) -> list[float]:
+    """Return a point of the plane in the units of the headings."""
+    return [axis.field.in_usual_unit(value) for axis, value in zip(found.axes, point, strict=True)]
 
 
 def _quantity(varied: Axis) -> str:
     """Return the name of a parameter with its unit."""
-    return f"{varied.name} ({varied.field.unit})" if varied.field.unit else varied.name
+    return f"{varied.name} ({varied.field.usual_unit})" if varied.field.usual_unit else varied.name
 
 
 def _present_words(found: RegionMap) -> str:
@@ -84,7 +94,7 @@ def _present_words(found: RegionMap) -> str:
     if found.present is None:
         return f"The machine as it is lies outside this plane: {found.present_motions.words}"
     place = ", ".join(
-        f"{axis.name} = {value:.6g} {axis.field.unit}".rstrip()
-        for axis, value in zip(found.axes, found.present, strict=True)
+        f"{axis.name} = {value:.6g} {axis.field.usual_unit}".rstrip()
+        for axis, value in zip(found.axes, _usual(found, found.present), strict=True)
     )
     return f"The machine as it is, {place}: region {found.present_region} ({words})"

@@ -100,6 +100,6 @@ def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None
     rotor = Jeffcott(case.parameters)
     radius = abs(rotor.equilibrium)
     if isinstance(start, Kick) and radius > 1.0:
-        words = f"needs levitation without contact, but |U*| = {radius:.6g} is outside the wall; use --start"
+        words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall; use --start"
         raise InputError("--kick", kick, words)
     return follow(rotor, start, end, settle=end is None, max_events=MOST_EVENTS, progress=tell)

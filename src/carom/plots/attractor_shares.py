@@ -33,7 +33,7 @@ def attractors(found: AttractorSet, title: str | None = None, *, axes: Axes | No
         drawn.annotate(
             f"{member.count} of {total}", (100.0 * member.share, row), (4, 0), textcoords="offset points", va="center"
         )
-    drawn.set_yticks(range(len(found)), [str(member.name) for member in found])
+    drawn.set_yticks(range(len(found)), [member.name.words for member in found])
     drawn.invert_yaxis()
     drawn.set_xlim(0.0, 115.0)
     drawn.set_xticks(range(0, 101, 20))

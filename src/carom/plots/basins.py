@@ -16,7 +16,7 @@ from matplotlib.patches import Circle, Patch
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
-from carom.outcome import InputError, Outcome
+from carom.outcome import InputError
 from carom.plots.figure import StyledFigure
 from carom.plots.plane import Floats, clearance_circle, label_frame, point
 from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, styled
@@ -64,12 +64,14 @@ class MotionLook:
     @property
     def words(self) -> str:
         """Words of the legend; the name of an orbit is mathematical text."""
-        return _words(self.look, self.name, orbit_symbol(self.name) if self.name.orbit else self.name)
+        if self.name.orbit:
+            return f"{self.look.words} on {orbit_symbol(self.name)}"
+        return self.plain_words
 
     @property
     def plain_words(self) -> str:
         """The same as plain text."""
-        return _words(self.look, self.name, self.name)
+        return self.name.words if self.name.outcome.settled else self.look.words
 
     @property
     def patch(self) -> Patch:
@@ -117,14 +119,6 @@ def motion_looks(basin: Basin) -> list[MotionLook]:
         colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
         shown.append(MotionLook(place, name, look, colour, shares[name]))
     return shown
-
-
-def _words(look: Look, name: MotionName, symbol: str) -> str:
-    if name.irregular:
-        return f"{look.words}, with rub" if name.outcome is Outcome.MIXED else look.words
-    if name.multiplicity or name.outcome is Outcome.FORWARD_RUB:
-        return f"{look.words}: {symbol}"
-    return look.words
 
 
 def _paler(colour: str, white: float) -> str:

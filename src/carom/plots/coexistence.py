@@ -14,23 +14,34 @@ if TYPE_CHECKING:
 
 Interval = tuple[float, float]
 
-ROWS = ("levitation", "forward rub", "bouncing", "bouncing with rub", "irregular bouncing", "backward whirl")
+ROWS = (
+    "levitation",
+    "synchronous rub",
+    "drifting rub",
+    "bouncing",
+    "bouncing with rub",
+    "irregular bouncing",
+    "sliding backward whirl",
+    "rolling backward whirl",
+)
 """From top to bottom."""
 _OF_OUTCOME = {
     "levitated": "levitation",
-    "forward-rub": "forward rub",
+    "forward-rub": "synchronous rub",
     "bouncing": "bouncing",
     "mixed": "bouncing with rub",
-    "rolling": "backward whirl",
-    "backward-whirl": "backward whirl",
+    "rolling": "rolling backward whirl",
+    "backward-whirl": "sliding backward whirl",
 }
 _COLOURS = {
     "levitation": OUTCOMES["levitated"].colour,
-    "forward rub": OUTCOMES["forward-rub"].colour,
+    "synchronous rub": OUTCOMES["forward-rub"].colour,
+    "drifting rub": OUTCOMES["forward-rub"].colour,
     "bouncing": OUTCOMES["bouncing"].colour,
     "bouncing with rub": OUTCOMES["mixed"].colour,
     "irregular bouncing": OUTCOMES["irregular"].colour,
-    "backward whirl": OUTCOMES["rolling"].colour,
+    "sliding backward whirl": OUTCOMES["backward-whirl"].colour,
+    "rolling backward whirl": OUTCOMES["rolling"].colour,
 }
 _THICK = 4.5
 _LARGEST = 26.0
@@ -42,17 +53,17 @@ def rows_of(diagram: Diagram) -> list[str]:
     equilibria = {branch.kind: branch for branch in diagram.equilibria}
     exists = {
         "levitation": equilibria["contact-free"].admissible.any(),
-        "forward rub": (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
+        "synchronous rub": (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
         "bouncing": any(branch.admissible.any() for branch in diagram.orbits),
         "bouncing with rub": bool(diagram.rubbing),
-        "backward whirl": diagram.rolling.holds.any(),
+        "rolling backward whirl": diagram.rolling.holds.any(),
     }
     return [row for row in ROWS if exists.get(row, False) or row in present]
 
 
 def row_of_point(point: Bifurcation) -> str | None:
     """Return the row in which a special point is marked; ``None`` if it belongs to another panel."""
-    return {"rubbing": "bouncing with rub", "rolling": "backward whirl"}.get(point.motion)
+    return {"rubbing": "bouncing with rub", "rolling": "rolling backward whirl"}.get(point.motion)
 
 
 def coexistence(axes: Axes, diagram: Diagram, unit: float) -> None:
@@ -85,8 +96,8 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
     levitation, rub = equilibria["contact-free"], equilibria["stable rub"]
     found = {
         "levitation": (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
-        "forward rub": (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
-        "backward whirl": (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
+        "synchronous rub": (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
+        "rolling backward whirl": (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
         "bouncing": _on_orbits(diagram.orbits),
     }
     for motion in diagram.rubbing:
@@ -144,7 +155,9 @@ def _joined(intervals: list[Interval]) -> list[Interval]:
 
 
 def _row_of_sample(sample: AttractorSample) -> str:
-    return "irregular bouncing" if sample.irregular else _OF_OUTCOME[sample.outcome]
+    if sample.irregular:
+        return "irregular bouncing"
+    return "drifting rub" if sample.name.startswith("drifting rub") else _OF_OUTCOME[sample.outcome]
 
 
 def _dot(axes: Axes, sample: AttractorSample, height: float, unit: float) -> None:

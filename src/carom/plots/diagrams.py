@@ -63,8 +63,8 @@ CURVES = MappingProxyType(
 
 BOUNDARIES = MappingProxyType(
     {
-        "persistence": Look("#009e73", "levitation goes over into rub", marker="p"),
-        "non-smooth fold": Look("#009e73", "levitation and saddle rub vanish", marker="8"),
+        "persistence": Look("#009e73", "levitation goes over into synchronous rub", marker="p"),
+        "non-smooth fold": Look("#009e73", "levitation and saddle of rub vanish", marker="8"),
     }
 )
 """Markers of boundary equilibria for which the fate of levitation is known (read-only)."""
@@ -81,7 +81,7 @@ _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub"
 def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     """Draw all equilibria and single-impact orbits along a parameter, with their special points, in three panels.
 
-    Upper: the radial speed of the orbits at the impact.  Middle: the gap of contact-free levitation and the normal force
+    Upper: the radial speed of the orbits at the impact.  Middle: the gap of levitation and the normal force
     of the rubs, which must be positive.  Lower: which motions exist, with broad bars where they are stable, and the
     motions to which simulated disturbances settled.  The shaft speed is in rpm.
 
@@ -265,12 +265,12 @@ def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
     if diagram.orbits:
         for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
             entries.append(LOOKS[look].entry(words))
-    entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free levitation: gap"))
+    entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="levitation: gap"))
     admissible = {branch.kind for branch in diagram.equilibria if branch.admissible.any()}
     for line, kind in (("-", "stable rub"), ("--", "saddle rub")):
         if kind not in admissible:
             continue
-        words = f"{kind}: normal force"
+        words = f"synchronous rub, {'stable' if kind == 'stable rub' else 'saddle'}: normal force"
         entries.append(Line2D([], [], color=LOOKS["rub"].colour, ls=line, lw=1.1, label=words))
     return entries + _attractor_key(diagram) + [look.entry() for look in marked]
 

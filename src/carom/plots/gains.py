@@ -93,7 +93,7 @@ def gain_map(
     words = {"none": _NONE.get(measure, "")}
     if found.present_share.count and _within(edges, here, grounded):
         # The star marks a machine that levitates; without these words its cell would seem to contradict it.
-        words["no-levitation"] = "no levitation without contact (in the middle of the cell)"
+        words["no-levitation"] = "no levitation (in the middle of the cell)"
     handles: list[Line2D | Patch] = [*blank_cells(drawn, edges, blank, words)]
     handles += _contours(drawn, x, y, np.ma.masked_where(grounded, found.dataset["recovered"].values))
     drawn.plot(*here, marker="*", ms=9.0, mfc="white", mec="#1a1a1a", mew=0.7, ls="none", gid="present", clip_on=False)

@@ -13,8 +13,8 @@ key of :data:`LOOKS`   drawn as                    means
 ``"outside"``          pale grey, dotted           the part of a virtual orbit beyond the wall
 ``"wall"``             near-black, solid           clearance circle: the touchdown bearing
 ``"path"``             dark slate, thin            a simulated motion
-``"contact-free"``     green, pentagon             contact-free equilibrium (levitation)
-``"rub"``              purple, square              synchronous rub equilibrium
+``"contact-free"``     green, pentagon             levitation
+``"rub"``              purple, square              synchronous rub
 ``"slide"``            purple, broad               lasting contact that slides along the wall
 ``"roll"``             wine, broad, dashed         lasting contact that rolls round the wall
 ``"forward"``          sky blue, triangle up       impact in forward whirl (fixed frame)
@@ -97,8 +97,8 @@ LOOKS = MappingProxyType(
         "outside": Look("#a6a6a6", "virtual part, outside the clearance", line=":", width=0.8),
         "wall": Look("#1a1a1a", "clearance circle (touchdown bearing)", line="-", width=1.0),
         "path": Look("#3d4f66", "path of the rotor centre", line="-", width=0.6),
-        "contact-free": Look("#009e73", "contact-free equilibrium", marker="p"),
-        "rub": Look("#cc79a7", "rub equilibrium", marker="s"),
+        "contact-free": Look("#009e73", "levitation", marker="p"),
+        "rub": Look("#cc79a7", "synchronous rub", marker="s"),
         "slide": Look("#cc79a7", "lasting contact, sliding", line="-", width=2.0),
         "roll": Look("#882255", "lasting contact, rolling", line="--", width=2.0),
         "forward": Look("#56b4e9", "impact, forward whirl", marker="^"),
@@ -119,13 +119,13 @@ REGIMES = (
 
 OUTCOMES = MappingProxyType(
     {
-        "levitated": Look("#009e73", "levitates without contact"),
-        "bouncing": Look("#0072b2", "keeps bouncing", hatch="...."),
-        "irregular": Look("#3d3d3d", "keeps bouncing irregularly", hatch="...."),
-        "mixed": Look("#56b4e9", "keeps alternating between bounces and lasting contact"),
-        "forward-rub": Look("#cc79a7", "rubs in forward whirl", hatch="\\\\\\\\"),
-        "backward-whirl": Look("#7a4fa3", "slides in backward whirl", hatch="xxxx"),
-        "rolling": Look("#882255", "rolls in backward whirl", hatch="////"),
+        "levitated": Look("#009e73", "levitation"),
+        "bouncing": Look("#0072b2", "bouncing", hatch="...."),
+        "irregular": Look("#3d3d3d", "irregular bouncing", hatch="...."),
+        "mixed": Look("#56b4e9", "bouncing with rub"),
+        "forward-rub": Look("#cc79a7", "forward rub", hatch="\\\\\\\\"),
+        "backward-whirl": Look("#7a4fa3", "sliding backward whirl", hatch="xxxx"),
+        "rolling": Look("#882255", "rolling backward whirl", hatch="////"),
         "grazing": Look("#000000", "grazes the wall, undecided"),
         "time-reached": Look("#a6a6a6", "time reached"),
         "event-limit": Look("#a6a6a6", "limit of events reached"),

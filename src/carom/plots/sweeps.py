@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 BLANKS = MappingProxyType(
     {
-        "no-levitation": Look("#e6e6e6", "no levitation without contact", hatch=r"\\"),
+        "no-levitation": Look("#e6e6e6", "no levitation", hatch=r"\\"),
         "none": Look("#ffffff", "no such value", hatch="////"),
         "waiting": Look("#ffffff", "not computed yet", hatch="...."),
         "failed": Look("#ffffff", "failed", hatch="xxxx"),
@@ -40,7 +40,7 @@ _NONE = MappingProxyType(
     {
         "smallest_unrecovered_kick": "every kick tried came back",
         "smallest_unrecovered_kick_angle": "every kick tried came back",
-        "rub_force": "no stable rub",
+        "rub_force": "no stable synchronous rub",
         "orbit_impulse": "no stable orbit with one impact",
         "least_damping": "contact survives all damping tried",
         "least_damping_rolling": "contact survives all damping tried",

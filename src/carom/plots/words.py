@@ -86,13 +86,13 @@ def axis_time(scales: Scales | None) -> str:
 
 
 def parameter_unit(field: Field) -> float:
-    """Return the divisor of a parameter in figures: a shaft speed is shown in rpm."""
-    return math.pi / 30.0 if field.name == "speed" else 1.0
+    """Return the divisor of a parameter in figures, which show it in the unit in which people usually say it."""
+    return field.usual_size
 
 
 def parameter_label(field: Field) -> str:
     """Return the words, symbol and unit of a parameter."""
-    unit = "rpm" if field.name == "speed" else field.unit
+    unit = field.usual_unit
     symbol = {"γ": r"\gamma", "ω": r"\omega", "ρ": r"\rho", "φ": r"\varphi", "μ": r"\mu", "Ω": r"\Omega"}.get(
         field.symbol, field.symbol
     )

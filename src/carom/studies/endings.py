@@ -7,13 +7,6 @@ from collections import Counter
 from dataclasses import dataclass
 
 from carom.attractors import Attractor, AttractorSet, Ending, MotionName
-from carom.outcome import Outcome
-
-_WORDS = {
-    Outcome.LEVITATED: "contact-free levitation",
-    Outcome.ROLLING: "rolling backward whirl",
-    Outcome.BACKWARD_WHIRL: "sliding backward whirl",
-}
 
 
 @dataclass(frozen=True)
@@ -30,14 +23,9 @@ class KickSize:
     """Number of the other kicks by the attractor in which they ended."""
 
 
-def ending_words(motion: MotionName) -> str:
-    """Return the name of a motion for an engineer: ``bouncing on B1,d``, ``rolling backward whirl``."""
-    return f"bouncing on {motion}" if motion.orbit else _WORDS.get(motion.outcome, motion)
-
-
 def ending_phrase(motion: MotionName) -> str:
-    """Return the same to follow a verb: (ends) ``bouncing on B1,d``, (ends) ``in rolling backward whirl``."""
-    words = ending_words(motion)
+    """Return the words of a motion to follow a verb: (ends) ``bouncing on B1,d``, (ends) ``in rolling backward whirl``."""
+    words = motion.words
     return words if motion.orbit or not motion.outcome.settled else f"in {words}"
 
 

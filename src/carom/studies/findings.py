@@ -42,7 +42,7 @@ def _levitation(study: Study) -> str:
     if levitation.status == "boundary":
         return "The contact-free whirl from unbalance just touches the wall: the least disturbance brings contact."
     text = (
-        f"The rotor levitates without contact at r = {say.radius(levitation.radius)}, zone {study.zone} "
+        f"The rotor levitates at r = {say.radius(levitation.radius)}, zone {study.zone} "
         f"(zone limits {limits} of the clearance). A gap of {say.length(1.0 - levitation.radius)} to the wall is left. "
     )
     decay = -float(levitation.eigenvalues.real.max())
@@ -201,7 +201,7 @@ def _endings(study: Study) -> str:
     found = study.attractors
     counts = {member.name: member.count for member in found if member.count}
     if list(counts) == [LEVITATION]:
-        return f"All of them came back to contact-free levitation{_fresh_words(study)}."
+        return f"All of them came back to levitation{_fresh_words(study)}."
     parts = [f"{count} {ending_phrase(name)}" for name, count in counts.items()]
     text = f"They ended: {listed(parts)}.{_irregular(found)}"
     touched = touching(found)
@@ -295,7 +295,7 @@ def _remedies_along(study: Study, gain: Gain) -> list[str]:
 
 
 _POSSIBLE: dict[Motion, str] = {
-    "contact-free": "contact-free motion exists",
+    "contact-free": "levitation exists",
     "rub": "a synchronous rub can hold the rotor",
     "single-impact": "orbits with one impact a period are possible",
     "stable-single-impact": "stable ones, which can hold the rotor,",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from carom.studies.advice import WANTED
-from carom.studies.endings import came_back, ending_words
+from carom.studies.endings import came_back
 from carom.studies.recommendation import Bound, Change, Margin, evidence_of
 from carom.studies.remedies import check_words
 from carom.studies.wording import counted, listed, number
@@ -152,7 +152,7 @@ def _own_margin(study: Study, gain: Gain, margin: Margin) -> str:
 def _where(edge: Edge) -> str:
     """Say what happens at the end of a range."""
     if edge.motion is not None:
-        return f"beyond which disturbances ended in {ending_words(edge.motion)}"
+        return f"beyond which disturbances ended in {edge.motion.words}"
     return f"where {EVENTS.get(edge.kind, f'an orbit ends ({edge.kind})')}"
 
 

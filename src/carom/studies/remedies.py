@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from carom.studies.endings import ending_words
 from carom.studies.wording import counted, listed, number
 
 if TYPE_CHECKING:
@@ -39,7 +38,7 @@ def _met(study: Study, found: LevitationAlone) -> str:
     """Say which other motions were found beyond the ends of the ranges."""
     say = study.wording
     ends = {(edge.motion, edge.value) for span in found.spans for edge in (span.low, span.high) if edge.motion}
-    parts = [f"{ending_words(motion)} was met beyond {say.gain(found.gain, value)}" for motion, value in sorted(ends)]
+    parts = [f"{motion.words} was met beyond {say.gain(found.gain, value)}" for motion, value in sorted(ends)]
     return f" ({listed(parts)}, where neither orbit nor rub is known)" if parts else ""
 
 

@@ -12,7 +12,7 @@ from carom.orbits.single_impact import OrbitSet
 from carom.outcome import shown
 from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
-from carom.studies.endings import ending_words, kick_sizes
+from carom.studies.endings import kick_sizes
 from carom.studies.one_page import EVENTS
 from carom.studies.proven import is_proven
 from carom.studies.ranges import Motion
@@ -70,7 +70,7 @@ class ThresholdRow:
 
 
 MOTIONS: dict[Motion, str] = {
-    "contact-free": "contact-free levitation",
+    "contact-free": "levitation",
     "rub": "synchronous rub",
     "single-impact": "orbits with one impact a period",
     "stable-single-impact": "stable orbits with one impact a period",
@@ -204,7 +204,7 @@ def _seen(say: Wording, member: Attractor, found: AttractorSet, parameters: Para
     )
     known = "" if member.count else "from a start next to it"
     return MotionRow(
-        ending_words(member.name),
+        member.name.words,
         "transient" if member.transient else "seen" if member.settled else "undecided",
         period=say.time(member.period) if member.period else "",
         impulse=f"up to {say.impulse(impulse)}" if impulse > 0 else "",
@@ -267,6 +267,6 @@ def kick_rows(study: Study) -> list[tuple[str, str, str]]:
     """Return for each size of kick how many directions came back, and where the others ended."""
     rows = []
     for size in kick_sizes(study.attractors):
-        lost = [f"{count} {ending_words(name)}" for name, count in size.lost.items()]
+        lost = [f"{count} {name.words}" for name, count in size.lost.items()]
         rows.append((study.wording.velocity(size.speed), f"{size.recovered} of {size.directions}", ", ".join(lost)))
     return rows

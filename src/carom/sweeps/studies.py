@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from carom.parameters import Case
 
 _SIMPLE = (
-    Variable("levitates", "whether levitation without contact exists and is stable", "flag", flags=("no", "yes")),
+    Variable("levitates", "whether levitation exists and is stable", "flag", flags=("no", "yes")),
     Variable("levitation_radius", "radius of the contact-free whirl", scale="length"),
     Variable("levitation_decay", "slowest decay of disturbances in levitation", unit="Omega"),
     Variable("zone", "zone of the contact-free amplitude", "flag", flags=("A", "B", "C", "D")),

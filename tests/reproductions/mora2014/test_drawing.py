@@ -79,7 +79,7 @@ def test_levitation_and_orbits_of_figure_2(drawn):
     assert "time" in radius.get_xlabel()
     words = words_of(figure)
     for expected in (
-        "contact-free equilibrium",
+        "levitation",
         "impact, backward whirl",
         "impact, forward whirl",
         "orbit, admissible, unstable",

@@ -74,7 +74,7 @@ def test_fresh_disturbances_come_back_where_the_share_lost_is_said_to_be_small()
     safe = least_safe_damping(SLIVERS, count=4000)
     limit = safe.within_reach
 
-    assert (limit.motion, limit.evidence) == ("rolling", "simulation")
+    assert (limit.motion, limit.evidence) == ("rolling backward whirl", "simulation")
     assert lost(SLIVERS, limit.gamma * 0.8, 20_000, seed=5) > 10
     for times in (1.0, 1.05, 1.2):
         assert lost(SLIVERS, times * limit.above, 20_000, seed=6) <= binom.ppf(0.999, 20_000, safe.share_below)
@@ -156,7 +156,7 @@ def test_own_damping_and_threads_do_not_matter(safe):
 def test_faster_disturbances_reach_rolling():
     safe = least_safe_damping(SOURCE, count=600, highest=4.0, fastest=5.0)
 
-    assert (safe.within_reach.motion, safe.within_reach.evidence) == ("rolling", "simulation")
+    assert (safe.within_reach.motion, safe.within_reach.evidence) == ("rolling backward whirl", "simulation")
     assert safe.rub.gamma < safe.within_reach.gamma < rolling(Jeffcott(SOURCE)).largest_damping
     assert "ended in rolling backward whirl" in safe.words
     # Well below, disturbances roll; at the damping said to be safe none of another sample does.
@@ -170,7 +170,7 @@ def test_well_balanced_stiff_machine_is_safe_at_any_damping():
 
     assert len(find_equilibria(Jeffcott(stiff))) == 3
     assert safe.rub is safe.orbits is safe.simulated is safe.within_reach is None
-    assert safe.at_all.motion == "rolling"
+    assert safe.at_all.motion == "rolling backward whirl"
     assert safe.words.startswith("None of 60 fresh disturbances ")
 
 

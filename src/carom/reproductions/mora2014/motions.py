@@ -53,7 +53,7 @@ def shown_motions() -> tuple[ShownMotion, ...]:
         Panels a to c.
     """
     levitating = Jeffcott(machine_at(0.3))
-    shown = [ShownMotion("a", 0.3, "contact-free equilibrium", levitating, None, abs(levitating.equilibrium))]
+    shown = [ShownMotion("a", 0.3, "levitation", levitating, None, abs(levitating.equilibrium))]
     for panel, gamma, name, words in (
         ("b", 0.065, "B1,d", "impacting orbit near grazing"),
         ("c", 0.1, "B1,a", "impacting orbit near the non-smooth Hopf bifurcation"),

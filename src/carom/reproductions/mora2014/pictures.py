@@ -61,7 +61,7 @@ def figures(results: Reproduction) -> tuple[Picture, ...]:
             "abc",
             "(a) The period condition F₁ over the period T for two dampings; its zeros are the periods of orbits with one "
             "impact. (b) The zeros over the damping: shorter and longer period of each pair, which meet in folds, the first at "
-            f"γ = {fold:.6f}. (c) Birth of the orbits B1,a and B1,b from the contact-free equilibrium at γ = {birth:.6f}: "
+            f"γ = {fold:.6f}. (c) Birth of the orbits B1,a and B1,b from levitation at γ = {birth:.6f}: "
             "virtual below, admissible above (computed, where the source has a sketch).",
             results.periods,
             partial(_drawn, "figure_3", results.periods, birth),
@@ -89,7 +89,7 @@ def figures(results: Reproduction) -> tuple[Picture, ...]:
             f"(a) Largest modulus of the multipliers: only B1,d is ever stable, above γ = {doubling:.6f}. (b) The plane of "
             "damping and stiffness. Beside the fold and the line where levitation meets the wall, which is a non-smooth Hopf "
             f"bifurcation left of their meeting at ({meeting[0]:.5f}, {meeting[1]:.5f}), the curves of grazing and of period "
-            "doubling of B1,d and the fold of the rubs. In R3 a stable forward rub exists left of the last.",
+            "doubling of B1,d and the fold of the rubs. In R3 a stable synchronous rub exists left of the last.",
             (results.pair, results.plane),
             partial(_drawn, "figure_6", results.pair, results.plane),
         ),

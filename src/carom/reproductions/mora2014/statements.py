@@ -132,5 +132,7 @@ def _third_region(plane: DampingStiffnessPlane) -> Claim:
         "section 4b, region R3",
         "levitation is the only motion named; the text leaves out rubs",
         not rubbing,
-        f"a stable synchronous rub exists in {', '.join(rubbing)}" if rubbing else "no stable rub exists there",
+        f"a stable synchronous rub exists in {', '.join(rubbing)}"
+        if rubbing
+        else "no stable synchronous rub exists there",
     )

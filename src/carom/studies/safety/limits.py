@@ -14,7 +14,7 @@ from carom.motions.settling import PATIENCE
 from carom.outcome import Outcome
 from carom.parameters import Parameters
 from carom.results import Result
-from carom.studies.endings import ending_phrase, ending_words
+from carom.studies.endings import ending_phrase
 from carom.studies.safety.losses import DampingCheck
 from carom.studies.wording import Wording
 
@@ -154,7 +154,7 @@ class SafeDamping(Result):
         limit = self.within_reach
         if limit is None:
             return ""
-        last = f"the {limit.motion}" if limit.motion.outcome is Outcome.FORWARD_RUB else ending_words(limit.motion)
+        last = f"the {limit.motion}" if limit.motion.outcome is Outcome.FORWARD_RUB else limit.motion.words
         if limit.evidence != "simulation":
             return f"The last motion to go is {last}, at {say.gain('gamma', limit.above)}."
         factor = say.scales.damping if say.scales else 1.0

@@ -100,7 +100,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
     _levitation(left, radii)
     left.set_ylim(0.962, 1.018)
     right.set_ylim(0.0, 1.15)
-    letter(left, "a", "small orbits and contact-free equilibrium")
+    letter(left, "a", "small orbits and levitation")
     letter(right, "b", "large orbits")
     for axes, names in (
         (left, (("B1,a", 0.14, 0.9945), ("B1,b", 0.14, 0.986))),
@@ -110,7 +110,7 @@ def figure_5(pair: FirstPair, radii: RadiusDiagram) -> Figure:
             name_branch(axes, *name)
     kinds = ("fold", "non-smooth-hopf", "radius-extremum", "grazing", "period-doubling")
     entries = branch_key(kinds)
-    entries.insert(3, Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="contact-free equilibrium"))
+    entries.insert(3, Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="levitation"))
     figure.legend(handles=entries, loc="outside lower center", ncols=5)
     return figure
 

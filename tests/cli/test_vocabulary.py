@@ -1,0 +1,97 @@
+"""One name for each motion: what the commands print, draw and write as JSON keeps to docs/reference/motions.md."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from carom.attractors import MotionName
+from carom.cli.app import main
+from carom.orbits.names import OrbitName
+from carom.outcome import Outcome
+from carom.plots import LOOKS, OUTCOMES
+
+MACHINE = "examples/keogh-cole.toml"
+PAGE = Path("docs/reference/motions.md").read_text(encoding="utf-8")
+FORBIDDEN = re.findall(r'"([^"]+)"', PAGE[PAGE.index("Not written for people") :])
+NAMES = re.findall(r"^\| ([^|`]+?) \|", PAGE, re.MULTILINE)[1:]
+COMMANDS = {
+    "study": ("study", MACHINE),
+    "orbits": ("orbits", MACHINE),
+    "simulate": ("simulate", MACHINE, "--kick", "0.4,0.2", "--until", "100"),
+    "basins": ("basins", MACHINE, "--grid", "14x14"),
+    "bifurcations": ("bifurcations", MACHINE, "--along", "speed", "--from", "1500 rpm", "--to", "2000 rpm"),
+    "regions": ("regions", MACHINE, "--plane", "gamma,omega", "--x", "0.1,0.2", "--y", "0.7,0.8", "--grid", "6"),
+}
+
+pytestmark = pytest.mark.jit_only
+
+
+def names_in(document):
+    """All names of motions in a document."""
+    if isinstance(document, dict):
+        for key, entry in document.items():
+            if key in ("attractor", "motion") and isinstance(entry, str):
+                yield entry
+            elif key == "fractions":
+                yield from entry
+            elif key == "attractors":
+                yield from (member["name"] for member in entry)
+            else:
+                yield from names_in(entry)
+    elif isinstance(document, list):
+        for entry in document:
+            yield from names_in(entry)
+
+
+def is_a_name(text):
+    plain = re.sub(r"\d+-impact", "3-impact", text)
+    return plain in NAMES or re.fullmatch(r"[BR]\d+,[a-d]", text) or text.startswith("unresolved: ")
+
+
+def test_the_page_lists_what_names_can_be():
+    assert len(FORBIDDEN) == 10
+    orbit = OrbitName(1, True, True)
+    made = [
+        *(MotionName(outcome) for outcome in Outcome if outcome.settled),
+        MotionName(Outcome.FORWARD_RUB, drifting=True),
+        MotionName(Outcome.BOUNCING, 3),
+        MotionName(Outcome.MIXED, 3),
+        MotionName(Outcome.BOUNCING, 1, orbit=orbit),
+    ]
+    assert all(is_a_name(name) for name in made)
+    assert {re.sub(r"B1,d", "B1,d and the like", str(name)) for name in made} == set(NAMES)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_texts_of_commands_use_these_names(command, capsys):
+    assert main(COMMANDS[command]) == 0
+    text = re.sub(r"\s+", " ", capsys.readouterr().out)
+    assert not [words for words in FORBIDDEN if words in text]
+    assert "rad/s" not in text
+    if command in ("study", "basins"):
+        for name in ("levitation", "synchronous rub", "bouncing on B1,d"):
+            assert name in text
+    if command == "study":
+        assert "1,759 rpm" in text
+
+
+@pytest.mark.parametrize("command", ["study", "basins"])
+def test_json_uses_these_names(command, capsys):
+    assert main((*COMMANDS[command], "--json")) == 0
+    document = json.loads(capsys.readouterr().out)
+    ranges = {"contact-free", "rub", "single-impact", "stable-single-impact", "rolling"}
+    found = set(names_in(document)) - ranges
+    assert {"levitation", "synchronous rub", "B1,d"} <= found
+    assert all(is_a_name(name) for name in found)
+
+
+def test_figures_use_these_names():
+    words = [look.words for look in (*LOOKS.values(), *OUTCOMES.values())]
+    assert not [text for text in words if any(forbidden in text for forbidden in FORBIDDEN)]
+    for label in ("levitated", "rolling", "backward-whirl"):
+        outcome = next(outcome for outcome in Outcome if outcome.label == label)
+        assert OUTCOMES[label].words == MotionName(outcome)
