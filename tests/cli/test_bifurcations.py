@@ -123,6 +123,15 @@ def test_plane_as_tables_around_the_machine(capsys, tmp_path):
     assert (tmp_path / "regions-speed-damping.png").stat().st_size > 10_000
 
 
+@pytest.mark.jit_only
+def test_orbits_with_two_impacts_are_listed(capsys):
+    words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.0832", "--to", "0.0836", "--impacts", "2"]
+    assert main(words) == 0
+    shown = capsys.readouterr().out
+    assert "P2,1 (impact+ impact+)" in shown
+    assert "does not prove that these are all" in " ".join(shown.split())
+
+
 @pytest.mark.parametrize(
     ("words", "complaint"),
     [

@@ -15,6 +15,7 @@ from carom.bifurcations.conditions import corrected
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
+from carom.bifurcations.several import several_impacts
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -22,10 +23,12 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
+from carom.bifurcations.words import SpecialOrbit, WordBranch
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
+from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
@@ -38,6 +41,8 @@ SAME_ANGLE = 0.02
 """The same for motions with lasting contact: difference of the angles in rad, and relative one of the periods."""
 FOLLOWING_SHARE = 0.2
 """Fraction of the progress for following branches, if attractors are searched too."""
+SINGLE_SHARE = 0.2
+"""Fraction of the progress for orbits with one impact, if others are searched too."""
 LONGEST_PERIOD = 60.0
 """Longest period searched, in ``1/Ω``, where damping is so weak that there would be hundreds of pairs."""
 
@@ -55,9 +60,11 @@ class Diagram(Result):
     equilibria : tuple of EquilibriumBranch
     rolling : RollingBranch
     orbits : tuple of OrbitBranch
+    several : tuple of WordBranch
+        Orbits with several impacts a period that a search and period doublings lead to; empty unless asked for.
     rubbing : tuple of RubbingBranch
         Periodic motions with a stretch of lasting contact; empty unless asked for.
-    points : tuple of Bifurcation
+    points : tuple of Bifurcation or SpecialOrbit
         In ascending order of the parameter.
     attractors : tuple of AttractorSample
         Motions to which simulated disturbances, and starts next to known motions, settled; empty unless asked for.
@@ -75,19 +82,26 @@ class Diagram(Result):
     equilibria: tuple[EquilibriumBranch, ...]
     rolling: RollingBranch
     orbits: tuple[OrbitBranch, ...]
+    several: tuple[WordBranch, ...]
     rubbing: tuple[RubbingBranch, ...]
-    points: tuple[Bifurcation, ...]
+    points: tuple[Bifurcation | SpecialOrbit, ...]
     attractors: tuple[AttractorSample, ...] = ()
     disturbances: DisturbanceSet | None = None
 
     def rows(self) -> list[tuple[str, str]]:
         """The motions, and each special point."""
         low, high = self.interval
+        names = dict.fromkeys(name for branch in self.branches for name in branch.names)
         return [
             (self.parameter, f"from {low:.6g} to {high:.6g}"),
-            ("orbits", in_a_line(tuple(dict.fromkeys(name for branch in self.orbits for name in branch.names)))),
+            ("orbits", in_a_line(tuple(names))),
             *((f"{point.value:.6g}", f"{point.kind}, {point.name}") for point in self.points),
         ]
+
+    @property
+    def branches(self) -> list[OrbitBranch | WordBranch]:
+        """Branches of orbits with one impact a period, then those of orbits with several."""
+        return [*self.orbits, *self.several]
 
     @property
     def parameter(self) -> str:
@@ -101,6 +115,7 @@ def find_bifurcations(
     parameter: str,
     interval: Ends,
     *,
+    impacts: int = 1,
     virtual: bool = False,
     lasting: bool = False,
     attractors: int = 0,
@@ -122,6 +137,9 @@ def find_bifurcations(
         Dimensionless or physical name.
     interval : tuple of float or str
         In SI units if the parameter is physical; text has a unit, ``("300 N s/m", "2000 N s/m")``.
+    impacts : int
+        Follow orbits with up to so many impacts a period too: those born in period doublings, and those that a search at 9 values
+        finds.  Unlike the orbits with one impact, some may be missing.
     virtual : bool
         Follow all orbits, including those of higher pairs that are virtual at all of these values.
     lasting : bool
@@ -135,18 +153,21 @@ def find_bifurcations(
     Raises
     ------
     InputError
-        Empty interval, unknown parameter, values out of the range of the parameter, or another model than the planar
-        rotor without ``attractors``.
+        Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` below 1, or another model than
+        the planar rotor without ``attractors``.
     """
-    model = model_of(machine) if attractors and not (virtual or lasting) else jeffcott_of(machine)
+    if impacts < 1:
+        raise InputError("impacts", impacts, "a whole number of at least 1")
+    model = model_of(machine) if attractors and not (virtual or lasting or impacts > 1) else jeffcott_of(machine)
     along = axis(model, parameter)
     limits = read_interval(along, interval)
     tell = Reporter.of(progress, "following motions")
     nothing = np.empty(0)
-    found, rolling, followed = _Followed((), (), ()), RollingBranch(nothing, nothing, nothing > 0.0), 0.0
+    found, rolling, followed = _Followed((), (), (), ()), RollingBranch(nothing, nothing, nothing > 0.0), 0.0
     if isinstance(model, Jeffcott):
         followed = 1.0 if not attractors else FOLLOWING_SHARE
-        found = _follow(model.parameters, along, limits, virtual, lasting, tell.part(0.0, followed))
+        chosen = _Chosen(impacts, virtual, lasting)
+        found = _follow(model.parameters, along, limits, chosen, tell.part(0.0, followed))
         rolling = rolling_branch(model, along, limits)
     disturbances = DisturbanceSet(attractors, seed) if attractors else None
     return Diagram(
@@ -156,6 +177,7 @@ def find_bifurcations(
         equilibria=equilibrium_branches(model, along, limits),
         rolling=rolling,
         orbits=found.orbits,
+        several=found.several,
         rubbing=found.rubbing,
         points=found.points,
         attractors=sample_attractors(
@@ -175,36 +197,57 @@ def special_points(
     parameters: Parameters, parameter: str, interval: tuple[float, float], *, virtual: bool, lasting: bool
 ) -> tuple[Bifurcation, ...]:
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
-    return _follow(parameters, axis(parameters, parameter), interval, virtual, lasting, Reporter()).points
+    chosen = _Chosen(1, virtual, lasting)
+    points = _follow(parameters, axis(parameters, parameter), interval, chosen, Reporter()).points
+    return tuple(point for point in points if isinstance(point, Bifurcation))
+
+
+class _Chosen(NamedTuple):
+    """Which branches to follow; see :func:`find_bifurcations`."""
+
+    impacts: int
+    virtual: bool
+    lasting: bool
 
 
 class _Followed(NamedTuple):
     """Branches of orbits and of motions with lasting contact, and the special points of all motions."""
 
     orbits: tuple[OrbitBranch, ...]
+    several: tuple[WordBranch, ...]
     rubbing: tuple[RubbingBranch, ...]
-    points: tuple[Bifurcation, ...]
+    points: tuple[Bifurcation | SpecialOrbit, ...]
 
 
 def _follow(
-    parameters: Parameters, along: Axis, limits: tuple[float, float], virtual: bool, lasting: bool, tell: Reporter
+    parameters: Parameters, along: Axis, limits: tuple[float, float], chosen: _Chosen, tell: Reporter
 ) -> _Followed:
     branches: list[OrbitBranch] = []
     rubbing: list[RubbingBranch] = []
+    single = tell.part(0.0, 1.0 if chosen.impacts == 1 else SINGLE_SHARE)
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
         here = parameters.replace(**{along.name: value})
         for orbit in _orbits(here):
-            wanted = virtual or orbit.admissible or orbit.name.pair == 1
+            wanted = chosen.virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
                 branches.append(continue_single_impact(orbit, along.name, limits))
-        for motion in rubbing_orbits(here) if lasting else ():
+        for motion in rubbing_orbits(here) if chosen.lasting else ():
             if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
                 rubbing.append(continue_rubbing(motion, along.name, limits))
-        tell((done + 1) / SAMPLES)
-    points = [*steady_points(parameters, along, limits), *(point for branch in branches for point in branch.special)]
+        single((done + 1) / SAMPLES)
+    several: tuple[WordBranch, ...] = ()
+    if chosen.impacts > 1:
+        at, rest = (Jeffcott(parameters), along, limits, chosen.impacts, branches), tell.part(SINGLE_SHARE, 1.0)
+        several = several_impacts(*at, virtual=chosen.virtual, tell=rest)
+    points: list[Bifurcation | SpecialOrbit] = [
+        *steady_points(parameters, along, limits),
+        *(point for branch in branches for point in branch.special),
+    ]
+    # A branch ends by halving its period in a doubling of another: one point.
+    points += [point for branch in several for point in branch.special if point.kind != "period-halving"]
     for number, each in enumerate(rubbing, start=1):
         points += [replace(point, name=f"rubbing {number}") for point in each.special]
-    return _Followed(tuple(branches), tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
+    return _Followed(tuple(branches), several, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
 
 
 def _orbits(parameters: Parameters) -> Iterator[Orbit]:

@@ -7,8 +7,10 @@ from typing import Any
 from carom.attractors import DisturbanceSet, document_of
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
+from carom.bifurcations.words import WordBranch
 from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
+from carom.orbits.orbit import Orbit
 from carom.parameters import Parameters
 from carom.results import fields_of
 
@@ -26,11 +28,17 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
         "points": [
             fields_of(point, "kind", branch="name")
             | fields_of(point, "parameter", "value", "period", "radial_speed", "admissible", "detail")
+            | _word(point.orbit if point.motion == "orbit" else None)
             for point in diagram.points
         ],
         "branches": [
             fields_of(branch, "names", "values", "period", "radial_speed", "admissible", "stable", ends="stops")
             for branch in diagram.orbits
+        ],
+        "several": [
+            fields_of(branch, "name", "values", "period", "radial_speeds", "admissible", "stable", ends="stops")
+            | _word(branch)
+            for branch in diagram.several
         ],
         "equilibria": [
             fields_of(branch, "kind", "values", "radius", "normal_force", "admissible", "stable")
@@ -93,6 +101,11 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
         ],
         **fields_of(found, "everywhere", "lost"),
     }
+
+
+def _word(orbit: Orbit | WordBranch | None) -> dict[str, Any]:
+    """Word and number of impacts of an orbit; ``None`` for other motions."""
+    return {"word": str(orbit.word) if orbit else None, "impacts": orbit.impacts if orbit else None}
 
 
 def _axis(axis: Axis) -> dict[str, Any]:

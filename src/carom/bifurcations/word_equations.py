@@ -26,6 +26,10 @@ SHORTEST = 1e-6
 ASIDE = 0.02
 """Distance, in the norm of all unknowns, at which a branch born in a period doubling is begun."""
 CORRECTIONS = 20
+FAR = "far from a motion"
+"""Where a branch ends that is not followed among virtual orbits."""
+FAR_OUT, FAR_IN = -0.3, -0.1
+"""Margins of the radius and of the radial speed at an impact beyond which an orbit is far from being a motion."""
 
 
 @dataclass(frozen=True)
@@ -138,8 +142,13 @@ class Family:
                 return u, min(max(p, self.limits[0]), self.limits[1])
         raise CaromError("no orbit of twice the period was found beside the period doubling")
 
-    def watches(self, start: np.ndarray) -> list[Watch]:
-        """Functions that vanish at the special points."""
+    def _nearness(self, u: np.ndarray, p: float) -> float:
+        """Above zero as long as the orbit is a motion, or not far from one."""
+        point = self.point(u, p)
+        return np.nan if point is None else min(point.margins.radius - FAR_OUT, point.margins.approach - FAR_IN, 1.0)
+
+    def watches(self, start: np.ndarray, *, virtual: bool = True) -> list[Watch]:
+        """Functions that vanish at the special points, and where the branch ends."""
         kinds: dict[str, Callable[[FamilyPoint], float]] = {
             "period-doubling": lambda point: float(np.prod(1.0 + point.multipliers).real),
             "neimark-sacker": lambda point: float(np.prod(point.pairs[0] - 1.0).real),
@@ -160,6 +169,8 @@ class Family:
             return Watch(kind, value)
 
         watched = [watch(kind) for kind in kinds]
+        if not virtual:
+            watched.append(Watch(FAR, self._nearness, ends_branch=True))
         m = len(self.word)
         if m % 2 == 0 and (m // 2) % self.word.least == 0:
             first = np.subtract(*np.split(start, 2))

@@ -6,16 +6,16 @@ passes through grazing and goes on with orbits that are not motions of the machi
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact
-from carom.bifurcations.word_equations import Family
+from carom.bifurcations.word_equations import FAR, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
-from carom.models import Model, model_of
+from carom.models import Model
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
@@ -25,6 +25,10 @@ from carom.outcome import InputError
 from carom.results import Result
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
+BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "cone-limit")
+"""Special points at which the word of a motion changes."""
+ON_BORDER = 1e-8
+"""Margin that counts as zero at a border."""
 BEYOND = 0.2
 """Half of the range, relative to the parameter, in which a branch is followed that is switched to without a range."""
 
@@ -56,6 +60,34 @@ class SpecialOrbit(Result):
     value: float
     orbit: Orbit
     place: float
+    motion: ClassVar[str] = "orbit"
+    detail: ClassVar[str] = ""
+
+    @property
+    def name(self) -> OrbitName | CountedName:
+        """Name of the orbit."""
+        name: OrbitName | CountedName = self.orbit.name
+        return name
+
+    @property
+    def parameter(self) -> str:
+        """Name of the parameter."""
+        return self.axis.name
+
+    @property
+    def period(self) -> float:
+        """In ``1/Ω``."""
+        return self.orbit.period
+
+    @property
+    def radial_speed(self) -> float:
+        """``ṙ`` just before the first impact in ``c_r Ω``."""
+        return self.orbit.radial_speed
+
+    @cached_property
+    def admissible(self) -> bool:
+        """Whether it happens to a motion of the machine, or to one that just becomes or ceases to be one."""
+        return self.orbit.admissible or (self.kind in BORDERS and self.orbit.margins.least > -ON_BORDER)
 
     def switch(self, interval: Ends | None = None) -> WordBranch:
         """Branch of orbits of twice the period that is born in this period doubling; see :func:`switched`."""
@@ -69,6 +101,8 @@ class WordBranch(Result):
     Attributes
     ----------
     axis : Axis
+    name : OrbitName or CountedName
+        Name of all its orbits, on both sides of its folds: that of the orbit from which it was followed.
     word : Word
     rotor : Model
         The rotor from which the branch was followed.
@@ -84,9 +118,10 @@ class WordBranch(Result):
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977")
 
-    shown: ClassVar[tuple[str, ...]] = ("axis", "word", "values", "period", "special", "stops")
+    shown: ClassVar[tuple[str, ...]] = ("axis", "name", "word", "values", "period", "special", "stops")
 
     axis: Axis
+    name: OrbitName | CountedName
     word: Word
     rotor: Model
     values: np.ndarray
@@ -98,6 +133,44 @@ class WordBranch(Result):
         return len(self.values)
 
     @property
+    def impacts(self) -> int:
+        """Impacts per period."""
+        return self.word.impacts
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Name of each orbit."""
+        return (self.name,) * len(self)
+
+    @cached_property
+    def radial_speeds(self) -> np.ndarray:
+        """``ṙ`` just before each impact in ``c_r Ω``, shape (m, n)."""
+        return np.array([orbit.impact_speeds for orbit in self.orbits])
+
+    @property
+    def radial_speed(self) -> np.ndarray:
+        """``ṙ`` just before the first impact in ``c_r Ω``, shape (m,)."""
+        first: np.ndarray = self.radial_speeds[:, 0]
+        return first
+
+    def named(self, name: OrbitName | CountedName) -> WordBranch:
+        """The branch with another name."""
+        special = tuple(replace(point, orbit=replace(point.orbit, name=name)) for point in self.special)
+        return replace(self, name=name, special=special)
+
+    def starts_at(self, value: float) -> list[Start]:
+        """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there."""
+        family = Family(self.rotor, self.axis, self.word, (float(self.values.min()), float(self.values.max())))
+        found = []
+        for i in np.flatnonzero((self.values[:-1] - value) * (self.values[1:] - value) <= 0.0):
+            width = self.values[i + 1] - self.values[i]
+            share = (value - self.values[i]) / width if width else 0.0
+            guess = (1.0 - share) * self.unknowns[i] + share * self.unknowns[i + 1]
+            solved = family.solved(guess, value)
+            found.append(unpack(guess if solved is None else solved, len(self.word)))
+        return found
+
+    @property
     def period(self) -> np.ndarray:
         """Periods in ``1/Ω``, shape (m,)."""
         total: np.ndarray = self.unknowns.reshape(len(self), len(self.word), -1)[:, :, -1].sum(axis=1)
@@ -107,7 +180,7 @@ class WordBranch(Result):
     def orbits(self) -> tuple[Orbit, ...]:
         """Every orbit, with its multipliers and its admissibility certified."""
         pairs = zip(self.values.tolist(), self.unknowns, strict=True)
-        return tuple(_orbit_at(self.axis.move(self.rotor, p), self.word, u) for p, u in pairs)
+        return tuple(_orbit_at(self.axis.move(self.rotor, p), self.word, u, self.name) for p, u in pairs)
 
     @cached_property
     def admissible(self) -> np.ndarray:
@@ -153,15 +226,20 @@ def continue_orbit(
     return continue_word(orbit, parameter, interval, steps)
 
 
-def continue_word(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None) -> WordBranch:
-    """:func:`continue_orbit` by multiple shooting, for an orbit of any word."""
+def continue_word(
+    orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
+) -> WordBranch:
+    """:func:`continue_orbit` by multiple shooting, for an orbit of any word; on request not far among virtual orbits."""
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
     start = pack(Start(orbit.nodes, orbit.durations))
-    return _follow(Family(orbit.rotor, along, orbit.word, limits), start, present, steps)
+    family = Family(orbit.rotor, along, orbit.word, limits)
+    return _follow(family, start, present, steps, orbit.name, virtual=virtual)
 
 
-def switched(kind: str, orbit: Orbit, parameter: str, interval: Ends | None = None) -> WordBranch:
+def switched(
+    kind: str, orbit: Orbit, parameter: str, interval: Ends | None = None, *, virtual: bool = True
+) -> WordBranch:
     """Branch of orbits of twice the period that is born in a period doubling.
 
     Parameters
@@ -190,7 +268,8 @@ def switched(kind: str, orbit: Orbit, parameter: str, interval: Ends | None = No
     family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
     tangent = _alternating(orbit.links)
     unknowns, parameter_there = family.beside(np.tile(pack(orbit.links.start), 2), present, tangent)
-    return _follow(family, unknowns, parameter_there, None)
+    name = CountedName(family.word.impacts, 1)
+    return _follow(family, unknowns, parameter_there, None, name, virtual=virtual)
 
 
 def _alternating(links: Links) -> np.ndarray:
@@ -208,7 +287,15 @@ def _alternating(links: Links) -> np.ndarray:
     return whole
 
 
-def _follow(family: Family, start: np.ndarray, present: float, steps: Steps | None) -> WordBranch:
+def _follow(
+    family: Family,
+    start: np.ndarray,
+    present: float,
+    steps: Steps | None,
+    name: OrbitName | CountedName,
+    *,
+    virtual: bool,
+) -> WordBranch:
     """Follow a branch through a point, in both directions."""
     branch = continue_branch(
         family.residual,
@@ -216,7 +303,7 @@ def _follow(family: Family, start: np.ndarray, present: float, steps: Steps | No
         present,
         family.limits,
         jacobian=family.jacobian,
-        watches=family.watches(start),
+        watches=family.watches(start, virtual=virtual),
         solver=family.solved,
         steps=steps or STEPS,
         scales=np.append(np.ones(len(start)), family.size),
@@ -227,14 +314,14 @@ def _follow(family: Family, start: np.ndarray, present: float, steps: Steps | No
             point.kind,
             family.along,
             point.parameter,
-            _orbit_at(family.along.move(family.rotor, point.parameter), family.word, point.unknowns),
+            _orbit_at(family.along.move(family.rotor, point.parameter), family.word, point.unknowns, name),
             point.place,
         )
         for point in branch.special
         if _is_special(family, point, halvings)
     )
     return WordBranch(
-        family.along, family.word, family.rotor, branch.parameters, branch.unknowns, special, branch.stops
+        family.along, name, family.word, family.rotor, branch.parameters, branch.unknowns, special, branch.stops
     )
 
 
@@ -246,7 +333,7 @@ def _is_special(family: Family, point: SpecialPoint, halvings: tuple[SpecialPoin
     """
     if point.kind == "period-halving":
         return True
-    if point.kind == "branch point" or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
+    if point.kind in ("branch point", FAR) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
         return False
     if point.kind == "neimark-sacker":
         there = family.point(point.unknowns, point.parameter)
@@ -257,7 +344,6 @@ def _is_special(family: Family, point: SpecialPoint, halvings: tuple[SpecialPoin
     return True
 
 
-def _orbit_at(rotor: Model, word: Word, unknowns: np.ndarray) -> Orbit:
-    """Orbit at a point of a branch, without its name among others."""
-    links = links_of(model_of(rotor), word, unpack(unknowns, len(word)))
-    return Orbit.from_links(rotor, word, links, CountedName(word.impacts, 1))
+def _orbit_at(rotor: Model, word: Word, unknowns: np.ndarray, name: OrbitName | CountedName) -> Orbit:
+    """Orbit at a point of a branch."""
+    return Orbit.from_links(rotor, word, links_of(rotor, word, unpack(unknowns, len(word))), name)

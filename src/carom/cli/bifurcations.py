@@ -21,6 +21,15 @@ if TYPE_CHECKING:
 Out = Annotated[
     str | None, typer.Option(metavar="DIR", help="Write the figure and the JSON document to this directory.")
 ]
+Impacts = Annotated[
+    int,
+    typer.Option(
+        metavar="N",
+        min=1,
+        max=64,
+        help="Also search and follow orbits with up to N impacts a period; some may be missing.",
+    ),
+]
 Virtual = Annotated[
     bool, typer.Option("--virtual", help="Also follow orbits of higher pairs that are virtual at all values examined.")
 ]
@@ -63,6 +72,7 @@ def bifurcations(
     start: Annotated[str, typer.Option("--from", metavar="A", help="Its first value, dimensionless or with a unit.")],
     end: Annotated[str, typer.Option("--to", metavar="B", help="Its last value.")],
     settings: Settings = None,
+    impacts: Impacts = 1,
     virtual: Virtual = False,
     lasting: Lasting = False,
     attractors: Sampled = 0,
@@ -73,7 +83,7 @@ def bifurcations(
 ) -> None:
     """Find the bifurcations along one parameter.
 
-    Follows all equilibria and all orbits with one impact a period; lists folds, period doublings, Neimark-Sacker
+    Follows all equilibria and all orbits with one impact a period, with --impacts N also orbits with more that a search finds; lists folds, period doublings, Neimark-Sacker
     points, grazing, boundary equilibria, non-smooth Hopf points, folds of rubs and the limit of rolling.  Along the
     speed it is a run-up diagram: damping and stiffness stay fixed, their dimensionless values change with the speed.
     """
@@ -97,6 +107,7 @@ def bifurcations(
             parameters,
             varied.name,
             (min(first, last), max(first, last)),
+            impacts=impacts,
             virtual=virtual,
             lasting=lasting,
             attractors=attractors,
@@ -238,6 +249,10 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     screen.print(fitted(screen, table) if diagram.points else "No bifurcation on this range.")
     for branch in diagram.orbits:
         screen.print(f"Orbits {branch.names[0]} to {branch.names[-1]}: ends {branch.stops[0]}, {branch.stops[1]}")
+    for several in diagram.several:
+        screen.print(f"Orbits {several.name} ({several.word}): ends {several.stops[0]}, {several.stops[1]}")
+    if diagram.several:
+        screen.print("Orbits with several impacts were searched at 9 values, which does not prove that these are all.")
     for number, motion in enumerate(diagram.rubbing, start=1):
         whirl = "forward" if motion.whirl > 0 else "backward"
         screen.print(

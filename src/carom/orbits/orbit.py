@@ -53,6 +53,11 @@ class Margins(Result):
     normal_force: float
     cone: float
 
+    @property
+    def least(self) -> float:
+        """The smallest of them."""
+        return min(self.radius, self.approach, self.slip, self.normal_force, self.cone)
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Orbit(Result):
@@ -160,6 +165,12 @@ class Orbit(Result):
     def radial_speed(self) -> float:
         """``ṙ`` just before the first impact in ``c_r Ω``."""
         return self.section.radial_speed
+
+    @property
+    def impact_speeds(self) -> np.ndarray:
+        """``ṙ`` just before each impact in ``c_r Ω``, shape (n,)."""
+        pairs = zip(self.word, self.sections, strict=True)
+        return np.array([section.radial_speed for segment, section in pairs if segment.kind.is_impact])
 
     @property
     def angular_speed(self) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -109,7 +109,7 @@ def search_orbits(rotor: Model, impacts: int, starts: int, seed: int, tell: Repo
     search = _Search(rotor, impacts)
     random = np.random.default_rng(seed)
     for start in range(1, starts + 1):
-        search.follow(start, _random_start(rotor, random))
+        search.look_through(start, _followed(rotor, random_start(rotor, random)))
         tell(start / starts)
     admissible = sorted((orbit for orbit in search.found if orbit.admissible), key=lambda orbit: orbit.period)
     members = tuple(
@@ -121,7 +121,21 @@ def search_orbits(rotor: Model, impacts: int, starts: int, seed: int, tell: Repo
     )
 
 
-def _random_start(rotor: Model, random: np.random.Generator) -> State:
+def orbits_of_several_impacts(rotor: Model, impacts: int, starts: Iterable[State]) -> list[Orbit]:
+    """Admissible orbits with 2 up to a number of impacts a period, from the motions of some starts; a search, as above."""
+    searches = [_Search(rotor, count) for count in range(2, impacts + 1)]
+    for number, start in enumerate(starts, start=1):
+        motion = _followed(rotor, start)
+        for search in searches:
+            search.look_through(number, motion)
+    return [orbit for search in searches for orbit in search.found if orbit.admissible]
+
+
+def _followed(rotor: Model, start: State) -> Trajectory:
+    return simulate(rotor, start, LONGEST, stop_at_chatter=True, max_events=FOLLOWED)
+
+
+def random_start(rotor: Model, random: np.random.Generator) -> State:
     """State with random coordinates inside all walls, and random velocities."""
     system = rotor.system
     n = len(system.rest)
@@ -155,9 +169,8 @@ class _Search:
         self.known: dict[Word, list[np.ndarray]] = {}
         self.guesses = self.repeats = self.failures = self.last_new = 0
 
-    def follow(self, start: int, state: State) -> None:
-        """Simulate a start, and correct the stretches that come back closest."""
-        motion = simulate(self.rotor, state, LONGEST, stop_at_chatter=True, max_events=FOLLOWED)
+    def look_through(self, start: int, motion: Trajectory) -> None:
+        """Correct the stretches of the motion from a start that come back closest."""
         impacts = np.flatnonzero(motion.is_impact)
         if len(impacts) <= self.impacts:
             return

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
-    from carom.bifurcations import AttractorSample, Bifurcation, Diagram, OrbitBranch
+    from carom.bifurcations import AttractorSample, Bifurcation, Diagram, OrbitBranch, SpecialOrbit, WordBranch
 
 Interval = tuple[float, float]
 
@@ -54,14 +54,14 @@ def rows_of(diagram: Diagram) -> list[str]:
     exists = {
         "levitation": equilibria["contact-free"].admissible.any(),
         "synchronous rub": (equilibria["stable rub"].admissible & equilibria["stable rub"].stable).any(),
-        "bouncing": any(branch.admissible.any() for branch in diagram.orbits),
+        "bouncing": any(branch.admissible.any() for branch in diagram.branches),
         "bouncing with rub": bool(diagram.rubbing),
         "rolling backward whirl": diagram.rolling.holds.any(),
     }
     return [row for row in ROWS if exists.get(row, False) or row in present]
 
 
-def row_of_point(point: Bifurcation) -> str | None:
+def row_of_point(point: Bifurcation | SpecialOrbit) -> str | None:
     """Return the row in which a special point is marked; ``None`` if it belongs to another panel."""
     return {"rubbing": "bouncing with rub", "rolling": "rolling backward whirl"}.get(point.motion)
 
@@ -98,7 +98,7 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
         "levitation": (_on_grid(levitation.values, levitation.admissible & levitation.stable, marks), []),
         "synchronous rub": (_on_grid(rub.values, rub.admissible & rub.stable, marks), []),
         "rolling backward whirl": (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
-        "bouncing": _on_orbits(diagram.orbits),
+        "bouncing": _on_orbits(diagram.branches),
     }
     for motion in diagram.rubbing:
         stable, unstable = found.setdefault("bouncing with rub", ([], []))
@@ -125,7 +125,7 @@ def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[
     return steps
 
 
-def _on_orbits(branches: tuple[OrbitBranch, ...]) -> tuple[list[Interval], list[Interval]]:
+def _on_orbits(branches: list[OrbitBranch | WordBranch]) -> tuple[list[Interval], list[Interval]]:
     """Return the intervals of branches with stable and with unstable orbits; each has the look of its orbit."""
     stable: list[Interval] = []
     unstable: list[Interval] = []

@@ -20,7 +20,15 @@ from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
 if TYPE_CHECKING:
-    from carom.bifurcations import Bifurcation, Curve, Diagram, EquilibriumBranch, OrbitBranch
+    from carom.bifurcations import (
+        Bifurcation,
+        Curve,
+        Diagram,
+        EquilibriumBranch,
+        OrbitBranch,
+        SpecialOrbit,
+        WordBranch,
+    )
     from carom.proofs import Proof
     from carom.proofs.proven_lines import ProvenLine
 
@@ -31,6 +39,8 @@ POINTS = MappingProxyType(
         "period-doubling": Look("#d55e00", "period doubling", marker="s"),
         "neimark-sacker": Look("#56b4e9", "Neimark–Sacker bifurcation", marker="h"),
         "grazing": Look("#0072b2", "grazing", marker="v"),
+        "vanishing-impact": Look("#0072b2", "grazing, one impact more", marker="1"),
+        "cone-limit": Look("#882255", "rolling begins at the limit of friction", marker="|"),
         "radius-extremum": Look("#808080", "new extremum of the radius", marker="D"),
         "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
@@ -102,6 +112,10 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     for branch in diagram.orbits:
         heights = np.array([point.radial_speed for point in branch.special])
         branch_line(upper, branch, np.arange(len(branch)), branch.values / unit, branch.radial_speed, heights, unit)
+    for several in diagram.several:
+        for k, speeds in enumerate(several.radial_speeds.T):
+            heights = np.array([point.orbit.impact_speeds[k] for point in several.special])
+            branch_line(upper, several, np.arange(len(several)), several.values / unit, speeds, heights, unit)
     for sample in diagram.attractors:
         values = np.full(len(sample.radial_speeds), sample.value / unit)
         upper.plot(values, sample.radial_speeds, ls="none", **(_MET if sample.met else _UNMET), zorder=4)
@@ -165,7 +179,7 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
 
 def branch_line(
     axes: Axes,
-    branch: OrbitBranch,
+    branch: OrbitBranch | WordBranch,
     places: np.ndarray,
     values: np.ndarray,
     heights: np.ndarray,
@@ -186,6 +200,8 @@ def branch_line(
     where = np.concatenate([places, extra])[order]
     x = np.concatenate([values, [point.value / unit for point in special]])[order]
     y = np.concatenate([heights, special_heights])[order]
+    if len(x) < 2:  # it only touches the end of the range
+        return
     # An interval has the look of the orbit it touches.
     looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
     whole = where == np.floor(where)
@@ -228,7 +244,7 @@ def _top(branch: EquilibriumBranch) -> float:
     return 1.1 * float(heights.max()) if len(heights) else 0.0
 
 
-def _height(diagram: Diagram, point: Bifurcation) -> float:
+def _height(diagram: Diagram, point: Bifurcation | SpecialOrbit) -> float:
     """Return the height of an equilibrium's special point: zero for levitation, the common force where rubs meet."""
     if point.motion == "contact-free":
         return 0.0
@@ -254,6 +270,7 @@ def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
 def _limits(diagram: Diagram) -> tuple[float, float]:
     """Return the range of all admissible values, with a margin for virtual ones."""
     speeds = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
+    speeds += [branch.radial_speeds[branch.admissible].ravel() for branch in diagram.several]
     speeds += [sample.radial_speeds for sample in diagram.attractors]
     shown = np.concatenate([*speeds, [0.0]])
     high = float(shown.max()) or 1.0
@@ -262,7 +279,7 @@ def _limits(diagram: Diagram) -> tuple[float, float]:
 
 def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:
     entries = []
-    if diagram.orbits:
+    if diagram.orbits or diagram.several:
         for look, words in (("stable", "stable orbit"), ("unstable", "unstable orbit"), ("virtual", "virtual")):
             entries.append(LOOKS[look].entry(words))
     entries.append(Line2D([], [], color=LOOKS["contact-free"].colour, lw=1.1, label="levitation: gap"))
