@@ -17,6 +17,7 @@ import typer
 
 from carom.cli.basins import basins
 from carom.cli.bifurcations import bifurcations, regions
+from carom.cli.explore import explore
 from carom.cli.orbits import orbits
 from carom.cli.paper import paper
 from carom.cli.prove import prove
@@ -53,6 +54,7 @@ app.command("regions", help=regions.__doc__)(regions)
 app.command("basins", help=basins.__doc__)(basins)
 app.command("sweep", help=sweep.__doc__)(sweep)
 app.command("paper", help=paper.__doc__)(paper)
+app.command("explore", help=explore.__doc__)(explore)
 
 
 def _print_version(wanted: bool) -> None:

@@ -1,0 +1,45 @@
+"""``carom explore``: the interactive page."""
+
+from __future__ import annotations
+
+import sys
+from importlib.util import find_spec
+from typing import Annotated
+
+import typer
+
+from carom.cli.terminal import Settings
+from carom.outcome import CaromError
+
+_PORT = 5006
+
+
+def explore(
+    machine: Annotated[
+        str | None, typer.Argument(metavar="[MACHINE.toml]", help="The machine file; by default the example machine.")
+    ] = None,
+    settings: Settings = None,
+    port: Annotated[int, typer.Option(metavar="P", help="Port on this machine; 0 for any that is free.")] = _PORT,
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
+) -> None:
+    """Explore a machine on an interactive page: move a gain, see which kicks come back, and watch any of them.
+
+    The page is served on this machine alone, at the address that is printed first, until Ctrl-C. It needs the extra
+    carom[explore].
+    """
+    from carom.parameters import load
+
+    if find_spec("bokeh") is None:
+        raise CaromError("carom explore needs Bokeh: pip install 'carom[explore]'")
+    from carom.explorer.computing.exports import Origin
+    from carom.explorer.example import example_file
+    from carom.explorer.server import serve
+
+    path = str(example_file()) if machine is None else machine
+    case = load(path, settings or ())
+    serve(Origin(path, tuple(settings or ()), case), port, browser=browser, tell=_tell)
+
+
+def _tell(address: str) -> None:
+    typer.echo(address)
+    sys.stdout.flush()

@@ -1,0 +1,12 @@
+"""The interactive page of ``carom explore``.
+
+==============  ====================================================================================
+``computing``   what the page shows, as plain values and arrays
+``background``  work beside the page, of which only the newest counts
+``page``        the page: shared objects, figures, template and scripts, and the session behind them
+``server``      address, port and who is let in
+``example``     the machine that is shown if no file is given
+==============  ====================================================================================
+
+All but ``computing``, ``background`` and ``example`` need the extra ``carom[explore]``.
+"""

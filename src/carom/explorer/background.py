@@ -1,0 +1,105 @@
+"""Work beside the page: of each kind only the newest request counts, older ones are dropped or interrupted."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from carom.progress import Progress
+
+
+class SupersededError(Exception):
+    """Raised inside work that is no longer wanted."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """A piece of work.
+
+    Attributes
+    ----------
+    work : callable
+        Called in the thread of the desk with a callable that takes :class:`~carom.progress.Progress`; it raises
+        :class:`SupersededError` where the work is no longer wanted.
+    done : callable
+        Receives the result, or the exception, in that thread; nothing if the work was interrupted.
+    """
+
+    work: Callable[[Callable[[Progress], None]], Any]
+    done: Callable[[Any], None]
+
+
+class Desk:
+    """A thread that does one request after another, of each kind only the newest.
+
+    Parameters
+    ----------
+    kinds : sequence of str
+        Kinds of requests, the most urgent first.
+    tell : callable
+        Receives kind and progress of the work being done, in the thread of the desk.
+    """
+
+    def __init__(
+        self, kinds: Sequence[str], tell: Callable[[str, Progress], None] = lambda kind, progress: None
+    ) -> None:
+        self._kinds, self._tell = tuple(kinds), tell
+        self._waiting: dict[str, Request] = {}
+        self._changed = threading.Condition()
+        self._stale = threading.Event()
+        self._closed = False
+        self._thread = threading.Thread(target=self._run, name="carom explore", daemon=True)
+        self._thread.start()
+
+    def ask(self, kind: str, request: Request) -> None:
+        """Have a request done after the more urgent ones; it replaces a waiting one of its kind."""
+        with self._changed:
+            self._waiting[kind] = request
+            self._changed.notify()
+
+    def drop(self) -> None:
+        """Drop everything that waits, and interrupt the work being done."""
+        with self._changed:
+            self._waiting.clear()
+            self._stale.set()
+
+    def close(self) -> None:
+        """End the thread, after the work being done has noticed that it is interrupted."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify()
+        self.drop()
+
+    def join(self, seconds: float | None = None) -> bool:
+        """Wait for the end of the thread; whether it has ended."""
+        self._thread.join(seconds)
+        return not self._thread.is_alive()
+
+    def _next(self) -> tuple[str, Request] | None:
+        with self._changed:
+            self._changed.wait_for(lambda: self._waiting or self._closed)
+            if self._closed:
+                return None
+            self._stale.clear()
+            kind = next(kind for kind in self._kinds if kind in self._waiting)
+            return kind, self._waiting.pop(kind)
+
+    def _run(self) -> None:
+        while (found := self._next()) is not None:
+            kind, request = found
+
+            def tell(progress: Progress, kind: str = kind) -> None:
+                if self._stale.is_set():
+                    raise SupersededError
+                self._tell(kind, progress)
+
+            try:
+                result = request.work(tell)
+            except SupersededError:
+                continue
+            except Exception as problem:  # noqa: BLE001  (told to whoever asked)
+                result = problem
+            if not self._stale.is_set():
+                request.done(result)

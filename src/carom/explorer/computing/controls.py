@@ -1,0 +1,130 @@
+"""Parameters that can be moved on the page, their ranges, and what people type."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from carom.outcome import InputError, Problems, printable, shown
+from carom.parameters import PARAMETERS, Case, read_quantity
+
+_BARE = re.compile(r"[\s\d.,'+-]*\d[\s\d.,']*(?:[eE][+-]?\d+)?\s*")
+"""A number without a unit; it is in the unit that stands beside its box."""
+
+
+@dataclass(frozen=True)
+class Control:
+    """One parameter on the page.
+
+    Attributes
+    ----------
+    name : str
+        Name of the parameter, as in a machine file.
+    words : str
+        What an engineer calls it.
+    unit : str
+        Unit of all numbers here and of the box; empty for a pure number.
+    value : float
+        That of the machine.
+    low, high : float
+        Ends of the slider.
+    logarithmic : bool
+        Whether equal distances on the slider are equal ratios.
+    """
+
+    name: str
+    words: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    logarithmic: bool
+
+    def setting(self, value: float) -> str:
+        """A value as text that :func:`with_settings` reads, rounded to four digits."""
+        return f"{float(f'{value:.4g}'):g} {self.unit}".strip()
+
+
+@dataclass(frozen=True)
+class _Kind:
+    words: str
+    unit: str
+    reach: float
+    """Ratio of the end of the slider to the value of the machine."""
+    least: float = 0.0
+    """Least end of the slider, where the value of the machine is small."""
+    most: float = float("inf")
+    logarithmic: bool = False
+
+
+_KINDS: Mapping[str, _Kind] = {
+    "stiffness": _Kind("stiffness (P gain)", "N/m", 4.0, logarithmic=True),
+    "damping": _Kind("damping (D gain)", "N s/m", 5.0, logarithmic=True),
+    "speed": _Kind("speed", "rpm", 2.0),
+    "eccentricity": _Kind("unbalance (eccentricity)", "mm", 2.0),
+    "friction": _Kind("friction", "", 2.0, least=0.5, most=10.0),
+    "restitution": _Kind("restitution", "", 1.0, least=1.0, most=1.0),
+}
+_DIMENSIONLESS: Mapping[str, _Kind] = {
+    "omega": _Kind("stiffness: frequency ω over speed", "", 2.0, logarithmic=True),
+    "gamma": _Kind("damping γ", "", 5.0, logarithmic=True),
+    "rho": _Kind("unbalance ρ", "", 2.0),
+    "mu": _Kind("friction μ", "", 2.0, least=0.5, most=10.0),
+    "d": _Kind("restitution d", "", 1.0, least=1.0, most=1.0),
+}
+
+
+def controls_of(case: Case) -> tuple[Control, ...]:
+    """Controls of a machine: in engineering units, or of a dimensionless one its numbers."""
+    kinds = _DIMENSIONLESS if case.machine is None else _KINDS
+    return tuple(_control(name, kind, case.parameters.value(name)) for name, kind in kinds.items())
+
+
+def unit_of(name: str) -> float:
+    """Size in SI units of the unit in which the page shows a parameter."""
+    unit = {**_KINDS, **_DIMENSIONLESS}[name].unit
+    return read_quantity(PARAMETERS[name], f"1 {unit}") if unit else 1.0
+
+
+def _control(name: str, kind: _Kind, si: float) -> Control:
+    value = float(f"{si / unit_of(name):.12g}")
+    logarithmic = kind.logarithmic and value > 0.0
+    high = min(max(kind.reach * value, kind.least), kind.most) or 1.0
+    low = value / kind.reach if logarithmic or name == "speed" else 0.0
+    return Control(name, kind.words, kind.unit, value, low, high, logarithmic)
+
+
+def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
+    """Return the machine with other values of its controls.
+
+    Parameters
+    ----------
+    case : Case
+    settings : mapping of str to str
+        Text for each control that was changed: a number in the unit shown on the page, or with a unit of its own.
+
+    Raises
+    ------
+    InputError
+        A name is none of the controls, or a value is not allowed; all errors at once.
+    """
+    kinds = _DIMENSIONLESS if case.machine is None else _KINDS
+    problems = Problems()
+    numbers = {}
+    for name, text in settings.items():
+        if name not in kinds:
+            problems.errors.append(InputError(shown(name), shown(text), f"one of: {', '.join(kinds)}"))
+            continue
+        field = replace(PARAMETERS[name], bare=kinds[name].unit)
+        given = problems.attempt(read_quantity, field, with_unit(kinds[name].unit, text))
+        if given is not None:
+            numbers[name] = given
+    problems.tell()
+    return case.replace(**numbers)
+
+
+def with_unit(unit: str, text: str) -> str:
+    """Add the unit of the page to a number without one."""
+    text = printable(str(text)).strip()
+    return f"{text} {unit}".strip() if _BARE.fullmatch(text) else text

@@ -1,0 +1,118 @@
+"""Bifurcation diagram along one parameter, as lines, bars and points in the units of the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.bifurcations import Diagram, EquilibriumBranch, OrbitBranch, find_bifurcations
+from carom.explorer.computing.controls import Control, unit_of
+from carom.models import Jeffcott
+from carom.plots.diagrams import BOUNDARIES, POINTS
+from carom.plots.style import LOOKS
+from carom.progress import ShowProgress
+
+_STEADY = {"contact-free": ("contact-free", "levitation"), "stable rub": ("rub", "stable synchronous rub")}
+"""Branches shown as bars: key of their look, and words."""
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A stretch of orbits of one kind: their impact speeds, and whether they are stable, unstable or virtual."""
+
+    x: np.ndarray
+    y: np.ndarray
+    kind: str
+    colour: str
+
+
+@dataclass(frozen=True)
+class Bar:
+    """An interval of the parameter in which a steady motion is stable and possible."""
+
+    low: float
+    high: float
+    words: str
+    colour: str
+
+
+@dataclass(frozen=True)
+class Point:
+    """A special point; steady motions have the impact speed zero."""
+
+    x: float
+    y: float
+    words: str
+    colour: str
+    admissible: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A diagram, ready to be drawn; speeds in mm/s if the machine is known, otherwise in ``c_r Ω``."""
+
+    control: Control
+    speed_unit: str
+    top: float
+    lines: tuple[Line, ...]
+    bars: tuple[Bar, ...]
+    points: tuple[Point, ...]
+
+
+def picture_along(rotor: Jeffcott, control: Control, progress: ShowProgress = None) -> Picture:
+    """Compute the diagram over the whole slider of a parameter.
+
+    Raises
+    ------
+    CaromError
+        The motions cannot be computed along it.
+    """
+    unit = unit_of(control.name)
+    speed, words = (1.0, "c_r Ω") if rotor.scales is None else (1e3 * rotor.scales.velocity, "mm/s")
+    diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)
+    heights = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
+    return Picture(
+        control=control,
+        speed_unit=words,
+        top=1.15 * speed * float(np.concatenate([*heights, [0.0]]).max() or 1.0),
+        lines=tuple(line for branch in diagram.orbits for line in _lines(branch, unit, speed)),
+        bars=tuple(bar for branch in diagram.equilibria for bar in _bars(branch, unit)),
+        points=tuple(_points(diagram, unit, speed)),
+    )
+
+
+def _lines(branch: OrbitBranch, unit: float, speed: float) -> list[Line]:
+    looks = np.where(branch.admissible, np.where(branch.stable, "stable", "unstable"), "virtual")
+    lines = []
+    for kind in ("virtual", "unstable", "stable"):
+        shown = looks == kind
+        # A stretch meets its neighbours at the first point beyond it.
+        shown[:-1] |= (looks[1:] == kind) & (kind != "virtual")
+        if shown.any():
+            y = np.where(shown, speed * branch.radial_speed, np.nan)
+            lines.append(Line(branch.values / unit, y, kind, LOOKS[kind].colour))
+    return lines
+
+
+def _bars(branch: EquilibriumBranch, unit: float) -> list[Bar]:
+    if branch.kind not in _STEADY:
+        return []
+    look, words = _STEADY[branch.kind]
+    holds = np.concatenate([[False], branch.admissible & branch.stable, [False]])
+    edges = np.flatnonzero(holds[1:] != holds[:-1])
+    values = branch.values / unit
+    return [
+        Bar(float(values[first]), float(values[last - 1]), words, LOOKS[look].colour)
+        for first, last in zip(edges[::2], edges[1::2], strict=True)
+    ]
+
+
+def _points(diagram: Diagram, unit: float, speed: float) -> list[Point]:
+    points = []
+    for found in diagram.points:
+        look = BOUNDARIES.get(found.detail, POINTS[found.kind])
+        height = 0.0 if np.isnan(found.radial_speed) else speed * found.radial_speed
+        words = look.words if found.motion != "orbit" else f"{look.words}, {found.name}"
+        points.append(Point(found.value / unit, height, words, look.colour, found.admissible))
+    return points

@@ -1,0 +1,97 @@
+"""The machine on the page as a machine file, as options of the command line, and as a program."""
+
+from __future__ import annotations
+
+import json
+import shlex
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from carom.explorer.computing.controls import Control, controls_of, unit_of, with_unit
+from carom.explorer.computing.kicks import Rest
+from carom.parameters import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, Case
+
+
+@dataclass(frozen=True)
+class Kick:
+    """The kick shown: its parts and the largest one of the picture, in ``c_r Ω``."""
+
+    radial: float
+    tangential: float
+    fastest: float
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where the machine of the page comes from.
+
+    Attributes
+    ----------
+    path : str
+        Its file, as it was given.
+    settings : tuple of str
+        What ``--set`` has changed.
+    case : Case
+        The machine with these settings.
+    """
+
+    path: str
+    settings: tuple[str, ...]
+    case: Case
+
+    def all_settings(self, changes: Mapping[str, str]) -> tuple[str, ...]:
+        """``name=value`` for every parameter that differs from the file, those changed on the page last."""
+        units = {control.name: control.unit for control in controls_of(self.case)}
+        replaced = set(changes)
+        for own, partner in PHYSICAL_PARTNER.items():
+            replaced |= {own, partner} if own in changes or partner in changes else set()
+        kept = [setting for setting in self.settings if setting.partition("=")[0].strip() not in replaced]
+        return (*kept, *(f"{name}={with_unit(units[name], text)}" for name, text in changes.items()))
+
+
+def as_options(origin: Origin, changes: Mapping[str, str]) -> str:
+    """The options ``--set`` that lead from the file to the machine on the page."""
+    return " ".join(f"--set {shlex.quote(setting)}" for setting in origin.all_settings(changes))
+
+
+def as_toml(case: Case) -> str:
+    """A machine file that is read as the machine on the page, bit for bit."""
+    zones = f"\n[zones]\nlimits = {list(case.zones.limits)}\n"
+    if case.machine is not None:
+        return case.machine.to_toml() + zones
+    lines = [
+        f"{name} = {getattr(case.parameters, name)!r}  # {field.symbol}: {field.words}"
+        for name, field in DIMENSIONLESS_FIELDS.items()
+    ]
+    return "\n".join(["[dimensionless]", *lines]) + "\n" + zones
+
+
+def as_python(origin: Origin, changes: Mapping[str, str], rest: Rest, kick: Kick, along: Control) -> str:
+    """A program that computes what the page shows: basin, motion, orbits and the diagram along a parameter."""
+    settings = json.dumps(list(origin.all_settings(changes)), ensure_ascii=False)
+    unit = unit_of(along.name)
+    low, high = (float(f"{unit * end:.12g}") for end in (along.low, along.high))
+    state = rest.kicked(kick.radial, kick.tangential)
+    if rest.levitates:
+        module, kicks = "carom.disturbances", f"KickPlane({kick.fastest!r})"
+    else:
+        module, kicks = "carom.explorer.computing.kicks", f"RestKick({kick.fastest!r}, {rest.position!r})"
+    return f"""import carom as cm
+from {module} import {kicks.partition("(")[0]}
+
+machine = cm.load({json.dumps(origin.path, ensure_ascii=False)}, {settings})
+
+basin = cm.map_basins(machine, cm.Grid({kicks}, (120, 120)))
+print(basin.share_recovered.words)
+{"basin.plot()" if rest.levitates else "print(basin.fractions)"}
+
+motion = cm.simulate(machine, cm.State({state.position!r}, {state.velocity!r}), settle=True)
+print(motion.outcome.meaning)
+motion.plot()
+
+orbits = cm.find_orbits(machine)
+print(orbits)
+
+diagram = cm.find_bifurcations(machine, {json.dumps(along.name)}, ({low!r}, {high!r}))
+diagram.plot()
+"""

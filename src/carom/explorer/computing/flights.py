@@ -1,0 +1,148 @@
+"""One kick, followed and sampled: what is needed to draw it over time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.explorer.computing.kicks import Rest
+from carom.models import Jeffcott
+from carom.motions import LastingContact, Trajectory, simulate
+from carom.motions.settling import REPEATING
+from carom.outcome import Outcome
+from carom.plots.style import OUTCOMES, REGIMES
+from carom.progress import ShowProgress
+from carom.studies import Wording
+
+LONGEST, LONGEST_BOUNCING = 260.0, 110.0
+"""Times in ``1/Ω`` that are drawn at most, of motions that come to rest and of others: some forty and seventeen turns."""
+MOST_IMPACTS = 600
+"""Impacts that are drawn at most."""
+MOST_EVENTS = 20_000
+"""Events of the part drawn, of which chatter may have many."""
+AFTERWARDS = 12.0
+"""Time in ``1/Ω`` that is drawn after it is known where a motion ends."""
+PER_TURN = 90
+LEAST_SAMPLES = 500
+CALM = 4.0
+"""Time constants that are drawn after the last contact of a motion that comes back."""
+
+
+@dataclass(frozen=True)
+class Span:
+    """A stretch of lasting contact: its times in ``1/Ω``, words and colour."""
+
+    start: float
+    end: float
+    words: str
+    colour: str
+
+
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """A motion after a kick.
+
+    Attributes
+    ----------
+    times, x, y : ndarray of float32, shape (n,)
+        Position in the co-rotating frame in clearances at times in ``1/Ω``; the instants of impacts are among them.
+    impact_times, impact_angles, impact_speeds, impulses : ndarray of float32, shape (m,)
+        Of the impacts drawn: time, angle in rad, radial speed before in ``c_r Ω``, normal impulse in ``m c_r Ω``.
+    forward : ndarray of bool, shape (m,)
+        Whether the rotor whirls forward in the fixed frame just before the impact.
+    spans : tuple of Span
+        Lasting contact.
+    whole : bool
+        Whether the motion is drawn up to where it is settled.
+    outcome, colour, words : str
+        Label of the outcome, its colour, and what is seen, as one sentence.
+    hardest : float
+        Largest normal impulse of all impacts, in ``m c_r Ω``; 0 without impact.
+    """
+
+    times: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    impact_times: np.ndarray
+    impact_angles: np.ndarray
+    impact_speeds: np.ndarray
+    impulses: np.ndarray
+    forward: np.ndarray
+    spans: tuple[Span, ...]
+    whole: bool
+    outcome: str
+    colour: str
+    words: str
+    hardest: float
+
+
+def fly(rotor: Jeffcott, rest: Rest, radial: float, tangential: float, progress: ShowProgress = None) -> Flight:
+    """Follow one kick, whose parts are in ``c_r Ω``, to where it ends.
+
+    Raises
+    ------
+    InputError
+        The kick is too large, or not finite.
+    """
+    start = rest.kicked(radial, tangential)
+    motion = simulate(rotor, start, settle=True, progress=progress)
+    # A motion is settled once its end is known, which may be long before it has arrived there.
+    shown = simulate(rotor, start, _shown_until(rotor, motion), max_events=MOST_EVENTS)
+    times = _instants(shown)
+    position, _ = shown.at_plane(times)
+    log = shown.contacts
+    irregular = motion.outcome in REPEATING and not motion.multiplicity
+    look = OUTCOMES["irregular" if irregular else motion.outcome.label]
+    hardest = float(motion.contacts.normal_impulse.max(initial=0.0))
+    return Flight(
+        times=times.astype(np.float32),
+        x=position.real.astype(np.float32),
+        y=position.imag.astype(np.float32),
+        impact_times=log.time.astype(np.float32),
+        impact_angles=np.angle(np.exp(1j * log.angle)).astype(np.float32),
+        impact_speeds=log.radial_speed.astype(np.float32),
+        impulses=log.normal_impulse.astype(np.float32),
+        forward=log.angular_speed > -1.0,
+        spans=tuple(map(_span, shown.lasting_contacts)),
+        whole=shown.time >= motion.time,
+        outcome=motion.outcome.label,
+        colour=look.colour,
+        words=_words(rotor, motion, math.hypot(radial, tangential), hardest, look.words),
+        hardest=hardest,
+    )
+
+
+def _shown_until(rotor: Jeffcott, motion: Trajectory) -> float:
+    events = motion.segment_starts[1:]
+    if motion.outcome is Outcome.LEVITATED:
+        decay = -float(rotor.system.exponents.real.max())
+        end = (float(events[-1]) if len(events) else 0.0) + CALM / decay
+    else:
+        end = motion.time + AFTERWARDS
+    if len(events) > MOST_IMPACTS:
+        end = min(end, float(events[MOST_IMPACTS]))
+    return min(end, LONGEST_BOUNCING if motion.outcome in REPEATING else LONGEST)
+
+
+def _instants(motion: Trajectory) -> np.ndarray:
+    """Evenly spaced times, every event, and the last instant before each."""
+    return motion.sample(max(LEAST_SAMPLES, int(PER_TURN * motion.time / math.tau)))
+
+
+def _span(stretch: LastingContact) -> Span:
+    look = REGIMES[stretch.phase]
+    return Span(stretch.start, stretch.end, look.words, look.colour)
+
+
+def _words(rotor: Jeffcott, motion: Trajectory, size: float, hardest: float, ending: str) -> str:
+    say = Wording(rotor.scales)
+    count = len(motion.contacts.time)
+    impacts = "never strikes" if count == 0 else "strikes once" if count == 1 else f"strikes {count:,} times"
+    force = f", hardest {say.impulse(hardest)}" if count else ""
+    if motion.outcome in REPEATING:
+        return f"A kick of {say.velocity(size)}: {ending}{force}."
+    if motion.outcome.settled:
+        return f"A kick of {say.velocity(size)}: {impacts}{force}, then {ending}."
+    return f"A kick of {say.velocity(size)}: {impacts}{force}; given up: {ending}."

@@ -1,0 +1,61 @@
+"""Table of the steady motions and orbits of a machine."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+from carom.closed_forms import find_equilibria
+from carom.models import Jeffcott
+from carom.orbits import Orbit
+from carom.orbits.single_impact import orbits_within_reach
+from carom.studies import Wording
+from carom.studies.summaries import MotionRow, simple_motion_rows
+
+
+@dataclass(frozen=True)
+class TableRow(MotionRow):
+    """A motion, with the non-trivial multipliers of an orbit as text."""
+
+    multipliers: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionTable:
+    """Steady motions and single-impact orbits.
+
+    Attributes
+    ----------
+    argument : str
+        Why no orbit is missing, or which were not searched.
+    """
+
+    rows: tuple[TableRow, ...]
+    argument: str
+
+
+def table_of(rotor: Jeffcott) -> MotionTable:
+    """Compute the table.
+
+    Raises
+    ------
+    CaromError
+        The orbits cannot be computed.
+    """
+    orbits = orbits_within_reach(rotor)
+    texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}
+    rows = simple_motion_rows(find_equilibria(rotor).members, orbits, Wording(rotor.scales))
+    return MotionTable(
+        tuple(TableRow(**asdict(row), multipliers=texts.get(row.name, "")) for row in rows), orbits.argument
+    )
+
+
+def _multipliers(orbit: Orbit) -> str:
+    """Non-trivial multipliers, the largest first; of a conjugate pair one, with a double sign."""
+    texts = []
+    for value in orbit.multipliers.values.tolist():
+        if value.imag < 0.0:
+            continue
+        sign = "−" if value.real < 0.0 else ""
+        part = f" ± {value.imag:.3g}i" if value.imag > 0.0 else ""
+        texts.append(f"{sign}{abs(value.real):.3g}{part}")
+    return ", ".join(texts)

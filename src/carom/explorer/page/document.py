@@ -1,0 +1,80 @@
+"""The document of one page: shared objects, figures, template and session."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Callable
+from functools import cache, partial
+from importlib.resources import files
+from typing import Any
+
+import jinja2
+from bokeh.document import Document
+from bokeh.events import DocumentReady
+from bokeh.models import CustomJS
+
+from carom.explorer.computing.exports import Origin
+from carom.explorer.page.figures import looks, make_figures
+from carom.explorer.page.messages import control_message
+from carom.explorer.page.models import Answers, Wishes
+from carom.explorer.page.session import Session
+
+SCRIPTS = ("common.js", "controls.js", "basin.js", "clearance.js", "plots.js", "panels.js", "main.js")
+
+
+def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
+    """Fill a new document with the page of a machine, and return its session."""
+    wishes, answers, figures = Wishes(name="wishes"), Answers(name="answers"), make_figures()
+
+    def hand_over(name: str, value: Any) -> None:
+        document.add_next_tick_callback(partial(setattr, answers, name, value))
+
+    session = Session(origin, hand_over, ready)
+    asked: dict[str, Callable[[Any], None]] = {
+        "machine": session.show,
+        "kick": session.kick,
+        "cancel": lambda _: session.cancel(),
+    }
+    for name, act in asked.items():
+        wishes.on_change(name, partial(_act, act))
+    for plot in figures.plots.values():
+        document.add_root(plot)
+    # What no plot refers to is not part of the document.
+    figures.plots["history"].tags = [wishes, answers, *figures.parts.values()]
+    document.title = f"{origin.case.name} – carom explore"
+    document.template = _template()
+    document.template_variables.update(
+        name=origin.case.name,
+        controls=[control_message(control) for control in session.controls.values()],
+        style=_text("page.css"),
+        script="\n".join(_text(name) for name in SCRIPTS),
+        looks=json.dumps(looks()),
+    )
+    begin = CustomJS(
+        args={"wishes": wishes, "answers": answers, "parts": figures.parts, "plots": figures.plots}, code=_BEGIN
+    )
+    document.js_on_event(DocumentReady, begin)
+    document.on_session_destroyed(lambda context: session.close())
+    return session
+
+
+def _act(act: Callable[[Any], None], name: str, old: object, new: object) -> None:
+    """Hand a new wish on."""
+    act(new)
+
+
+_BEGIN = "carom.begin(wishes, answers, parts, plots)"
+
+
+@cache
+def _template() -> jinja2.Template:
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+    return environment.from_string(_text("page.html.jinja"))
+
+
+@cache
+def _text(name: str) -> str:
+    return files("carom.explorer.page").joinpath("files", name).read_text(encoding="utf-8")

@@ -1,0 +1,152 @@
+"""The figures with axes: radius over time, section of impacts, diagram along a slider.  The browser fills them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from bokeh.models import ColumnDataSource, HoverTool, Range1d
+from bokeh.models.annotations import BoxAnnotation, Span
+from bokeh.plotting import figure
+
+from carom.plots.style import LOOKS, REGIMES
+
+HEIGHT = 270
+SPANS = 60
+"""Stretches of lasting contact that are shaded at most."""
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Figures, and what the browser changes in them.
+
+    Attributes
+    ----------
+    plots : dict
+        ``"history"``, ``"section"`` and ``"diagram"``.
+    parts : dict
+        Sources, marks and ranges by name; none of them is sent back to the server when the browser changes it.
+    """
+
+    plots: dict[str, Any]
+    parts: dict[str, Any]
+
+
+def make_figures() -> Figures:
+    """Make all figures, empty."""
+    parts: dict[str, Any] = {}
+    plots = {"history": _history(parts), "section": _section(parts), "diagram": _diagram(parts)}
+    for plot in plots.values():
+        for model in plot.references():
+            model.syncable = False  # what the browser draws is not sent back
+    return Figures(plots, parts)
+
+
+def _source(parts: dict[str, Any], name: str, *columns: str) -> ColumnDataSource:
+    source = ColumnDataSource({column: [] for column in columns})
+    parts[name] = source
+    return source
+
+
+def _plot(name: str, x: str, y: str, x_range: Any, y_range: Any, tools: str = "") -> Any:
+    plot = figure(
+        name=name,
+        height=HEIGHT,
+        sizing_mode="stretch_width",
+        x_axis_label=x,
+        y_axis_label=y,
+        x_range=x_range,
+        y_range=y_range,
+        tools=tools,
+        toolbar_location=None,
+        min_border_left=54,
+        min_border_right=14,
+        output_backend="canvas",
+    )
+    plot.background_fill_alpha = 0.0
+    plot.border_fill_alpha = 0.0
+    plot.outline_line_alpha = 0.0
+    return plot
+
+
+def _range(parts: dict[str, Any], name: str, low: float, high: float) -> Range1d:
+    parts[name] = Range1d(start=low, end=high)
+    return parts[name]
+
+
+def _history(parts: dict[str, Any]) -> Any:
+    """Radius over time: flight as a line, lasting contact shaded, impacts as marks on the wall."""
+    plot = _plot(
+        "history",
+        "time",
+        "radius (of the clearance)",
+        _range(parts, "history_x", 0, 1),
+        _range(parts, "history_y", 0, 1.06),
+    )
+    plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
+    for place in range(SPANS):
+        box = BoxAnnotation(left=0, right=0, fill_alpha=0.35, line_alpha=0.0, visible=False)
+        parts[f"span_{place}"] = box
+        plot.add_layout(box)
+    plot.line(
+        "t",
+        "r",
+        source=_source(parts, "history", "t", "r"),
+        line_width=1.4,
+        line_color=LOOKS["path"].colour,
+        name="path",
+    )
+    struck = _source(parts, "struck", "t", "r")
+    plot.scatter(
+        "t", "r", source=struck, marker="inverted_triangle", size=6, color=LOOKS["unstable"].colour, name="struck"
+    )
+    parts["now"] = Span(location=0.0, dimension="height", line_color=LOOKS["virtual"].colour, line_dash="dashed")
+    plot.add_layout(parts["now"])
+    return plot
+
+
+def _section(parts: dict[str, Any]) -> Any:
+    """Section at the impacts: angle and radial speed just before each."""
+    plot = _plot(
+        "section",
+        "angle on the bearing (°)",
+        "radial speed",
+        _range(parts, "section_x", -180, 180),
+        _range(parts, "section_y", 0, 1),
+    )
+    plot.xaxis.ticker = [-180, -90, 0, 90, 180]
+    source = _source(parts, "section", "angle", "speed", "colour", "marker")
+    plot.scatter("angle", "speed", source=source, marker="marker", size=7, color="colour", fill_alpha=0.75)
+    return plot
+
+
+def _diagram(parts: dict[str, Any]) -> Any:
+    """Impact speeds of all single-impact orbits along the slider moved last."""
+    plot = _plot("diagram", "", "impact speed", _range(parts, "diagram_x", 0, 1), _range(parts, "diagram_y", -0.1, 1))
+    bars = _source(parts, "bars", "left", "right", "bottom", "top", "colour", "words")
+    drawn = plot.quad(
+        "left", "right", "top", "bottom", source=bars, fill_color="colour", line_alpha=0.0, fill_alpha=0.85
+    )
+    for kind, dash, width, alpha in (
+        ("virtual", "solid", 0.8, 0.5),
+        ("unstable", "dashed", 1.6, 1.0),
+        ("stable", "solid", 2.4, 1.0),
+    ):
+        lines = _source(parts, f"lines_{kind}", "xs", "ys")
+        colour = LOOKS[kind].colour
+        plot.multi_line("xs", "ys", source=lines, line_color=colour, line_dash=dash, line_width=width, line_alpha=alpha)
+    points = _source(parts, "points", "x", "y", "words", "colour", "fill")
+    special = plot.scatter(
+        "x", "y", source=points, marker="diamond", size=11, line_color="colour", fill_color="colour", fill_alpha="fill"
+    )
+    parts["cursor"] = Span(location=0.0, dimension="height", line_width=1.6, line_color="#808080")
+    plot.add_layout(parts["cursor"])
+    plot.add_tools(HoverTool(renderers=[special], tooltips="@words at @x{0.[0000]}"))
+    plot.add_tools(HoverTool(renderers=[drawn], tooltips="@words: stable from @left{0.[00]} to @right{0.[00]}"))
+    return plot
+
+
+def looks() -> dict[str, str]:
+    """Colours by their meaning, for what the browser draws itself."""
+    named = {name: look.colour for name, look in LOOKS.items()}
+    return named | {f"regime_{place}": look.colour for place, look in enumerate(REGIMES)}

@@ -1,0 +1,23 @@
+// Answers of the server go to the part that shows them.
+carom.begin = (wishes, answers, parts, plots) => {
+  carom.wishes = wishes;
+  carom.answers = answers;
+  carom.begin_plots(parts, plots);
+  const shows = {
+    state: [carom.panels.state], problem: [carom.controls.problem], basin: [carom.basin.show, carom.panels.basin], flight: [carom.flight.show],
+    table: [carom.panels.table], loss: [carom.panels.loss], hardest: [carom.panels.hardest], verdict: [carom.panels.verdict],
+    diagram: [carom.plots.diagram], exports: [(message) => { carom.panels.exports = message; }],
+  };
+  for (const [name, parts_] of Object.entries(shows)) {
+    answers.properties[name].change.connect(() => {
+      const message = answers[name];
+      // An answer about a machine that is no longer shown: a newer one is on its way.
+      if (message.number !== undefined && message.number < carom.number && name !== "basin" && name !== "flight" && name !== "table") return;
+      for (const show of parts_) show(message);
+      document.documentElement.dataset[name] = message.number === undefined ? "" : message.number;
+    });
+  }
+  carom.controls.begin();
+  carom.panels.watch();
+};
+window.carom = carom;

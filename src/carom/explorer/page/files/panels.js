@@ -1,0 +1,104 @@
+// Words and numbers: state, tiles, table, texts to copy, and whether the server is still there.
+carom.panels = { exports: null };
+
+(() => {
+  let compiling = 0;
+  const endless = (words) => { at("state").className = "busy endless"; at("state").querySelector("span").textContent = words; };
+  carom.panels.state = (state) => {
+    const box = at("state");
+    clearInterval(compiling);
+    at("cancel").hidden = state.kind !== "working";
+    if (state.kind === "compiling") {
+      const began = performance.now();
+      const say = () => endless(`Compiling the kernels. This is done once, and takes a minute or two: ${Math.round((performance.now() - began) / 1000)} s`);
+      say();
+      compiling = setInterval(say, 1000);
+    } else if (state.kind === "working") {
+      box.className = "busy";
+      box.querySelector("i").style.width = `${Math.max(3, 100 * state.share)}%`;
+      box.querySelector("span").textContent = state.words;
+    } else {
+      box.className = "";
+      box.querySelector("span").textContent = state.kind === "cancelled" ? "Stopped. What had been found is shown." : "";
+    }
+  };
+  at("cancel").addEventListener("click", () => { carom.wishes.cancel = (carom.wishes.cancel || 0) + 1; });
+
+  const tile = (name, value, remark, old = false) => {
+    at(name).textContent = value;
+    at(`${name}-remark`).textContent = remark;
+    at(name).classList.toggle("old", old);
+  };
+  // What is finer than the picture belongs to one machine: it is pale until it is known of the present one.
+  const exact = { loss: 0, hardest: 0, verdict: 0 };
+  carom.panels.basin = (message) => {
+    if (message.refused) return;
+    at("sentence").textContent = message.sentence;
+    tile("share", message.share, message.share_remark);
+    if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
+    if (exact.hardest !== message.number) at("hardest").classList.add("old");
+    if (exact.verdict !== message.number) at("headline").classList.add("old");
+  };
+  carom.panels.loss = (message) => {
+    exact.loss = message.number;
+    tile("lost", message.refused ? "–" : message.value, message.refused || message.remark);
+  };
+  carom.panels.hardest = (message) => {
+    exact.hardest = message.number;
+    tile("hardest", message.refused ? "–" : message.value, message.refused || message.remark);
+  };
+  carom.panels.verdict = (message) => {
+    exact.verdict = message.number;
+    at("headline").classList.remove("old");
+    at("headline").textContent = message.refused || message.text;
+  };
+  carom.panels.table = (message) => {
+    const body = document.querySelector("#motions tbody");
+    if (message.refused) { body.replaceChildren(); at("argument").textContent = message.refused; return; }
+    body.replaceChildren(...message.rows.map((row) => {
+      const line = document.createElement("tr");
+      line.className = row.state === "not possible" ? "impossible" : row.state;
+      for (const name of ["name", "state", "period", "size", "impulse", "force", "multipliers", "remark"]) {
+        const cell = document.createElement("td");
+        cell.textContent = row[name];
+        line.append(cell);
+      }
+      return line;
+    }));
+    at("argument").textContent = message.argument;
+  };
+
+  const words = { toml: "machine file", options: "options of the command line", python: "program" };
+  for (const button of document.querySelectorAll("[data-copy]")) {
+    button.addEventListener("click", async () => {
+      const text = carom.panels.exports ? carom.panels.exports[button.dataset.copy] : "";
+      const place = at("copy-text");
+      if (!text) { at("copied").textContent = "Nothing differs from the file."; return; }
+      place.value = text;
+      try {
+        await navigator.clipboard.writeText(text);
+        place.hidden = true;
+        at("copied").textContent = `The ${words[button.dataset.copy]} is in the clipboard.`;
+      } catch {
+        place.hidden = false;
+        place.select();
+        at("copied").textContent = `The browser does not let the page copy: the ${words[button.dataset.copy]} is selected below.`;
+      }
+    });
+  }
+
+  let server = "";
+  const look = async () => {
+    try {
+      const found = await (await fetch("alive", { cache: "no-store" })).json();
+      if (server && found.server !== server) { location.reload(); return; }
+      server = found.server;
+      at("gone").hidden = true;
+    } catch {
+      at("gone").hidden = false;
+      at("gone").textContent = "The server has stopped. This page waits for it, and begins again as soon as it is there; what you set is kept.";
+    }
+    setTimeout(look, 1500);
+  };
+  carom.panels.watch = look;
+})();

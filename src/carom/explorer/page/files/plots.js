@@ -1,0 +1,90 @@
+// The figures with axes, drawn by Bokeh: the browser fills them and gives them the colours of the page.
+carom.begin_plots = (parts, plots) => {
+  const flight = { message: null, drawn: -1, count: -1 };
+  let along = null;
+  const theme = () => {
+    const ink = colour("soft"), rule = colour("rule");
+    for (const plot of Object.values(plots)) {
+      for (const axis of [...plot.below, ...plot.left]) {
+        axis.setv({ axis_label_text_color: ink, major_label_text_color: ink, axis_line_color: rule, major_tick_line_color: rule, minor_tick_line_color: null,
+          axis_label_text_font_style: "normal", axis_label_text_font_size: "12px", major_label_text_font_size: "12px" });
+      }
+      for (const grid of plot.center) if (grid.grid_line_color !== undefined) grid.grid_line_color = rule;
+    }
+    parts.cursor.line_color = colour("ink");
+    parts.now.line_color = ink;
+    const path = plots.history.renderers.find((one) => one.name === "path"), wall = plots.history.center.find((one) => one.name === "wall");
+    if (path) path.glyph.line_color = colour("trail");
+    if (wall) wall.line_color = colour("wall");
+  };
+  theme();
+  carom.parts.push(theme);
+
+  const section = (now) => {
+    const message = flight.message, count = message.impact_times.filter((time) => time <= now).length;
+    if (count === flight.count) return;
+    flight.count = count;
+    const first = (values) => Array.from(values).slice(0, count), forward = first(message.forward);
+    parts.section.data = {
+      angle: first(message.impact_angles).map((angle) => 180 * angle / Math.PI),
+      speed: first(message.impact_speeds).map((speed) => message.speed * speed),
+      colour: forward.map((one) => (one ? carom.looks.forward : carom.looks.backward)),
+      marker: forward.map((one) => (one ? "triangle" : "inverted_triangle")),
+    };
+  };
+
+  carom.plots = {
+    flight: (message) => {
+      flight.message = message;
+      flight.count = -1;
+      const { times, x, y } = message, end = message.time * times[times.length - 1];
+      parts.history.data = { t: Array.from(times, (time) => message.time * time), r: Array.from(x, (part, place) => Math.hypot(part, y[place])) };
+      parts.struck.data = { t: Array.from(message.impact_times, (time) => message.time * time), r: Array.from(message.impact_times, () => 1.03) };
+      parts.history_x.setv({ start: 0, end });
+      plots.history.below[0].axis_label = `time (${message.time_unit})`;
+      plots.section.left[0].axis_label = `radial speed (${message.speed_unit})`;
+      parts.section_y.setv({ start: 0, end: 1.1 * message.speed * Math.max(...message.impact_speeds, 1e-3) });
+      for (let place = 0; parts[`span_${place}`]; place += 1) {
+        const span = message.spans[place], box = parts[`span_${place}`];
+        if (span) box.setv({ left: message.time * span.start, right: message.time * span.end, fill_color: span.colour, visible: true });
+        else if (box.visible) box.visible = false;
+      }
+      const kinds = new Map(message.spans.map((span) => [span.words, span.colour]));
+      at("regimes").replaceChildren(...[...kinds].flatMap(([words, ink]) => {
+        const key = document.createElement("i");
+        key.className = "key"; key.style.background = ink;
+        return [key, words];
+      }));
+      section(carom.flight.now);
+    },
+    now: (time, last) => {
+      const clock = performance.now();
+      if (!flight.message || (!last && clock - flight.drawn < 120)) return;
+      flight.drawn = clock;
+      parts.now.location = flight.message.time * time;
+      section(time);
+    },
+    diagram: (message) => {
+      if (message.refused) { at("diagram-words").textContent = message.refused; return; }
+      along = message.name;
+      at("along").textContent = message.words;
+      plots.diagram.below[0].axis_label = `${message.words}${message.unit ? ` (${message.unit})` : ""}`;
+      plots.diagram.left[0].axis_label = `impact speed (${message.speed_unit})`;
+      parts.diagram_x.setv({ start: message.low, end: message.high });
+      parts.diagram_y.setv({ start: -0.16 * message.top, end: message.top });
+      for (const kind of ["virtual", "unstable", "stable"]) {
+        const lines = message.lines.filter((line) => line.kind === kind);
+        parts[`lines_${kind}`].data = { xs: lines.map((line) => line.x), ys: lines.map((line) => line.y) };
+      }
+      const row = (bar) => (bar.words === "levitation" ? 0 : 1);
+      parts.bars.data = {
+        left: message.bars.map((bar) => bar.low), right: message.bars.map((bar) => bar.high), colour: message.bars.map((bar) => bar.colour), words: message.bars.map((bar) => bar.words),
+        top: message.bars.map((bar) => -(0.04 + 0.06 * row(bar)) * message.top), bottom: message.bars.map((bar) => -(0.08 + 0.06 * row(bar)) * message.top),
+      };
+      parts.points.data = { ...message.points, fill: message.points.admissible.map((one) => (one ? 1 : 0)) };
+      carom.showCursor(along, carom.controls.value(along));
+    },
+  };
+  carom.showCursor = (name, value) => { if (name === along) parts.cursor.location = value; };
+  if (carom.flight.message && !carom.flight.message.refused) carom.plots.flight(carom.flight.message);
+};

@@ -1,0 +1,33 @@
+"""The two objects that browser and server share: what the page asks for, and what the server answers."""
+
+from __future__ import annotations
+
+from bokeh.core.properties import Any
+from bokeh.model import DataModel
+
+
+class Wishes(DataModel):
+    """What the page asks for; each wish is a plain dictionary that the browser replaces as a whole.
+
+    ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged) and ``along``
+    (the control moved last); ``kick`` holds ``number``, ``radial`` and ``tangential``, as shares of the largest kick.
+    """
+
+    machine = Any(default=None)
+    kick = Any(default=None)
+    cancel = Any(default=0)
+
+
+class Answers(DataModel):
+    """What the server has found; each answer is a dictionary made by :mod:`carom.explorer.page.messages`."""
+
+    state = Any(default=None)
+    problem = Any(default="")
+    basin = Any(default=None)
+    flight = Any(default=None)
+    table = Any(default=None)
+    loss = Any(default=None)
+    hardest = Any(default=None)
+    verdict = Any(default=None)
+    diagram = Any(default=None)
+    exports = Any(default=None)

@@ -1,0 +1,222 @@
+"""One page: it takes wishes, has them done beside the page, and hands the answers back."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from carom.explorer.background import Desk, Request
+from carom.explorer.computing.controls import Control, controls_of, with_settings
+from carom.explorer.computing.diagrams import picture_along
+from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
+from carom.explorer.computing.flights import fly
+from carom.explorer.computing.judgement import find_hardest, find_loss, judge
+from carom.explorer.computing.kicks import KickMap, largest_kick, map_kicks, rest_of
+from carom.explorer.computing.motions import table_of
+from carom.explorer.page import messages
+from carom.models import Jeffcott
+from carom.outcome import CaromError, InputError
+from carom.parameters import Case
+from carom.progress import Progress
+
+COARSE, FINE = 60, 120
+"""Cells along each side of the picture while a slider is dragged, and after that."""
+COARSEST = 16
+PATIENCE = 0.075
+"""Seconds that a picture may take while a slider is dragged; where it would take longer it is coarser."""
+QUIET = 0.15
+"""Seconds between two reports of progress."""
+
+Answer = Callable[[str, Any], None]
+"""Receives the name of an answer and its value, in any thread."""
+_LONG = {
+    "fine": "following kicks",
+    "loss": "looking for the smallest lost kick",
+    "hardest": "looking for the hardest impact",
+    "diagram": "following orbits along the slider",
+    "verdict": "writing the verdict",
+}
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """What the page shows at present."""
+
+    number: int
+    case: Case
+    settings: Mapping[str, str]
+    rotor: Jeffcott
+    along: str
+    radial: float
+    tangential: float
+
+
+Work = Callable[[_Shown, Callable[[Progress], None]], messages.Message]
+"""Work for the machine shown, with a callable for its progress."""
+
+
+class Session:
+    """State of one page.
+
+    Parameters
+    ----------
+    origin : Origin
+        The machine with which it begins.
+    answer : callable
+        Hands an answer to the page.
+    ready : threading.Event
+        Set when the kernels are compiled.
+    """
+
+    def __init__(self, origin: Origin, answer: Answer, ready: threading.Event) -> None:
+        self.origin, self._answer, self._ready = origin, answer, ready
+        self.controls = {control.name: control for control in controls_of(origin.case)}
+        self.largest = largest_kick(origin.case.parameters.scales)
+        rotor = Jeffcott(origin.case.parameters)
+        first = "damping" if "damping" in self.controls else "gamma"
+        self._shown = _Shown(0, origin.case, {}, rotor, first, 0.31, 0.12)
+        self._cost, self._reported = PATIENCE / COARSE**2, 0.0
+        self._diagrams: dict[tuple[Any, ...], Any] = {}
+        self._quick = Desk(("flight", "table", "basin"))
+        self._long = Desk(tuple(_LONG), self._report)
+
+    def close(self) -> None:
+        """End all work of the page."""
+        self._quick.close()
+        self._long.close()
+
+    def show(self, wish: Mapping[str, Any]) -> None:
+        """Show another machine; see :class:`carom.explorer.page.models.Wishes`."""
+        settings = {str(name): str(text) for name, text in dict(wish.get("settings", {})).items()}
+        number, held = int(wish.get("number", 0)), bool(wish.get("held", False))
+        try:
+            case = with_settings(self.origin.case, settings)
+        except InputError as problem:
+            self._answer(
+                "problem", {"number": number, "text": str(problem), "names": [one.field for one in problem.errors]}
+            )
+            return
+        self._answer("problem", {"number": number, "text": "", "names": []})
+        along = str(wish.get("along") or self._shown.along)
+        before = self._shown
+        self._shown = _Shown(
+            number,
+            case,
+            settings,
+            Jeffcott(case.parameters),
+            along if along in self.controls else before.along,
+            before.radial,
+            before.tangential,
+        )
+        self._long.drop()
+        self._ask_quick("flight", self._flight)
+        self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)))
+        self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
+
+    def _finish(self) -> None:
+        """Have everything computed that takes longer than a moment."""
+        self._answer("exports", self._exports())
+        self._ask_long("fine", lambda shown, tell: self._picture(shown, FINE, tell), "basin")
+        self._ask_long("loss", lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)))
+        self._ask_long("hardest", lambda shown, tell: vars(find_hardest(shown.rotor, self._fastest(shown), tell)))
+        self._ask_long("diagram", self._diagram)
+        self._ask_long("verdict", lambda shown, tell: {"text": judge(shown.case, tell).headline})
+
+    def kick(self, wish: Mapping[str, Any]) -> None:
+        """Show the motion after another kick, whose parts are given as shares of the largest."""
+        shares = [float(wish.get(name, 0.0)) for name in ("radial", "tangential")]
+        if not all(-1.0 <= share <= 1.0 for share in shares):
+            return
+        self._shown = replace(self._shown, radial=shares[0], tangential=shares[1])
+        self._ask_quick("flight", self._flight)
+        if wish.get("chosen"):
+            self._answer("exports", self._exports())
+
+    def cancel(self) -> None:
+        """Interrupt what takes long."""
+        self._long.drop()
+        self._answer("state", {"kind": "cancelled"})
+
+    def _fastest(self, shown: _Shown) -> float:
+        scales = shown.rotor.scales
+        return self.largest / (scales.velocity if scales else 1.0)
+
+    def _flight(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
+        fastest = self._fastest(shown)
+        flight = fly(shown.rotor, rest_of(shown.rotor), shown.radial * fastest, shown.tangential * fastest, tell)
+        kick = {"radial": shown.radial, "tangential": shown.tangential}
+        return {**messages.flight_message(flight, shown.rotor), "kick": kick}
+
+    def _coarse(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
+        """Picture that is quick enough to follow the hand; as fine as that allows."""
+        cells = int(min(COARSE, max(COARSEST, (PATIENCE / self._cost) ** 0.5)))
+        began = time.perf_counter()
+        message = self._picture(shown, COARSE if cells > 0.85 * COARSE else cells, tell)
+        self._cost = 0.5 * (self._cost + (time.perf_counter() - began) / message["size"] ** 2)
+        return message
+
+    def _picture(self, shown: _Shown, cells: int, tell: Callable[[Progress], None]) -> messages.Message:
+        found: KickMap = map_kicks(shown.rotor, cells, self.largest, tell)
+        return messages.basin_message(found, shown.rotor)
+
+    def _diagram(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
+        others = tuple(sorted(item for item in shown.settings.items() if item[0] != shown.along))
+        if (shown.along, others) not in self._diagrams:
+            control: Control = self.controls[shown.along]
+            found = messages.diagram_message(picture_along(shown.rotor, control, tell))
+            self._diagrams = {(shown.along, others): found}
+        return {**self._diagrams[shown.along, others]}
+
+    def _exports(self) -> messages.Message:
+        shown, fastest = self._shown, self._fastest(self._shown)
+        kick = Kick(shown.radial * fastest, shown.tangential * fastest, fastest)
+        return {
+            "toml": as_toml(shown.case),
+            "options": as_options(self.origin, shown.settings),
+            "python": as_python(self.origin, shown.settings, rest_of(shown.rotor), kick, self.controls[shown.along]),
+        }
+
+    def _ask_quick(self, kind: str, work: Work) -> None:
+        self._ask(self._quick, kind, work, kind)
+
+    def _ask_long(self, kind: str, work: Work, name: str = "") -> None:
+        self._ask(self._long, kind, work, name or kind)
+
+    def _ask(self, desk: Desk, kind: str, work: Work, name: str, afterwards: Callable[[], None] | None = None) -> None:
+        """Have work done for the machine shown now, and its result handed over; then, if it is still shown, go on."""
+        shown = self._shown
+
+        def run(tell: Callable[[Progress], None]) -> Any:
+            self._wait_for_kernels()
+            if kind in _LONG:
+                self._answer("state", {"kind": "working", "words": _LONG[kind], "share": 0.0})
+            return work(shown, tell)
+
+        def done(result: Any) -> None:
+            if isinstance(result, CaromError):
+                self._answer(name, {"number": shown.number, "refused": str(result)})
+            elif isinstance(result, Exception):
+                self._answer(name, {"number": shown.number, "refused": f"unexpected {type(result).__name__}: {result}"})
+            else:
+                self._answer(name, {**result, "number": shown.number})
+            if kind == tuple(_LONG)[-1]:
+                self._answer("state", {"kind": "idle"})
+            if afterwards is not None and self._shown.number == shown.number:
+                afterwards()
+
+        desk.ask(kind, Request(run, done))
+
+    def _wait_for_kernels(self) -> None:
+        if not self._ready.is_set():
+            self._answer("state", {"kind": "compiling"})
+            self._ready.wait()
+            self._answer("state", {"kind": "idle"})
+
+    def _report(self, kind: str, progress: Progress) -> None:
+        now = time.monotonic()
+        if now - self._reported > QUIET:
+            self._reported = now
+            self._answer("state", {"kind": "working", "words": progress.step or _LONG[kind], "share": progress.share})

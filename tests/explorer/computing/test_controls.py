@@ -1,0 +1,82 @@
+"""Controls of a machine, and what people type into their boxes."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+import carom
+from carom.explorer.computing.controls import controls_of, unit_of, with_settings
+from carom.outcome import InputError
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+
+
+@pytest.fixture(scope="module")
+def case():
+    return carom.load(EXAMPLES / "keogh-cole.toml")
+
+
+@pytest.fixture(scope="module")
+def dimensionless():
+    return carom.load(EXAMPLES / "source-paper.toml")
+
+
+def test_controls_are_in_units_of_engineers(case):
+    found = {control.name: (control.unit, control.value) for control in controls_of(case)}
+    assert list(found) == ["stiffness", "damping", "speed", "eccentricity", "friction", "restitution"]
+    assert found["eccentricity"] == ("mm", 0.3)
+    assert found["speed"][0] == "rpm"
+    assert found["speed"][1] == pytest.approx(184.2 * 30.0 / math.pi, rel=1e-11)
+
+
+def test_sliders_hold_the_value_of_the_machine(case, dimensionless):
+    for control in (*controls_of(case), *controls_of(dimensionless)):
+        assert control.low <= control.value <= control.high
+        assert not control.logarithmic or control.low > 0.0
+
+
+@pytest.mark.parametrize("name", ["damping", "eccentricity", "friction", "restitution"])
+def test_a_control_whose_value_is_zero_has_a_slider(case, name):
+    (control,) = (one for one in controls_of(case.replace(**{name: 0.0})) if one.name == name)
+    assert control.low == 0.0 < control.high
+    assert not control.logarithmic
+
+
+def test_machines_without_units_show_their_numbers(dimensionless):
+    assert [control.name for control in controls_of(dimensionless)] == ["omega", "gamma", "rho", "mu", "d"]
+    assert with_settings(dimensionless, {"gamma": "0.2"}).parameters == dimensionless.parameters.replace(gamma=0.2)
+
+
+def test_settings_are_those_of_the_command_line(case):
+    settings = {"damping": "2000 N s/m", "speed": "1500 rpm", "eccentricity": "0.2 mm"}
+    texts = [f"{name}={text}" for name, text in settings.items()]
+    assert with_settings(case, settings) == carom.load(EXAMPLES / "keogh-cole.toml", texts)
+
+
+def test_a_number_without_a_unit_is_in_the_unit_beside_its_box(case):
+    assert with_settings(case, {"speed": "1500"}) == with_settings(case, {"speed": "1500 rpm"})
+    assert with_settings(case, {"eccentricity": " 2e-1 "}) == with_settings(case, {"eccentricity": "200 um"})
+    assert unit_of("speed") == pytest.approx(math.pi / 30.0, rel=1e-15)
+
+
+def test_every_wrong_value_is_named_in_a_line_of_its_own(case):
+    with pytest.raises(InputError) as caught:
+        with_settings(case, {"damping": "a lot", "speed": "-3", "friction": "0.2"})
+    first, second = str(caught.value).split("\n")
+    assert first.startswith("damping = a lot: must be a damping in N s/m, ")
+    assert second.startswith("speed = -3 rpm: must be an angular speed in rad/s, > 0 ")
+    assert "(a number without a unit is in rpm)" in second
+
+
+@pytest.mark.parametrize("text", ["", "nan", "1e999", "1 m", "<b>1</b>", "1\n2", "１", "0x10", "--set", "1 rpm; 2"])
+def test_nothing_else_is_taken_for_a_number(case, text):
+    with pytest.raises(InputError, match=r"^damping = [^\n]*$"):
+        with_settings(case, {"damping": text})
+
+
+def test_only_controls_can_be_set(case):
+    with pytest.raises(InputError, match="clearance = 1 mm: one of: stiffness, damping"):
+        with_settings(case, {"clearance": "1 mm"})

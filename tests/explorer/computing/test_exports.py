@@ -1,0 +1,88 @@
+"""What is copied from the page leads to the machine on the page."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+from compilation import sized
+
+import carom
+from carom.explorer.computing import exports
+from carom.explorer.computing.controls import controls_of, with_settings
+from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
+from carom.explorer.computing.kicks import rest_of
+from carom.models import Jeffcott
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+KEOGH, PAPER = str(EXAMPLES / "keogh-cole.toml"), str(EXAMPLES / "source-paper.toml")
+
+
+def origin(path=KEOGH, *settings):
+    return Origin(path, settings, carom.load(path, settings))
+
+
+def shown(given, changes):
+    return with_settings(given.case, changes)
+
+
+@pytest.mark.parametrize(
+    ("given", "changes"),
+    [
+        (origin(), {}),
+        (origin(), {"damping": "2345", "speed": "1500", "eccentricity": "0.25 mm"}),
+        (origin(KEOGH, "gamma=0.1", "mass=40 kg"), {"damping": "2000 N s/m", "friction": "0.2"}),
+        (origin(KEOGH, "damping=900 N s/m"), {"damping": "2000"}),
+        (origin(PAPER, "d=0.8"), {"gamma": "0.2", "mu": "0.1"}),
+    ],
+)
+def test_options_and_file_lead_to_the_same_machine(given, changes, tmp_path):
+    case = shown(given, changes)
+    words = shlex.split(as_options(given, changes))
+    assert words[::2] == ["--set"] * (len(words) // 2)
+    assert carom.load(given.path, words[1::2]).parameters == case.parameters
+    path = tmp_path / "machine.toml"
+    path.write_text(as_toml(case), encoding="utf-8")
+    again = carom.load(path)
+    assert again.machine == case.machine
+    assert again.zones == case.zones
+    if case.machine is None:
+        assert again.parameters == case.parameters
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("changes", [{"damping": "2500"}, {"damping": "300"}])
+def test_the_program_runs_and_computes_what_is_shown(changes, capsys, monkeypatch):
+    given = origin()
+    rotor = Jeffcott(shown(given, changes).parameters)
+    (along,) = (one for one in controls_of(given.case) if one.name == "damping")
+    program = as_python(given, changes, rest_of(rotor), Kick(0.3, 0.1, 1.5), along)
+    names: dict[str, object] = {}
+    for name in ("Basin", "Trajectory", "Diagram"):
+        module = next(
+            m
+            for m in map(
+                sys.modules.get,
+                ("carom.basins.classification", "carom.motions.trajectories", "carom.bifurcations.diagrams"),
+            )
+            if hasattr(m, name)
+        )
+        monkeypatch.setattr(getattr(module, name), "plot", lambda self: None, raising=False)
+    exec(program.replace("(120, 120)", str((sized(20, 4),) * 2)), names)
+    motion = carom.simulate(rotor, rest_of(rotor).kicked(0.3, 0.1), settle=True)
+    assert names["motion"].outcome == motion.outcome
+    assert names["basin"].rotor.parameters == rotor.parameters
+    assert names["diagram"].interval == pytest.approx((280.0, 7000.0))
+    assert motion.outcome.meaning in capsys.readouterr().out
+
+
+def test_paths_and_texts_are_quoted(tmp_path):
+    path = tmp_path / 'my "new" machine.toml'
+    path.write_text(Path(KEOGH).read_text(encoding="utf-8"), encoding="utf-8")
+    given = origin(str(path))
+    rotor = Jeffcott(given.case.parameters)
+    program = as_python(given, {}, rest_of(rotor), Kick(0.1, 0.0, 1.0), controls_of(given.case)[0])
+    compile(program, "program", "exec")
+    assert "'" not in exports.as_options(given, {"friction": "0.2"})

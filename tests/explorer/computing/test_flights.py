@@ -1,0 +1,93 @@
+"""Flights: the motion of the library, sampled."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from compilation import sized
+from machines import PAPER
+
+import carom
+from carom.explorer.computing.flights import LONGEST, MOST_IMPACTS, fly
+from carom.explorer.computing.kicks import map_kicks, rest_of
+from carom.models import Jeffcott
+from carom.outcome import InputError, Outcome
+from carom.plots import OUTCOMES
+
+ROTOR = Jeffcott(PAPER.replace(gamma=0.2))
+BOUNCING = Jeffcott(PAPER)
+SINGLE = 1e-6
+"""Rounding of numbers of single precision of the order of one, with a margin."""
+
+
+@pytest.mark.parametrize(
+    ("rotor", "radial", "tangential"), [(ROTOR, 0.4, 0.2), (ROTOR, -1.2, 0.3), (BOUNCING, 0.6, 0.1)]
+)
+def test_it_is_the_motion(rotor, radial, tangential):
+    rest = rest_of(rotor)
+    flight = fly(rotor, rest, radial, tangential)
+    motion = carom.simulate(rotor, rest.kicked(radial, tangential), settle=True)
+    assert flight.outcome == motion.outcome.label
+    positions, _ = carom.simulate(rotor, rest.kicked(radial, tangential), LONGEST).at(flight.times.astype(float))
+    # Times of single precision at speeds of the order of one.
+    np.testing.assert_allclose(flight.x + 1j * flight.y, positions, atol=LONGEST * SINGLE)
+    count = len(flight.impact_times)
+    known = min(count, len(motion.contacts.time))
+    np.testing.assert_allclose(flight.impact_times[:known], motion.contacts.time[:known], rtol=SINGLE)
+    assert flight.hardest == motion.contacts.normal_impulse.max()
+    assert np.hypot(flight.x, flight.y).max() <= 1.0 + SINGLE
+
+
+def test_every_impact_is_on_the_wall_at_its_instant():
+    flight = fly(BOUNCING, rest_of(BOUNCING), 0.6, 0.1)
+    places = np.searchsorted(flight.times, flight.impact_times)
+    np.testing.assert_allclose(np.hypot(flight.x, flight.y)[places], 1.0, atol=SINGLE)
+    angles = np.angle(flight.x + 1j * flight.y)[places]
+    np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * flight.impact_angles), atol=LONGEST * SINGLE)
+
+
+def test_each_flight_has_the_colour_of_its_cell():
+    cells = sized(12, 2)
+    shown = map_kicks(ROTOR, cells, 1.5)
+    middles = shown.basin.coordinates[0].middles(cells)
+    for radial in range(0, cells, 3):
+        for tangential in range(0, cells, 3):
+            flight = fly(ROTOR, shown.rest, float(middles[radial]), float(middles[tangential]))
+            assert flight.colour == shown.endings[shown.cells[tangential, radial]].colour
+
+
+def test_a_small_kick_never_strikes():
+    flight = fly(ROTOR, rest_of(ROTOR), 1e-4, 0.0)
+    assert (flight.outcome, flight.hardest, len(flight.impact_times), flight.spans) == ("levitated", 0.0, 0, ())
+    assert "never strikes, then levitates without contact." in flight.words
+    assert flight.whole
+
+
+def test_no_kick_at_all_can_be_drawn():
+    flight = fly(ROTOR, rest_of(ROTOR), 0.0, 0.0)
+    assert flight.times[-1] > 0.0
+    assert np.ptp(flight.x) < SINGLE
+
+
+def test_long_motions_are_cut_and_say_so():
+    weak = Jeffcott(PAPER.replace(gamma=0.09))
+    flight = fly(weak, rest_of(weak), 0.9, 0.4)
+    assert flight.times[-1] <= LONGEST * (1.0 + SINGLE)
+    assert len(flight.impact_times) <= MOST_IMPACTS
+    assert not flight.whole
+
+
+def test_lasting_contact_is_told_in_words_and_colours():
+    flight = next(
+        found
+        for speed in (0.4, 0.6, 0.9, 1.2, 1.5)
+        if (found := fly(ROTOR, rest_of(ROTOR), speed, 0.3)).outcome == "forward-rub" and found.spans
+    )
+    assert flight.spans[-1].words.startswith("sliding")
+    assert flight.spans[-1].end <= flight.times[-1] * (1.0 + SINGLE)
+    assert flight.colour == OUTCOMES[Outcome.FORWARD_RUB.label].colour
+
+
+def test_what_cannot_start_is_refused():
+    with pytest.raises(InputError, match="start velocity"):
+        fly(ROTOR, rest_of(ROTOR), float("nan"), 0.0)

@@ -1,0 +1,59 @@
+"""Smallest loss, hardest impulse and verdict are those of the library."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from machines import PAPER
+from studies import study_once
+
+import carom
+from carom.basins import smallest_loss
+from carom.disturbances import VelocityKick
+from carom.explorer.computing import judgement
+from carom.explorer.computing.judgement import find_hardest, find_loss, judge
+from carom.explorer.computing.kicks import rest_of
+from carom.models import Jeffcott
+
+ROTOR = Jeffcott(PAPER.replace(gamma=0.2))
+
+
+@pytest.mark.jit_only
+def test_the_smallest_loss_is_that_of_the_search():
+    found = find_loss(ROTOR, 1.0)
+    assert found.size == smallest_loss(ROTOR, VelocityKick(1.0)).size
+    assert found.remark.startswith("smallest of ")
+
+
+@pytest.mark.jit_only
+def test_nothing_lost_is_told_with_what_was_tried():
+    calm = find_loss(Jeffcott(PAPER.replace(gamma=0.9)), 0.5)
+    assert (calm.size, calm.value) == (None, "none found")
+    assert calm.remark.startswith("up to 0.5 c_r Ω, ")
+
+
+def test_a_rotor_that_cannot_levitate_has_no_smallest_loss():
+    grounded = find_loss(Jeffcott(PAPER.replace(gamma=0.05)), 1.0)
+    assert (grounded.size, grounded.value) == (None, "none comes back")
+
+
+def test_no_kick_of_the_set_strikes_harder(monkeypatch):
+    monkeypatch.setattr(judgement, "SIZES", 2)
+    monkeypatch.setattr(judgement, "DIRECTIONS", 5)
+    found, rest = find_hardest(ROTOR, 1.5), rest_of(ROTOR)
+    impulses = [
+        carom.simulate(
+            ROTOR, rest.kicked(speed * math.cos(angle), speed * math.sin(angle)), settle=True
+        ).contacts.normal_impulse.max(initial=0)
+        for speed in (0.375, 1.125)
+        for angle in (2.0 * math.pi * (place + 0.5) / 5 for place in range(5))
+    ]
+    assert found.impulse == pytest.approx(max(impulses), rel=1e-12)
+    assert found.remark == "in 10 kicks up to 1.5 c_r Ω"
+
+
+def test_the_verdict_is_that_of_the_study(monkeypatch):
+    case = carom.load("examples/keogh-cole.toml")
+    monkeypatch.setattr(judgement, "study", lambda case, progress: study_once(case))
+    assert judge(case).headline == study_once(case).verdict.headline

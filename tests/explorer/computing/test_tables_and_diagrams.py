@@ -1,0 +1,84 @@
+"""Table of motions, and diagram along a slider."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import carom
+from carom.explorer.computing.controls import controls_of
+from carom.explorer.computing.diagrams import picture_along
+from carom.explorer.computing.motions import table_of
+from carom.models import Jeffcott
+
+MACHINE = Path(__file__).parents[3] / "examples" / "keogh-cole.toml"
+
+
+@pytest.fixture(scope="module")
+def case():
+    return carom.load(MACHINE)
+
+
+@pytest.fixture(scope="module")
+def picture(case):
+    (control,) = (one for one in controls_of(case) if one.name == "damping")
+    return picture_along(Jeffcott(case.parameters), control)
+
+
+def test_the_table_has_every_orbit_with_its_multipliers(case):
+    table, orbits = table_of(Jeffcott(case.parameters)), carom.find_orbits(case)
+    rows = {row.name: row for row in table.rows}
+    for orbit in orbits:
+        row = rows[f"orbit {orbit.name}"]
+        assert row.state == ("stable" if orbit.stable else "unstable")
+        assert row.multipliers.startswith(f"{orbit.multipliers.spectral_radius:.3g}")
+    assert table.argument == orbits.argument
+    assert rows["contact-free levitation"].state == "stable"
+
+
+def test_complex_multipliers_are_told_once(case):
+    (row,) = (row for row in table_of(Jeffcott(case.parameters)).rows if row.name == "orbit B1,d")
+    values = carom.find_orbits(case)["B1,d"].multipliers.values
+    assert row.multipliers.count("±") == np.count_nonzero(values.imag > 0.0)
+
+
+def test_the_diagram_has_the_orbits_of_the_machine(case, picture):
+    orbits = [orbit for orbit in carom.find_orbits(case) if orbit.admissible]
+    assert orbits
+    speed = 1e3 * case.parameters.scales.velocity
+    for orbit in orbits:
+        lines = [line for line in picture.lines if line.kind == ("stable" if orbit.stable else "unstable")]
+        # Points of a branch lie some per cent of the range apart.
+        near = min(
+            np.nanmin(np.hypot((line.x - 1400.0) / 7000.0, (line.y - speed * orbit.radial_speed) / picture.top))
+            for line in lines
+        )
+        assert near < 0.03
+
+
+def test_special_points_are_those_of_the_library(case, picture):
+    found = carom.find_bifurcations(case, "damping", (280.0, 7000.0))
+    np.testing.assert_allclose(
+        [point.x for point in picture.points], [point.value for point in found.points], rtol=1e-9
+    )
+    assert {point.words for point in picture.points} >= {"period doubling, B1,d", "fold of rub equilibria"}
+
+
+def test_bars_end_where_steady_motions_do(case, picture):
+    (levitation,) = (bar for bar in picture.bars if bar.words == "levitation")
+    (rub,) = (bar for bar in picture.bars if bar.words != "levitation")
+    step = (7000.0 - 280.0) / 200.0
+    assert levitation.low == pytest.approx(670.971, abs=step)
+    assert levitation.high == 7000.0
+    assert rub.high == pytest.approx(3407.85, abs=step)
+    points = {point.words: point.x for point in picture.points}
+    assert points["fold of rub equilibria"] - rub.high < step
+
+
+def test_a_diagram_along_the_speed_is_in_rpm(case):
+    (control,) = (one for one in controls_of(case) if one.name == "speed")
+    shown = picture_along(Jeffcott(case.replace(damping=3000.0).parameters), control)
+    assert shown.bars
+    assert all(control.low * (1 - 1e-9) <= bar.low <= bar.high <= control.high * (1 + 1e-9) for bar in shown.bars)

@@ -1,0 +1,188 @@
+"""Wishes of a page and the answers to them, without a browser."""
+
+from __future__ import annotations
+
+import queue
+import threading
+from pathlib import Path
+
+import pytest
+
+import carom
+from carom.explorer.computing.exports import Origin
+from carom.explorer.page import session as sessions
+from carom.explorer.page.session import Session
+
+MACHINE = str(Path(__file__).parents[3] / "examples" / "keogh-cole.toml")
+SOON = 120.0
+"""Seconds after which an answer is taken to be missing."""
+
+
+class Page:
+    """A session whose answers are kept."""
+
+    def __init__(self, ready: threading.Event) -> None:
+        self.told: queue.Queue = queue.Queue()
+        self.seen: list[tuple[str, object]] = []
+        origin = Origin(MACHINE, (), carom.load(MACHINE))
+        self.session = Session(origin, lambda name, value: self.told.put((name, value)), ready)
+
+    def until(self, name, fits=lambda value: True):
+        """Wait for an answer."""
+        while True:
+            found, value = self.told.get(timeout=SOON)
+            self.seen.append((found, value))
+            if found == name and fits(value):
+                return value
+
+    def numbered(self, name, number):
+        return self.until(name, lambda value: value["number"] == number)
+
+
+@pytest.fixture
+def page(monkeypatch):
+    monkeypatch.setattr(sessions, "COARSE", 8)
+    monkeypatch.setattr(sessions, "COARSEST", 4)
+    monkeypatch.setattr(sessions, "FINE", 10)
+    # A study takes seconds; the verdict has a test of its own.
+    monkeypatch.setattr(
+        sessions, "judge", lambda case, tell: carom.studies.verdict.Verdict("may-not-come-back", "It may not.", ())
+    )
+    ready = threading.Event()
+    ready.set()
+    opened = Page(ready)
+    yield opened
+    opened.session.close()
+
+
+def wish(number, held=False, along="", **settings):
+    return {"number": number, "settings": settings, "held": held, "along": along}
+
+
+@pytest.mark.jit_only
+def test_a_machine_is_answered_with_everything(page):
+    page.session.show(wish(1, damping="2500 N s/m"))
+    page.until("state", lambda state: state["kind"] == "idle")
+    answers = {}
+    for name, value in page.seen:
+        answers.setdefault(name, []).append(value)
+    assert [basin["size"] for basin in answers["basin"]] == [8, 10]
+    assert {name for name, values in answers.items() if values[-1] and values[-1].get("number") == 1} >= {
+        "basin", "flight", "table", "loss", "hardest", "diagram", "verdict",
+    }  # fmt: skip
+    assert answers["verdict"][-1]["text"] == "It may not."
+    assert answers["diagram"][-1]["name"] == "damping"
+    assert "2500.0 N s/m" in answers["exports"][-1]["toml"]
+    assert answers["problem"][-1]["text"] == ""
+
+
+def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
+    page.session.show(wish(1, held=True, damping="2500"))
+    basin = page.numbered("basin", 1)
+    assert basin["size"] <= 8
+    assert {name for name, _ in page.seen} == {"problem", "flight", "table", "basin"}
+
+
+def test_the_picture_is_as_fine_as_it_can_follow_the_hand(page):
+    page.session._cost = 1.0
+    page.session.show(wish(1, held=True))
+    assert page.numbered("basin", 1)["size"] == 4
+
+
+def test_a_wrong_value_changes_nothing_and_the_page_goes_on(page):
+    page.session.show(wish(1, held=True, damping="a lot"))
+    problem = page.until("problem")
+    assert problem["names"] == ["damping"]
+    assert problem["text"].startswith("damping = a lot: must be a damping in N s/m")
+    page.session.show(wish(2, held=True, damping="2000"))
+    assert page.until("problem") == {"number": 2, "text": "", "names": []}
+    assert page.numbered("basin", 2)["levitates"]
+
+
+def test_a_machine_whose_orbits_cannot_be_computed_is_told_as_such(page, monkeypatch):
+    def refuse(rotor):
+        raise carom.outcome.CaromError("no orbits; change the damping")
+
+    monkeypatch.setattr(sessions, "table_of", refuse)
+    page.session.show(wish(1, held=True))
+    assert page.numbered("table", 1)["refused"] == "no orbits; change the damping"
+    assert page.numbered("basin", 1)["size"]
+
+
+def test_a_machine_that_cannot_levitate_is_shown(page):
+    page.session.show(wish(1, held=True, damping="300"))
+    basin = page.numbered("basin", 1)
+    assert not basin["levitates"]
+    assert basin["sentence"] == "It cannot levitate with these values. The kicks disturb the synchronous rub."
+    assert basin["harmless"] == 0.0
+
+
+def test_a_kick_is_followed(page):
+    page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
+    flight = page.until("flight")
+    assert flight["kick"] == {"radial": 0.5, "tangential": -0.25}
+    assert flight["words"].startswith("A kick of 0.144 m/s: ")
+
+
+@pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])
+def test_kicks_outside_the_picture_are_not_followed(page, radial):
+    page.session.kick({"number": 1, "radial": radial, "tangential": 0.0})
+    page.session.kick({"number": 2, "radial": 0.1, "tangential": 0.0})
+    assert page.until("flight")["kick"]["radial"] == 0.1
+
+
+def test_a_chosen_kick_is_in_the_program_that_can_be_copied(page):
+    page.session.kick({"number": 1, "radial": 0.5, "tangential": 0.0, "chosen": True})
+    assert "cm.State(" in page.until("exports")["python"]
+
+
+@pytest.mark.jit_only
+def test_a_diagram_is_kept_while_only_its_own_slider_moves(page, monkeypatch):
+    made, real = [], sessions.picture_along
+    monkeypatch.setattr(sessions, "picture_along", lambda *given: made.append(given[1].name) or real(*given))
+    for number, settings in enumerate(
+        [{"damping": "2000"}, {"damping": "2500"}, {"damping": "2500", "friction": "0.2"}], start=1
+    ):
+        page.session.show(wish(number, along="damping", **settings))
+        page.numbered("diagram", number)
+    assert made == ["damping", "damping"]
+
+
+def test_what_takes_long_can_be_stopped(page, monkeypatch):
+    begun = threading.Event()
+
+    def endless(rotor, fastest, tell):
+        begun.set()
+        while True:
+            tell(carom.progress.Progress(0.5, "still looking"))
+
+    monkeypatch.setattr(sessions, "find_loss", endless)
+    page.session.show(wish(1))
+    assert begun.wait(SOON)
+    assert (
+        page.until("state", lambda state: state["kind"] == "working" and state["share"] == 0.5)["words"]
+        == "still looking"
+    )
+    page.session.cancel()
+    page.until("state", lambda state: state["kind"] == "cancelled")
+    page.session.show(wish(2, held=True))
+    assert page.numbered("basin", 2)
+
+
+def test_two_pages_do_not_know_of_each_other(page):
+    other = Page(page.session._ready)
+    page.session.show(wish(1, held=True, damping="2500"))
+    other.session.show(wish(1, held=True, damping="3500"))
+    first, second = page.numbered("basin", 1), other.numbered("basin", 1)
+    other.session.close()
+    assert first["share"] != second["share"]
+
+
+def test_a_page_waits_for_the_kernels_and_says_so():
+    ready = threading.Event()
+    waiting = Page(ready)
+    waiting.session.kick({"radial": 0.1, "tangential": 0.0})
+    assert waiting.until("state") == {"kind": "compiling"}
+    ready.set()
+    assert waiting.until("flight")["outcome"]
+    waiting.session.close()

@@ -1,0 +1,99 @@
+"""Work beside the page: the newest counts."""
+
+from __future__ import annotations
+
+import threading
+
+from carom.explorer.background import Desk, Request
+from carom.progress import Progress
+
+SOON = 30.0
+"""Seconds after which a thread that does not answer is taken to hang."""
+
+
+class Work:
+    """Work that begins, waits to be let go, and reports progress when it is."""
+
+    def __init__(self, name: str, told: list[str]) -> None:
+        self.name, self.told = name, told
+        self.begun, self.go, self.ended = threading.Event(), threading.Event(), threading.Event()
+
+    @property
+    def request(self) -> Request:
+        return Request(self.run, self.done)
+
+    def run(self, tell):
+        self.begun.set()
+        assert self.go.wait(SOON)
+        tell(Progress(0.5, "half"))
+        return self.name
+
+    def done(self, result):
+        self.told.append(result)
+        self.ended.set()
+
+
+def test_of_each_kind_only_the_newest_that_waits_is_done_and_the_most_urgent_first():
+    told: list[str] = []
+    desk = Desk(("urgent", "later"))
+    first, old, new, urgent = (Work(name, told) for name in ("first", "old", "new", "urgent"))
+    desk.ask("later", first.request)
+    assert first.begun.wait(SOON)
+    for kind, work in (("later", old), ("later", new), ("urgent", urgent)):
+        desk.ask(kind, work.request)
+        work.go.set()
+    first.go.set()
+    assert new.ended.wait(SOON)
+    desk.close()
+    assert desk.join(SOON)
+    assert told == ["first", "urgent", "new"]
+    assert not old.begun.is_set()
+
+
+def test_what_is_dropped_ends_at_its_next_report_and_says_nothing():
+    told: list[str] = []
+    desk = Desk(("one",))
+    dropped, next_one = Work("dropped", told), Work("next", told)
+    desk.ask("one", dropped.request)
+    assert dropped.begun.wait(SOON)
+    desk.drop()
+    desk.ask("one", next_one.request)
+    dropped.go.set()
+    next_one.go.set()
+    assert next_one.ended.wait(SOON)
+    desk.close()
+    assert told == ["next"]
+
+
+def test_errors_are_handed_over_and_do_not_end_the_desk():
+    told: list[object] = []
+    desk, ended = Desk(("one",)), threading.Event()
+
+    def fail(tell):
+        raise ValueError("no")
+
+    desk.ask("one", Request(fail, lambda result: (told.append(result), ended.set())))
+    assert ended.wait(SOON)
+    assert isinstance(told[0], ValueError)
+    after = Work("after", told)
+    after.go.set()
+    desk.ask("one", after.request)
+    assert after.ended.wait(SOON)
+    desk.close()
+
+
+def test_progress_is_told_with_its_kind():
+    told: list[object] = []
+    desk = Desk(("one",), lambda kind, progress: told.append((kind, progress)))
+    work = Work("work", [])
+    work.go.set()
+    desk.ask("one", work.request)
+    assert work.ended.wait(SOON)
+    desk.close()
+    assert told == [("one", Progress(0.5, "half"))]
+
+
+def test_a_desk_without_work_closes():
+    desk = Desk(("one",))
+    desk.close()
+    assert desk.join(SOON)
