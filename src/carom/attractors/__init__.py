@@ -4,14 +4,18 @@
 ``cycles``      the cycle that a settled motion repeats, and the comparison of cycles
 ``following``   starts followed until they settle
 ``survival``    :class:`Survival`: how long irregular motion lasts
+``lifetimes``   :func:`measure_lifetimes`: after how many impacts motions stop bouncing; transient, or not seen to end
+``crises``      :func:`locate_crisis`: where along a parameter bouncing begins to end
 ``names``       :class:`MotionName`: what a motion is called
 ``naming``      the motions on which starts end, by name
 ``groups``      :class:`Attractor`: motions that have settled to the same cycle
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
 """
 
+from carom.attractors.crises import Crisis, locate_crisis
 from carom.attractors.following import Ending
 from carom.attractors.groups import Attractor
+from carom.attractors.lifetimes import Lifetimes, measure_lifetimes
 from carom.attractors.names import MotionName
 from carom.attractors.search import AttractorSet, find_attractors
 from carom.attractors.starts import DisturbanceSet, Start, known_starts
@@ -20,8 +24,10 @@ from carom.attractors.survival import Survival, document_of, follow_out
 __all__ = [
     "Attractor",
     "AttractorSet",
+    "Crisis",
     "DisturbanceSet",
     "Ending",
+    "Lifetimes",
     "MotionName",
     "Start",
     "Survival",
@@ -29,4 +35,6 @@ __all__ = [
     "find_attractors",
     "follow_out",
     "known_starts",
+    "locate_crisis",
+    "measure_lifetimes",
 ]

@@ -57,21 +57,21 @@ class Survival:
     interval: tuple[float, float]
 
     @classmethod
-    def of(cls, motions: int, impacts: int, died: int, looks: int, left: int) -> Survival:
+    def of(cls, motions: int, impacts: int, died: int, looks: int, left: int, span: int = LOOK) -> Survival:
         """Estimate from the number of looks at motions that had not left before, and how many of these had then left.
 
-        A motion that has forgotten where it began leaves between two looks with a probability ``h`` that does not
-        depend on its age.  The interval of ``h`` is that of Clopper and Pearson (1934); the half-life is
-        ``−LOOK ln 2/ln(1 − h)``.
+        A motion that has forgotten where it began leaves between two looks, ``span`` impacts apart, with a probability
+        ``h`` that does not depend on its age.  The interval of ``h`` is that of Clopper and Pearson (1934); the half-life
+        is ``−span ln 2/ln(1 − h)``.
         """
         if left == 0:
             longest = math.inf if looks == 0 else 1.0 - (1.0 - CONFIDENCE) ** (1.0 / looks)
-            return cls(motions, impacts, died, None, (_half_life(longest) if looks else 0.0, math.inf))
+            return cls(motions, impacts, died, None, (_half_life(longest, span) if looks else 0.0, math.inf))
         tail = 0.5 * (1.0 - CONFIDENCE)
         low = _share_with(left, looks, 1.0 - tail)
         high = _share_with(left + 1, looks, tail) if left < looks else 1.0
         share = left / looks if left < looks else 1.0 - 0.5 / looks
-        return cls(motions, impacts, died, _half_life(share), (_half_life(high), _half_life(low)))
+        return cls(motions, impacts, died, _half_life(share, span), (_half_life(high, span), _half_life(low, span)))
 
     @property
     def transient(self) -> bool:
@@ -100,9 +100,9 @@ def _share_with(left: int, looks: int, chance: float) -> float:
     return 0.5 * (low + high)
 
 
-def _half_life(share: float) -> float:
+def _half_life(share: float, span: int) -> float:
     """Number of impacts within which half of the motions leave, if this share leaves between two looks."""
-    return 0.0 if share >= 1.0 else -LOOK * math.log(2.0) / math.log1p(-share)
+    return 0.0 if share >= 1.0 else -span * math.log(2.0) / math.log1p(-share)
 
 
 def _rounded(number: float) -> str:

@@ -1,0 +1,248 @@
+"""After how many impacts motions stop bouncing irregularly, and whether that shows a transient."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from carom.attractors.starts import DisturbanceSet, disturbances_of
+from carom.attractors.survival import Survival, still_irregular
+from carom.disturbances import Plan
+from carom.models import Model, Subject, model_of
+from carom.motions.ensembles import settle
+from carom.motions.settling import PATIENCE, REPEATING
+from carom.motions.starts import Kick, State, check_whole
+from carom.outcome import InputError, Outcome
+from carom.results import Result
+
+Verdict = Literal["none", "periodic", "not seen to end", "undecided", "transient"]
+
+COUNT = 200
+FORGOTTEN = 100
+"""Impacts at the beginning that are left out: until then the motions forget where they began.
+
+Added to these is the length of a chatter, whose bounces are counted too: about ``CHATTER/|ln d|``.
+"""
+CHATTER = 15.0
+ENOUGH = 5.0
+"""Half-lives after which the motions that are left are taken for late ones, not for an attractor: 1 in 32 lasts longer."""
+UNEVEN = 0.01
+"""Probability below which early and late deaths are not those of one constant rate."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Lifetimes(Result):
+    """How long motions of one machine kept bouncing irregularly.
+
+    Attributes
+    ----------
+    rotor : Model
+    impacts : ndarray of int, shape (M,)
+        Impacts of each motion until its end was known, or as far as it was followed; the shortest first.
+    ended : ndarray of bool, shape (M,)
+        Whether it ended: it stopped bouncing or became periodic.  The others were still irregular, or were given up.
+    ends : tuple of str, M
+        Where it ended: ``"rolling"``, ``"2-impact bouncing"``, …; ``"irregular"`` if it did not; ``"grazing"``,
+        ``"time-reached"`` or ``"event-limit"`` if it was given up.
+    followed : int
+        Largest number of impacts for which a motion was followed.
+    forgotten : int
+        Impacts at the beginning that the statistics leave out.
+    """
+
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "destinations", "followed", "forgotten", "verdict", "words")
+
+    rotor: Model
+    impacts: np.ndarray
+    ended: np.ndarray
+    ends: tuple[str, ...]
+    followed: int
+    forgotten: int
+
+    def __len__(self) -> int:
+        return len(self.impacts)
+
+    @property
+    def destinations(self) -> dict[str, int]:
+        """Where the motions ended, the most frequent first."""
+        return dict(Counter(self.ends).most_common())
+
+    def share(self, impacts: np.ndarray) -> np.ndarray:
+        """Share of the motions that still bounced irregularly after numbers of impacts, of those followed that far.
+
+        The estimate of Kaplan and Meier (1958), from the beginning on.
+        """
+        left = np.arange(len(self), 0, -1)
+        kept = np.where(self.ended, 1.0 - 1.0 / left, 1.0)
+        shares = np.concatenate([[1.0], np.cumprod(kept)])
+        found: np.ndarray = shares[np.searchsorted(self.impacts, impacts, side="right")]
+        return found
+
+    @cached_property
+    def survival(self) -> Survival:
+        """Exponential fit beyond the forgotten impacts: half-life in impacts, with an interval of 95 %."""
+        exposure, died = self._after(self.forgotten, self.followed)
+        among = int((self.impacts > self.forgotten).sum())
+        return Survival.of(among, self.followed, died, exposure, died, span=1)
+
+    def _after(self, begin: float, end: float) -> tuple[int, int]:
+        """Impacts of all motions between two ages, and how many motions ended there."""
+        within = np.clip(self.impacts, begin, end) - begin
+        died = self.ended & (self.impacts > begin) & (self.impacts <= end)
+        return int(within.sum()), int(died.sum())
+
+    @property
+    def half_life(self) -> float | None:
+        """In impacts; ``None`` if no motion ended beyond the forgotten impacts."""
+        return self.survival.half_life
+
+    @cached_property
+    def evenness(self) -> float:
+        """Probability that a constant rate divides the deaths between early and late ages at least as unevenly.
+
+        The ages are divided where half of the deaths have occurred.  A small value says that the fit does not hold: for
+        example, some of the motions are on an attractor and others on a transient.
+        """
+        late = np.sort(self.impacts[self.ended & (self.impacts > self.forgotten)])
+        if len(late) < 2:
+            return 1.0
+        middle = float(late[(len(late) - 1) // 2])
+        early, total = self._after(self.forgotten, middle)[0], self._after(self.forgotten, self.followed)[0]
+        died, share = len(late), early / total
+        # The number of early deaths is given, that of late ones is not: it is compared with its binomial distribution.
+        before = int((late <= middle).sum())
+        ways = np.array([_chance(died, k, share) for k in range(died + 1)])
+        return float(min(1.0, ways[ways <= ways[before] * (1.0 + 1e-9)].sum()))
+
+    @property
+    def too_many_left(self) -> bool:
+        """Whether more motions are left at the end than the fit explains: some may be on an attractor."""
+        left = sum(end == "irregular" for end in self.ends)
+        half_life = self.survival.half_life
+        if not left or half_life is None:
+            return False
+        expected = self.survival.motions * 0.5 ** ((self.followed - self.forgotten) / half_life)
+        return left > 1.0 + expected + 3.0 * math.sqrt(expected) or expected < UNEVEN
+
+    @property
+    def verdict(self) -> Verdict:
+        """What the statistics say of irregular bouncing.
+
+        ``"none"``, ``"periodic"``: no motion was irregular for longer than the forgotten impacts, or none that did not
+        become periodic.  ``"not seen to end"``: none ended; this is no proof that none does.  ``"transient"``: all ended, or
+        they were followed for more than five half-lives and ended at a constant rate.  ``"undecided"``: transient or
+        attractor.
+        """
+        among = self.impacts > self.forgotten
+        if not among.any():
+            return "none"
+        if not (self.ended & among).any():
+            return "not seen to end"
+        if self.ended[among].all():
+            bouncing = all("bouncing" in end for end, one in zip(self.ends, among, strict=True) if one)
+            return "periodic" if bouncing else "transient"
+        half_life = self.survival.half_life
+        long_enough = half_life is not None and self.followed - self.forgotten >= ENOUGH * half_life
+        return "transient" if long_enough and self.evenness >= UNEVEN and not self.too_many_left else "undecided"
+
+    @property
+    def words(self) -> str:
+        """The verdict, and the numbers behind it, in a sentence or two."""
+        survival, verdict = self.survival, self.verdict
+        low, high = (f"{bound:,.3g}" for bound in survival.interval)
+        if verdict == "none":
+            return f"No motion bounced irregularly for more than {self.forgotten} impacts."
+        told = f"{survival.died} of {survival.motions} motions ended within {self.followed:,} impacts"
+        if survival.half_life is None:
+            return f"{told}: not seen to end. If it is a transient, its half-life is above {low} impacts (95 %)."
+        fitted = f"half-life {survival.half_life:,.3g} impacts ({low} to {high}, 95 %)"
+        if verdict == "undecided":
+            uneven = ""
+            if self.evenness < UNEVEN or self.too_many_left:
+                uneven = ", but not at a constant rate: some stay longer than this says"
+            return f"{told}: transient or attractor, undecided; {fitted}{uneven}."
+        name = "a transient" if verdict == "transient" else "a transient to periodic bouncing"
+        return f"{told}: {name}, {fitted}."
+
+
+def _chance(count: int, chosen: int, share: float) -> float:
+    """Probability of so many of a count, each with a probability."""
+    ways = math.lgamma(count + 1) - math.lgamma(chosen + 1) - math.lgamma(count - chosen + 1)
+    return math.exp(
+        ways + chosen * math.log(max(share, 1e-300)) + (count - chosen) * math.log(max(1.0 - share, 1e-300))
+    )
+
+
+def measure_lifetimes(
+    machine: Subject,
+    starts: DisturbanceSet | Plan | Sequence[State | Kick] | None = None,
+    *,
+    impacts: int = PATIENCE,
+    forgotten: int | None = None,
+    count: int = COUNT,
+    seed: int = 0,
+    threads: int | None = None,
+) -> Lifetimes:
+    """Follow many motions and note after how many impacts they stop bouncing irregularly.
+
+    Parameters
+    ----------
+    machine : Machine, Case, Parameters or model
+    starts : DisturbanceSet, Plan or sequence of State or Kick, optional
+        By default the standard set of disturbances.  To measure how long one irregular motion lasts, give starts on it.
+    impacts : int
+        Impacts for which each motion is followed.
+    forgotten : int, optional
+        Impacts at the beginning to leave out; by default 100 and those of a chatter.
+    count, seed : int
+        Size and seed of the standard set.
+    threads : int, optional
+        By default the number of available cores; the result does not depend on it.
+
+    Returns
+    -------
+    Lifetimes
+        ``.survival`` has the half-life and its interval, ``.share(n)`` the share left after ``n`` impacts,
+        ``.destinations`` where the motions ended, ``.verdict`` and ``.words`` what follows.
+
+    Raises
+    ------
+    InputError
+        A number is out of range, or a start is not possible.
+    """
+    rotor = model_of(machine)
+    check_whole("impacts", impacts, 2)
+    if forgotten is None:
+        forgotten = min(_forgotten(rotor), impacts // 2)
+    check_whole("forgotten", forgotten, 0)
+    if forgotten >= impacts:
+        raise InputError("forgotten", forgotten, f"less than the impacts followed, {impacts}")
+    _, whole = disturbances_of(rotor, DisturbanceSet(count, seed) if starts is None else starts)
+    ends = settle(rotor, whole.positions, whole.velocities, patience=impacts, threads=threads)
+    ends = ends.reshaped(ends.outcomes.size)
+    order = np.argsort(ends.impacts, kind="stable")
+    ended = ~still_irregular(ends) & (ends.outcomes >= Outcome.LEVITATED)
+    named = [_label(*each) for each in zip(ends.outcomes.tolist(), ends.multiplicities.tolist(), strict=True)]
+    labels = tuple(named[place] for place in order.tolist())
+    return Lifetimes(rotor, ends.impacts[order], ended[order], labels, impacts, forgotten)
+
+
+def _forgotten(rotor: Model) -> int:
+    """Impacts until the motions have forgotten where they began, and one that ends then has completed its chatter."""
+    restitution = rotor.system.arrays.restitution
+    lossy = restitution[(restitution > 0.0) & (restitution < 1.0)]
+    return FORGOTTEN + int((CHATTER / -np.log(lossy)).max(initial=0.0))
+
+
+def _label(outcome: int, multiplicity: int) -> str:
+    if outcome in REPEATING and not multiplicity:
+        return "irregular"
+    if outcome in REPEATING:
+        return f"{multiplicity}-impact bouncing" + (" with rub" if outcome == Outcome.MIXED else "")
+    return Outcome(outcome).label
