@@ -11,6 +11,7 @@ from carom.attractors import AttractorSet, DisturbanceSet, find_attractors
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.closed_forms.equilibria import Equilibrium, find_equilibria
 from carom.closed_forms.thresholds import Gain, Steady
+from carom.closed_forms.whirl import rolling
 from carom.disturbances import Disturbance, Plan
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.orbit import Orbit
@@ -18,6 +19,7 @@ from carom.orbits.single_impact import OrbitSet, orbits_within_reach
 from carom.parameters import Case, Parameters
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
+from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document
@@ -133,6 +135,11 @@ class Study(Result):
     def wording(self) -> Wording:
         """Formatter of the results of this study as text."""
         return Wording(self.rotor.scales)
+
+    @cached_property
+    def bearing_demand(self) -> BearingDemand | None:
+        """What the motions ask of the magnetic bearings; ``None`` if the machine has no limits of these."""
+        return bearing_demand(self.case, self.equilibria, self.orbits, rolling(self.rotor), self.attractors)
 
     @cached_property
     def verdict(self) -> Verdict:

@@ -119,6 +119,7 @@ def study_document(study: Study) -> dict[str, Any]:
         "rolling": _rolling(study.rotor),
         "disturbances": _disturbances(study.attractors, case.parameters)
         | {"fresh": _check(study.fresh) if study.fresh else None},
+        "bearing_demand": study.bearing_demand.document() if study.bearing_demand else None,
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
         "not_covered": list(NOT_COVERED),
         "proof": study.proof.document() if study.proof else None,

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from carom.closed_forms.whirl import rolling
+from carom.studies.actuator import actuator_words
 from carom.studies.endings import came_back
 from carom.studies.findings import FINDINGS, names_of, stable_rub
 from carom.studies.proven import proven_words
@@ -68,6 +69,8 @@ def verdict(study: Study) -> Verdict:
     findings = [Finding(topic, write(study)) for topic, write in FINDINGS.items()]
     if study.proof is not None:
         findings.append(Finding("Proven", proven_words(study.proof)))
+    if study.bearing_demand is not None:
+        findings.append(Finding("Magnetic bearings", actuator_words(study)))
     findings.append(Finding("Not covered", "\n".join(NOT_COVERED)))
     level, outcome, headline = _headline(study)
     return Verdict(level, outcome, f"{outcome}: {headline}", tuple(findings))
@@ -94,6 +97,8 @@ def _headline(study: Study) -> tuple[Level, str, str]:
         )
     fastest = study.wording.velocity(study.attractors.fastest)
     text = f"it came back from every disturbance tried, of up to {fastest}"
+    if study.bearing_demand is not None and study.bearing_demand.doubtful:
+        text += f"; {study.bearing_demand.doubtful} of them ask for more than its magnetic bearings can give"
     if rolling(study.rotor).holds:
         text += "; only rolling backward whirl is known to be able to hold it"
     return (

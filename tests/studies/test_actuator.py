@@ -1,0 +1,177 @@
+"""What motions ask of magnetic bearings: against the equations in SI units, integrated in the fixed frame."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from studies import study_once
+
+from carom.attractors import find_attractors
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.whirl import rolling
+from carom.disturbances import KickPlane, Sample
+from carom.files import as_json
+from carom.models import Jeffcott
+from carom.motions import State, simulate
+from carom.orbits import orbits_within_reach
+from carom.parameters import load
+from carom.studies.actuator import bearing_demand, largest_along, limits_of
+
+KEOGH = "examples/keogh-cole.toml"
+BEARINGS = ["magnetic_bearings=2", "force_current_factor=70 N/A", "negative_stiffness=210 N/mm"]
+
+
+def limited(*settings, force="500 N", current="10 A"):
+    return load(KEOGH, [*BEARINGS, f"force_limit={force}", f"current_limit={current}", *settings])
+
+
+def demand_of(case, found):
+    rotor = Jeffcott(case.parameters)
+    return bearing_demand(case, find_equilibria(rotor).members, orbits_within_reach(rotor), rolling(rotor), found)
+
+
+def by_integration(machine, place, speed, until, count=200_001):
+    """Force and current of one bearing while the rotor flies, from a state in the fixed frame at the time zero, in SI units."""
+
+    def rate(time, state):
+        z, w = state
+        unbalance = machine.mass * machine.eccentricity * machine.speed**2
+        turning = np.exp(1j * (machine.speed * time + machine.unbalance_phase))
+        return np.array([w, (unbalance * turning - machine.damping * w - machine.stiffness * z) / machine.mass])
+
+    times = np.linspace(0.0, until, count)
+    run = solve_ivp(rate, (0.0, until), np.array([place, speed], complex), "DOP853", times, rtol=1e-11, atol=1e-14)
+    z, w = run.y
+    gains = machine.controller_gains
+    current = gains["proportional_gain"] * z + gains["derivative_gain"] * w
+    force = machine.force_current_factor * -current + machine.negative_stiffness * z
+    return np.abs(force), np.abs(current), np.abs(z).max()
+
+
+@pytest.mark.parametrize(("place", "kick"), [(0.05 + 0.1j, 0.1), (-0.2j, 0.05j), (0.0, 0.02 - 0.03j)])
+def test_force_and_current_of_a_flight_are_those_of_the_equations_in_si_units(place, kick):
+    case = limited("eccentricity=0.02 mm")
+    machine, scales = case.machine, case.parameters.scales
+    until = 60.0
+    motion = simulate(case, State(place, kick), until)
+    forces, currents, farthest = by_integration(
+        machine, place * scales.length, (kick + 1j * place) * scales.velocity, until * scales.time
+    )
+    assert farthest < machine.clearance  # it does not touch
+
+    force, current = largest_along(motion, limits_of(case))
+
+    # The instants are so close that the largest value is missed by less than 0.1 %.
+    assert forces.max() * (1 - 1e-3) <= force <= forces.max() * (1 + 1e-9)
+    assert currents.max() * (1 - 1e-3) <= current <= currents.max() * (1 + 1e-9)
+
+
+def test_a_bouncing_orbit_asks_for_what_its_flight_does():
+    case = limited("damping=1200 N s/m")
+    machine, scales = case.machine, case.parameters.scales
+    (orbit,) = [orbit for orbit in orbits_within_reach(Jeffcott(case.parameters)) if orbit.admissible and orbit.stable]
+    state = orbit.departure
+    forces, currents, _ = by_integration(
+        machine,
+        state.position * scales.length,
+        (state.velocity + 1j * state.position) * scales.velocity,
+        orbit.period * scales.time,
+    )
+
+    force, current = largest_along(orbit.trajectory(), limits_of(case))
+
+    assert force == pytest.approx(forces.max(), rel=1e-3)
+    assert current == pytest.approx(currents.max(), rel=1e-3)
+
+
+def test_steady_motions_are_exact():
+    case = limited()
+    machine = case.machine
+    demand = demand_of(case, find_attractors(case, Sample(KickPlane(0.01), 4), known=False))
+    by_name = {(each.motion, each.limit.kind): each for each in demand.motions}
+
+    whirl = abs(machine.stiffness + 1j * machine.damping * machine.speed) / 2
+    rub = by_name["synchronous rub", "force"]
+    assert rub.largest == pytest.approx(whirl * machine.clearance, rel=1e-12)
+    assert rub.share == pytest.approx(whirl * machine.clearance / 500.0, rel=1e-12)
+    unbalance = machine.mass * machine.eccentricity * machine.speed**2
+    dynamic = machine.stiffness - machine.mass * machine.speed**2 + 1j * machine.damping * machine.speed
+    levitation = by_name["levitation", "force"]
+    assert levitation.largest == pytest.approx(whirl * unbalance / abs(dynamic), rel=1e-10)
+    gains = machine.controller_gains
+    backward = machine.speed * machine.rotor_radius / machine.clearance
+    current = abs(gains["proportional_gain"] - 1j * gains["derivative_gain"] * backward) * machine.clearance
+    assert by_name["rolling backward whirl", "current"].largest == pytest.approx(current, rel=1e-12)
+
+
+def test_one_bearing_of_two_bears_half():
+    shares = []
+    for count in (1, 2):
+        case = load(KEOGH, [f"magnetic_bearings={count}", "force_limit=500 N"] if count > 1 else ["force_limit=500 N"])
+        (limit,) = limits_of(case)
+        shares.append(float(limit.asked(1.0, 0.0)))
+    assert shares[0] == pytest.approx(2 * shares[1], rel=1e-15)
+
+
+def test_without_limits_nothing_is_said_and_a_dimensionless_machine_has_none():
+    assert limits_of(load(KEOGH)) == limits_of(load("examples/source-paper.toml")) == ()
+    assert demand_of(load(KEOGH), find_attractors(KEOGH_PARAMETERS, Sample(KickPlane(0.01), 2), known=False)) is None
+
+
+KEOGH_PARAMETERS = load(KEOGH).parameters
+QUIET = ["damping=6000 N s/m", "friction=0"]
+
+
+@pytest.mark.jit_only
+def test_a_study_says_what_the_bearings_cannot_give():
+    case = limited(*QUIET, force="900 N", current="1 kA")
+    result = study_once(case)
+    demand = result.bearing_demand
+
+    beyond = demand.disturbances[0] > 1.0
+    assert 0 < beyond.sum() < len(beyond)
+    assert not (demand.disturbances[1] > 1.0).any()
+    assert demand.doubtful == beyond.sum()
+    text = next(finding.text for finding in result.verdict.findings if finding.topic == "Magnetic bearings")
+    assert "at most 900 N of force and 1,000 A of current" in text
+    assert f"{beyond.sum()} of {len(beyond)} disturbances ask for more force than that" in text
+    assert f"None of {len(beyond)} disturbances ask for more current than that" in text
+    (levitation,) = [each for each in demand.motions if (each.motion, each.limit.kind) == ("levitation", "force")]
+    assert (
+        f"In levitation the bearing force reaches {levitation.share:.3g} times its limit of 900 N and the bearing"
+        in text
+    )
+    assert f"{demand.doubtful} of the {len(beyond)} that came back are among them" in text
+    assert f"{demand.doubtful} of them ask for more than its magnetic bearings can give" in result.verdict.headline
+    document = json.loads(as_json(result.to_dict()))["bearing_demand"]
+    assert document["came_back_beyond"] == demand.doubtful
+    assert document["disturbances"][0]["beyond"] == beyond.sum()
+    assert math.isclose(document["motions"][0]["share"], document["motions"][0]["largest_si"] / 900.0, rel_tol=1e-12)
+
+    # The worst disturbance, followed again at random instants.
+    rng = np.random.default_rng(1)
+    worst = int(np.argmax(demand.disturbances[0]))
+    ending = result.attractors.disturbances[worst]
+    motion = simulate(case, ending.start.state, ending.time)
+    position, velocity = motion.at(np.sort(rng.uniform(0.0, min(ending.time, 20.0), 200_000)))
+    machine, scales = case.machine, case.parameters.scales
+    z, w = position * scales.length, (velocity + 1j * position) * scales.velocity
+    forces = np.abs(machine.stiffness * z + machine.damping * w) / machine.magnetic_bearings
+    assert forces.max() / 900.0 == pytest.approx(demand.disturbances[0][worst], rel=2e-3)
+
+
+@pytest.mark.deep
+def test_no_instant_of_fresh_motions_asks_for_more_than_the_largest_value_found():
+    rng = np.random.default_rng(20)
+    for _ in range(300):
+        numbers = {"gamma": rng.uniform(0.01, 1.5), "omega": 10 ** rng.uniform(-0.7, 1.0), "mu": rng.uniform(0.0, 0.4)}
+        case = limited("eccentricity=0.1 mm", *(f"{name}={value!r}" for name, value in numbers.items()))
+        start = State(rng.uniform(0, 0.9) * np.exp(1j * rng.uniform(0, 7)), complex(*rng.normal(0.0, 0.5, 2)))
+        motion = simulate(case, start, 40.0)
+        position, velocity = motion.at(np.sort(rng.uniform(0.0, motion.time, 50_000)))
+        for limit, largest in zip(limits_of(case), largest_along(motion, limits_of(case)), strict=True):
+            assert limit.asked(position, velocity).max() <= largest * (1 + 1e-3)
