@@ -70,9 +70,10 @@ def basins(
         if out is not None:
             tell(0.97, "drawing")
             from carom.files import filled_at_once, write_json
-            from carom.plots import save
+            from carom.plots import heading, save
+            from carom.studies.wording import machine_heading
 
-            with filled_at_once(out, "--out") as directory:
+            with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
                 save(basin.plot(smallest), directory / "figures" / "basins")
                 basin.save(directory / "basins.nc")
                 if found is not None:

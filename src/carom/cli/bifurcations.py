@@ -11,11 +11,13 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, cons
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.figure import Figure
 
     from carom.bifurcations import Diagram
     from carom.models import Axis
-    from carom.parameters import Parameters
+    from carom.parameters import Case, Parameters
     from carom.proofs import Proof
 
 Out = Annotated[
@@ -93,7 +95,8 @@ def bifurcations(
     from carom.models import axis
     from carom.parameters import load
 
-    parameters = load(machine, settings or ()).parameters
+    case = load(machine, settings or ())
+    parameters = case.parameters
     varied = axis(parameters, along.strip())
     first, last = read_value("--from", start, varied), read_value("--to", end, varied)
     if first == last:
@@ -116,7 +119,7 @@ def bifurcations(
         )
     document = diagram_document(parameters, diagram)
     if out is not None:
-        _write(Path(out), f"bifurcations-{varied.name}", diagram.plot(proof=proven), document)
+        _write(Path(out), f"bifurcations-{varied.name}", lambda: diagram.plot(proof=proven), document, case)
     if as_json:
         print_document(document)
     else:
@@ -153,7 +156,8 @@ def regions(
     from carom.models import axis
     from carom.parameters import load
 
-    parameters = load(machine, settings or ()).parameters
+    case = load(machine, settings or ())
+    parameters = case.parameters
     names = [name.strip() for name in plane.split(",")]
     if len(names) != 2:
         raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")
@@ -175,7 +179,7 @@ def regions(
         )
     document = regions_document(parameters, found)
     if out is not None:
-        _write(Path(out), f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven), document)
+        _write(Path(out), f"regions-{axes[0].name}-{axes[1].name}", lambda: found.plot(proof=proven), document, case)
     if as_json:
         print_document(document)
     else:
@@ -207,11 +211,13 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
     return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)
 
 
-def _write(directory: Path, stem: str, figure: Figure, document: dict[str, Any]) -> None:
+def _write(directory: Path, stem: str, draw: Callable[[], Figure], document: dict[str, Any], case: Case) -> None:
     from carom.files import write_json
-    from carom.plots import save
+    from carom.plots import heading, save
+    from carom.studies.wording import machine_heading
 
-    written = save(figure, directory / stem)
+    with heading(machine_heading(case)):
+        written = save(draw(), directory / stem)
     target = directory / f"{stem}.json"
     write_json(target, document)
     console(errors=True).print(f"Written: {', '.join(str(path) for path in (*written, target))}", soft_wrap=True)

@@ -57,9 +57,10 @@ def response(
         document = found.to_dict() if as_json or out is not None else {}
         if out is not None:
             from carom.files import filled_at_once, write_json
-            from carom.plots import save
+            from carom.plots import heading, save
+            from carom.studies.wording import machine_heading
 
-            with filled_at_once(out, "--out") as directory:
+            with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
                 save(found.plot(), directory / "figures" / "response")
                 write_json(directory / "response.json", document)
     if as_json:

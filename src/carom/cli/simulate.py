@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.terminal import AsJson, MachineFile, Settings, console, print_document, progress
+from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
@@ -44,6 +44,9 @@ def simulate(
             help="Follow the motion to this time, in 1/Omega or with a unit; by default until it is known where it ends.",
         ),
     ] = None,
+    out: Annotated[
+        str | None, typer.Option(metavar="DIR", help="Write figures and simulation.json to this directory.")
+    ] = None,
     csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as CSV.")] = None,
     netcdf: Annotated[str | None, typer.Option(metavar="FILE", help="Write the contact log as netCDF.")] = None,
     as_json: AsJson = False,
@@ -55,6 +58,7 @@ def simulate(
     from carom.parameters import load
 
     case = load(machine, settings or ())
+    check_output(out)
     targets = {option: path for option, path in (("--csv", csv), ("--netcdf", netcdf)) if path is not None}
     if targets:
         from carom.cli.logs import check_file
@@ -70,14 +74,35 @@ def simulate(
             writers = {"--csv": write_csv, "--netcdf": write_netcdf}
             for option, path in targets.items():
                 writers[option](motion, path)
+        if out is not None:
+            tell(0.9, "drawing")
+            _write(out, case, motion)
     if as_json:
         from carom.studies import trajectory_document
 
         print_document(trajectory_document(motion))
-        return
-    from carom.cli.tables import print_motion
+    else:
+        from carom.cli.tables import print_motion
 
-    print_motion(console(), case, motion)
+        print_motion(console(), case, motion)
+    if out is not None:
+        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+
+
+def _write(out: str, case: Case, motion: Trajectory) -> None:
+    """Write the path, its touchdown over time if there is a contact, and the document."""
+    from carom import plots
+    from carom.files import filled_at_once, write_json
+    from carom.motions.ledger import energy_ledger
+    from carom.studies import trajectory_document
+    from carom.studies.wording import machine_heading
+
+    with filled_at_once(out, "--out") as directory, plots.heading(machine_heading(case)):
+        plots.save(plots.motion(motion), directory / "figures" / "motion")
+        touched = len(motion.contacts) or motion.lasting_contacts
+        over_time = plots.touchdown(motion, energy_ledger(motion)) if touched else plots.radius(motion, case.zones)
+        plots.save(over_time, directory / "figures" / ("touchdown" if touched else "radius"))
+        write_json(directory / "simulation.json", trajectory_document(motion))
 
 
 def _read(case: Case, start: str | None, kick: str | None, until: str | None) -> tuple[State | Kick, float | None]:

@@ -6,12 +6,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from carom.cli.terminal import AsJson, InterruptionError, Settings, console, print_document, progress
+from carom.cli.terminal import AsJson, InterruptionError, Settings, check_output, console, print_document, progress
+from carom.outcome import InputError
 
 if TYPE_CHECKING:
     from carom.sweeps import SweepPlan, Tally
 
 _SHOWN = 5
+_DRAWN = ("recovered", "smallest_unrecovered_kick", "zone", "stable_orbits", "least_damping")
+"""Variables that are drawn if there are any."""
+_MOST_AXES = 2
 
 
 def sweep(
@@ -34,6 +38,9 @@ def sweep(
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Compute chunks with failed points again.")
     ] = False,
+    figures: Annotated[
+        str | None, typer.Option(metavar="DIR", help="Draw maps of the results, as SVG and PNG, in this directory.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Sweep a grid of machines: a study, or the basins of disturbances, at each point.
@@ -45,7 +52,11 @@ def sweep(
     from carom.sweeps import load_sweep, run_sweep
     from carom.sweeps.store import SweepStore
 
+    check_output(figures, "--figures")
     plan = load_sweep(file, settings or ())
+    if figures is not None and len(plan.axes) > _MOST_AXES:
+        allowed = "a sweep over one or two axes; carom.open_sweep and carom.plots.sweep_map draw a part of others"
+        raise InputError("--figures", figures, allowed)
     with progress(f"{plan.points:,} points") as tell:
         try:
             tally = run_sweep(
@@ -61,11 +72,32 @@ def sweep(
             done = SweepStore(out, plan).done
             kept = f"{done:,} of {plan.points:,} points are stored; " if done else ""
             raise InterruptionError(f"interrupted; {kept}the same command resumes {out}") from None
+        if figures is not None:
+            tell(0.99, "drawing")
+            _draw(plan, tally, figures)
     failures = tally.failures
     if as_json:
         print_document(_document(plan, tally, failures))
     else:
         _print(plan, tally, failures)
+
+
+def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
+    """Draw the results over the axes of the sweep, with the machine as it is marked."""
+    from carom import plots
+    from carom.files import filled_at_once
+    from carom.models import axis, model_of
+    from carom.parameters import Case
+    from carom.studies.wording import machine_heading
+    from carom.sweeps import open_sweep
+
+    model = model_of(plan.case)
+    present = {varied.name: float(axis(model, varied.name).value(model)) for varied in plan.axes}
+    words = machine_heading(plan.case) if isinstance(plan.case, Case) else plan.name
+    data = open_sweep(str(tally.store))
+    with filled_at_once(figures, "--figures") as directory, plots.heading(words):
+        for name in (name for name in _DRAWN if name in data):
+            plots.save(plots.sweep_map(data, name, present=present), directory / name)
 
 
 def _document(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> dict[str, Any]:

@@ -42,12 +42,12 @@ def console(errors: bool = False) -> Console:
     return Screen(file=stream, markup=False, highlight=False, emoji=False, width=width)
 
 
-def check_output(out: str | None) -> None:
+def check_output(out: str | None, option: str = "--out") -> None:
     """Refuse early a directory for output that cannot be written."""
     if out is not None:
         from carom.files import check_directory
 
-        check_directory(out, "--out")
+        check_directory(out, option)
 
 
 def print_document(document: dict[str, Any]) -> None:

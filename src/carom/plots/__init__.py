@@ -14,6 +14,7 @@ from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
+from carom.plots.figure import heading
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
@@ -42,6 +43,7 @@ __all__ = [
     "equilibria_and_orbits",
     "forces",
     "gain_map",
+    "heading",
     "motion",
     "multipliers",
     "orbit",

@@ -17,7 +17,7 @@ from carom.plots.coexistence import coexistence, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
 from carom.plots.proven import proven_line
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
-from carom.plots.words import parameter_label, parameter_unit
+from carom.plots.words import number, parameter_label, parameter_unit
 
 if TYPE_CHECKING:
     from carom.bifurcations import (
@@ -84,6 +84,8 @@ FAINT = 0.3
 _MET: dict[str, Any] = {"marker": ".", "ms": 3.2, "mew": 0.0, "color": "#1a1a1a"}
 _UNMET: dict[str, Any] = {"marker": "o", "ms": 2.2, "mew": 0.4, "mfc": "none", "mec": "#1a1a1a"}
 """Looks of impacts of motions that disturbances reached, and of motions that only a start next to them reached."""
+_PRESENT: dict[str, Any] = {"color": "#1a1a1a", "lw": 0.8, "ls": (0, (1, 1.5)), "zorder": 1.2}
+"""Look of the value of the machine itself."""
 _EQUILIBRIA = {"contact-free": "contact-free", "stable rub": "rub", "saddle rub": "rub"}
 
 
@@ -128,15 +130,27 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     upper.set_ylabel(r"radial speed at the impact, $\dot r$ ($c_r\Omega$)")
     lower.set_ylabel("gap ($c_r$); force\n" r"of rub ($m c_r\Omega^2$)")
     below.set_xlabel(parameter_label(diagram.axis.field))
+    present = _mark_present(diagram, (upper, lower, below), unit)
     below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
     lower.set_ylim(-0.25, max(0.6, max(_top(branch) for branch in diagram.equilibria)))
     upper.set_ylim(*_limits(diagram))
     marked = _mark_points(diagram, (upper, lower, below), unit)
     figure.align_ylabels([upper, lower])
-    figure.legend(handles=_diagram_key(diagram, marked), loc="outside lower center", ncols=4)
+    figure.legend(handles=[*_diagram_key(diagram, marked), *present], loc="outside lower center", ncols=4)
     if key:
         figure.legend(handles=key, loc="outside upper center", ncols=2)
     return figure
+
+
+def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> list[Line2D]:
+    """Mark the value of the machine itself, if it lies in the interval; return its legend entry."""
+    value = float(diagram.axis.value(diagram.model))
+    if not diagram.interval[0] <= value <= diagram.interval[1]:
+        return []
+    for panel in panels:
+        panel.axvline(value / unit, gid="present", **_PRESENT)
+    words = f"present value: {number(value / unit)} {diagram.axis.field.usual_unit}".rstrip()
+    return [Line2D([], [], label=words, **_PRESENT)]
 
 
 def _proven(proof: Proof | None, diagram: Diagram) -> ProvenLine | None:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import codecs
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache, lru_cache
 from io import BytesIO, StringIO
 from typing import Any
@@ -15,10 +18,24 @@ from matplotlib.cbook import file_requires_unicode, open_file_cm
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, fontManager, get_font
 from matplotlib.mathtext import MathTextParser
+from matplotlib.text import Text
 from matplotlib.textpath import TextToPath
 from matplotlib.transforms import Bbox
 
 from carom.plots.sheet import applied, drawing
+
+_heading: ContextVar[str] = ContextVar("_heading", default="")
+
+
+@contextmanager
+def heading(text: str) -> Iterator[None]:
+    """Write a line above every figure made inside a ``with`` block, such as the name of the machine."""
+    before = _heading.set(text)
+    try:
+        yield
+    finally:
+        _heading.reset(before)
+
 
 POINTS = 72.0
 """Dots per inch of an SVG file: its unit is the point."""
@@ -34,6 +51,13 @@ class StyledFigure(Figure):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, layout="constrained", **kwargs)
         _Canvas(self)
+        self._heading = _heading.get()
+        if self._heading:
+            super().suptitle(self._heading)
+
+    def suptitle(self, t: str, **kwargs: Any) -> Text:
+        """Set the title as :meth:`matplotlib.figure.Figure.suptitle` does, below the heading if there is one."""
+        return super().suptitle(f"{self._heading}\n{t}" if self._heading else t, **kwargs)
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw as :meth:`matplotlib.figure.Figure.draw` does, under carom's style sheet."""

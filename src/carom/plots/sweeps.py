@@ -68,7 +68,14 @@ _FLAGS = ("#dbe4f0", "#56739f", "#e8c26a", "#7a4f1d")
 
 
 @styled
-def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes: Axes | None = None) -> Figure:
+def sweep_map(
+    data: xarray.Dataset,
+    name: str,
+    title: str | None = None,
+    *,
+    present: Mapping[str, float] | None = None,
+    axes: Axes | None = None,
+) -> Figure:
     """Draw a variable of a sweep over its two axes, or over its only one.
 
     The axes are logarithmic if the sweep is.  A new figure is 126 mm wide.
@@ -79,6 +86,8 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
         From :func:`carom.open_sweep`.  If it has more than two axes, select values first: ``data.sel(friction=0.15)``.
     name : str
         The variable.
+    present : mapping of str to float, optional
+        Values of the axes, in their units in `data`, of the machine as it is; they are marked.
 
     Raises
     ------
@@ -94,10 +103,11 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
         remedy = "a variable over one or two axes of the sweep; choose values of the other dimensions first, with sel"
         raise InputError("name", f"{name} over {', '.join(dimensions) or 'nothing'}", remedy)
     figure, drawn = one_axes(axes, (0.7 * TWO_COLUMNS, 1.15 * ONE_COLUMN))
-    places = []
+    places, sizes = [], []
     for dimension, direction in zip(dimensions, "xy", strict=False):
         varied = _field(data[dimension])
-        places.append(data[dimension].values / parameter_unit(varied))
+        sizes.append(parameter_unit(varied))
+        places.append(data[dimension].values / sizes[-1])
         set_up = {f"{direction}label": parameter_label(varied)}
         if spacings[dimension] == "log":
             set_up[f"{direction}scale"] = "log"
@@ -113,9 +123,25 @@ def sweep_map(data: xarray.Dataset, name: str, title: str | None = None, *, axes
             cell_edges(along, spacings[dimension] == "log") for along, dimension in zip(places, dimensions, strict=True)
         ]
         _shades(figure, drawn, (edges[0], edges[1]), values, _reasons(data, values))
+    if present is not None:
+        _mark(drawn, [present[name] / size for name, size in zip(dimensions, sizes, strict=True)], places)
     if title:
         drawn.set_title(title)
     return figure
+
+
+def _mark(axes: Axes, present: list[float], places: list[np.ndarray]) -> None:
+    """Mark the machine as it is, if it lies within the sweep."""
+    inside = all(along.min() <= value <= along.max() for value, along in zip(present, places, strict=True))
+    if not inside:
+        return
+    words = "the machine as it is"
+    if len(present) == 1:
+        axes.axvline(present[0], color="#1a1a1a", lw=0.8, ls=(0, (1, 1.5)), gid="present", label=words)
+    else:
+        star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
+        axes.plot(*present, gid="present", label=words, **star)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
 
 
 def _field(coordinate: xarray.DataArray) -> Field:

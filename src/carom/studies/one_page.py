@@ -10,7 +10,7 @@ from carom.studies.advice import WANTED
 from carom.studies.endings import came_back
 from carom.studies.recommendation import Bound, Change, Margin, evidence_of
 from carom.studies.remedies import check_words
-from carom.studies.wording import counted, listed, number
+from carom.studies.wording import counted, listed, number, present_values
 
 if TYPE_CHECKING:
     from carom.closed_forms.thresholds import Gain
@@ -62,16 +62,13 @@ def recommendation_lines(study: Study) -> list[Line]:
 
 def _machine(study: Study) -> str:
     """The present values in a line."""
-    machine = study.case.machine
+    machine, told = study.case.machine, present_values(study.case)
     if machine is None:
-        say, parameters = study.wording, study.case.parameters
-        gains = [f"{say.gain_name(gain)} = {say.gain(gain, _own(study, gain))}" for gain in study.gains]
-        return ", ".join([*gains, f"rho = {number(parameters.rho)}", f"mu = {number(parameters.mu)}"])
-    named = {name: study.wording.field(name, getattr(machine, name)) for name in _TOLD}
-    return ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in named.items())
-
-
-_TOLD = ("damping", "stiffness", "speed", "mass", "clearance", "eccentricity")
+        return told
+    more = [
+        f"{name} {study.wording.field(name, getattr(machine, name))}" for name in ("mass", "clearance", "eccentricity")
+    ]
+    return ", ".join([told, *more])
 
 
 def _now(study: Study) -> str:

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from carom.closed_forms.thresholds import Gain
-from carom.parameters import ENTRIES, MACHINE_FIELDS, PHYSICAL_PARTNER, Scales
+from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, MACHINE_FIELDS, PHYSICAL_PARTNER, Case, Scales
 from carom.parameters.indentation import gives_way
 from carom.parameters.numbers import CONVERSIONS
 from carom.studies.ranges import Span
@@ -156,6 +156,23 @@ class Wording:
         if self.scales is None:
             return f"{number(value, 3)} {own_unit}"
         return f"{number(value * getattr(self.scales, scale), 3)} {unit}"
+
+
+def present_values(case: Case) -> str:
+    """Return the present values of a machine in a line: ``damping 1,400 N s/m, stiffness 980,000 N/m, speed 1,759 rpm``."""
+    if case.machine is None:
+        names = ("gamma", "omega", "rho", "mu", "d")
+        fields = [(DIMENSIONLESS_FIELDS[name].symbol, getattr(case.parameters, name)) for name in names]
+        return ", ".join(f"{symbol} = {number(value)}" for symbol, value in fields)
+    say = Wording(case.parameters.scales)
+    return ", ".join(
+        f"{name} {say.field(name, getattr(case.machine, name))}" for name in ("damping", "stiffness", "speed")
+    )
+
+
+def machine_heading(case: Case) -> str:
+    """Return the name and the present values of a machine, for the heading of a figure."""
+    return f"{case.name}: {present_values(case)}"
 
 
 def _with_prefix(value: float, unit: str, least: float = 0.1) -> str:
