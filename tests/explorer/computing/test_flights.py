@@ -53,13 +53,15 @@ def test_each_flight_has_the_colour_of_its_cell():
     for radial in range(0, cells, 3):
         for tangential in range(0, cells, 3):
             flight = fly(ROTOR, shown.rest, float(middles[radial]), float(middles[tangential]))
-            assert flight.colour == shown.endings[shown.cells[tangential, radial]].colour
+            ending = shown.endings[shown.cells[tangential, radial]]
+            assert flight.colour == ending.colour
+            assert f" ends in {ending.words}" in flight.words
 
 
 def test_a_small_kick_never_strikes():
     flight = fly(ROTOR, rest_of(ROTOR), 1e-4, 0.0)
     assert (flight.outcome, flight.hardest, len(flight.impact_times), flight.spans) == ("levitated", 0.0, 0, ())
-    assert "never strikes, then levitates without contact." in flight.words
+    assert flight.words == "A kick of 0.0001 c_r Ω ends in levitation without an impact."
     assert flight.whole
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import queue
 import threading
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -45,9 +46,7 @@ def page(monkeypatch):
     monkeypatch.setattr(sessions, "COARSEST", 4)
     monkeypatch.setattr(sessions, "FINE", 10)
     # A study takes seconds; the verdict has a test of its own.
-    monkeypatch.setattr(
-        sessions, "judge", lambda case, tell: carom.studies.verdict.Verdict("may-not-come-back", "It may not.", ())
-    )
+    monkeypatch.setattr(sessions, "judge", lambda case, tell: SimpleNamespace(headline="It may not."))
     ready = threading.Event()
     ready.set()
     opened = Page(ready)
@@ -121,7 +120,7 @@ def test_a_kick_is_followed(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
     flight = page.until("flight")
     assert flight["kick"] == {"radial": 0.5, "tangential": -0.25}
-    assert flight["words"].startswith("A kick of 0.144 m/s: ")
+    assert flight["words"].startswith("A kick of 0.144 m/s ends in bouncing on B1,d; hardest impulse")
 
 
 @pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])

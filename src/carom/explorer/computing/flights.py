@@ -7,14 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.attractors.naming import name_motions
 from carom.explorer.computing.kicks import Rest
 from carom.models import Jeffcott
-from carom.motions import LastingContact, Trajectory, simulate
+from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
+from carom.plots.basins import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.progress import ShowProgress
 from carom.studies import Wording
+from carom.studies.wording import counted
 
 LONGEST, LONGEST_BOUNCING = 260.0, 110.0
 """Times in ``1/Ω`` that are drawn at most, of motions that come to rest and of others: some forty and seventeen turns."""
@@ -93,8 +96,8 @@ def fly(rotor: Jeffcott, rest: Rest, radial: float, tangential: float, progress:
     times = _instants(shown)
     position, _ = shown.at_plane(times)
     log = shown.contacts
-    irregular = motion.outcome in REPEATING and not motion.multiplicity
-    look = OUTCOMES["irregular" if irregular else motion.outcome.label]
+    _, (name,) = name_motions(rotor, settle(rotor, np.array([start.position]), np.array([start.velocity])))
+    look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
     hardest = float(motion.contacts.normal_impulse.max(initial=0.0))
     return Flight(
         times=times.astype(np.float32),
@@ -109,7 +112,13 @@ def fly(rotor: Jeffcott, rest: Rest, radial: float, tangential: float, progress:
         whole=shown.time >= motion.time,
         outcome=motion.outcome.label,
         colour=look.colour,
-        words=_words(rotor, motion, math.hypot(radial, tangential), hardest, look.words),
+        words=_words(
+            rotor,
+            motion,
+            math.hypot(radial, tangential),
+            hardest,
+            MotionLook(0, name, look, look.colour, 1.0).plain_words,
+        ),
         hardest=hardest,
     )
 
@@ -137,12 +146,9 @@ def _span(stretch: LastingContact) -> Span:
 
 
 def _words(rotor: Jeffcott, motion: Trajectory, size: float, hardest: float, ending: str) -> str:
-    say = Wording(rotor.scales)
-    count = len(motion.contacts.time)
-    impacts = "never strikes" if count == 0 else "strikes once" if count == 1 else f"strikes {count:,} times"
-    force = f", hardest {say.impulse(hardest)}" if count else ""
+    say, count = Wording(rotor.scales), len(motion.contacts.time)
+    begin, force = f"A kick of {say.velocity(size)}", f"hardest impulse {say.impulse(hardest)}"
     if motion.outcome in REPEATING:
-        return f"A kick of {say.velocity(size)}: {ending}{force}."
-    if motion.outcome.settled:
-        return f"A kick of {say.velocity(size)}: {impacts}{force}, then {ending}."
-    return f"A kick of {say.velocity(size)}: {impacts}{force}; given up: {ending}."
+        return f"{begin} ends in {ending}; {force}."
+    impacts = "without an impact" if count == 0 else f"after {counted(count, 'impact')}; {force}"
+    return f"{begin} {'ends in' if motion.outcome.settled else 'was given up,'} {ending} {impacts}."
