@@ -1,5 +1,6 @@
 """Bifurcations of equilibria and orbits: branches, diagrams, curves in two parameters, regions."""
 
+from carom.bifurcations.borders import Border, examine_border
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.cells import Region
@@ -22,6 +23,7 @@ __all__ = [
     "ONSETS",
     "AttractorSample",
     "Bifurcation",
+    "Border",
     "BoundaryEquilibrium",
     "Codimension2Point",
     "Curve",
@@ -45,6 +47,7 @@ __all__ = [
     "continue_curve",
     "continue_orbit",
     "continue_rubbing",
+    "examine_border",
     "find_bifurcations",
     "map_regions",
     "motions_at",

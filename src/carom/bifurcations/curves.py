@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -28,10 +28,13 @@ from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.rubbing import RubbingPoint
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
-from carom.orbits.names import OrbitName, combined
+from carom.orbits.names import CountedName, OrbitName, combined
 from carom.outcome import InputError
 from carom.parameters import Numbers
 from carom.results import Result
+
+if TYPE_CHECKING:
+    from carom.bifurcations.words import SpecialOrbit
 
 Function = Callable[[np.ndarray, float], np.ndarray]
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
@@ -90,7 +93,7 @@ class Curve(Result):
         ``ṙ`` of the orbit; ``nan`` for equilibria.
     admissible : ndarray of bool, shape (m,)
         Where it is a bifurcation of motions of the machine.
-    orbits : tuple of OrbitName
+    orbits : tuple of OrbitName or CountedName
         Names of the orbits that bifurcate, where these are motions of the machine; for a fold the orbits that meet.
         Empty for equilibria and rolling.
     codimension2 : tuple of Codimension2Point
@@ -109,7 +112,7 @@ class Curve(Result):
     periods: np.ndarray
     radial_speeds: np.ndarray
     admissible: np.ndarray
-    orbits: tuple[OrbitName, ...]
+    orbits: tuple[OrbitName | CountedName, ...]
     codimension2: tuple[Codimension2Point, ...]
     stops: tuple[str, str]
 
@@ -121,7 +124,10 @@ class Curve(Result):
     @property
     def subject(self) -> str:
         """The motion that bifurcates, such as ``"B1,c/d"``, ``"levitation"`` or ``"synchronous rub"``."""
-        return combined(self.orbits) if self.orbits else _SUBJECTS.get(self.kind, "")
+        single = [name for name in self.orbits if isinstance(name, OrbitName)]
+        if self.orbits and not single:
+            return ", ".join(self.orbits)
+        return combined(single) if single else _SUBJECTS.get(self.kind, "")
 
 
 @dataclass(frozen=True)
@@ -172,7 +178,7 @@ def can_be_followed(point: Bifurcation) -> bool:
     return point.kind in ONSETS if isinstance(point, RubbingPoint) else point.kind in KINDS
 
 
-def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None) -> Curve:
+def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps: Steps | None = None) -> Curve:
     """Follow a bifurcation in the plane of two parameters.
 
     The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
@@ -181,9 +187,12 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     virtual side.  All derivatives are exact (:mod:`carom.bifurcations.derivatives`).  Only bouncing with rub, whose onsets
     have no equations of their own (:mod:`carom.bifurcations.onsets`), is followed with central differences.
 
+    A special point of an orbit of any word, of any linear rotor, has the unknowns of multiple shooting
+    (:mod:`carom.bifurcations.word_curves`).
+
     Parameters
     ----------
-    bifurcation : Bifurcation
+    bifurcation : Bifurcation or SpecialOrbit
         A special point of a branch or of a diagram, or :meth:`Bifurcation.near`; its kind is one of :data:`KINDS`, or for
         bouncing with rub ``"contact-onset"`` or ``"permanent-contact"``.
 
@@ -194,6 +203,10 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     CaromError
         No such bifurcation near the start.
     """
+    if not isinstance(bifurcation, Bifurcation):
+        from carom.bifurcations.word_curves import continue_word_curve  # that module needs this one
+
+        return continue_word_curve(bifurcation, plane, steps)
     kind, base = bifurcation.kind, bifurcation.numbers
     if base.mu < 0.0:
         raise InputError("bifurcation", f"{kind} of {bifurcation.name}", "one of an orbit with forward slip")

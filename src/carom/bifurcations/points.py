@@ -102,7 +102,7 @@ class Bifurcation(Result):
         return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
 
     def switch(self, interval: Ends | None = None) -> WordBranch:
-        """Branch of orbits of twice the period that is born in this period doubling; see :func:`carom.bifurcations.words.switched`."""
+        """Branch that is born here or goes on with the neighbouring word; see :func:`carom.bifurcations.words.switched`."""
         from carom.bifurcations.words import switched  # that module needs this one
 
         return switched(self.kind, self.orbit, self.parameter, interval)

@@ -19,7 +19,7 @@ from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.rubbing import RubbingPoint
 from carom.bifurcations.survey import Survey
 from carom.models import Axis, Jeffcott, Subject, jeffcott_of
-from carom.orbits.names import combined
+from carom.orbits.names import OrbitName, combined
 from carom.outcome import CaromError
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
@@ -77,7 +77,8 @@ class RegionMap(Result):
 
     def orbits_of(self, kind: str) -> str:
         """Orbits that the curves of a kind belong to, such as ``"B1,b/d, B2,b"``; empty for equilibria."""
-        return combined({name for curve in self.curves if curve.kind == kind for name in curve.orbits})
+        names = {name for curve in self.curves if curve.kind == kind for name in curve.orbits}
+        return combined(name for name in names if isinstance(name, OrbitName))
 
     @property
     def present_region(self) -> int | None:

@@ -59,6 +59,26 @@ class FamilyPoint:
         first, second = np.triu_indices(len(self.multipliers), 1)
         return self.multipliers[first] * self.multipliers[second], self.multipliers[first] + self.multipliers[second]
 
+    @property
+    def pair_sum(self) -> float:
+        """Sum of the two multipliers whose product is closest to one: ``2 cos α`` on a Neimark–Sacker curve."""
+        products, sums = self.pairs
+        return float(sums[np.argmin(np.abs(products - 1.0))].real)
+
+
+TESTS: dict[str, Callable[[FamilyPoint], float]] = {
+    "fold": lambda point: float(np.prod(1.0 - point.multipliers).real),
+    "period-doubling": lambda point: float(np.prod(1.0 + point.multipliers).real),
+    "neimark-sacker": lambda point: float(np.prod(point.pairs[0] - 1.0).real),
+    # Without maxima the margin is that of a flight through the centre: their birth is not an event.
+    "grazing": lambda point: min(point.margins.radius, 1.0),
+    "vanishing-impact": lambda point: point.margins.approach,
+    "slip-stop": lambda point: point.margins.slip,
+    "contact-onset": lambda point: point.margins.normal_force,
+    "cone-limit": lambda point: point.margins.cone,
+}
+"""Functions that vanish at special points; not finite where they are not defined."""
+
 
 class Family:
     """The equations of orbits of a word along a parameter."""
@@ -149,26 +169,16 @@ class Family:
 
     def watches(self, start: np.ndarray, *, virtual: bool = True) -> list[Watch]:
         """Functions that vanish at the special points, and where the branch ends."""
-        kinds: dict[str, Callable[[FamilyPoint], float]] = {
-            "period-doubling": lambda point: float(np.prod(1.0 + point.multipliers).real),
-            "neimark-sacker": lambda point: float(np.prod(point.pairs[0] - 1.0).real),
-            # Without maxima the margin is that of a flight through the centre: their birth is not an event.
-            "grazing": lambda point: min(point.margins.radius, 1.0),
-            "vanishing-impact": lambda point: point.margins.approach,
-            "slip-stop": lambda point: point.margins.slip,
-            "contact-onset": lambda point: point.margins.normal_force,
-            "cone-limit": lambda point: point.margins.cone,
-        }
 
         def watch(kind: str) -> Watch:
             def value(u: np.ndarray, p: float) -> float:
                 point = self.point(u, p)
-                found = np.nan if point is None else kinds[kind](point)
+                found = np.nan if point is None else TESTS[kind](point)
                 return found if np.isfinite(found) else np.nan
 
             return Watch(kind, value)
 
-        watched = [watch(kind) for kind in kinds]
+        watched = [watch(kind) for kind in TESTS if kind != "fold"]  # the continuation finds folds itself
         if not virtual:
             watched.append(Watch(FAR, self._nearness, ends_branch=True))
         m = len(self.word)

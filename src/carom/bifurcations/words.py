@@ -13,6 +13,7 @@ from typing import ClassVar
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact
+from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
 from carom.bifurcations.word_equations import FAR, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
 from carom.models import Model
@@ -90,7 +91,7 @@ class SpecialOrbit(Result):
         return self.orbit.admissible or (self.kind in BORDERS and self.orbit.margins.least > -ON_BORDER)
 
     def switch(self, interval: Ends | None = None) -> WordBranch:
-        """Branch of orbits of twice the period that is born in this period doubling; see :func:`switched`."""
+        """Branch that is born in this period doubling, or that goes on with the neighbouring word; see :func:`switched`."""
         return switched(self.kind, self.orbit, self.axis.name, interval)
 
 
@@ -240,7 +241,11 @@ def continue_word(
 def switched(
     kind: str, orbit: Orbit, parameter: str, interval: Ends | None = None, *, virtual: bool = True
 ) -> WordBranch:
-    """Branch of orbits of twice the period that is born in a period doubling.
+    """Branch that crosses or continues another at a special point.
+
+    At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and where friction
+    begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the other slip.  Which of
+    its orbits are motions, and on which side, :func:`~carom.bifurcations.examine_border` tells.
 
     Parameters
     ----------
@@ -251,25 +256,30 @@ def switched(
     parameter : str
     interval : tuple of float or str, optional
         Range of the parameter; by default a fifth of it to either side.
+    virtual : bool
+        Follow it to any distance from motions of the machine.
 
     Raises
     ------
     InputError
-        The special point is no period doubling.
+        No branch is known to begin at such a point.
     CaromError
-        No orbit of twice the period is found next to it.
+        No orbit is found next to it.
     """
-    if kind != "period-doubling":
-        raise InputError("special point", kind, "a period doubling: only there orbits of twice the period are born")
+    if kind not in ("period-doubling", *NEIGHBOURS):
+        raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(NEIGHBOURS)}")
     along = axis(orbit.rotor, parameter)
     value = along.value(orbit.rotor)
     ends = (value - BEYOND * abs(value), value + BEYOND * abs(value)) if interval is None else interval
     present, limits = interval_around(along, value, ends)
-    family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
-    tangent = _alternating(orbit.links)
-    unknowns, parameter_there = family.beside(np.tile(pack(orbit.links.start), 2), present, tangent)
-    name = CountedName(family.word.impacts, 1)
-    return _follow(family, unknowns, parameter_there, None, name, virtual=virtual)
+    if kind == "period-doubling":
+        family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
+        doubled = np.tile(pack(orbit.links.start), 2)
+        unknowns, present = family.beside(doubled, present, _alternating(orbit.links))
+    else:
+        word, start = neighbour(kind, orbit)
+        family, unknowns = Family(orbit.rotor, along, word, limits), pack(start)
+    return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 
 
 def _alternating(links: Links) -> np.ndarray:
@@ -308,7 +318,7 @@ def _follow(
         steps=steps or STEPS,
         scales=np.append(np.ones(len(start)), family.size),
     )
-    halvings = branch.of_kind("period-halving")
+    passed = branch.of_kind("period-halving"), branch.of_kind("vanishing-impact")
     special = tuple(
         SpecialOrbit(
             point.kind,
@@ -318,30 +328,37 @@ def _follow(
             point.place,
         )
         for point in branch.special
-        if _is_special(family, point, halvings)
+        if _is_special(family, point, *passed)
     )
     return WordBranch(
         family.along, name, family.word, family.rotor, branch.parameters, branch.unknowns, special, branch.stops
     )
 
 
-def _is_special(family: Family, point: SpecialPoint, halvings: tuple[SpecialPoint, ...]) -> bool:
+def _is_special(
+    family: Family, point: SpecialPoint, halvings: tuple[SpecialPoint, ...], vanishing: tuple[SpecialPoint, ...]
+) -> bool:
     """Whether a special point of the continuation is one of orbits.
 
-    Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Two real multipliers with
+    Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an impact vanishes, a
+    maximum of the radius is at the wall: that impact.  Two real multipliers with
     the product one are no Neimark–Sacker bifurcation.
     """
     if point.kind == "period-halving":
         return True
     if point.kind in ("branch point", FAR) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
         return False
+    if point.kind == "grazing" and any(_meet(point, other) for other in vanishing):
+        return False
     if point.kind == "neimark-sacker":
         there = family.point(point.unknowns, point.parameter)
-        if there is None:
-            return False
-        products, sums = there.pairs
-        return abs(float(sums[np.argmin(np.abs(products - 1.0))].real)) < 2.0
+        return there is not None and abs(there.pair_sum) < 2.0
     return True
+
+
+def _meet(point: SpecialPoint, other: SpecialPoint) -> bool:
+    """Whether two special points of a branch are one."""
+    return abs(point.place - other.place) < 1e-2 or abs(point.parameter - other.parameter) < 1e-7 * abs(other.parameter)
 
 
 def _orbit_at(rotor: Model, word: Word, unknowns: np.ndarray, name: OrbitName | CountedName) -> Orbit:

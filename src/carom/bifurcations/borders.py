@@ -1,0 +1,184 @@
+"""What becomes of a motion where its word changes: which orbits there are on both sides, and where simulated motions go."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carom.bifurcations.neighbours import neighbour
+from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.words import SpecialOrbit
+from carom.models import Model
+from carom.models.axes import axis
+from carom.motions.starts import State
+from carom.motions.trajectories import Trajectory, simulate
+from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits.shooting import Start
+from carom.orbits.word import Word
+from carom.outcome import Outcome
+from carom.results import Result
+
+STEPS = (4e-5, 1e-5, 2.5e-6)
+"""Distances from the border at which both sides are examined, relative to the parameter; each a quarter of the one before."""
+BESIDE = 1e-7
+"""Relative change of the velocity at the start of a simulated motion."""
+PATIENCE = 20_000
+"""Impacts for which motions are simulated; those that have not settled by then count as they are."""
+LATEST = 10_000
+"""Number of last impacts whose distance from the orbit counts: beside a border a motion may stay near for thousands, and leave."""
+SHRINKS = 0.75
+"""Ratio of the distances at two neighbouring steps below which they count as shrinking; a square root gives a half."""
+STAYS = 0.85
+"""Ratio above which they count as staying."""
+LARGEST_STEP, LEAST_JUMP = 0.3, 0.01
+"""Distance above which even a shrinking one is not called small, and below which one that stays is not called a jump."""
+
+Verdict = Literal["continuous", "jump", "undecided", "unstable"]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Border(Result):
+    """What was found on both sides of a special point at which the word of an orbit changes.
+
+    Everything here refers to three distances from the border.  Nothing is claimed beyond them, and a motion that was simulated for
+    20,000 impacts may go elsewhere later.
+
+    Attributes
+    ----------
+    point : SpecialOrbit or Bifurcation
+    inside : {1, -1, 0}
+        Side on which the orbit is a motion of the machine: where the parameter is above, or below, the border; 0 if not on exactly
+        one.
+    word : Word
+        The neighbouring word.
+    neighbours : tuple of Orbit or None
+        Orbits of the neighbouring word just below and just above the border, at the smallest distance, where they are motions.
+    distances : tuple of float
+        From the border, in units of the parameter.
+    departures : tuple of float
+        How far from the orbit on the border the impacts of motions are that were started beside it at these distances outside;
+        infinite for motions that no longer bounce.  Empty if the orbit is unstable or has no outside.
+    """
+
+    point: SpecialOrbit | Bifurcation
+    inside: int
+    word: Word
+    neighbours: tuple[Orbit | None, Orbit | None]
+    distances: tuple[float, ...]
+    departures: tuple[float, ...]
+
+    @property
+    def beyond(self) -> Orbit | None:
+        """Orbit of the neighbouring word on the other side, where the orbit itself is no motion."""
+        return self.neighbours[(1 - self.inside) // 2] if self.inside else None
+
+    @property
+    def alongside(self) -> Orbit | None:
+        """Orbit of the neighbouring word on the same side."""
+        return self.neighbours[(1 + self.inside) // 2] if self.inside else None
+
+    @property
+    def verdict(self) -> Verdict:
+        """What simulated motions did when the orbit ceased to be a motion.
+
+        ``"continuous"``: they stay near, the nearer the smaller the distance; ``"jump"``: they go away at all distances;
+        ``"unstable"``: the orbit is unstable on its own side, so that no motion can be followed from it.
+        """
+        if not self.departures:
+            return "unstable" if self.inside else "undecided"
+        far, *nearer = self.departures
+        if not np.isfinite(self.departures).all():
+            return "jump" if not np.isfinite(self.departures).any() else "undecided"
+        ratios = [b / a for a, b in zip(self.departures, nearer, strict=False) if a > 0.0]
+        if far < LARGEST_STEP and ratios and max(ratios) < SHRINKS:
+            return "continuous"
+        return "jump" if min(self.departures) > LEAST_JUMP and min(ratios) > STAYS else "undecided"
+
+    @property
+    def words(self) -> str:
+        """What was found, in one or two sentences."""
+        side = {1: "above", -1: "below", 0: "on neither or both sides of"}[self.inside]
+        told = f"{self.point.kind} at {self.point.parameter} = {self.point.value:.10g}: the orbit is a motion {side} it"
+        if self.inside:
+            other = {1: "below", -1: "above"}[self.inside]
+            if self.beyond is not None:
+                told += f", an orbit {self.word} ({_stability(self.beyond)}) {other} it"
+            else:
+                told += f", no orbit {self.word} was found {other} it"
+            if self.alongside is not None:
+                told += f", and one ({_stability(self.alongside)}) on the same side: both end there"
+        seen = {
+            "continuous": "Simulated motions beyond it stay near, the nearer the closer to it: a continuous transition.",
+            "jump": "Simulated motions beyond it go away from it at all three distances: a jump.",
+            "unstable": "The orbit is unstable, so no motion was followed across.",
+            "undecided": "Simulated motions beyond it do not decide between a continuous transition and a jump.",
+        }[self.verdict]
+        return f"{told}. {seen}"
+
+    def rows(self) -> list[tuple[str, str]]:
+        """What was found."""
+        return [
+            ("found", self.words),
+            ("distances", ", ".join(f"{each:.3g}" for each in self.distances)),
+            ("departures", ", ".join(f"{each:.3g}" for each in self.departures) or "none followed"),
+        ]
+
+
+def examine_border(point: SpecialOrbit | Bifurcation) -> Border:
+    """Look at both sides of a special point at which the word of an orbit changes.
+
+    On both sides the orbits of both words next to the border are computed, with certified admissibility.  If the orbit is stable on
+    its own side, motions are simulated that start beside it on the other side.
+
+    Parameters
+    ----------
+    point : SpecialOrbit or Bifurcation
+        Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``.
+
+    Raises
+    ------
+    InputError
+        Another kind.
+    """
+    orbit = point.orbit
+    word, start = neighbour(point.kind, orbit)
+    along = axis(orbit.rotor, point.parameter)
+    distances = tuple(step * abs(point.value) for step in STEPS)
+
+    def at(side: int, distance: float) -> Model:
+        return along.move(orbit.rotor, point.value + side * distance)
+
+    def near(side: int, distance: float, chosen: Word, guess: Start) -> Orbit | None:
+        found = orbit_near(at(side, distance), chosen, guess)
+        if found is None or not found.admissible or len(found.word) != len(chosen):
+            return None
+        return found if abs(found.period - orbit.period) < LARGEST_STEP else None
+
+    own = {side: near(side, distances[-1], orbit.word, Start(orbit.nodes, orbit.durations)) for side in (-1, 1)}
+    neighbours = near(-1, distances[-1], word, start), near(1, distances[-1], word, start)
+    sides = [side for side, found in own.items() if found is not None]
+    inside = sides[0] if len(sides) == 1 else 0
+    departures: tuple[float, ...] = ()
+    held = own.get(inside)
+    if held is not None and held.stable:
+        contacts = np.concatenate([orbit.nodes, start.nodes])
+        departures = tuple(_departure(orbit, contacts, at(-inside, distance)) for distance in distances)
+    return Border(point, inside, word, neighbours, distances, departures)
+
+
+def _departure(orbit: Orbit, contacts: np.ndarray, rotor: Model) -> float:
+    """Largest distance of the last impacts of a motion from the contacts of the orbit beside which it starts."""
+    before = orbit.departure
+    start = State(before.position, before.velocity * (1.0 + BESIDE))
+    motion: Trajectory = simulate(rotor, start, settle=True, patience=PATIENCE)
+    if motion.outcome not in (Outcome.BOUNCING, Outcome.MIXED):
+        return np.inf
+    states = motion.rotor.system.states_of(motion.arrivals[motion.is_impact][-LATEST:])
+    apart: np.ndarray = np.abs(states[:, None] - contacts).max(axis=2).min(axis=1)
+    return float(apart.max())
+
+
+def _stability(orbit: Orbit) -> str:
+    return "stable" if orbit.stable else "unstable"

@@ -1,0 +1,189 @@
+"""Curves of special points of orbits of any word in the plane of two parameters.
+
+The unknowns are nodes, durations and the first parameter; the equations are those of the orbit and the function that vanishes at
+the special point.  The derivatives of the orbit's equations by nodes and durations are exact, the others differences.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+
+import numpy as np
+
+from carom.bifurcations.curves import Codimension2Point, Curve
+from carom.bifurcations.planes import EDGE, Plane
+from carom.bifurcations.word_equations import REMEMBERED, SHORTEST, TESTS, FamilyPoint
+from carom.bifurcations.words import SpecialOrbit
+from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.models import Model
+from carom.models.axes import axis
+from carom.orbits.shooting import links_of, pack, unpack
+from carom.orbits.word import Kind
+from carom.outcome import InputError
+
+STEPS = Steps(first=0.01, largest=0.08, sharpest_turn=0.25, most_points=400, tolerance=1e-10, iterations=12)
+DIFFERENCE = 1e-6
+"""Step of the central differences, relative to the size of the unknown."""
+ON_CURVE = 1e-6
+"""Margin that counts as zero on a curve on which one vanishes."""
+RESONANCES = {"resonance-1:1": 2.0, "resonance-1:2": -2.0, "resonance-1:3": -1.0, "resonance-1:4": 0.0}
+"""Sum of the two multipliers at resonances of a Neimark–Sacker curve, which ends at the first two."""
+ENDING = ("resonance-1:1", "resonance-1:2")
+
+
+class _CurveEquations:
+    """The equations of special points of one kind of orbits of one word."""
+
+    def __init__(self, special: SpecialOrbit, plane: Plane, sizes: np.ndarray) -> None:
+        self.kind, self.word, self.rotor, self.plane = special.kind, special.orbit.word, special.orbit.rotor, plane
+        self.sizes = sizes
+        self.known: OrderedDict[bytes, FamilyPoint | None] = OrderedDict()
+        self.rotors: OrderedDict[tuple[float, float], Model | None] = OrderedDict()
+        self.weight = 1.0
+
+    def rotor_at(self, place: tuple[float, float]) -> Model | None:
+        """The rotor at a place; ``None`` where it has none."""
+        if place not in self.rotors:
+            changes = {self.plane.first: place[0], self.plane.second: place[1]}
+            try:
+                self.rotors[place] = self.rotor.replace(**changes)
+            except InputError:
+                self.rotors[place] = None
+            if len(self.rotors) > REMEMBERED:
+                self.rotors.popitem(last=False)
+        return self.rotors[place]
+
+    def point(self, x: np.ndarray) -> FamilyPoint | None:
+        """The orbit at nodes, durations and both parameters."""
+        key = x.tobytes()
+        if key not in self.known:
+            rotor, start = self.rotor_at((float(x[-2]), float(x[-1]))), unpack(x[:-2], len(self.word))
+            short = (start.durations[self.word.kinds != Kind.LAND] < SHORTEST).any()
+            at = None if rotor is None or short else FamilyPoint(rotor, self.word, links_of(rotor, self.word, start))
+            self.known[key] = at if at is not None and np.isfinite(at.links.size) else None
+            if len(self.known) > REMEMBERED:
+                self.known.popitem(last=False)
+        return self.known[key]
+
+    def left_sides(self, x: np.ndarray) -> np.ndarray:
+        """Equations of the orbit, then that of the special point."""
+        at = self.point(x)
+        return np.full(len(x) - 1, np.nan) if at is None else np.append(at.links.residual, self.weight * self.test(at))
+
+    def test(self, at: FamilyPoint) -> float:
+        """Function that vanishes at the special point."""
+        return TESTS[self.kind](at)
+
+    def slopes(self, x: np.ndarray) -> np.ndarray:
+        """Derivatives of the equations."""
+        at = self.point(x)
+        if at is None:
+            return np.full((len(x) - 1, len(x)), np.nan)
+        whole = np.empty((len(x) - 1, len(x)))
+        whole[:-1, :-2] = at.links.jacobian
+        for k, size in enumerate(self.sizes):
+            change = np.zeros(len(x))
+            change[k] = DIFFERENCE * size
+            column = (self.left_sides(x + change) - self.left_sides(x - change)) / (2.0 * change[k])
+            whole[-1, k] = column[-1]
+            if k >= len(x) - 2:
+                whole[:-1, k] = column[:-1]
+        return whole
+
+    def weigh(self, x: np.ndarray) -> None:
+        """Weigh the last equation so that its derivatives are about one: multipliers of many impacts are large."""
+        self.weight = 1.0
+        largest = float(np.abs(self.slopes(x)[-1] * self.sizes).max())
+        self.weight = 1.0 / largest if np.isfinite(largest) and largest > 0.0 else 1.0
+
+
+def continue_word_curve(special: SpecialOrbit, plane: Plane, steps: Steps | None = None) -> Curve:
+    """:func:`~carom.bifurcations.continue_curve` for a special point of an orbit of any word.
+
+    Raises
+    ------
+    InputError
+        A kind that cannot be followed, or a start outside the plane.
+    CaromError
+        No such special point near the start.
+    """
+    if special.kind not in TESTS:
+        raise InputError("kind", special.kind, f"one of: {', '.join(TESTS)}")
+    rotor = special.orbit.rotor
+    start = np.array([axis(rotor, name).value(rotor) for name in (plane.first, plane.second)])
+    lows, highs = np.transpose([plane.first_range, plane.second_range])
+    if not ((lows <= start) & (start <= highs)).all():
+        raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
+    unknowns = pack(special.orbit.links.start)
+    sizes = np.concatenate([np.ones(len(unknowns)), np.maximum(np.abs(start), 0.1 * (highs - lows))])
+    equations = _CurveEquations(special, plane, sizes)
+    equations.weigh(np.concatenate([unknowns, start]))
+    branch = continue_branch(
+        lambda u, p: equations.left_sides(np.append(u, p)),
+        np.append(unknowns, start[0]),
+        float(start[1]),
+        plane.second_range,
+        jacobian=lambda u, p: equations.slopes(np.append(u, p)),
+        watches=_watches(equations, lows, highs),
+        steps=steps or STEPS,
+        scales=sizes,
+        # A fold in the second parameter is only a turning point of the curve.
+        folds="turning point",
+    )
+    return _curve(special, plane, equations, branch)
+
+
+def _watches(equations: _CurveEquations, lows: np.ndarray, highs: np.ndarray) -> list[Watch]:
+    def watch(name: str) -> Watch:
+        def value(u: np.ndarray, p: float) -> float:
+            at = equations.point(np.append(u, p))
+            found = np.nan if at is None else at.pair_sum - RESONANCES[name] if name in RESONANCES else TESTS[name](at)
+            return found if np.isfinite(found) else np.nan
+
+        return Watch(name, value, ends_branch=name in ENDING)
+
+    others = [name for name in TESTS if name != equations.kind]
+    if equations.kind == "neimark-sacker":
+        # At the resonances 1:1 and 1:2 two multipliers are 1, or −1.
+        others = [name for name in others if name not in ("fold", "period-doubling")] + list(RESONANCES)
+    edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
+    return [edge, *map(watch, others)]
+
+
+def _curve(special: SpecialOrbit, plane: Plane, equations: _CurveEquations, branch: Branch) -> Curve:
+    def happens(x: np.ndarray) -> bool:
+        at = equations.point(x)
+        return at is not None and at.margins.least > -ON_CURVE
+
+    rows = np.column_stack([branch.unknowns, branch.parameters])
+    points = [equations.point(row) for row in rows]
+    meetings = []
+    for point in branch.special:
+        if point.kind in (EDGE, "turning point", "branch point"):
+            continue
+        x = np.append(point.unknowns, point.parameter)
+        at = equations.point(x)
+        if at is not None:
+            kinds = (point.kind,) if point.kind in RESONANCES else (special.kind, point.kind)
+            place = float(x[-2]), float(x[-1])
+            meetings.append(Codimension2Point(kinds, place, *_period_and_speed(at), happens(x)))
+    measured = np.array([_period_and_speed(at) if at is not None else (np.nan, np.nan) for at in points])
+    stops = [EDGE if stop == "parameter limit" else stop for stop in branch.stops]
+    return Curve(
+        kind=special.kind,
+        plane=plane,
+        points=rows[:, -2:],
+        periods=measured[:, 0],
+        radial_speeds=measured[:, 1],
+        admissible=np.array([happens(row) for row in rows]),
+        orbits=(special.name,),
+        codimension2=tuple(meetings),
+        stops=(stops[0], stops[1]),
+    )
+
+
+def _period_and_speed(at: FamilyPoint) -> tuple[float, float]:
+    """Period, and radial speed at the first node."""
+    system, start = at.rotor.system, at.links.start
+    position, velocity = system.at_planes(system.amplitudes_of(start.nodes[:1]), at.word.planes[:1])
+    return float(start.durations.sum()), float((position.conj() * velocity).real[0])

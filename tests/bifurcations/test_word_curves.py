@@ -1,0 +1,88 @@
+"""Curves of special points of orbits of any word in two parameters: against the closed form, and against each other."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
+from carom.bifurcations.words import SpecialOrbit, continue_word
+from carom.models import Jeffcott
+from carom.orbits import find_orbits
+from carom.outcome import InputError
+from tests.bifurcations.test_words import located
+from tests.machines import PAPER
+
+pytestmark = pytest.mark.jit_only
+PLANE = Plane("gamma", "omega", (0.05, 0.2), (0.74, 0.78))
+
+
+@pytest.mark.parametrize(
+    ("kind", "gamma", "interval"),
+    [("grazing", 0.1, (0.06, 0.11)), ("period-doubling", 0.1, (0.06, 0.11)), ("fold", 0.17, (0.165, 0.19))],
+)
+def test_curves_of_a_single_impact_orbit_are_those_of_the_closed_form(kind, gamma, interval):
+    orbit = find_orbits(PAPER.replace(gamma=gamma))["B1,d"]
+    (point,) = [each for each in continue_word(orbit, "gamma", interval).special if each.kind == kind]
+    curve = continue_curve(point, PLANE)
+    assert curve.stops == ("edge of the plane", "edge of the plane")
+    assert curve.subject == "B1,d"
+    for (x, y), period, speed in list(zip(curve.points, curve.periods, curve.radial_speeds, strict=True))[::2]:
+        at = Bifurcation.near(kind, PAPER.replace(gamma=float(x), omega=float(y)), float(period), float(speed))
+        low, high = (y, y + 1e-3) if y < 0.77 else (y - 1e-3, y)
+        known = continue_curve(at, Plane("gamma", "omega", (0.05, 0.2), (float(low), float(high))))
+        nearest = int(np.argmin(np.abs(known.points[:, 1] - y)))
+        assert known.points[nearest, 0] == pytest.approx(x, abs=1e-9)
+        assert known.periods[nearest] == pytest.approx(period, abs=1e-7)
+
+
+@cache
+def of_two_impacts(kind: str) -> Curve:
+    return continue_curve(located(kind, 0.08267), PLANE)
+
+
+def test_fold_and_grazing_of_two_impacts_meet_in_one_point():
+    """Up to there the stable orbit grazes first; beyond it folds, as a motion of the machine."""
+    (first,) = of_two_impacts("fold").codimension2
+    (second,) = of_two_impacts("grazing").codimension2
+    assert (first.kind, second.kind) == ("fold + grazing", "grazing + fold")
+    assert first.value == pytest.approx(second.value, abs=1e-10)
+    assert first.value == pytest.approx((0.0826188930, 0.7626285012), abs=1e-9)
+    for curve in (of_two_impacts("fold"), of_two_impacts("grazing")):
+        assert curve.subject == "P2,1"
+        assert curve.stops == ("edge of the plane", "edge of the plane")
+    folds = of_two_impacts("fold")
+    assert (folds.admissible == (folds.points[:, 1] > first.value[1])).all()
+
+
+@pytest.mark.parametrize("kind", ["fold", "grazing"])
+def test_points_of_a_curve_are_found_again_along_one_parameter(kind):
+    curve = of_two_impacts(kind)
+    single = find_orbits(PAPER)["B1,d"]
+    for x, y in curve.points[[1, -2]]:
+        at = find_orbits(PAPER.replace(omega=float(y)))[single.name]
+        branch = continue_orbit(at, "gamma", (0.075, 0.11))
+        (doubling,) = [each for each in branch.special if each.kind == "period-doubling"]
+        values = [each.value for each in doubling.switch((0.08, 0.087)).special if each.kind == kind]
+        assert np.abs(np.array(values) - x).min() < 1e-8
+
+
+def test_a_neimark_sacker_curve_passes_resonances():
+    from tests.bifurcations.test_borders import resonant
+
+    (point,) = [each for each in resonant().special if each.kind == "neimark-sacker"]
+    curve = continue_curve(point, Plane("gamma", "omega", (0.07, 0.12), (0.755, 0.765)))
+    assert len(curve.points) > 4
+    rotor = Jeffcott(PAPER.replace(gamma=float(curve.points[2, 0]), omega=float(curve.points[2, 1])))
+    assert isinstance(point, SpecialOrbit)
+    found = continue_word(point.orbit, "omega", (0.755, 0.765))
+    assert found.values.min() < rotor.parameters.omega < found.values.max()
+    for each in curve.codimension2:
+        assert each.resonance or "neimark-sacker" in each.kinds
+
+
+def test_what_cannot_be_followed_is_refused():
+    with pytest.raises(InputError, match="point of the plane"):
+        continue_curve(located("grazing", 0.08267), Plane("gamma", "omega", (0.1, 0.2), (0.74, 0.78)))
