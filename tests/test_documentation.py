@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+import shlex
 import tomllib
 from importlib import import_module
 from pathlib import Path
 
 import pytest
+from typer.main import get_command
 
 import carom
+from carom.cli.app import app
 from carom.outcome import Outcome
 
 ROOT = Path(__file__).parent.parent
@@ -81,3 +84,72 @@ def test_tests_that_mutants_are_tried_with_exist():
     named = set(re.findall(r'"((?:\w+/)*test_\w+\.py)"', program))
     assert len(named) > 8
     assert [name for name in sorted(named) if not (ROOT / "tests" / name).exists()] == []
+
+
+# ------------------------------------------------------------------------------------------------ commands and code
+
+PAGES = [
+    ROOT / "README.md",
+    *(page for page in sorted(DOCS.rglob("*.md")) if not {"generated", "decisions"} & set(page.parts)),
+]
+PLACEHOLDERS = {"M.toml", "MACHINE.toml", "SWEEP.toml"}
+
+
+def command_lines() -> list[str]:
+    """All command lines of carom on the pages, in blocks and between backticks, without comments."""
+    found = []
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        found += re.findall(r"^ *(?:\$ )?(carom [a-z]+ [^\n]*)$", text, flags=re.MULTILINE)
+        found += re.findall(r"`(carom [a-z]+ [^`\n]*)`", text)
+        found += re.findall(r"""(?:run|terminal)\(\s*'(carom [^'\n]*)'""", text)
+    whole = [
+        line
+        for line in found
+        if (".toml" in line or line.startswith("carom paper")) and not re.search("…|[.]{3}", line)
+    ]
+    return sorted({re.sub(r" +# .*$", "", line).strip() for line in whole})
+
+
+@pytest.mark.parametrize("line", command_lines())
+def test_command_line_on_a_page_is_understood(line, tmp_path, monkeypatch):
+    """Every option is one of the command's and has a value that it takes; nothing is computed."""
+    _, name, *words = shlex.split(line)
+    command = get_command(app).commands[name]
+    monkeypatch.chdir(tmp_path)
+    for place in ("my-machine.toml", *PLACEHOLDERS):
+        (tmp_path / place).write_text("")
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    with command.make_context(name, words):
+        pass
+
+
+def test_command_lines_are_found_on_many_pages():
+    lines = command_lines()
+    assert len(lines) > 25
+    assert {shlex.split(line)[1] for line in lines} == set(get_command(app).commands)
+
+
+def test_every_command_has_a_heading():
+    page = (DOCS / "reference" / "command-line.md").read_text(encoding="utf-8")
+    headings = re.findall(r"^## carom (\w+)$", page, flags=re.MULTILINE)
+    assert headings == list(get_command(app).commands)
+
+
+@pytest.mark.jit_only
+def test_python_of_the_readme_runs(tmp_path, monkeypatch):
+    (code,) = re.findall(
+        r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    )
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    exec(compile(code, "README.md", "exec"), names)
+    assert (tmp_path / "shocks.svg").exists()
+
+
+def test_python_that_is_shown_is_run():
+    """A block of Python on a page is a cell, which `make docs` executes."""
+    for page in PAGES[1:]:
+        blocks = re.findall(r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+        assert not blocks, f"{page.relative_to(ROOT)}: {blocks[0][:80]}"

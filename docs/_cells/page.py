@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import io
 import os
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 import numpy as np
 from IPython import get_ipython
 from IPython.display import Markdown
 from matplotlib.figure import Figure
 
-__all__ = ["checks", "command_help", "number", "table"]
+__all__ = ["checks", "command_help", "number", "table", "terminal"]
+
+ROOT = Path(__file__).parent.parent.parent
+"""Folder in which the commands of the documentation are run."""
 
 
 def number(value: object, digits: int = 10) -> str:
@@ -52,6 +57,19 @@ def command_help(*words: str) -> str:
     """What a command prints with ``--help``."""
     command = [sys.executable, "-m", "carom", *words, "--help"]
     return subprocess.run(command, capture_output=True, text=True, check=True, env=_plain_terminal()).stdout
+
+
+def terminal(command: str, *, lines: int | None = None, folder: Path = ROOT) -> None:
+    """Run a command line that begins with ``carom``, and print it with what it prints, or with its first lines."""
+    program, *words = shlex.split(command)
+    if program != "carom":
+        raise ValueError(f"a command of carom is expected: {command}")
+    call = [sys.executable, "-m", "carom", *words]
+    done = subprocess.run(call, capture_output=True, text=True, check=False, env=_plain_terminal(), cwd=folder)
+    if done.returncode:
+        raise RuntimeError(f"{command}\n{done.stderr}")
+    shown = [line.rstrip() for line in done.stdout.splitlines()]
+    print("\n".join([f"$ {command}", *(shown if lines is None or len(shown) <= lines else [*shown[:lines], "…"])]))
 
 
 def _plain_terminal() -> dict[str, str]:

@@ -186,6 +186,19 @@ def find_attractors(
     ------
     InputError
         A start lies outside the wall, none of the disturbances is possible, or there is nothing to follow.
+
+    See Also
+    --------
+    carom.map_basins : the end of each disturbance of a grid
+    carom.find_orbits : orbits, stable or not
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> found = cm.find_attractors(machine, count=40, seed=1)
+    >>> found.members[0].name
+    'B1,d'
     """
     rotor, tell = model_of(machine), Reporter.of(progress, "following disturbances")
     given: DisturbanceSet | Plan | Sequence[State | Kick]

@@ -69,6 +69,20 @@ def least_gain_change(
     ------
     InputError
         A share out of range, or a parameter that is zero now.
+
+    See Also
+    --------
+    carom.map_gains : the map in which it searches
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> gains = cm.map_gains(machine, cm.Grid(kicks, (4, 6)), shape=(3, 3))
+    >>> change = cm.basins.least_gain_change(gains, wanted=0.3)
+    >>> print(change if change is None else change.share.count)
+    8
     """
     if not 0.0 < wanted <= 1.0:
         raise InputError("wanted", wanted, "a share above 0 and at most 1")

@@ -181,6 +181,21 @@ def map_basins(
     ------
     InputError
         None of the disturbances is possible: a rotor that cannot levitate cannot be kicked out of levitation.
+
+    See Also
+    --------
+    carom.basins.smallest_loss : the smallest disturbance that is lost
+    carom.map_gains : the share that comes back over two parameters
+    carom.find_attractors : names and periods of the motions found
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> basin = cm.map_basins(machine, cm.Grid(kicks, (6, 12)))
+    >>> basin.share_recovered.count, basin.share_recovered.total
+    (6, 72)
     """
     rotor = model_of(machine)
     starts = disturbances.starts(rotor)

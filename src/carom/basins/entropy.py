@@ -62,6 +62,19 @@ def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
     ------
     InputError
         The starts are a sample, or too few for a box.
+
+    See Also
+    --------
+    carom.basins.integrity : the largest ball of starts that come back
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> basin = cm.map_basins(machine, cm.Grid(kicks, (10, 12)))
+    >>> print(cm.basins.basin_entropy(basin).boxes)
+    4
     """
     if not isinstance(basin.plan, Grid):
         raise InputError("basin", "a sample", "starts on a grid, of which boxes can be made")

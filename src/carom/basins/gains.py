@@ -121,6 +121,20 @@ def map_gains(
     ------
     InputError
         A name or range that cannot be used.
+
+    See Also
+    --------
+    carom.basins.least_gain_change : the least change that brings back a wanted share
+    carom.run_sweep : over any number of parameters
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> gains = cm.map_gains(machine, cm.Grid(kicks, (4, 6)), shape=(3, 3))
+    >>> dict(gains.dataset.sizes)
+    {'stiffness': 3, 'damping': 3}
     """
     rotor = model_of(machine)
     axes = axis(rotor, names[0]), axis(rotor, names[1])

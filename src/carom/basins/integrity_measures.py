@@ -57,6 +57,20 @@ def integrity(basin: Basin) -> Integrity:
     InputError
         The disturbances have no size that is zero in levitation, or they are states of four coordinates, where a sample
         is too sparse to measure a ball.
+
+    See Also
+    --------
+    carom.basins.basin_entropy : how mixed the ends are
+    carom.basins.smallest_loss : a search instead of a grid
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> basin = cm.map_basins(machine, cm.Grid(kicks, (10, 12)))
+    >>> print(round(cm.basins.integrity(basin).local, 3))
+    0.05
     """
     model, plan = basin.plan.model, basin.plan
     lost = basin.exists & ~basin.recovered

@@ -164,6 +164,20 @@ def smallest_loss(
     ------
     InputError
         The model has no size, or the rotor cannot levitate inside the wall, or its levitation is unstable.
+
+    See Also
+    --------
+    carom.map_basins : the end of every disturbance
+    carom.closed_forms.harmless_kick : the size up to which contact is impossible
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> found = cm.basins.smallest_loss(machine, kicks)
+    >>> print(f"{found.size * machine.parameters.scales.velocity * 1e3:.3f} mm/s, ends in {found.outcome.label}")
+    5.466 mm/s, ends in forward-rub
     """
     rotor = jeffcott_of(machine)
     if abs(rotor.equilibrium) >= 1.0:

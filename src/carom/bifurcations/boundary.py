@@ -149,6 +149,19 @@ def boundary_equilibria(machine: Subject, gain: Gain = "gamma") -> tuple[Boundar
     ------
     InputError
         There is no such gain.
+
+    See Also
+    --------
+    carom.closed_forms.rub_limit : where the stable rub ends
+    carom.find_bifurcations : all branches along a parameter
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> (boundary,) = cm.bifurcations.boundary_equilibria(machine)
+    >>> print(f"{boundary.value:.10f}", boundary.kind)
+    0.0724686787 non-smooth fold
     """
     rotor = jeffcott_of(machine)
     found = []

@@ -202,6 +202,20 @@ def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps:
         A kind that cannot be followed, a start outside the plane, or an orbit without period and radial speed.
     CaromError
         No such bifurcation near the start.
+
+    See Also
+    --------
+    carom.map_regions : all curves of a plane
+    carom.continue_orbit : special points to begin with
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> branch = cm.continue_orbit(cm.find_orbits(machine)["B1,d"], "gamma", (0.1, 0.2))
+    >>> plane = cm.bifurcations.Plane("gamma", "omega", (0.1, 0.25), (0.75, 0.77))
+    >>> cm.continue_curve(branch.special[0], plane).stops
+    ('edge of the plane', 'edge of the plane')
     """
     if not isinstance(bifurcation, Bifurcation):
         from carom.bifurcations.word_curves import continue_word_curve  # that module needs this one

@@ -155,6 +155,19 @@ def find_bifurcations(
     InputError
         Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` below 1, or another model than
         the planar rotor without ``attractors``.
+
+    See Also
+    --------
+    carom.continue_orbit : one orbit only
+    carom.map_regions : in the plane of two parameters
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> diagram = cm.find_bifurcations(machine, "gamma", (0.09, 0.2))
+    >>> [point.kind for point in diagram.points if point.name == "B1,d"]
+    ['fold']
     """
     if impacts < 1:
         raise InputError("impacts", impacts, "a whole number of at least 1")

@@ -167,6 +167,20 @@ def map_regions(
     ------
     InputError
         Unknown parameters, or a range they cannot have.
+
+    See Also
+    --------
+    carom.continue_curve : one curve
+    carom.bifurcations.motions_at : the motions at a point
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> plane = cm.bifurcations.Plane("gamma", "omega", (0.09, 0.25), (0.74, 0.8))
+    >>> regions = cm.map_regions(machine, plane, grid=4)
+    >>> sorted({curve.kind for curve in regions.curves})
+    ['boundary-equilibrium', 'fold', 'non-smooth-hopf']
     """
     model = jeffcott_of(machine)
     parameters = model.parameters

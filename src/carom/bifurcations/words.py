@@ -221,6 +221,19 @@ def continue_orbit(
     ------
     InputError
         Unknown parameter, or an interval without the orbit.
+
+    See Also
+    --------
+    carom.find_bifurcations : all branches on an interval
+    carom.continue_curve : follow a special point in two parameters
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> branch = cm.continue_orbit(cm.find_orbits(machine)["B1,d"], "gamma", (0.05, 0.2))
+    >>> [(point.kind, round(point.value, 6)) for point in branch.special]
+    [('grazing', 0.063611), ('radius-extremum', 0.07852), ('period-doubling', 0.083381), ('fold', 0.178028)]
     """
     if isinstance(orbit.name, OrbitName):
         return continue_single_impact(orbit, parameter, interval, steps)

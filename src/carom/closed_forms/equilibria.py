@@ -151,6 +151,18 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     For a balanced rotor (``ρ = 0``) no rub is listed, because no angle is distinguished: if ``γ + μ(1 − ω²) = 0``, as
     without damping and friction, the planar rotor may rub at every angle, otherwise at none.  Nor are rubs at two planes
     that always touch together, whose forces statics does not tell apart.
+
+    See Also
+    --------
+    carom.find_orbits : periodic motions
+    carom.closed_forms.rub_limit : damping up to which a stable rub exists
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> [(one.kind, one.stable) for one in cm.find_equilibria(machine)]
+    [('contact-free', True), ('rub', True), ('rub', False)]
     """
     model = model_of(machine)
     system = model.system

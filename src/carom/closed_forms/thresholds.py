@@ -164,6 +164,17 @@ def rub_limit(machine: Subject) -> float:
     -------
     float
         ``γ``; not positive if there is no rub with positive damping.
+
+    See Also
+    --------
+    carom.find_equilibria : the rubs themselves
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> print(f"{cm.closed_forms.rub_limit(machine):.7f}")
+    0.3700060
     """
     return _rub_end(jeffcott_of(machine).parameters).value
 
@@ -294,6 +305,17 @@ def harmless_kick(machine: Subject) -> float:
     above critical damping the hyperbolic form holds.  Contact is impossible while ``v g < 1 − |U*|``.
 
     Zero where the rotor cannot levitate inside the wall or its levitation is unstable.
+
+    See Also
+    --------
+    carom.basins.smallest_loss : search the smallest kick that is lost
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> print(f"{cm.closed_forms.harmless_kick(machine):.6f}")
+    0.039821
     """
     rotor = jeffcott_of(machine)
     return _room(rotor) / _largest_response(rotor.parameters.gamma, rotor.parameters.omega)

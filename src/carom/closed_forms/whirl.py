@@ -134,6 +134,17 @@ def runaway_speed(machine: Subject) -> Runaway:
 
     ``w_c = (γ + √(γ² + 4μ(μω² + ρ√(1 + μ²))))/(2μ)``, the larger root of ``μ(w² − ω²) − γw − ρ√(1 + μ²)``; derived in
     :mod:`carom.closed_forms.whirl`.  With negative damping ``N > 0`` may need a higher speed, ``w² > ω² + ρ``.
+
+    See Also
+    --------
+    carom.closed_forms.rolling : where the runaway ends
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> print(f"{cm.closed_forms.runaway_speed(machine).average:.9f}")
+    1.163219537
     """
     at = jeffcott_of(machine).parameters
     certain = max(sustaining_speed(at, largest_pull(at)), math.hypot(at.omega, math.sqrt(at.rho)))
@@ -145,6 +156,17 @@ def rolling(machine: Subject) -> Rolling:
 
     From ``|γ|s + ρ√(1 + μ²) ≤ μ(s² − ω²)`` (see :mod:`carom.closed_forms.whirl`), solved for each parameter in
     :mod:`carom.closed_forms.thresholds`.
+
+    See Also
+    --------
+    carom.closed_forms.runaway_speed : from where a sliding rotor goes over to it
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/source-paper.toml")
+    >>> cm.closed_forms.rolling(machine).holds
+    True
     """
     at = jeffcott_of(machine).parameters
     force = mean_rolling_force(at)

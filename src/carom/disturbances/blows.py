@@ -32,6 +32,20 @@ class VelocityKick(Disturbance):
     fastest : float
         Largest change of velocity, in ``c_r Ω``.  Directions are angles in the co-rotating frame, as those of
         :func:`~carom.motions.starts.kick`.
+
+    See Also
+    --------
+    carom.disturbances.KickPlane : by components
+    carom.kick : a single one
+    carom.closed_forms.harmless_kick : size up to which contact is impossible
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> print(f"{kicks.fastest:.4f}")
+    0.7756
     """
 
     fastest: float = FASTEST
@@ -98,6 +112,19 @@ class BaseShock(Disturbance):
         Largest peak acceleration ``â``, in ``c_r Ω²``.
     duration : float
         ``T``, in ``1/Ω``.
+
+    See Also
+    --------
+    carom.closed_forms.harmless_shock : peak up to which contact is impossible
+    carom.disturbances.VelocityKick, carom.disturbances.UnbalanceStep : other disturbances
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> shock = cm.BaseShock.in_si(machine.parameters.scales, g=10, milliseconds=11)
+    >>> [coordinate.name for coordinate in shock.coordinates]
+    ['peak_acceleration', 'direction']
     """
 
     peak: float

@@ -35,6 +35,17 @@ class Grid(_Plan):
     model : Disturbance
     shape : tuple of int
         Cells along each coordinate.
+
+    See Also
+    --------
+    carom.disturbances.Sample : a seeded random sample instead
+    carom.map_basins, carom.map_gains : follow a plan
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> cm.Grid(cm.disturbances.VelocityKick(0.5), (20, 36)).count
+    720
     """
 
     shape: tuple[int, ...]
@@ -70,6 +81,16 @@ class Sample(_Plan):
     model : Disturbance
     count : int
     seed : int
+
+    See Also
+    --------
+    carom.Grid : cells of a grid instead
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> cm.disturbances.Sample(cm.disturbances.VelocityKick(0.5), 200, seed=1).count
+    200
     """
 
     count: int

@@ -39,6 +39,19 @@ class UnbalanceStep(Disturbance):
     ----------
     largest : float
         Largest eccentricity before the step, in clearances.  Phases are relative to the unbalance after the step.
+
+    See Also
+    --------
+    carom.closed_forms.harmless_step : change up to which contact is impossible
+    carom.map_basins : follow steps of all sizes and phases
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> step = cm.disturbances.UnbalanceStep.in_si(machine.parameters.scales, 0.1e-3)
+    >>> print(f"{step.largest:.4f}")
+    0.1429
     """
 
     largest: float

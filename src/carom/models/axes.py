@@ -55,6 +55,17 @@ def axis(machine: Subject, name: str) -> Axis:
     ------
     InputError
         The model has no parameter of this name, or a physical one while mass, clearance and speed are not known.
+
+    See Also
+    --------
+    carom.models.Axis : what it returns
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> cm.models.axis(cm.models.model_of(machine), "damping").field.unit
+    'N s/m'
     """
     model = model_of(machine)
     varied = model.varied

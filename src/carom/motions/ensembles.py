@@ -141,6 +141,19 @@ def settle(
     InputError
         A start lies outside the wall, is too fast or not finite; ``which`` is no valid index; or a limit is out of
         range.
+
+    See Also
+    --------
+    carom.simulate : one motion, with its contacts
+    carom.map_basins : starts that a disturbance leads to
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> endings = cm.settle(machine, [0.2, 0.9j], [0.0, -1.0])
+    >>> [cm.outcome.Outcome(code).label for code in endings.outcomes]
+    ['forward-rub', 'forward-rub']
     """
     rotors, which = _machines(machine, which)
     coordinates = _coordinates(rotors)

@@ -76,6 +76,19 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     ------
     InputError
         The mass matrix is not Hermitian, so there is no kinetic energy.
+
+    See Also
+    --------
+    carom.plots.energies, carom.plots.touchdown : draw it
+    carom.motions.full_spectrum : the motion as a sum of whirls
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> ledger = cm.motions.energy_ledger(cm.simulate(machine, cm.kick("60 mm/s"), 40.0))
+    >>> ledger.imbalance < 1e-12
+    True
     """
     matrices = trajectory.rotor.matrices
     edges, counts = _pieces(trajectory)

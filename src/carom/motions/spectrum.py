@@ -53,6 +53,19 @@ def full_spectrum(
     ------
     InputError
         Less than four turns are left, or too few samples for the highest order.
+
+    See Also
+    --------
+    carom.motions.energy_ledger : energies of a motion
+    carom.plots.spectrum : draw it
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> spectrum = cm.motions.full_spectrum(cm.simulate(machine, cm.kick("60 mm/s"), 200.0), since=100.0)
+    >>> print(spectrum.orders[abs(spectrum.amplitudes).argmax()])
+    1.0
     """
     turns = int((trajectory.time - since) / (2 * np.pi))
     if since < 0.0 or turns < 4:

@@ -30,6 +30,16 @@ class State:
     ----------
     position, velocity : complex, or ndarray of complex, shape (n,)
         ``U`` in clearances and ``U̇`` in clearances times ``Ω``; arrays for a rotor of ``n > 1`` coordinates.
+
+    See Also
+    --------
+    carom.kick : velocity kick out of levitation
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> cm.State(0.5 + 0.2j, velocity=-1j)
+    State(position=(0.5+0.2j), velocity=(-0-1j))
     """
 
     position: Any
@@ -78,6 +88,17 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
         In ``c_r Ω``, or text with a unit, such as ``"50 mm/s"``.
     angle : float or str
         Its direction in the co-rotating frame: in rad, or text with a unit, such as ``"30 deg"``.
+
+    See Also
+    --------
+    carom.State : any start
+    carom.disturbances.VelocityKick : kicks of all sizes and directions
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> cm.kick("50 mm/s", "30 deg")
+    Kick(speed='50 mm/s', angle='30 deg')
     """
     return Kick(speed, angle)
 

@@ -324,6 +324,22 @@ def simulate(
     ------
     InputError
         The start lies outside the wall or is too fast, a number is not finite, or a limit is out of range.
+
+    See Also
+    --------
+    carom.settle : many starts at once
+    carom.kick, carom.State : starts
+    carom.motions.energy_ledger, carom.motions.full_spectrum : evaluate a motion
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> motion = cm.simulate(machine, cm.kick("60 mm/s"), settle=True)
+    >>> motion.outcome.label, motion.multiplicity
+    ('bouncing', 1)
+    >>> len(motion.contacts)
+    257
     """
     rotor = model_of(machine)
     state = start.state(rotor) if isinstance(start, Kick) else start

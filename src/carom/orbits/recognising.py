@@ -29,6 +29,19 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     -------
     Orbit or None
         ``None`` if the motion has not settled to such an orbit, or if Newton's method does not close it.
+
+    See Also
+    --------
+    carom.find_orbits : all orbits with one impact a period
+    carom.continue_orbit : follow it along a parameter
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> motion = cm.simulate(machine, cm.kick("60 mm/s"), settle=True)
+    >>> print(f"{cm.orbits.orbit_of_motion(motion).period:.9f}")
+    2.328416080
     """
     count = motion.multiplicity
     times = motion.segment_starts[1:][motion.is_impact]

@@ -136,6 +136,22 @@ def find_orbits(
     ------
     InputError
         Without damping there are infinitely many with one impact; give ``longest_period``.
+
+    See Also
+    --------
+    carom.continue_orbit : follow an orbit along a parameter
+    carom.orbits.orbit_of_motion : the orbit on which a motion has settled
+    carom.prove : the same as theorems
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> orbits = cm.find_orbits(machine)
+    >>> [orbit.name for orbit in orbits if orbit.admissible]
+    ['B1,a', 'B1,b', 'B1,c', 'B1,d']
+    >>> print(f"{orbits['B1,d'].period:.6f}", orbits["B1,d"].stable)
+    2.328416 True
     """
     if impacts is not None:
         return search_orbits(model_of(machine), impacts, starts, seed, Reporter.of(progress, "searching orbits"))

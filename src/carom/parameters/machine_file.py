@@ -145,9 +145,15 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         sets the same quantity as another one, or sets a physical value of a file without scales.  It reports all
         errors at once.
 
+    See Also
+    --------
+    carom.parameters.Machine : the same values, given in Python
+    carom.models.LinearRotor : any linear rotor, from its matrices
+
     Examples
     --------
-    >>> case = load("examples/keogh-cole.toml", ["speed=1500 rpm", "gamma=0.1"])
+    >>> import carom as cm
+    >>> case = cm.load("examples/keogh-cole.toml", ["speed=1500 rpm", "gamma=0.1"])
     >>> case.parameters.gamma
     0.1
     """

@@ -65,6 +65,18 @@ def prove(
     ------
     InputError
         A number cannot be used.
+
+    See Also
+    --------
+    carom.proofs.check : verify a proof without any search
+    carom.find_orbits : the same orbits in double precision
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> proof = cm.prove("examples/source-paper.toml")
+    >>> proof["B1,d stable"].status
+    'proven'
     """
     hypotheses = hypotheses_of(machine, settings)
     if (along is None) is not (interval is None):

@@ -182,10 +182,18 @@ def study(
     CaromError
         Its motions cannot be computed; the message says why.
 
+    See Also
+    --------
+    carom.find_attractors, carom.find_orbits, carom.find_equilibria : its parts
+    carom.map_basins : where disturbances of one kind end
+
     Examples
     --------
-    >>> result = study(load("examples/keogh-cole.toml"))  # doctest: +SKIP
-    >>> print(result.verdict.text)  # doctest: +SKIP
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> result = cm.study(machine)
+    >>> result.levitates, [orbit.name for orbit in result.stable_orbits]
+    (True, ['B1,d'])
     """
     case = case_of(machine)
     tell = Reporter.of(progress, "study")

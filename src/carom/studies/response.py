@@ -243,7 +243,9 @@ def unbalance_response(
 
     Examples
     --------
-    >>> response = unbalance_response(load("examples/keogh-cole.toml"), ("500 rpm", "4000 rpm"))
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> response = cm.studies.unbalance_response(machine, ("500 rpm", "4000 rpm"))
     >>> round(response.contact_free.amplification_factor, 3)
     4.924
     """

@@ -254,6 +254,20 @@ def plan_sweep(
     ------
     InputError
         There is no axis, or two of them vary the same, or a parameter that cannot be varied here.
+
+    See Also
+    --------
+    carom.run_sweep : compute it
+    carom.sweeps.load_sweep : a plan from a file
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> axes = [cm.sweeps.GridAxis.between("speed", "1000 rpm", "3000 rpm", 5)]
+    >>> plan = cm.sweeps.plan_sweep(machine, axes, cm.sweeps.StudyTask(disturbances=0))
+    >>> plan.shape
+    (5,)
     """
     from carom.models import Model, case_of, model_of
 

@@ -148,6 +148,21 @@ def run_sweep(
         its chunks.
     CaromError
         No worker can compute.
+
+    See Also
+    --------
+    carom.sweeps.plan_sweep, carom.sweeps.load_sweep : plans
+    carom.open_sweep : read a store
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> axes = [cm.sweeps.GridAxis.between("damping", "1000 N s/m", "4000 N s/m", 3)]
+    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> plan = cm.sweeps.plan_sweep(machine, axes, cm.disturbances.Sample(kicks, 10, seed=1))
+    >>> cm.run_sweep(plan).dataset.recovered.values
+    array([0.1, 0.3, 1. ])
     """
     if workers is not None and workers < 1:
         raise InputError("--workers", workers, "must be a whole number of at least 1")

@@ -265,6 +265,23 @@ def open_sweep(path: str | os.PathLike[str]) -> xarray.Dataset:
     ------
     InputError
         There is no such store, or it is damaged outside its chunks.
+
+    See Also
+    --------
+    carom.run_sweep : compute or resume it
+    carom.plots.sweep_map : draw it
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml")
+    >>> axes = [cm.sweeps.GridAxis.between("damping", "1000 N s/m", "4000 N s/m", 3)]
+    >>> plan = cm.sweeps.plan_sweep(machine, axes, cm.sweeps.StudyTask(disturbances=0))
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     done = cm.run_sweep(plan, folder + "/damping.zarr", threads=True)
+    ...     print(cm.open_sweep(folder + "/damping.zarr").status.values)
+    [1 1 1]
     """
     import xarray
 
