@@ -255,6 +255,6 @@ def _line(name: str, value: Any) -> str:
     if isinstance(value, str):
         text = json.dumps(value, ensure_ascii=False)
     else:
-        number = repr(float(value))
+        number = str(int(value)) if field.whole else repr(float(value))
         text = f'"{number} {field.unit}"' if field.unit else number
     return f"{name} = {text}  # {field.symbol}: {field.words}"
