@@ -314,7 +314,7 @@ def test_the_machine_is_shown_with_what_it_was_given_by():
     assert rows["damping of the levitation"] == ("921 N s/m", "gamma = 0.1")
     assert rows["rotor mass"] == ("50 kg", "50 kg")
     assert rows["number of equal bearings"] == ("1", "not given")
-    assert rows["derivative gain, current over velocity"] == ("9.21 A s/m", "from stiffness and damping")
+    assert rows["derivative gain, current over velocity"] == ("9.21 A s/m", "from the damping")
     assert case.machine.given_texts["eccentricity"] == {"unbalance": "100 g mm", "mass": "50 kg"}
 
 

@@ -113,7 +113,7 @@ def _versions() -> str:
     return f"carom {version('carom')}, Python {platform.python_version()}, {packages}"
 
 
-_SUBSCRIPT = re.compile(r"\b([ce])_([rc])\b|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
+_SUBSCRIPT = re.compile(r"\b([ceFik])_(max|[rcis])\b|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
 _COMMAND = re.compile(r"`(carom \w+)`")
 
 

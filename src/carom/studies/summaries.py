@@ -12,6 +12,7 @@ from carom.orbits.single_impact import OrbitSet
 from carom.outcome import shown
 from carom.parameters import DIMENSIONLESS_FIELDS, ENTRIES, HELPER_FIELDS, MACHINE_FIELDS, Case, Machine, Parameters
 from carom.parameters.indentation import indentation_of_force, indentation_of_hit
+from carom.parameters.terms import set_by
 from carom.studies.endings import kick_sizes
 from carom.studies.one_page import EVENTS
 from carom.studies.proven import is_proven
@@ -103,9 +104,10 @@ def machine_rows(case: Case) -> list[ValueRow]:
 
 def given_words(machine: Machine, name: str) -> str:
     """Return the entries that gave a number, such as ``unbalance = 15 g mm, mass = 2 kg``."""
-    if name in machine.controller_gains:
-        return "from stiffness and damping"
-    given = machine.given.get(name, {})
+    field = set_by(name)
+    given = machine.given.get(field, {})
+    if name != field and name in machine.controller_gains:
+        return shown(given[name]) if name in given else f"from the {field}"
     if not given:
         return "not given"
     return ", ".join(
