@@ -9,9 +9,12 @@
 ``names``       :class:`MotionName`: what a motion is called
 ``naming``      the motions on which starts end, by name
 ``groups``      :class:`Attractor`: motions that have settled to the same cycle
+``regularity``  how fast weighted averages of a sequence converge, and its rotation number
+``characters``  :func:`character_of`: rest, rub, periodic, torus or chaotic
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
 """
 
+from carom.attractors.characters import Character, character_of
 from carom.attractors.crises import Crisis, locate_crisis
 from carom.attractors.following import Ending
 from carom.attractors.groups import Attractor
@@ -24,6 +27,7 @@ from carom.attractors.survival import Survival, document_of, follow_out
 __all__ = [
     "Attractor",
     "AttractorSet",
+    "Character",
     "Crisis",
     "DisturbanceSet",
     "Ending",
@@ -31,6 +35,7 @@ __all__ = [
     "MotionName",
     "Start",
     "Survival",
+    "character_of",
     "document_of",
     "find_attractors",
     "follow_out",

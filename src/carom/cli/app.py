@@ -15,6 +15,7 @@ from typing import Annotated, Any
 
 import typer
 
+from carom.cli.attractors import attractors
 from carom.cli.basins import basins
 from carom.cli.bifurcations import bifurcations, regions
 from carom.cli.explore import explore
@@ -47,6 +48,7 @@ app = typer.Typer(
 app.command("study", help=study.__doc__)(study)
 app.command("simulate", help=simulate.__doc__)(simulate)
 app.command("orbits", help=orbits.__doc__)(orbits)
+app.command("attractors", help=attractors.__doc__)(attractors)
 app.command("prove", help=prove.__doc__)(prove)
 app.command("response", help=response.__doc__)(response)
 app.command("bifurcations", help=bifurcations.__doc__)(bifurcations)

@@ -18,7 +18,7 @@
 ``remedies``        which changes would help, in words
 ``wording``         numbers with units
 ``summaries``       the tables of a study, as text
-``document``        results as JSON; those of a response over speed in ``response_document``
+``document``        results as JSON; those of a response over speed in ``response_document``, of attractors in ``attractors_document``
 ==================  ==================================================================================
 """
 

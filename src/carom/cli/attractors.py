@@ -1,0 +1,125 @@
+"""``carom attractors``: the motions on which disturbances end, and what kind of motion each is."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
+
+if TYPE_CHECKING:
+    from carom.attractors import Attractor, AttractorSet, Character
+    from carom.parameters import Case
+
+
+def attractors(
+    machine: MachineFile,
+    settings: Settings = None,
+    starts: Annotated[
+        int, typer.Option(metavar="N", min=1, max=1_000_000, help="Number of disturbances to follow.")
+    ] = 200,
+    seed: Annotated[int, typer.Option(metavar="S", min=0, help="Seed of the disturbances.")] = 0,
+    exponents: Annotated[
+        bool, typer.Option("--exponents", help="Show all Lyapunov exponents, with their standard errors.")
+    ] = False,
+    out: Annotated[
+        str | None, typer.Option(metavar="DIR", help="Write the figure and attractors.json to this directory.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """List the motions on which disturbances end: rest, rub, periodic orbits, tori and chaos.
+
+    Each kind comes with its evidence.  Irregular bouncing is followed further to measure how long it lasts: it may be a
+    transient.  A sample of disturbances proves nothing about motions that none of them reaches.
+    """
+    from carom.parameters import load
+
+    case = load(machine, settings or ())
+    check_output(out)
+    with progress("attractors (the kernels are compiled on first use)") as tell:
+        from carom.attractors import character_of, find_attractors
+        from carom.studies.attractors_document import attractors_document
+
+        found = find_attractors(case, count=starts, seed=seed, progress=tell)
+        characters = [character_of(case, entry) for entry in found]
+        document = attractors_document(case.parameters, found, characters, exponents) if as_json or out else {}
+        if out is not None:
+            from carom.files import filled_at_once, write_json
+            from carom.plots import save
+
+            with filled_at_once(out, "--out") as directory:
+                save(found.plot(), directory / "figures" / "attractors")
+                write_json(directory / "attractors.json", document)
+    if as_json:
+        print_document(document)
+    else:
+        _print(case, found, characters, exponents)
+    if out is not None:
+        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+
+
+def _print(case: Case, found: AttractorSet, characters: list[Character], exponents: bool) -> None:
+    """Print a table of the attractors, and the evidence below it."""
+    from carom.cli.fitting import fitted, plain_table
+
+    screen = console()
+    columns = ("motion", "kind", "lasting", "share", "impacts", "period", "largest exponent")
+    table = plain_table("Motions on which disturbances end", *columns, right=columns[3:], no_wrap=columns[3:])
+    for entry, character in zip(found, characters, strict=True):
+        table.add_row(
+            entry.name, character.kind, character.lasting, *_numbers(entry, character, len(found.disturbances))
+        )
+    screen.print(f"{case.name}: {found.words()}")
+    screen.print()
+    screen.print(fitted(screen, table))
+    for entry, character in zip(found, characters, strict=True):
+        survival = f" {entry.survival.words[0].upper()}{entry.survival.words[1:]}." if entry.survival else ""
+        screen.print(f"{entry.name}: {character.words}{survival}")
+    if found.transient:
+        screen.print(f"Irregular bouncing of some disturbances ended: {found.transient.words}.")
+    if exponents:
+        screen.print()
+        screen.print(fitted(screen, _exponents(found, characters)))
+        screen.print("In Omega, +- standard errors; -inf: contact takes the direction away.")
+    screen.print()
+    screen.print(found.argument)
+
+
+def _numbers(entry: Attractor, character: Character, total: int) -> tuple[str, ...]:
+    """Share, impacts, period and largest exponent across the motion, as text."""
+    from carom.basins.shares import wilson_interval
+
+    low, high = wilson_interval(entry.count, total) if total else (0.0, 1.0)
+    period = character.orbit.period if character.orbit else entry.period
+    largest = "-"
+    if character.exponents is not None:
+        value, error = character.exponents.across
+        largest = f"{value:.3g}" + (f" +- {error:.1g}" if error else "")
+    elif character.rates is not None:
+        largest = f"{character.rates[0]:.3g}"
+    impacts = character.orbit.impacts if character.orbit else entry.name.multiplicity
+    return (
+        f"{100.0 * entry.share:.3g} % ({100.0 * low:.2g} to {100.0 * high:.2g})",
+        str(impacts) if impacts else "-",
+        f"{period:.6g}" if period else "-",
+        largest,
+    )
+
+
+def _exponents(found: AttractorSet, characters: list[Character]):  # type: ignore[no-untyped-def]
+    """Table of all exponents."""
+    from carom.cli.fitting import plain_table
+
+    table = plain_table("Lyapunov exponents", "motion", "exponents", "impacts measured", right=("impacts measured",))
+    for entry, character in zip(found, characters, strict=True):
+        measured, rates = character.exponents, character.rates
+        if measured is not None:
+            pairs = zip(measured.values, measured.errors, strict=True)
+            told = [f"{value:.4g} +- {error:.1g}" if error else f"{value:.6g}" for value, error in pairs]
+            table.add_row(entry.name, ", ".join(told), f"{measured.impacts:,}" if not character.orbit else "exact")
+        elif rates is not None:
+            table.add_row(entry.name, ", ".join(f"{value:.6g}" for value in rates), "linearised")
+        else:
+            table.add_row(entry.name, "not known", "-")
+    return table

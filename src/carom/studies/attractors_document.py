@@ -1,0 +1,68 @@
+"""Attractors with their kinds as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from carom.attractors import Attractor, AttractorSet, Character, document_of
+from carom.basins.shares import wilson_interval
+from carom.parameters import Parameters
+
+
+def attractors_document(
+    parameters: Parameters, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
+) -> dict[str, Any]:
+    """Return the document of attractors.
+
+    Parameters
+    ----------
+    characters : sequence of Character
+        One for each member of ``found``.
+    exponents : bool
+        Whether to tell the Lyapunov exponents.
+    """
+    total = len(found.disturbances)
+    entries = [
+        _attractor(entry, total, character, exponents) for entry, character in zip(found, characters, strict=True)
+    ]
+    return {
+        "parameters": parameters.as_dict(),
+        "attractors": entries,
+        "starts": total,
+        "known_starts": len(found.endings) - total,
+        "seed": getattr(found.sample, "seed", None),
+        "irregular_transient": document_of(found.transient) if found.transient else None,
+        "argument": found.argument,
+    }
+
+
+def _attractor(entry: Attractor, total: int, character: Character, exponents: bool) -> dict[str, Any]:
+    orbit, rotation = character.orbit, character.rotation
+    return {
+        "outcome": entry.name.outcome.label,
+        "name": entry.name,
+        "kind": character.kind,
+        "words": character.words,
+        "word": str(orbit.word) if orbit else None,
+        "impacts": orbit.impacts if orbit else entry.name.multiplicity or None,
+        "period": orbit.period if orbit else entry.period,
+        "share": [entry.share, *(wilson_interval(entry.count, total) if total else (0.0, 1.0))],
+        "count": entry.count,
+        "known_starts": entry.known,
+        "lasting": character.lasting,
+        **(document_of(entry.survival) | {"transient": character.lasting == "transient"}),
+        "rotation_number": rotation.number if rotation and character.kind == "torus" else None,
+        **({"exponents": _exponents(character)} if exponents else {}),
+    }
+
+
+def _exponents(character: Character) -> dict[str, Any] | None:
+    """Exponents with their errors; ``None`` where they are not known."""
+    found = character.exponents
+    if found is not None:
+        lists = {"per_time": found.values, "per_impact": found.per_impact, "error": found.errors}
+        return {name: values.tolist() for name, values in lists.items()} | {"lost": found.lost}
+    if character.rates is None:
+        return None
+    return {"per_time": character.rates.tolist(), "per_impact": None, "error": [0.0] * len(character.rates)}
