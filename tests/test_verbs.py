@@ -63,6 +63,7 @@ CALLS = {
         m, "gamma", (0.4, 0.5), FEW, values=1
     ),
     "closed_forms.find_equilibria": cm.find_equilibria,
+    "closed_forms.harmless_blade_loss": cm.closed_forms.harmless_blade_loss,
     "closed_forms.harmless_kick": cm.closed_forms.harmless_kick,
     "closed_forms.harmless_shock": lambda m: cm.closed_forms.harmless_shock(m, 0.5),
     "closed_forms.harmless_step": cm.closed_forms.harmless_step,

@@ -1,6 +1,7 @@
 """What the commands print."""
 
 import json
+import math
 import re
 
 import pytest
@@ -8,7 +9,9 @@ from studies import QUICK
 
 from carom import __version__
 from carom.closed_forms.equilibria import find_equilibria
+from carom.disturbances import BladeLoss
 from carom.models import Jeffcott
+from carom.motions import simulate
 from carom.orbits.single_impact import find_orbits
 from carom.parameters import load
 
@@ -131,6 +134,27 @@ def test_simulate_follows_a_motion_to_its_end(carom, machine):
     assert value["outcome"] == "forward-rub"
     assert value["contacts"][-1]["kind"] == "slide"
     assert value["contacts"][-1]["end"] == value["time"]
+
+
+def test_a_lost_blade_is_followed_in_the_machine_after_it(carom, machine):
+    quiet = ("--set", "eccentricity=10 um", "--set", "damping=3000 N s/m")
+    value = document(carom("simulate", machine, *quiet, "--blade-loss", "15000 g mm,30 deg", "--json"))
+
+    case = load(machine, ["eccentricity=10 um", "damping=3000 N s/m"])
+    rotor, state = BladeLoss(3 / 7).release(case, math.radians(30.0))
+    motion = simulate(rotor, state, settle=True)
+    assert value["parameters"]["rho"] == pytest.approx(3 / 7)
+    assert value["start"]["U"] == pytest.approx([state.position.real, state.position.imag])
+    assert value["outcome"] == motion.outcome.label
+    assert len(value["impacts"]) == len(motion.contacts)
+
+
+@pytest.mark.parametrize("options", [("--kick", "0.1"), ("--start", "0,0,0,0")])
+def test_one_start_at_a_time(carom, machine, options):
+    code, _, err = carom("simulate", machine, "--blade-loss", "0.4", *options)
+
+    assert code == 2
+    assert "give one of --start" in err
 
 
 def test_start_with_units_is_the_same_start(carom, machine):

@@ -16,6 +16,7 @@ from carom.basins import least_gain_change, map_basins, map_gains, smallest_loss
 from carom.disturbances import (
     AnyState,
     BaseShock,
+    BladeLoss,
     ContactRelease,
     Grid,
     KickPlane,
@@ -26,7 +27,7 @@ from carom.disturbances import (
 )
 from carom.orbits.names import OrbitName
 from carom.outcome import InputError, Outcome
-from carom.plots.basins import MotionLook
+from carom.plots.cells import MotionLook
 
 pytestmark = pytest.mark.jit_only
 
@@ -126,6 +127,7 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
         (Grid(KickPlane(1.0), (10, 10)), ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")),
         (Grid(StateSlice(), (12, 12)), ("Re $U$", "Im $U$", "0.7 mm")),
         (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),
+        (Grid(BladeLoss.in_si(SCALES, 0.25e-3), (20,)), ("phase of the unbalance after the loss", "to 0.25 mm")),
         (Sample(AnyState(1.0), 100), ("share of 100 starts (%), with 95 % confidence",)),
     ],
 )

@@ -13,7 +13,7 @@ from carom.attractors.groups import Attractor, attractor_of
 from carom.attractors.naming import name_motions
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
-from carom.disturbances import FASTEST, Disturbance, Plan, Sample, Starts
+from carom.disturbances import FASTEST, Disturbance, Grid, Plan, Sample, Starts
 from carom.models import Jeffcott, Model, Subject, model_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
@@ -37,6 +37,7 @@ class AttractorSet(Result):
     Attributes
     ----------
     rotor : Model
+        The machine that the motions are of: after the disturbance, if that changes it.
     members : tuple of Attractor
         Sorted by the number of disturbances, the largest first; motions given up come last.
     endings : tuple of Ending
@@ -207,6 +208,8 @@ def find_attractors(
     else:
         given = Sample(disturbances, count, seed) if isinstance(disturbances, Disturbance) else disturbances
     tried, starts = disturbances_of(rotor, given)
+    if isinstance(given, Grid | Sample):
+        rotor = given.model.machine_after(rotor)
     orbits = tuple(orbits_within_reach(rotor)) if isinstance(rotor, Jeffcott) else ()
     nearby = known_starts(rotor, orbits) if known else ()
     if nearby:

@@ -198,14 +198,14 @@ def map_basins(
     (6, 72)
     """
     rotor = model_of(machine)
-    starts = disturbances.starts(rotor)
-    until = longest_time(rotor) if until is None else time_until(until, rotor.scales)
+    starts, after = disturbances.starts(rotor), disturbances.model.machine_after(rotor)
+    until = longest_time(after) if until is None else time_until(until, rotor.scales)
     require_start(rotor, starts)
     endings = follow(
-        rotor, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
+        after, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
     )
-    endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads)
-    motions, names = name_motions(rotor, endings)
+    endings, survival = follow_out(after, endings, impacts=patience, threads=threads)
+    motions, names = name_motions(after, endings)
     attributes = {
         **(source or {}),
         **provenance(rotor, disturbances),

@@ -18,8 +18,8 @@ from carom.basins.gains import GainMap
 from carom.basins.integrity_measures import integrity
 from carom.basins.losses import SmallestLoss, size_coordinate
 from carom.basins.shares import Share, starts_enough
-from carom.closed_forms.thresholds import harmless_shock, harmless_step
-from carom.disturbances import BaseShock, Sample, UnbalanceStep
+from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, harmless_step
+from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
 from carom.models import jeffcott_of
 from carom.outcome import InputError
 from carom.results import fields_of
@@ -68,6 +68,10 @@ def basin_document(
         document["harmless_step"] = harmless_step(jeffcott_of(basin.rotor))
         if scales is not None:
             document["harmless_step_si"] = document["harmless_step"] * scales.length
+    if isinstance(model, BladeLoss):
+        document["harmless_blade_loss"] = harmless_blade_loss(basin.rotor)
+        if scales is not None:
+            document["harmless_blade_loss_si"] = document["harmless_blade_loss"] * scales.length
     if isinstance(model, BaseShock):
         document["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
         if scales is not None:
@@ -81,7 +85,7 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
     """Entries of the smallest loss of a kind; all ``None`` if it was not searched."""
     found = smallest if smallest is not None and smallest.kind == kind else None
     size = "release_speed" if kind == "release" else kind
-    name = f"smallest_unrecovered_{size}"
+    name, several = f"smallest_unrecovered_{size}", "blade_losses" if kind == "blade_loss" else f"{kind}s"
     bracket = [found.all_back, found.size] if found else None
     document: dict[str, Any] = {
         name: found.size if found else None,
@@ -89,9 +93,9 @@ def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, A
         f"{name}_angle": found.angle if found else None,
         f"{name}_outcome": found.outcome.label if found and found.outcome else None,
         f"{name}_tolerance": found.tolerance if found else None,
-        f"{kind}s_tried": found.tried if found else None,
-        f"{kind}s_tried_afresh": found.fresh if found else None,
-        f"{kind}s_lost_below": found.share_below if found else None,
+        f"{several}_tried": found.tried if found else None,
+        f"{several}_tried_afresh": found.fresh if found else None,
+        f"{several}_lost_below": found.share_below if found else None,
     }
     if kind == "release":
         document[f"{name}_backward"] = found.backward if found else None

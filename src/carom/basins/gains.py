@@ -180,7 +180,8 @@ def measured(
 ) -> Iterator[dict[str, Any]]:
     """Yield the measures of each node; nodes are followed in chunks of about CHUNK starts."""
     there, back = tee(_machine(rotor, plan, axes, node) for node in nodes)
-    for (moved, starts), ends in zip(there, follow_machines(back, CHUNK, **limits), strict=True):
+    after = ((plan.rescaled(rotor.scales, moved.scales).model.machine_after(moved), starts) for moved, starts in back)
+    for (moved, starts), ends in zip(there, follow_machines(after, CHUNK, **limits), strict=True):
         measures = _measures(plan, ends.outcomes)
         if isinstance(plan.model, VelocityKick | KickPlane):
             measures |= _smallest(rotor.scales, moved, starts, ends.outcomes)

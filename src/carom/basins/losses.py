@@ -18,6 +18,7 @@ from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmles
 from carom.disturbances import (
     FASTEST,
     BaseShock,
+    BladeLoss,
     ContactRelease,
     Coordinate,
     Disturbance,
@@ -53,14 +54,14 @@ class SmallestLoss:
     Attributes
     ----------
     kind : str
-        ``"kick"``, ``"shock"``, ``"step"`` of the unbalance, ``"release"``, or that of another model.
+        ``"kick"``, ``"shock"``, ``"step"`` of the unbalance, ``"blade_loss"``, ``"release"``, or that of another model.
     size : float or None
         Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
-        eccentricity in ``c_r``, speed along the wall in ``c_r Ω`` (fixed frame), or first coordinate of another model.  ``None`` where none was found.
+        eccentricity in ``c_r`` (for the loss of a blade: eccentricity after it), speed along the wall in ``c_r Ω`` (fixed frame), or first coordinate of another model.  ``None`` where none was found.
     angle : float or None
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
-        eccentricity after the step to the one before it, relative to the one after; for a release the place on the
-        wall.
+        eccentricity after the step to the one before it, relative to the one after; for the loss of a blade the phase of the
+        unbalance after it; for a release the place on the wall.
     outcome : Outcome or None
         Outcome of the motion after it.
     backward : bool
@@ -120,8 +121,8 @@ class _Family:
 
 
 def has_sizes(model: Disturbance) -> bool:
-    """Whether :func:`smallest_loss` can search a model: by size and direction, or a kick plane or a release."""
-    return type(model) in (KickPlane, ContactRelease) or _by_size(model)
+    """Whether :func:`smallest_loss` can search a model: by size and direction, or a kick plane, release or blade loss."""
+    return type(model) in (KickPlane, ContactRelease, BladeLoss) or _by_size(model)
 
 
 def _by_size(model: Disturbance) -> bool:
@@ -153,7 +154,7 @@ def smallest_loss(
     ----------
     machine : Machine, Case, Parameters or model
     model : Disturbance
-        A kick, a shock, a step of the unbalance, a release from contact, or another model whose coordinates are a size
+        A kick, a shock, a step of the unbalance, the loss of a blade, a release from contact, or another model whose coordinates are a size
         from 0 and a direction over a full turn, up to its own largest size (for a step the
         largest change to the eccentricity of the machine; for a release whirl forward and backward from rest up to
         2 ``c_r Ω``).
@@ -184,6 +185,10 @@ def smallest_loss(
         raise InputError("disturbance", f"|U*| = {abs(rotor.equilibrium):.6g}", "needs levitation inside the wall")
     if rotor.parameters.gamma < 0.0:
         raise InputError("gamma", rotor.parameters.gamma, "at least 0: there is no levitation to come back to")
+    if isinstance(model, BladeLoss):
+        from carom.basins.blade_losses import smallest_blade_loss  # that module needs this one
+
+        return smallest_blade_loss(rotor, model, threads=threads, tell=Reporter.of(progress, "trying unbalances"))
     family = _family(rotor, model)
     search = _Search(rotor, family, tolerance, threads)
     if family.harmless >= family.largest:
@@ -336,6 +341,8 @@ class _Search:
 
 def size_coordinate(model: Disturbance) -> Coordinate:
     """Coordinate with the description and unit of the size of a disturbance."""
+    if type(model) is BladeLoss:
+        return Coordinate("eccentricity_after", "eccentricity after the loss", 0.0, math.inf, "length")
     if type(model) is UnbalanceStep:
         return Coordinate("eccentricity_change", "change of the eccentricity", 0.0, math.inf, "length")
     if type(model) is ContactRelease:

@@ -25,14 +25,15 @@ _OPTIONS = {
     "kick-plane": ("fastest",),
     "shock": ("peak", "duration"),
     "unbalance": ("before",),
+    "blade-loss": ("after",),
     "release": ("release",),
     "slice": (),
     "state": ("fastest",),
 }
 """Kinds of disturbances, and the options that belong to each."""
-_FIELDS = {"before": "largest", "release": "motion"}
+_FIELDS = {"before": "largest", "after": "eccentricity_after", "release": "motion"}
 """Fields of the models where they do not have the name of the option."""
-_NEEDED = {"peak": "'20 g'", "duration": "'5 ms'"}
+_NEEDED = {"peak": "'20 g'", "duration": "'5 ms'", "after": "'0.1 mm' or '5000 g mm'"}
 KINDS = tuple(_OPTIONS)
 
 Kind = Annotated[str, typer.Option(metavar="KIND", help=f"What happens to the rotor: {', '.join(KINDS)}.")]
@@ -46,6 +47,12 @@ Peak = Annotated[str | None, typer.Option(metavar="ACC", help="Largest peak of a
 Duration = Annotated[str | None, typer.Option(metavar="TIME", help="Duration of its half-sine pulse, such as '5 ms'.")]
 Before = Annotated[
     str | None, typer.Option(metavar="LENGTH", help="Largest eccentricity before an unbalance step, such as '0.1 mm'.")
+]
+After = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SIZE", help="Unbalance after the loss of a blade: eccentricity '0.1 mm' or unbalance '5000 g mm'."
+    ),
 ]
 Release = Annotated[
     str | None,
@@ -143,7 +150,7 @@ def read_plan(
 
 
 def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> Disturbance:
-    from carom.cli.starts import read_positive
+    from carom.cli.starts import read_positive, read_unbalance
     from carom.disturbances import MODELS
 
     model, given = MODELS[kind], dict[str, Any]()
@@ -153,6 +160,8 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
             given[name] = text or "fixed"
             if given[name] not in ("fixed", "rotating", "rolling"):
                 raise InputError("--release", text, "must be fixed, rotating or rolling")
+        elif text is not None and option == "after":
+            given[name] = read_unbalance("--after", text, parameters.scales)
         elif text is not None:
             given[name] = read_positive(f"--{option}", text, model.measured_in[name], parameters.scales)
         elif option in _NEEDED:

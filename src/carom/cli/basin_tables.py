@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,6 +22,7 @@ _NAMES = {
     "kick-plane": "velocity kicks out of levitation",
     "shock": "half-sine shocks of the base",
     "unbalance": "steps of the unbalance to what it is",
+    "blade-loss": "losses of a blade at levitation",
     "release": "releases from the wall",
     "slice": "positions at one velocity",
     "state": "positions and velocities",
@@ -115,6 +116,8 @@ def _tried(basin: Basin) -> str:
     text = f"{basin.starts} {_NAMES[plan.model.kind]}, {how}"
     if plan.model.kind in ("kick", "kick-plane", "shock", "unbalance"):
         text += f", {size.words} up to {_size(size, size.high, basin.scales)}"
+    if plan.model.kind == "blade-loss":
+        text += f", {size.words}: all around; {_after(basin)}"
     if plan.model.kind == "state":
         speed = plan.model.coordinates[2]
         text += f", {speed.words} up to {_size(speed, speed.high, basin.scales)}"
@@ -147,6 +150,8 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     def shown(value: float) -> str:
         return _size(size, value, basin.scales, 5)
 
+    if smallest.kind == "blade_loss":
+        return _blade_losses(basin, smallest)
     noun = _LOSSES[smallest.kind]
     lines = []
     if smallest.size is not None:
@@ -172,6 +177,50 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     if smallest.harmless > 0.0:
         proven = "provably never bring the rotor to the wall, in any direction"
         lines.append(f"Only those up to {shown(smallest.harmless)} {proven}.")
+    return lines
+
+
+def _after(basin: Basin) -> str:
+    return f"eccentricity from {_eccentricity(basin, basin.parameters.rho)} to {_eccentricity(basin, basin.plan.model.describe()['eccentricity_after'])}"
+
+
+def _eccentricity(basin: Basin, value: Any) -> str:
+    """An eccentricity given in clearances, with the unbalance that it is if the mass is known."""
+    if basin.scales is None:
+        return f"{value:.5g} c_r"
+    length = value * basin.scales.length
+    return f"{1e3 * length:.5g} mm ({value:.5g} c_r, {1e6 * basin.scales.mass * length:,.5g} g mm)"
+
+
+def _blade_losses(basin: Basin, smallest: SmallestLoss) -> list[str]:
+    """Say which unbalances after the loss of a blade are survived."""
+
+    def shown(value: float) -> str:
+        return _eccentricity(basin, value)
+
+    lines = []
+    if smallest.size is not None and smallest.outcome is not None:
+        angle = math.degrees(smallest.angle or 0.0)
+        lines.append(
+            f"Smallest unbalance found that is not survived: {shown(smallest.size)}, {angle:+.0f} deg from the one before; the rotor "
+            f"ends in {smallest.outcome.label.replace('-', ' ')}."
+        )
+    if smallest.all_back is None and smallest.size is not None:
+        lines.append(
+            "A change of the phase alone is lost already: search with --disturbance unbalance for the smallest change."
+        )
+    elif smallest.all_back is not None and smallest.fresh:
+        lines.append(
+            f"Survived, as far as {smallest.tried} trials tell: every unbalance from the present one up to {shown(smallest.all_back)}, whatever its phase. "
+            f"{smallest.fresh} of the trials are fresh: with 95 % confidence fewer than {100.0 * smallest.share_below:.2g} % of the "
+            "unbalances and phases up to it are lost."
+        )
+    if smallest.all_back is not None and smallest.size is None:
+        lines.append(f"None was lost up to the largest tried, {shown(smallest.largest)}.")
+    if smallest.harmless > basin.parameters.rho:
+        lines.append(
+            f"Only unbalances up to {shown(smallest.harmless)} provably never bring the rotor to the wall, at any phase."
+        )
     return lines
 
 

@@ -27,6 +27,7 @@ def basins(
     peak: options.Peak = None,
     duration: options.Duration = None,
     before: options.Before = None,
+    after: options.After = None,
     release: options.Release = None,
     gains: options.GainsWanted = None,
     plane: options.Plane = None,
@@ -46,7 +47,14 @@ def basins(
     from carom.parameters import load
 
     case = load(machine, settings or ())
-    sizes = {"fastest": fastest, "peak": peak, "duration": duration, "before": before, "release": release}
+    sizes = {
+        "fastest": fastest,
+        "peak": peak,
+        "duration": duration,
+        "before": before,
+        "after": after,
+        "release": release,
+    }
     plan = options.read_plan(case.parameters, disturbance, sizes, grid, starts, seed)
     asked = options.read_gains(case.parameters, gains, plane, x, y, wanted)
     check_output(out)

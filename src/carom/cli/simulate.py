@@ -10,6 +10,7 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, cons
 from carom.outcome import InputError
 
 if TYPE_CHECKING:
+    from carom.models import Model
     from carom.motions.starts import Kick, State
     from carom.motions.trajectories import Trajectory
     from carom.parameters import Case
@@ -35,6 +36,14 @@ def simulate(
         typer.Option(
             metavar="SPEED[,ANGLE]",
             help="Instead of --start: a velocity kick out of levitation; in c_r Omega and rad, or with units.",
+        ),
+    ] = None,
+    blade_loss: Annotated[
+        str | None,
+        typer.Option(
+            metavar="AFTER[,PHASE]",
+            help="Instead of --start: a blade is lost at levitation; eccentricity or unbalance after it, and its phase "
+            "relative to the one before, such as '5000 g mm,30 deg'.",
         ),
     ] = None,
     until: Annotated[
@@ -66,8 +75,8 @@ def simulate(
         for option, path in targets.items():
             check_file(option, path)
     with progress("simulating (the kernels are compiled on first use)") as tell:
-        given, end = _read(case, start, kick, until)
-        motion = _follow(case, given, kick, end, tell)
+        rotor, given, end = _read(case, start, kick, blade_loss, until)
+        motion = _follow(rotor, given, kick, end, tell)
         if targets:
             from carom.cli.logs import write_csv, write_netcdf
 
@@ -105,25 +114,32 @@ def _write(out: str, case: Case, motion: Trajectory) -> None:
         write_json(directory / "simulation.json", trajectory_document(motion))
 
 
-def _read(case: Case, start: str | None, kick: str | None, until: str | None) -> tuple[State | Kick, float | None]:
-    """Read the start and the end, and refuse wrong input before the kernels are loaded."""
-    from carom.cli.starts import read_kick, read_start, read_time
-
-    scales = case.parameters.scales
-    if (start is None) == (kick is None):
-        given = None if start is None else f"{start} with --kick {kick}"
-        raise InputError("--start", given, "give either --start RE,IM,VRE,VIM or --kick SPEED[,ANGLE]")
-    end = None if until is None else read_time(until, scales)
-    return read_kick(str(kick), scales) if start is None else read_start(start, scales), end
-
-
-def _follow(case: Case, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
+def _read(
+    case: Case, start: str | None, kick: str | None, blade_loss: str | None, until: str | None
+) -> tuple[Model, State | Kick, float | None]:
+    """Read the machine that moves, its start and the end, and refuse wrong input before the kernels are loaded."""
+    from carom.cli.starts import read_blade_loss, read_kick, read_start, read_time
     from carom.models import Jeffcott
+
+    scales, options = case.parameters.scales, {"--start": start, "--kick": kick, "--blade-loss": blade_loss}
+    chosen = {option: text for option, text in options.items() if text is not None}
+    if len(chosen) != 1:
+        given = " with ".join(f"{option} {text}" for option, text in chosen.items()) or None
+        allowed = "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE] and --blade-loss AFTER[,PHASE]"
+        raise InputError("--start", given, allowed)
+    end = None if until is None else read_time(until, scales)
+    rotor: Model = Jeffcott(case.parameters)
+    if blade_loss is not None:
+        loss, phase = read_blade_loss(blade_loss, scales)
+        return *loss.release(rotor, phase), end
+    return rotor, read_kick(str(kick), scales) if start is None else read_start(start, scales), end
+
+
+def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
     from carom.motions.starts import Kick
     from carom.motions.trajectories import simulate as follow
 
-    rotor = Jeffcott(case.parameters)
-    radius = abs(rotor.equilibrium)
+    radius = float(abs(rotor.system.arrays.offsets[0]))
     if isinstance(start, Kick) and radius > 1.0:
         words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall; use --start"
         raise InputError("--kick", kick, words)

@@ -12,10 +12,12 @@ from carom.outcome import InputError
 from carom.parameters import Scales, read_quantity, read_size
 
 if TYPE_CHECKING:
+    from carom.disturbances import BladeLoss
     from carom.models import Axis
     from carom.motions.starts import Kick, State
 
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
+_BLADE_LOSS = "must be AFTER or AFTER,PHASE such as 0.4,0.2 or '0.1 mm,30 deg' or '5000 g mm,30 deg'"
 _KICK = "must be SPEED or SPEED,ANGLE such as 0.4,0.2 or '50 mm/s,30 deg'"
 
 
@@ -42,6 +44,16 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
     return Kick(size, direction)
 
 
+def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]:
+    """Read ``AFTER`` or ``AFTER,PHASE``: the unbalance after the loss of a blade, and its phase relative to the one before."""
+    after, *phase = _split("--blade-loss", text, (1, 2), _BLADE_LOSS)
+    size = read_unbalance("--blade-loss", after, scales)
+    turned = read_size("--blade-loss", phase[0], "angle", scales).own(scales) if phase else 0.0
+    from carom.disturbances import BladeLoss
+
+    return BladeLoss(size), turned
+
+
 def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:
     """Read a time in ``1/Ω``, or with a unit of time."""
     return read_positive(option, text, "time", scales)
@@ -54,6 +66,22 @@ def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> f
         article = "an" if kind[0] in "aeiou" else "a"
         raise InputError(option, text, f"must be {article} {kind} above 0")
     return size
+
+
+def read_unbalance(option: str, text: str, scales: Scales | None) -> float:
+    """Read an eccentricity, in ``c_r`` or with a unit of length, or an unbalance with a unit such as g mm; return it in ``c_r``."""
+    try:
+        return read_positive(option, text, "length", scales)
+    except InputError as problem:
+        if scales is None:
+            raise
+        try:
+            size = read_size(option, text, "unbalance", scales)
+        except InputError:
+            raise problem from None
+    if not size.in_si or not size.own(scales) > 0.0:
+        raise InputError(option, text, "must be an eccentricity or an unbalance above 0, such as 0.1 mm or 5000 g mm")
+    return size.own(scales)
 
 
 def read_value(option: str, text: str, varied: Axis) -> float:

@@ -363,6 +363,23 @@ def harmless_step(machine: Subject) -> float:
     )
 
 
+def harmless_blade_loss(machine: Subject) -> float:
+    """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall.
+
+    As in :func:`harmless_step` the deviation from the levitation whirl after the loss stays below ``|u₀|√(1 + 1/ω²)``, but
+    that whirl itself is displaced from the one before by ``u₀``.  This bound is not sharp.
+
+    Returns
+    -------
+    float
+        Change ``|Δ|`` of the eccentricity, a complex number with its phase, in ``c_r``; zero where the rotor cannot levitate
+        inside the wall or its levitation is unstable.
+    """
+    at = jeffcott_of(machine).parameters
+    deviation = math.hypot(1.0, 1.0 / at.omega)
+    return harmless_step(machine) * deviation / (1.0 + deviation)
+
+
 def _room(rotor: Jeffcott) -> float:
     """Distance of levitation from the wall, less a margin for rounding; zero if it is outside the wall or unstable."""
     gap = 1.0 - abs(rotor.equilibrium)

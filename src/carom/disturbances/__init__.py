@@ -10,6 +10,7 @@ co-rotating frame, from which the motion is free.
 :class:`KickPlane`       the same, given by radial and tangential parts, seen from the bearing centre
 :class:`BaseShock`       the housing is accelerated by a half-sine pulse (peak, duration, direction)
 :class:`UnbalanceStep`   the unbalance jumps to that of the machine from another size and phase
+:class:`BladeLoss`       the unbalance jumps from that of the machine to another size and phase
 :class:`ContactRelease`  levitation is switched on with the rotor on the touchdown bearing
 :class:`StateSlice`      any position, at a given velocity
 :class:`AnyState`        any position and any velocity
@@ -22,6 +23,7 @@ Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  The constr
 scales of a machine.
 """
 
+from carom.disturbances.blade_loss import BladeLoss
 from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick, outward_from
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.disturbances.kinds import MODELS
@@ -35,6 +37,7 @@ __all__ = [
     "MODELS",
     "AnyState",
     "BaseShock",
+    "BladeLoss",
     "ContactRelease",
     "Coordinate",
     "Disturbance",

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 FASTEST = 2.0
 """Default largest speed in ``c_r Ω``: twice that of a whirl that fills the clearance."""
-_SIZES = ("fastest", "peak", "duration", "largest")
+_SIZES = ("fastest", "peak", "duration", "largest", "eccentricity_after")
 
 
 @dataclass(frozen=True)
@@ -71,6 +71,10 @@ class Disturbance:
             One array for each coordinate, broadcast against each other.
         """
         raise NotImplementedError
+
+    def machine_after(self, rotor: Model) -> Model:
+        """Return the machine that the motion is of, from its start on: by default the one that is disturbed."""
+        return rotor
 
     @classmethod
     def in_si(cls, scales: Scales, *sizes: float) -> Self:

@@ -25,6 +25,7 @@ UNITS = {
     "impulse": ("m c_r Omega", "N s"),
     "energy": ("m c_r^2 Omega^2", "J"),
     "power": ("m c_r^2 Omega^3", "W"),
+    "unbalance": ("m c_r", "kg m"),
     "damping": ("m Omega", "N s/m"),
     "stiffness": ("m Omega^2", "N/m"),
 }
@@ -106,6 +107,11 @@ class Scales:
     def power(self) -> float:
         """Unit of power: m c_r² Ω³, W."""
         return self.energy * self.speed
+
+    @property
+    def unbalance(self) -> float:
+        """Unit of unbalance: m c_r, kg m."""
+        return self.mass * self.clearance
 
     @property
     def damping(self) -> float:

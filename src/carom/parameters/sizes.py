@@ -26,6 +26,7 @@ _KINDS: Mapping[str, _Kind] = {
     "length": _Kind("a length", "m", "c_r", "0.3 mm"),
     "velocity": _Kind("a velocity", "m/s", "c_r Omega", "50 mm/s"),
     "acceleration": _Kind("an acceleration", "m/s^2", "c_r Omega^2", "20 g"),
+    "unbalance": _Kind("an unbalance", "kg m", "m c_r", "5000 g mm"),
     "time": _Kind("a time", "s", "1/Omega", "11 ms"),
     "angle": _Kind("an angle", "rad", "rad", "30 deg"),
 }

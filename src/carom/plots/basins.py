@@ -2,88 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap, to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Patch
+from matplotlib.patches import Circle
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
 from carom.outcome import InputError
+from carom.plots.cells import CHORDS, MotionLook, finish, ink, motion_looks, paint
 from carom.plots.figure import StyledFigure
-from carom.plots.plane import Floats, clearance_circle, label_frame, point
-from carom.plots.style import LOOKS, ONE_COLUMN, OUTCOMES, TWO_COLUMNS, Look, styled
-from carom.plots.words import number, orbit_symbol
+from carom.plots.plane import clearance_circle, label_frame, point
+from carom.plots.rings import dial, ring
+from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.words import number
 
 if TYPE_CHECKING:
-    from carom.attractors import MotionName
     from carom.basins import Basin, SmallestLoss
     from carom.disturbances import Coordinate
     from carom.parameters import Scales
 
-Bend = Callable[[Floats, Floats], tuple[Floats, Floats]]
-"""Maps coordinates of cells to those of the axes."""
-
-_PALER = (0.0, 0.4, 0.65, 0.8)
-"""Shares of white mixed into the colours of the first, second, ... motion of one outcome."""
-_CHORDS = 120
-"""Least number of straight edges in a ring of cells."""
-_RING = (0.82, 0.98)
-"""Inner and outer radius of the ring that shows releases from the wall."""
 _BRIGHT = {"m/s": (1e3, "mm/s"), "m": (1e3, "mm"), "m/s^2": (1.0 / 9.80665, "g")}
 """SI units as figures show them: factor and unit."""
-
-
-@dataclass(frozen=True)
-class MotionLook:
-    """The look of a motion.
-
-    Attributes
-    ----------
-    index : int
-        Its place in ``Basin.motions``.
-    colour : str
-        That of its outcome; paler for the second motion of one outcome.
-    share : float
-        Of the starts that end on it.
-    """
-
-    index: int
-    name: MotionName
-    look: Look
-    colour: str
-    share: float
-
-    @property
-    def words(self) -> str:
-        """Words of the legend; the name of an orbit is mathematical text."""
-        if self.name.orbit:
-            return f"{self.look.words} on {orbit_symbol(self.name)}"
-        return self.plain_words
-
-    @property
-    def plain_words(self) -> str:
-        """The same as plain text."""
-        return self.name.words if self.name.outcome.settled else self.look.words
-
-    @property
-    def patch(self) -> Patch:
-        """Entry of the legend of a figure."""
-        percent = f"{100.0 * self.share:.3g} %"
-        return Patch(
-            facecolor=self.colour,
-            hatch=self.look.hatch,
-            edgecolor=_ink(self.colour),
-            lw=0.4,
-            label=f"{self.words}, {percent}",
-        )
 
 
 @styled
@@ -91,8 +36,8 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
     """Draw where disturbances end, as a picture that depends on their coordinates.
 
     By size and direction: a polar picture, and beside it the shares at each size.  By two other coordinates, such as the
-    components of a kick: a plane.  Releases from the wall: a ring.  Samples: a bar for each motion with its confidence
-    interval.  The figure is 180 mm wide, 88 mm for a ring.  `smallest` is the smallest kick or shock found that is lost;
+    components of a kick: a plane.  Releases from the wall and losses of a blade: a ring.  Samples: a bar for each motion with
+    its confidence interval.  The figure is 180 mm wide, 88 mm for a ring.  `smallest` is the smallest kick or shock found that is lost;
     it is marked in a picture of kicks or shocks.
     """
     motions = motion_looks(basin)
@@ -100,77 +45,15 @@ def basin(basin: Basin, smallest: SmallestLoss | None = None, title: str | None 
     if not grid:
         return _bars(basin, motions, title)
     if kind == "release":
-        return _ring(basin, motions, title)
+        return ring(basin, motions, title)
+    if len(basin.coordinates) == 1 and basin.coordinates[0].periodic:
+        return dial(basin, motions, title)
     if len(basin.coordinates) != 2:
         raise InputError("basin", f"a grid of {kind}", "a grid over two coordinates, of releases, or a sample")
     size, direction = basin.coordinates
     if size.low == 0.0 and direction.periodic:
         return _polar(basin, motions, smallest, title)
     return _plane(basin, motions, smallest, title)
-
-
-def motion_looks(basin: Basin) -> list[MotionLook]:
-    """Return the looks of the motions, sorted by outcome; those of one outcome differ in paleness."""
-    shares = basin.fractions
-    shown: list[MotionLook] = []
-    for place, name in sorted(enumerate(basin.motions), key=lambda entry: (entry[1].outcome, -shares[entry[1]])):
-        look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
-        alike = sum(entry.look is look for entry in shown)
-        colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
-        shown.append(MotionLook(place, name, look, colour, shares[name]))
-    return shown
-
-
-def _paler(colour: str, white: float) -> str:
-    red, green, blue = (part + white * (1.0 - part) for part in to_rgb(colour))
-    return to_hex((red, green, blue))
-
-
-def _ink(colour: str) -> str:
-    """Return the colour of hatching: a darker shade of the background, or white on dark backgrounds."""
-    red, green, blue = to_rgb(colour)
-    dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.3
-    return "#ffffff" if dark else to_hex((0.72 * red, 0.72 * green, 0.72 * blue))
-
-
-def _paint(
-    axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[MotionLook], bend: Bend = lambda x, y: (x, y)
-) -> None:
-    """Paint cells, given by their edges, in the colours of the motions; `bend` maps their corners to the axes."""
-    order = {entry.index: place for place, entry in enumerate(motions)}
-    places = np.full(index.shape, np.nan)
-    for entry in motions:
-        places[index == entry.index] = order[entry.index]
-    colours = ListedColormap([entry.colour for entry in motions])
-    levels = BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions))
-    mesh = axes.pcolormesh(
-        *bend(*np.meshgrid(x, y)),
-        np.ma.masked_invalid(places).T,
-        cmap=colours,
-        norm=levels,
-        shading="flat",
-        rasterized=True,
-        gid="cells",
-    )
-    mesh.set_edgecolor("face")
-    mesh.set_linewidth(0.1)
-    _hatch(axes, bend(*np.meshgrid(_nodes(x), _nodes(y))), np.pad(index, 1, mode="edge"), motions)
-
-
-def _nodes(edges: Floats) -> Floats:
-    """Return the centres of cells, and the outermost edges."""
-    return np.concatenate([edges[:1], 0.5 * (edges[1:] + edges[:-1]), edges[-1:]])
-
-
-def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions: Sequence[MotionLook]) -> None:
-    """Hatch the areas of motions, so that they can be distinguished in greyscale too."""
-    for entry in motions:
-        inside = (index == entry.index).astype(float)
-        if entry.look.hatch and inside.any():
-            area = axes.contourf(*nodes, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.look.hatch])
-            area.set_edgecolor(_ink(entry.colour))
-            area.set_linewidth(0.0)
-            area.set_rasterized(True)
 
 
 def _polar(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | None, title: str | None) -> Figure:
@@ -181,9 +64,9 @@ def _polar(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.62 * TWO_COLUMNS))
     grid = figure.add_gridspec(1, 2, width_ratios=(1.25, 1.0))
     round_, beside = figure.add_subplot(grid[0], projection="polar"), figure.add_subplot(grid[1])
-    parts = -(-_CHORDS // cells[1])  # cells have straight edges: divide wide ones so that rings look round
+    parts = -(-CHORDS // cells[1])  # cells have straight edges: divide wide ones so that rings look round
     index = np.repeat(dataset["motion"].values.T, parts, axis=0)
-    _paint(round_, direction.edges(parts * cells[1]), factor * size.edges(cells[0]), index, motions)
+    paint(round_, direction.edges(parts * cells[1]), factor * size.edges(cells[0]), index, motions)
     round_.set_title("(a)", loc="left", y=1.0)
     _rule(round_, factor * size.high)
     round_.set_xlabel(f"radius: {label}\nangle: {direction.words}, co-rotating frame")
@@ -192,7 +75,7 @@ def _polar(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
         handles = _mark_smallest(round_, smallest, factor)
     _stacked(beside, basin, motions)
     beside.set_title("(b)", loc="left", y=1.0)
-    return _finish(figure, motions, title, handles, columns=3)
+    return finish(figure, motions, title, handles, columns=3)
 
 
 def _rule(axes: Axes, high: float) -> None:
@@ -226,7 +109,7 @@ def _stacked(axes: Axes, basin: Basin, motions: Sequence[MotionLook]) -> None:
             baseline=below,
             fill=True,
             facecolor=entry.colour,
-            edgecolor=_ink(entry.colour),
+            edgecolor=ink(entry.colour),
             hatch=entry.look.hatch,
             lw=0.0,
         )
@@ -265,7 +148,7 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
     axes = figure.subplots()
     handles: list[Artist] = []
     if kind == "slice":
-        _paint(axes, x.edges(cells[0]), y.edges(cells[1]), dataset["motion"].values, motions)
+        paint(axes, x.edges(cells[0]), y.edges(cells[1]), dataset["motion"].values, motions)
         clearance_circle(axes, reach=1.05)
         for cells_drawn in axes.collections:  # those cut by the wall
             cells_drawn.set_clip_path(Circle((0.0, 0.0), 1.0, transform=axes.transData))
@@ -278,7 +161,7 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
     else:
         factor, label = _axis(x, basin.scales)
         across, label_across = _axis(y, basin.scales)
-        _paint(axes, factor * x.edges(cells[0]), across * y.edges(cells[1]), dataset["motion"].values, motions)
+        paint(axes, factor * x.edges(cells[0]), across * y.edges(cells[1]), dataset["motion"].values, motions)
         axes.set_xlabel(label)
         axes.set_ylabel(label_across)
         if kind == "kick-plane":
@@ -288,35 +171,12 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
             turned = smallest.size * np.exp(1j * (smallest.angle or 0.0)) * np.conj(_outward(basin))
             axes.plot([factor * turned.real], [factor * turned.imag], ls="none", gid="smallest", **_LOST)
             handles = [_lost_handle(smallest)]
-    return _finish(figure, motions, title, handles, columns=2)
+    return finish(figure, motions, title, handles, columns=2)
 
 
 def _outward(basin: Basin) -> complex:
     rest = complex(basin.rotor.system.arrays.offsets[0])
     return rest / abs(rest) if rest else complex(np.exp(1j * basin.rotor.unbalance_phase))
-
-
-def _ring(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
-    """Draw the places on the wall, coloured by the motion to which a release there leads."""
-    figure = StyledFigure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
-    axes = figure.subplots()
-    cells = basin.dataset["motion"].values
-    parts = -(-_CHORDS // len(cells))
-    edges = basin.coordinates[0].edges(parts * len(cells))
-
-    def bend(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
-        return radius * np.cos(angle), radius * np.sin(angle)
-
-    _paint(axes, edges, np.array(_RING), np.repeat(cells, parts)[:, None], motions, bend)
-    clearance_circle(axes, reach=1.05)
-    label_frame(axes, "rotating", basin.scales)
-    point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="")
-    motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}
-    said = motion.get(str(basin.plan.model.describe()["motion"]), "rolling without slip")
-    axes.set_title(f"released from the wall, {said}")
-    look = LOOKS["contact-free"]
-    rest = Line2D([], [], ls="none", marker=look.marker, ms=5.0, mfc=look.colour, mec="#1a1a1a", label="levitation")
-    return _finish(figure, motions, title, [rest], columns=1)
 
 
 def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
@@ -330,7 +190,7 @@ def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
             100.0 * share.fraction,
             0.62,
             facecolor=entry.colour,
-            edgecolor=_ink(entry.colour),
+            edgecolor=ink(entry.colour),
             hatch=entry.look.hatch,
             lw=0.3,
         )
@@ -361,14 +221,3 @@ def _axis(coordinate: Coordinate, scales: Scales | None) -> tuple[float, str]:
     si = coordinate.units[1]
     more, unit_shown = _BRIGHT.get(si, (1.0, si))
     return coordinate.si(scales) * more, f"{coordinate.words} ({unit_shown})"
-
-
-def _finish(
-    figure: Figure, motions: Sequence[MotionLook], title: str | None, more: Sequence[Artist], columns: int
-) -> Figure:
-    """Add the title, and the legend below."""
-    if title:
-        figure.suptitle(title)
-    handles: list[Any] = [*(entry.patch for entry in motions), *more]
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, len(handles)))
-    return figure

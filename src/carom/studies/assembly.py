@@ -16,6 +16,7 @@ from carom.disturbances import Disturbance, Plan
 from carom.models import Jeffcott, Subject, case_of
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import OrbitSet, orbits_within_reach
+from carom.outcome import InputError
 from carom.parameters import Case, Parameters
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
@@ -196,6 +197,7 @@ def study(
     (True, ['B1,d'])
     """
     case = case_of(machine)
+    _check_kept(case, disturbances)
     tell = Reporter.of(progress, "study")
     parameters = case.parameters
     proof = _proof_of(parameters) if proofs else None
@@ -218,6 +220,17 @@ def study(
     advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
     steady = find_equilibria(rotor).members
     return Study(case, rotor, steady, orbits, ranges, boundaries, alone, advice, found, safe, fresh, proof)
+
+
+def _check_kept(case: Case, disturbances: Plan | Disturbance | None) -> None:
+    """Refuse disturbances after which the machine is another one."""
+    if disturbances is None:
+        return
+    model = disturbances if isinstance(disturbances, Disturbance) else disturbances.model
+    rotor = Jeffcott(case.parameters)
+    if model.machine_after(rotor) is not rotor:
+        allowed = "one that leaves the machine as it is: study the machine after it, or follow it with map_basins"
+        raise InputError("disturbances", model.kind, allowed)
 
 
 def _proof_of(parameters: Parameters) -> Proof:

@@ -102,8 +102,9 @@ class BasinsTask:
         rotor = model_of(case)
         counts = np.zeros(len(ENDINGS), np.int64)
         impacts, kicks = 0, []
+        after = self.model(rotor.scales).machine_after(rotor)
         for starts in self._batches(rotor, seed):
-            endings = follow(rotor, starts, threads=1)
+            endings = follow(after, starts, threads=1)
             counts += np.array([endings.count(ending) for ending in ENDINGS])
             impacts += int(endings.impacts.sum())
             if self._kicks and (kick := smallest_lost(rotor, starts, endings.outcomes)):

@@ -13,7 +13,7 @@ from carom.models import Jeffcott
 from carom.motions import LastingContact, Trajectory, settle, simulate
 from carom.motions.settling import REPEATING
 from carom.outcome import Outcome
-from carom.plots.basins import MotionLook
+from carom.plots.cells import MotionLook
 from carom.plots.style import OUTCOMES, REGIMES
 from carom.progress import ShowProgress
 from carom.studies import Wording

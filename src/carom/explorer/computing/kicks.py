@@ -13,7 +13,7 @@ from carom.disturbances import FASTEST, Coordinate, Disturbance, Grid, KickPlane
 from carom.models import Jeffcott
 from carom.motions import State
 from carom.parameters import Scales
-from carom.plots.basins import MotionLook, motion_looks
+from carom.plots.cells import MotionLook, motion_looks
 from carom.progress import ShowProgress
 
 NOWHERE = 255

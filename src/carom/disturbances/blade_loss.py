@@ -1,0 +1,97 @@
+"""Loss of a blade: the unbalance of the levitating rotor becomes another one, in size and phase."""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of
+from carom.disturbances.model import Disturbance
+from carom.outcome import InputError
+
+if TYPE_CHECKING:
+    from carom.models import Model, Subject
+    from carom.motions.starts import State
+
+
+@dataclass(frozen=True)
+class BladeLoss(Disturbance):
+    """The unbalance jumps from that of the machine to another one, for example because a blade is lost.
+
+    Before the loss the rotor whirls without contact with the unbalance of the machine; where it then is, is the start of
+    the motion of the machine with the unbalance after the loss (:meth:`machine_after`).  The phase of that unbalance
+    relative to the one before is free.  A loss of unbalance ``δ`` leads from ``ρ`` to some unbalance of at most ``ρ + δ``.
+
+    Attributes
+    ----------
+    eccentricity_after : float
+        Eccentricity after the loss, in clearances: the unbalance divided by the mass of the rotor.  The unbalance of a
+        rotor of several coordinates keeps its distribution.
+
+    See Also
+    --------
+    UnbalanceStep : Steps to the unbalance of the machine, from others.
+
+    Examples
+    --------
+    >>> loss = BladeLoss.in_si(machine.scales, 0.05e-3)  # doctest: +SKIP
+    >>> cm.map_basins(machine, cm.Grid(loss, (360,))).share_recovered  # doctest: +SKIP
+    """
+
+    eccentricity_after: float
+    kind: ClassVar[str] = "blade-loss"
+    measured_in: ClassVar[dict[str, str]] = {"eccentricity_after": "length"}
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Phase of the unbalance after the loss."""
+        return (angle_coordinate("phase_after", "phase of the unbalance after the loss, relative to that before it"),)
+
+    def machine_after(self, rotor: Model) -> Model:
+        """Return the machine with the unbalance after the loss."""
+        return rotor.replace(rho=self.eccentricity_after)
+
+    def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
+        """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
+        (phase,) = values
+        levitates = bool((np.abs(rotor.system.arrays.offsets) < 1.0).all())
+        cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
+        if len(rest) > 1:
+            cosine, sine = cosine[..., None], sine[..., None]
+        else:
+            rest = rest[0]
+        positions = complex_of(rest.real * cosine + rest.imag * sine, rest.imag * cosine - rest.real * sine)
+        none = np.zeros(np.shape(phase), bool)
+        return Starts(positions, np.zeros_like(positions), none | levitates, none, none)
+
+    def release(self, machine: Subject, phase: float = 0.0) -> tuple[Model, State]:
+        """Return the machine after the loss and the state in which it starts, for :func:`carom.simulate`.
+
+        Parameters
+        ----------
+        machine : Machine, Case, Parameters or model
+            Before the loss.
+        phase : float
+            Phase of the unbalance after the loss relative to the one before, rad.
+
+        Raises
+        ------
+        InputError
+            The rotor cannot levitate inside the wall before the loss.
+        """
+        from carom.models import model_of
+        from carom.motions.starts import State
+
+        rotor = model_of(machine)
+        starts = self.starts(rotor, np.array(float(phase)))
+        if not starts.exists:
+            radius = float(np.abs(rotor.system.arrays.offsets).max())
+            raise InputError("disturbance", f"|U*| = {radius:.6g}", "needs levitation inside the wall before the loss")
+        return self.machine_after(rotor), State.of(starts.positions, starts.velocities)
+
+    def lost(self, rotor: Model, phase: float) -> float:
+        """Unbalance lost if the unbalance after it has this phase: ``|ρ'e^{iβ} − ρ|``, in ``m c_r``."""
+        return abs(cmath.rect(self.eccentricity_after, phase) - rotor.value("rho"))

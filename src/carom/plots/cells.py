@@ -1,0 +1,151 @@
+"""What the pictures of basins share: the looks of motions, and cells painted in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap, to_hex, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from carom.plots.plane import Floats
+from carom.plots.style import OUTCOMES, Look
+from carom.plots.words import orbit_symbol
+
+if TYPE_CHECKING:
+    from carom.attractors import MotionName
+    from carom.basins import Basin
+
+Bend = Callable[[Floats, Floats], tuple[Floats, Floats]]
+"""Maps coordinates of cells to those of the axes."""
+
+
+CHORDS = 120
+"""Least number of straight edges in a ring of cells."""
+_PALER = (0.0, 0.4, 0.65, 0.8)
+"""Shares of white mixed into the colours of the first, second, ... motion of one outcome."""
+
+
+@dataclass(frozen=True)
+class MotionLook:
+    """The look of a motion.
+
+    Attributes
+    ----------
+    index : int
+        Its place in ``Basin.motions``.
+    colour : str
+        That of its outcome; paler for the second motion of one outcome.
+    share : float
+        Of the starts that end on it.
+    """
+
+    index: int
+    name: MotionName
+    look: Look
+    colour: str
+    share: float
+
+    @property
+    def words(self) -> str:
+        """Words of the legend; the name of an orbit is mathematical text."""
+        if self.name.orbit:
+            return f"{self.look.words} on {orbit_symbol(self.name)}"
+        return self.plain_words
+
+    @property
+    def plain_words(self) -> str:
+        """The same as plain text."""
+        return self.name.words if self.name.outcome.settled else self.look.words
+
+    @property
+    def patch(self) -> Patch:
+        """Entry of the legend of a figure."""
+        percent = f"{100.0 * self.share:.3g} %"
+        return Patch(
+            facecolor=self.colour,
+            hatch=self.look.hatch,
+            edgecolor=ink(self.colour),
+            lw=0.4,
+            label=f"{self.words}, {percent}",
+        )
+
+
+def motion_looks(basin: Basin) -> list[MotionLook]:
+    """Return the looks of the motions, sorted by outcome; those of one outcome differ in paleness."""
+    shares = basin.fractions
+    shown: list[MotionLook] = []
+    for place, name in sorted(enumerate(basin.motions), key=lambda entry: (entry[1].outcome, -shares[entry[1]])):
+        look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
+        alike = sum(entry.look is look for entry in shown)
+        colour = _paler(look.colour, _PALER[min(alike, len(_PALER) - 1)])
+        shown.append(MotionLook(place, name, look, colour, shares[name]))
+    return shown
+
+
+def _paler(colour: str, white: float) -> str:
+    red, green, blue = (part + white * (1.0 - part) for part in to_rgb(colour))
+    return to_hex((red, green, blue))
+
+
+def ink(colour: str) -> str:
+    """Return the colour of hatching: a darker shade of the background, or white on dark backgrounds."""
+    red, green, blue = to_rgb(colour)
+    dark = 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.3
+    return "#ffffff" if dark else to_hex((0.72 * red, 0.72 * green, 0.72 * blue))
+
+
+def paint(
+    axes: Axes, x: Floats, y: Floats, index: np.ndarray, motions: Sequence[MotionLook], bend: Bend = lambda x, y: (x, y)
+) -> None:
+    """Paint cells, given by their edges, in the colours of the motions; `bend` maps their corners to the axes."""
+    order = {entry.index: place for place, entry in enumerate(motions)}
+    places = np.full(index.shape, np.nan)
+    for entry in motions:
+        places[index == entry.index] = order[entry.index]
+    colours = ListedColormap([entry.colour for entry in motions])
+    levels = BoundaryNorm(np.arange(len(motions) + 1) - 0.5, len(motions))
+    mesh = axes.pcolormesh(
+        *bend(*np.meshgrid(x, y)),
+        np.ma.masked_invalid(places).T,
+        cmap=colours,
+        norm=levels,
+        shading="flat",
+        rasterized=True,
+        gid="cells",
+    )
+    mesh.set_edgecolor("face")
+    mesh.set_linewidth(0.1)
+    _hatch(axes, bend(*np.meshgrid(_nodes(x), _nodes(y))), np.pad(index, 1, mode="edge"), motions)
+
+
+def _nodes(edges: Floats) -> Floats:
+    """Return the centres of cells, and the outermost edges."""
+    return np.concatenate([edges[:1], 0.5 * (edges[1:] + edges[:-1]), edges[-1:]])
+
+
+def _hatch(axes: Axes, nodes: tuple[Floats, Floats], index: np.ndarray, motions: Sequence[MotionLook]) -> None:
+    """Hatch the areas of motions, so that they can be distinguished in greyscale too."""
+    for entry in motions:
+        inside = (index == entry.index).astype(float)
+        if entry.look.hatch and inside.any():
+            area = axes.contourf(*nodes, inside.T, levels=[0.5, 1.5], colors="none", hatches=[entry.look.hatch])
+            area.set_edgecolor(ink(entry.colour))
+            area.set_linewidth(0.0)
+            area.set_rasterized(True)
+
+
+def finish(
+    figure: Figure, motions: Sequence[MotionLook], title: str | None, more: Sequence[Artist], columns: int
+) -> Figure:
+    """Add the title, and the legend below."""
+    if title:
+        figure.suptitle(title)
+    handles: list[Any] = [*(entry.patch for entry in motions), *more]
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(columns, len(handles)))
+    return figure

@@ -1,0 +1,80 @@
+"""Pictures of disturbances that vary by one angle: releases from the wall, and losses of a blade."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from carom.plots.cells import CHORDS, MotionLook, finish, paint
+from carom.plots.figure import StyledFigure
+from carom.plots.plane import Floats, clearance_circle, label_frame, point
+from carom.plots.style import LOOKS, ONE_COLUMN
+from carom.plots.words import number
+
+if TYPE_CHECKING:
+    from carom.basins import Basin
+
+_RING = (0.82, 0.98)
+"""Inner and outer radius of the ring that shows releases from the wall."""
+
+
+def ring(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
+    """Draw the places on the wall, coloured by the motion to which a release there leads."""
+    figure, axes = _paintedring(basin, motions)
+    clearance_circle(axes, reach=1.05)
+    label_frame(axes, "rotating", basin.scales)
+    point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="")
+    motion = {"fixed": "at rest in the fixed frame", "rotating": "at rest in the co-rotating frame"}
+    said = motion.get(str(basin.plan.model.describe()["motion"]), "rolling without slip")
+    axes.set_title(f"released from the wall, {said}")
+    look = LOOKS["contact-free"]
+    rest = Line2D([], [], ls="none", marker=look.marker, ms=5.0, mfc=look.colour, mec="#1a1a1a", label="levitation")
+    return finish(figure, motions, title, [rest], columns=1)
+
+
+def dial(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
+    """Draw an angle all around, coloured by the motion to which each leads."""
+    figure, axes = _paintedring(basin, motions)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.set_xlim(-1.3, 1.3)
+    axes.set_ylim(-1.2, 1.2)
+    axes.annotate("", (0.75, 0.0), (0.0, 0.0), arrowprops={"arrowstyle": "-|>", "color": "#1a1a1a"})
+    for turned in (0, 90, 180, 270):
+        place = np.radians(turned)
+        axes.text(1.12 * np.cos(place), 1.12 * np.sin(place), f"{turned}°", ha="center", va="center")
+    coordinate = basin.coordinates[0]
+    if basin.plan.model.kind == "blade-loss":
+        axes.text(0.36, 0.05, "unbalance before", ha="center", va="bottom", fontsize=7)
+        axes.set_title(f"phase of the unbalance after the loss\n{_step_of_unbalance(basin)}")
+    else:
+        axes.set_title(coordinate.words)
+    return finish(figure, motions, title, [], columns=1)
+
+
+def _step_of_unbalance(basin: Basin) -> str:
+    """Eccentricity before and after the loss of a blade."""
+    ends = [basin.rotor.value("rho"), float(str(basin.plan.model.describe()["eccentricity_after"]))]
+    if basin.scales is None:
+        return f"eccentricity from {number(ends[0], 3)} to {number(ends[1], 3)} clearances"
+    before, after = (number(1e3 * end * basin.scales.length, 3) for end in ends)
+    return f"eccentricity from {before} mm to {after} mm"
+
+
+def _paintedring(basin: Basin, motions: list[MotionLook]) -> tuple[Figure, Axes]:
+    """A new figure with a ring of cells."""
+    figure = StyledFigure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
+    axes = figure.subplots()
+    cells = basin.dataset["motion"].values
+    parts = -(-CHORDS // len(cells))
+    edges = basin.coordinates[0].edges(parts * len(cells))
+
+    def bend(angle: Floats, radius: Floats) -> tuple[Floats, Floats]:
+        return radius * np.cos(angle), radius * np.sin(angle)
+
+    paint(axes, edges, np.array(_RING), np.repeat(cells, parts)[:, None], motions, bend)
+    return figure, axes

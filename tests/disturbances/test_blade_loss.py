@@ -1,0 +1,241 @@
+"""The loss of a blade: its start, and the motion after it, integrated by SciPy in the fixed frame and in SI units."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from compilation import sized
+from linear_rotors import tilting
+from scipy.integrate import solve_ivp
+
+import carom as cm
+from carom.basins import Basin, smallest_loss
+from carom.disturbances import BladeLoss, Disturbance, Grid, Sample
+from carom.models import Jeffcott
+from carom.outcome import InputError, Outcome
+from carom.parameters import Machine
+
+LIGHT = Machine(
+    mass=20.0,
+    damping=3000.0,
+    stiffness=8e6,
+    eccentricity=5e-6,
+    clearance=0.2e-3,
+    rotor_radius=0.03,
+    speed=900.0,
+    unbalance_phase=0.4,
+    friction=0.15,
+    restitution=0.9,
+)
+CHATTER = 400
+"""Impacts of the independent integration after which the rotor counts as held at the wall."""
+
+
+def integrated(
+    machine: Machine, after: float, phase: float, turns: float
+) -> tuple[list[float], np.ndarray, np.ndarray]:
+    """Times of the impacts, and the motion of the last turns: fixed frame, SI, adaptive steps, impact law in polar form.
+
+    The machine whirls with its unbalance; at t = 0 this becomes ``m·after`` at a phase relative to the one before.
+    """
+    m, c, k, speed, wall = machine.mass, machine.damping, machine.stiffness, machine.speed, machine.clearance
+    old = machine.eccentricity * cmath.exp(1j * machine.unbalance_phase)
+    new = after * cmath.exp(1j * (machine.unbalance_phase + phase))
+    place = speed**2 * old / (k / m - speed**2 + 1j * c / m * speed)
+    state = np.array([place.real, place.imag, (1j * speed * place).real, (1j * speed * place).imag])
+
+    def rate(t: float, y: np.ndarray) -> list[float]:
+        z, v = complex(y[0], y[1]), complex(y[2], y[3])
+        a = speed**2 * new * cmath.exp(1j * speed * t) - c / m * v - k / m * z
+        return [v.real, v.imag, a.real, a.imag]
+
+    def reached(t: float, y: np.ndarray) -> float:
+        return math.hypot(y[0], y[1]) - wall
+
+    reached.terminal, reached.direction = True, 1.0
+    end, now, impacts = turns * 2.0 * math.pi / speed, 0.0, []
+    options = {
+        "method": "DOP853",
+        "rtol": 1e-11,
+        "atol": 1e-15,
+        "events": reached,
+        "max_step": 0.02 / speed * 2 * math.pi,
+    }
+    while True:
+        found = solve_ivp(rate, (now, end), state, dense_output=True, **options)
+        if found.status != 1 or len(impacts) >= CHATTER:
+            late = np.linspace(max(found.t[0], end - 4.0 * math.pi / speed), found.t[-1], 400)
+            return impacts, late, found.sol(late)
+        now, state = float(found.t_events[0][0]), found.y_events[0][0].copy()
+        impacts.append(now)
+        angle = math.atan2(state[1], state[0])
+        outward = state[2] * math.cos(angle) + state[3] * math.sin(angle)
+        along = -state[2] * math.sin(angle) + state[3] * math.cos(angle)
+        slip = along + speed * machine.rotor_radius
+        rub = min(machine.friction * (1.0 + machine.restitution) * outward, abs(slip)) * math.copysign(1.0, slip)
+        outward, along = -machine.restitution * outward, along - rub
+        state[2] = outward * math.cos(angle) - along * math.sin(angle)
+        state[3] = outward * math.sin(angle) + along * math.cos(angle)
+        # On the wall to rounding, and moving inwards.
+        state[0], state[1] = (1.0 - 1e-13) * wall * math.cos(angle), (1.0 - 1e-13) * wall * math.sin(angle)
+
+
+def survives(machine: Machine, after: float, phase: float) -> bool:
+    """Whether the integrated motion ends in the whirl of the unbalance after the loss."""
+    impacts, late, motion = integrated(machine, after, phase, 25.0)
+    if len(impacts) >= CHATTER or (impacts and impacts[-1] > late[0]):
+        return False
+    speed = machine.speed
+    new = after * cmath.exp(1j * (machine.unbalance_phase + phase))
+    place = speed**2 * new / (machine.stiffness / machine.mass - speed**2 + 1j * machine.damping / machine.mass * speed)
+    away = np.abs(motion[0] + 1j * motion[1] - place * np.exp(1j * speed * late))
+    return bool(away.max() < 1e-3 * machine.clearance)
+
+
+def in_fixed_frame(machine: Machine, motion, phase: float, times: np.ndarray) -> np.ndarray:
+    """Displacement in m at times in s; in the frame of the simulation the unbalance has kept its phase."""
+    own = times * machine.speed
+    return machine.clearance * motion.position(own, "fixed") * np.exp(1j * phase)
+
+
+@pytest.mark.jit_only
+def test_the_motion_is_that_of_an_integration_in_the_fixed_frame():
+    random = np.random.default_rng(21)
+    touched = 0
+    for _ in range(sized(4, 1, 40)):
+        machine = LIGHT.replace(eccentricity=2e-4 * random.uniform(0.0, 0.2), damping=random.uniform(500.0, 5000.0))
+        after, phase = 2e-4 * random.uniform(0.2, 0.6), random.uniform(-math.pi, math.pi)
+        loss = BladeLoss.in_si(machine.scales, after)
+        rotor, state = loss.release(machine, phase)
+        impacts, late, found = integrated(machine, after, phase, 4.0)
+        motion = cm.simulate(rotor, state, 4.0 * 2.0 * math.pi)
+        count = min(len(impacts), 4)  # later ones depend on rounding ever more
+        touched += count
+        np.testing.assert_allclose(motion.contacts.time[:count] / machine.speed, impacts[:count], rtol=1e-7)
+        if not impacts:
+            np.testing.assert_allclose(
+                in_fixed_frame(machine, motion, phase, late), found[0] + 1j * found[1], atol=1e-8 * machine.clearance
+            )
+    assert touched >= sized(4, 1, 40)
+
+
+@pytest.mark.jit_only
+def test_what_is_said_to_be_survived_is():
+    """Fresh unbalances up to the largest that is said to be survived, and the smallest that is not, integrated by SciPy."""
+    random = np.random.default_rng(22)
+    tried = 0
+    for machine in (LIGHT, LIGHT.replace(damping=6000.0, friction=0.05, speed=1400.0))[: sized(1, 1, 2)]:
+        found = smallest_loss(machine, BladeLoss.in_si(machine.scales, 0.15e-3))
+        assert found.harmless < found.all_back < found.size
+        assert found.size - found.all_back < 2e-3 * found.size
+        for _ in range(sized(2, 1, 60)):
+            after = machine.clearance * random.uniform(0.85, 1.0) * found.all_back
+            assert survives(machine, after, random.uniform(-math.pi, math.pi))
+            tried += 1
+        assert survives(machine, machine.clearance * 0.998 * found.all_back, found.angle)
+        assert not survives(machine, machine.clearance * 1.001 * found.size, found.angle)
+        motion = cm.simulate(*BladeLoss(found.all_back).release(machine, found.angle), settle=True)
+        assert motion.outcome is Outcome.LEVITATED
+        assert len(motion.contacts) > 0  # it is not survived for want of contact
+        lost = cm.simulate(*BladeLoss(found.size).release(machine, found.angle), settle=True)
+        assert lost.outcome is found.outcome
+
+
+def test_no_contact_below_the_harmless_change():
+    random = np.random.default_rng(23)
+    for _ in range(sized(40, 4, 400)):
+        machine = LIGHT.replace(
+            eccentricity=2e-4 * random.uniform(0.0, 0.3),
+            damping=10 ** random.uniform(2, 5),
+            speed=10 ** random.uniform(2, 3.5),
+        )
+        bound = cm.closed_forms.harmless_blade_loss(machine)
+        rho = machine.parameters.rho
+        change = cmath.rect(bound * random.uniform(0.9, 1.0), random.uniform(-math.pi, math.pi))
+        if bound == 0.0 or rho + change == 0.0:
+            continue
+        after, phase = cmath.polar(rho + change)
+        motion = cm.simulate(*BladeLoss(after).release(machine, phase), until=30.0)
+        assert len(motion.contacts) == 0
+        assert BladeLoss(after).lost(Jeffcott(machine.parameters), phase) == pytest.approx(abs(change))
+
+
+def test_the_start_is_the_old_whirl():
+    rotor = Jeffcott(LIGHT.parameters)
+    loss = BladeLoss(0.4)
+    after = loss.machine_after(rotor)
+    assert after.parameters == rotor.parameters.replace(rho=0.4)
+    starts = Grid(loss, (8,)).starts(rotor)
+    phases = Grid(loss, (8,)).values()[0]
+    np.testing.assert_allclose(starts.positions, rotor.equilibrium * np.exp(-1j * phases), rtol=1e-15)
+    assert not starts.velocities.any()
+    assert starts.exists.all()
+    assert not starts.touched.any()
+    # The old whirl of another phase, with the new unbalance where it is, is the same motion turned.
+    assert loss.release(LIGHT, 0.3)[1].position == pytest.approx(rotor.equilibrium * cmath.exp(-0.3j))
+
+
+def test_a_rotor_that_does_not_levitate_has_no_start():
+    grounded = LIGHT.replace(eccentricity=3e-4)
+    assert not Grid(BladeLoss(0.4), (4,)).starts(Jeffcott(grounded.parameters)).exists.any()
+    with pytest.raises(InputError, match="before the loss"):
+        BladeLoss(0.4).release(grounded)
+    with pytest.raises(InputError, match="possible"):
+        cm.map_basins(grounded, Grid(BladeLoss(0.4), (4,)))
+
+
+@pytest.mark.parametrize("size", [0.0, -0.1, math.nan, math.inf])
+def test_sizes_are_checked(size):
+    with pytest.raises(InputError, match="eccentricity_after"):
+        BladeLoss(size)
+
+
+@pytest.mark.jit_only
+def test_it_goes_where_every_disturbance_goes(tmp_path):
+    loss = BladeLoss.in_si(LIGHT.scales, 0.067e-3)
+    assert Disturbance.of(loss.describe()) == loss
+    basin = cm.map_basins(LIGHT, Grid(loss, (24,)))
+    after = loss.machine_after(Jeffcott(LIGHT.parameters))
+    alone = cm.settle(after, basin_positions(basin), np.zeros(24))
+    np.testing.assert_array_equal(basin.outcomes, alone.outcomes)
+    assert 0.0 < basin.share_recovered.fraction < 1.0
+    basin.save(tmp_path / "loss.nc")
+    assert Basin.load(tmp_path / "loss.nc").plan == basin.plan
+    found = cm.find_attractors(LIGHT, Sample(loss, 40, 3))
+    assert found.rotor.parameters == after.parameters
+    assert {"levitation", "synchronous rub"} <= {member.name for member in found}
+    gains = cm.map_gains(LIGHT, Grid(loss, (24,)), ("stiffness", "damping"), shape=(2, 2))
+    assert gains.present_share.count == basin.share_recovered.count
+    with pytest.raises(InputError, match="study the machine after it"):
+        cm.study(LIGHT, loss)
+    with pytest.raises(InputError, match="more than the present one"):
+        smallest_loss(LIGHT, BladeLoss(0.01))
+
+
+def basin_positions(basin: Basin) -> np.ndarray:
+    return basin.dataset["start_x"].values + 1j * basin.dataset["start_y"].values
+
+
+@pytest.mark.jit_only
+def test_a_rotor_of_several_coordinates():
+    model = tilting().model
+    before = np.asarray(model.system.rest)
+    loss = BladeLoss(1.2 * model.value("rho"))
+    after, state = loss.release(model, 0.7)
+    np.testing.assert_allclose(state.position, before * cmath.exp(-0.7j), rtol=1e-12)
+    assert after.value("rho") == pytest.approx(1.2 * model.value("rho"))
+    # Without a change of the phase it whirls from the old to the new equilibrium, in the same direction.
+    assert cm.simulate(*loss.release(model), until=5.0).time == 5.0
+
+
+def test_what_is_lost_already_or_never_is_said():
+    present = LIGHT.parameters.rho
+    never = smallest_loss(LIGHT, BladeLoss(1.2 * present))
+    assert (never.size, never.all_back) == (None, pytest.approx(1.2 * present))
+    heavy = cm.load("examples/keogh-cole.toml")
+    already = smallest_loss(heavy, BladeLoss(0.5))
+    assert already.all_back is None
+    assert already.size == pytest.approx(heavy.parameters.rho)
