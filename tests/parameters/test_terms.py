@@ -73,6 +73,7 @@ def near(number):
         ("eccentricity", {"balance_grade": "G55.26"}),
         ("eccentricity", {"balance_grade": "55.26 mm/s"}),
         ("eccentricity", {"balance_grade": 55.26}),
+        ("eccentricity", {"balance_grade": "G 5 526", "rated_speed": "18420 rad/s"}),
         ("eccentricity", {"balance_grade": "G 3", "rated_speed": "10 rad/s"}),
         ("rotor_radius", {"rotor_diameter": "80 mm"}),
         ("rotor_radius", {"rotor_diameter": 0.08}),

@@ -34,7 +34,7 @@ def demand_of(case, found):
     return bearing_demand(case, find_equilibria(rotor).members, orbits_within_reach(rotor), rolling(rotor), found)
 
 
-def by_integration(machine, place, speed, until, count=200_001):
+def by_integration(machine, place, speed, until, count=20_001):
     """Force and current of one bearing while the rotor flies, from a state in the fixed frame at the time zero, in SI units."""
 
     def rate(time, state):
@@ -52,7 +52,7 @@ def by_integration(machine, place, speed, until, count=200_001):
     return np.abs(force), np.abs(current), np.abs(z).max()
 
 
-@pytest.mark.parametrize(("place", "kick"), [(0.05 + 0.1j, 0.1), (-0.2j, 0.05j), (0.0, 0.02 - 0.03j)])
+@pytest.mark.parametrize(("place", "kick"), [(0.05 + 0.1j, 0.1), (-0.2j, 0.05j)])
 def test_force_and_current_of_a_flight_are_those_of_the_equations_in_si_units(place, kick):
     case = limited("eccentricity=0.02 mm")
     machine, scales = case.machine, case.parameters.scales

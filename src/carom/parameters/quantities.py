@@ -119,9 +119,9 @@ def without_separators(text: str) -> str:
 
 
 def _from_text(field: Field, text: str) -> float | Decimal:
-    plain = without_separators(text)
+    plain = text.strip()
     lettered = bool(field.letter) and plain.startswith(field.letter)
-    plain = plain.removeprefix(field.letter).lstrip() if lettered else plain
+    plain = without_separators(plain.removeprefix(field.letter) if lettered else plain)
     match = _TEXT.fullmatch(plain)
     if _DECIMAL_COMMA.match(plain):
         raise field.error(
