@@ -12,7 +12,7 @@ from sweep_tasks import Drawn, plan_of
 import carom
 from carom import basins
 from carom.disturbances import Grid, VelocityKick
-from carom.progress import Progress, Reporter, bar
+from carom.progress import Progress, Reporter, _told, bar
 from carom.studies.safety import least_safe_damping
 
 KICKS = Grid(VelocityKick(0.5), (4, 6))
@@ -32,6 +32,7 @@ LONG = {
     "map_basins": lambda **given: carom.map_basins(PAPER, KICKS, **given),
     "map_gains": lambda **given: carom.map_gains(PAPER, KICKS, ("omega", "gamma"), shape=(2, 2), **given),
     "smallest_loss": lambda **given: basins.smallest_loss(PAPER, VelocityKick(0.5), directions=8, sizes=8, **given),
+    "find_orbits": lambda **given: carom.find_orbits(PAPER, impacts=2, starts=3, **given),
     "least_safe_damping": lambda **given: least_safe_damping(DAMPED, count=60, **given),
 }
 
@@ -91,3 +92,21 @@ def test_parts_report_shares_of_the_whole():
         Progress(pytest.approx(1.0), "its own words"),
         Progress(pytest.approx(0.4), "more"),
     ]
+
+
+@pytest.mark.parametrize(
+    ("share", "elapsed", "said"),
+    [
+        (0.0, 20.0, "drawing"),
+        (0.4, 0.2, "40 %: drawing"),
+        (0.4, 8.0, "40 %, 5 %/s, 12 s left: drawing"),
+        (0.001, 10.0, "0 %, 0.01 %/s, 2.8 h left: drawing"),
+        (1.0, 10.0, "100 %: drawing"),
+    ],
+)
+def test_share_rate_and_time_left(share, elapsed, said):
+    assert _told(share, elapsed, "drawing") == said
+
+
+def test_words_that_say_what_is_left_stay_alone():
+    assert _told(0.5, 10.0, "8 of 64 points, 0.5 points/s, 2 min left") == "8 of 64 points, 0.5 points/s, 2 min left"

@@ -44,34 +44,34 @@ def basins(
     in 1/Omega; those of a parameter of the machine are in SI units. With --gains the share that comes back is mapped
     against P and D gain, or any two parameters.
     """
-    from carom.parameters import load
+    with progress("loading") as tell:
+        from carom.parameters import load
 
-    case = load(machine, settings or ())
-    sizes = {
-        "fastest": fastest,
-        "peak": peak,
-        "duration": duration,
-        "before": before,
-        "after": after,
-        "release": release,
-    }
-    plan = options.read_plan(case.parameters, disturbance, sizes, grid, starts, seed)
-    asked = options.read_gains(case.parameters, gains, plane, x, y, wanted)
-    check_output(out)
-    source = _source(machine, settings)
-    with progress("following starts (the kernels are compiled on first use)") as tell:
+        case = load(machine, settings or ())
+        sizes = {
+            "fastest": fastest,
+            "peak": peak,
+            "duration": duration,
+            "before": before,
+            "after": after,
+            "release": release,
+        }
+        plan = options.read_plan(case.parameters, disturbance, sizes, grid, starts, seed)
+        asked = options.read_gains(case.parameters, gains, plane, x, y, wanted)
+        check_output(out)
+        source = _source(machine, settings)
         from carom.basins import map_basins, smallest_loss
         from carom.basins.document import basin_document
         from carom.basins.losses import has_sizes
         from carom.closed_forms import harmless_kick
         from carom.models import Jeffcott
 
-        rotor, share = Jeffcott(case.parameters), 0.9 if asked is None else 0.3
+        rotor, share = Jeffcott(case.parameters), 0.45 if asked is None else 0.2
         step = tell.part(0.0, share, f"following {plan.count} starts")
         basin = map_basins(rotor, plan, threads=threads, source=source, progress=step)
         harmless, smallest = harmless_kick(rotor), None
         if harmless > 0.0 and has_sizes(plan.model):
-            smallest = smallest_loss(rotor, plan.model, threads=threads, progress=tell.part(share, 1.1 * share))
+            smallest = smallest_loss(rotor, plan.model, threads=threads, progress=tell.part(share, 2.0 * share))
         found, change = (None, None) if asked is None else _map(rotor, plan, asked, threads, source, tell)
         share_wanted = {} if asked is None else {"wanted": asked.wanted}
         document = basin_document(basin, smallest, harmless, found, change, **share_wanted)

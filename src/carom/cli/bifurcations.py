@@ -89,23 +89,25 @@ def bifurcations(
     points, grazing, boundary equilibria, non-smooth Hopf points, folds of rubs and the limit of rolling.  Along the
     speed it is a run-up diagram: damping and stiffness stay fixed, their dimensionless values change with the speed.
     """
-    from carom.bifurcations import find_bifurcations
-    from carom.bifurcations.documents import diagram_document
-    from carom.cli.starts import read_value
-    from carom.models import axis
-    from carom.parameters import load
+    with progress("loading") as tell:
+        from carom.bifurcations import find_bifurcations
+        from carom.bifurcations.documents import diagram_document
+        from carom.cli.starts import read_value
+        from carom.models import axis
+        from carom.parameters import load
 
-    case = load(machine, settings or ())
-    parameters = case.parameters
-    varied = axis(parameters, along.strip())
-    first, last = read_value("--from", start, varied), read_value("--to", end, varied)
-    if first == last:
-        raise InputError("--to", end, "must be another value than --from; which of the two is larger does not matter")
-    if seed is not None and not attractors:
-        raise InputError("--seed", seed, "allowed only with --attractors")
-    check_output(out)
-    proven = _checked(proof, out)
-    with progress("following orbits (the kernels are compiled on first use)") as tell:
+        case = load(machine, settings or ())
+        parameters = case.parameters
+        varied = axis(parameters, along.strip())
+        first, last = read_value("--from", start, varied), read_value("--to", end, varied)
+        if first == last:
+            raise InputError(
+                "--to", end, "must be another value than --from; which of the two is larger does not matter"
+            )
+        if seed is not None and not attractors:
+            raise InputError("--seed", seed, "allowed only with --attractors")
+        check_output(out)
+        proven = _checked(proof, out)
         diagram = find_bifurcations(
             parameters,
             varied.name,
@@ -151,24 +153,24 @@ def regions(
     Curves are followed from the bifurcations found on the two lines through the present machine, and from every change
     of motions between neighbouring points of the grid.  Changes that no curve explains are listed.
     """
-    from carom.bifurcations import Plane, map_regions
-    from carom.bifurcations.documents import regions_document
-    from carom.models import axis
-    from carom.parameters import load
+    with progress("loading") as tell:
+        from carom.bifurcations import Plane, map_regions
+        from carom.bifurcations.documents import regions_document
+        from carom.models import axis
+        from carom.parameters import load
 
-    case = load(machine, settings or ())
-    parameters = case.parameters
-    names = [name.strip() for name in plane.split(",")]
-    if len(names) != 2:
-        raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")
-    axes = axis(parameters, names[0]), axis(parameters, names[1])
-    ranges = [
-        _range(parameters, varied, option, given)
-        for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
-    ]
-    check_output(out)
-    proven = _checked(proof, out)
-    with progress("following curves (the kernels are compiled on first use)") as tell:
+        case = load(machine, settings or ())
+        parameters = case.parameters
+        names = [name.strip() for name in plane.split(",")]
+        if len(names) != 2:
+            raise InputError("--plane", plane, "two names of parameters with a comma between them, such as gamma,omega")
+        axes = axis(parameters, names[0]), axis(parameters, names[1])
+        ranges = [
+            _range(parameters, varied, option, given)
+            for varied, option, given in zip(axes, ("--x", "--y"), (x, y), strict=True)
+        ]
+        check_output(out)
+        proven = _checked(proof, out)
         found = map_regions(
             parameters,
             Plane(axes[0].name, axes[1].name, *ranges),

@@ -44,12 +44,13 @@ def orbits(
         from carom.cli.starts import read_time
 
         longest = read_time(longest_period, case.parameters.scales, "--longest-period")
-    with progress("equilibria and periodic orbits (the kernels are compiled on first use)"):
+    with progress("equilibria and periodic orbits (the kernels are compiled on first use)") as tell:
         from carom.closed_forms.equilibria import find_equilibria
         from carom.models import Jeffcott
         from carom.orbits.single_impact import find_orbits, orbits_within_reach
         from carom.studies import orbits_document
 
+        tell(0.3)
         rotor = Jeffcott(case.parameters)
         steady = find_equilibria(rotor).members
         found = orbits_within_reach(rotor) if longest is None else find_orbits(rotor, longest)
@@ -63,12 +64,12 @@ def orbits(
 
 def _search(case: Case, impacts: int, starts: int | None, as_json: bool) -> None:
     """Print the orbits with a number of impacts that a search finds."""
-    with progress("orbits (the kernels are compiled on first use)"):
+    with progress("orbits (the kernels are compiled on first use)") as tell:
         from carom.orbits.search import STARTS
         from carom.orbits.single_impact import find_orbits
         from carom.studies import found_orbits_document
 
-        found = find_orbits(case, impacts=impacts, starts=STARTS if starts is None else starts)
+        found = find_orbits(case, impacts=impacts, starts=STARTS if starts is None else starts, progress=tell)
     if as_json:
         print_document(found_orbits_document(case.parameters, found))
         return

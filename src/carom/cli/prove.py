@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.terminal import AsJson, Settings, console, print_document
+from carom.cli.terminal import AsJson, Settings, console, print_document, progress
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
@@ -50,23 +50,31 @@ def prove(
     The numbers of the machine file are taken exactly as they are written. Each claim is proven, refuted or undecided, with the
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
-    from carom.proofs import check as verify
-    from carom.proofs import prove as prove_machine
+    with progress("loading") as tell:
+        from carom.proofs import check as verify
+        from carom.proofs import prove as prove_machine
 
-    if check is not None:
-        others = (machine, longest_period, out, along, start, stop)
-        if settings or impacts != 1 or any(other is not None for other in others):
-            raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
-        proof = verify(check)
-    elif machine is None:
-        raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
-    else:
-        if (start is None or stop is None) and not (along is start is stop is None):
-            raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
-        interval = None if start is None or stop is None else (start, stop)
-        proof = prove_machine(
-            machine, settings or (), longest_period=longest_period, impacts=impacts, along=along, interval=interval
-        )
+        if check is not None:
+            others = (machine, longest_period, out, along, start, stop)
+            if settings or impacts != 1 or any(other is not None for other in others):
+                raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
+            tell(0.1, "checking the certificate")
+            proof = verify(check)
+        elif machine is None:
+            raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
+        else:
+            if (start is None or stop is None) and not (along is start is stop is None):
+                raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
+            interval = None if start is None or stop is None else (start, stop)
+            proof = prove_machine(
+                machine,
+                settings or (),
+                longest_period=longest_period,
+                impacts=impacts,
+                along=along,
+                interval=interval,
+                progress=tell,
+            )
     if out is not None:
         directory = Path(out)
         directory.mkdir(parents=True, exist_ok=True)

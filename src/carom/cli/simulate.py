@@ -76,7 +76,7 @@ def simulate(
             check_file(option, path)
     with progress("simulating (the kernels are compiled on first use)") as tell:
         rotor, given, end = _read(case, start, kick, blade_loss, until)
-        motion = _follow(rotor, given, kick, end, tell)
+        motion = _follow(rotor, given, kick, end, tell if out is None else tell.part(0.0, 0.4))
         if targets:
             from carom.cli.logs import write_csv, write_netcdf
 
@@ -84,8 +84,7 @@ def simulate(
             for option, path in targets.items():
                 writers[option](motion, path)
         if out is not None:
-            tell(0.9, "drawing")
-            _write(out, case, motion)
+            _write(out, case, motion, tell.part(0.4, 1.0, "drawing"))
     if as_json:
         from carom.studies import trajectory_document
 
@@ -98,7 +97,7 @@ def simulate(
         console(errors=True).print(f"Written to {out}", soft_wrap=True)
 
 
-def _write(out: str, case: Case, motion: Trajectory) -> None:
+def _write(out: str, case: Case, motion: Trajectory, tell: Reporter) -> None:
     """Write the path, its touchdown over time if there is a contact, and the document."""
     from carom import plots
     from carom.files import filled_at_once, write_json
@@ -107,7 +106,9 @@ def _write(out: str, case: Case, motion: Trajectory) -> None:
     from carom.studies.wording import machine_heading
 
     with filled_at_once(out, "--out") as directory, plots.heading(machine_heading(case)):
+        tell(0.0)
         plots.save(plots.motion(motion), directory / "figures" / "motion")
+        tell(0.5)
         touched = len(motion.contacts) or motion.lasting_contacts
         over_time = plots.touchdown(motion, energy_ledger(motion)) if touched else plots.radius(motion, case.zones)
         plots.save(over_time, directory / "figures" / ("touchdown" if touched else "radius"))

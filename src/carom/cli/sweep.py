@@ -125,7 +125,8 @@ def _place(failure: dict[str, Any]) -> str:
 
 def _print(plan: SweepPlan, tally: Tally, failures: list[dict[str, Any]]) -> None:
     from carom.cli.fitting import plain_table
-    from carom.sweeps.running import duration_words, rate_words
+    from carom.progress import duration_words
+    from carom.sweeps.running import rate_words
 
     screen = console()
     table = plain_table("", "", "points", right=("points",))

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from carom.outcome import CaromError
+from carom.progress import Reporter
 
 _Found = TypeVar("_Found")
 _RATIONAL = re.compile(r"-?[0-9]{1,2000}(?:/[0-9]{1,2000})?")
@@ -27,9 +28,12 @@ class Evidence:
     ----------
     recorded : mapping, optional
         What an earlier proof has recorded; without it searches are made.
+    tell : Reporter, optional
+        Receives the progress of those who search.
     """
 
-    def __init__(self, recorded: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, recorded: Mapping[str, Any] | None = None, tell: Reporter | None = None) -> None:
+        self.tell = tell or Reporter(step="proving")
         self._recorded = None if recorded is None else dict(recorded)
         self._used: dict[str, Any] = {}
 

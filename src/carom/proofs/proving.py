@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from carom.models import Subject
 from carom.outcome import InputError, shown
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import at_precision
 from carom.proofs.claims import Proof
 from carom.proofs.evidence import Evidence, NotShownError
@@ -27,6 +28,7 @@ _EXPONENT = 4
 """Characters that the exponent of a time may have."""
 
 
+@shows_progress
 def prove(
     machine: Subject | Hypotheses | str | os.PathLike[str] | Mapping[str, Given],
     settings: Iterable[str] = (),
@@ -35,6 +37,7 @@ def prove(
     impacts: int = 1,
     along: str | None = None,
     interval: tuple[Given, Given] | None = None,
+    progress: ShowProgress = None,
 ) -> Proof:
     """Prove what can be proven of a machine's equilibria and of its orbits with one impact a period.
 
@@ -78,7 +81,7 @@ def prove(
     >>> proof["B1,d stable"].status
     'proven'
     """
-    hypotheses = hypotheses_of(machine, settings)
+    hypotheses, tell = hypotheses_of(machine, settings), Reporter.of(progress, "proving")
     if (along is None) is not (interval is None):
         raise InputError("along", shown(along), "needs an interval, and an interval needs a parameter")
     if along is not None and interval is not None:
@@ -87,30 +90,35 @@ def prove(
         start, stop = (written_exactly(end) for end in interval)
         line_of(hypotheses, along, start, stop)
         limits = {"blocks": MOST_BLOCKS, "narrowest": NARROWEST}
-        return proof_of("along a parameter", hypotheses, {"along": along, "from": start, "to": stop, **limits})
+        return proof_of("along a parameter", hypotheses, {"along": along, "from": start, "to": stop, **limits}, tell)
     limit = None if longest_period is None else str(_time(longest_period))
     options = {"longest_period": limit, "cells": MOST_CELLS}
     if impacts == 1:
-        return proof_of("single-impact orbits", hypotheses, options)
+        return proof_of("single-impact orbits", hypotheses, options, tell)
     if not 1 <= impacts <= MOST_IMPACTS:
         raise InputError("impacts", impacts, f"1 to {MOST_IMPACTS}")
-    return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts})
+    return proof_of("orbits of several impacts", hypotheses, {**options, "impacts": impacts}, tell)
 
 
-def proof_of(theorem: str, hypotheses: Hypotheses, options: Options) -> Proof:
+def proof_of(theorem: str, hypotheses: Hypotheses, options: Options, tell: Reporter | None = None) -> Proof:
     """Prove the claims of a theorem, with more bits as long as more bits may decide a claim."""
-    bits = FIRST_BITS
+    bits, done, tell = FIRST_BITS, 0.0, tell or Reporter()
     while True:
+        # Mostly the first bits suffice; further ones share what is left of the bar.
+        end = done + 0.9 * (1.0 - done)
+        tell(done)
         try:
-            proof = proof_at(bits, theorem, hypotheses, options, Evidence())
+            evidence = Evidence(tell=tell.part(done, end, f"proving with {bits} bits"))
+            proof = proof_at(bits, theorem, hypotheses, options, evidence)
         except NotShownError:
             # A search and its check differ by rounding: more bits settle it.
             if bits >= MOST_BITS:
                 raise
         else:
             if bits >= MOST_BITS or not any(claim.limited_by_precision for claim in proof.claims):
+                tell(1.0)
                 return proof
-        bits *= 2
+        bits, done = 2 * bits, end
 
 
 def proof_at(bits: int, theorem: str, hypotheses: Hypotheses, options: Options, evidence: Evidence) -> Proof:

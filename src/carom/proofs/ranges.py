@@ -14,6 +14,7 @@ from itertools import groupby, pairwise
 from math import floor, log2
 from typing import Any
 
+from carom.progress import Reporter
 from carom.proofs.balls import Enclosure, at_precision, enclosure_of, interval
 from carom.proofs.block_orbits import OrbitFact, first_cells, orbits_on
 from carom.proofs.blocks import Block, OpenError
@@ -95,7 +96,7 @@ def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
 
 
 def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction) -> list[Claim]:
-    cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest))
+    cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest, evidence.tell))
     stretches = _stretches(_pieces(line, cuts, most))
     slip = _slip_claim(line, evidence)
     claims = [slip, _all_claim(line, stretches, slip)]
@@ -111,7 +112,7 @@ def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction
 # ------------------------------------------------------------------------------------------------ blocks
 
 
-def _cuts(line: Line, most: int, narrowest: Fraction) -> list[list[str]]:
+def _cuts(line: Line, most: int, narrowest: Fraction, tell: Reporter) -> list[list[str]]:
     """Ends of the blocks, and why a block is left open, by a march along the interval."""
     low, high = line.ends
     width = high - low
@@ -132,6 +133,7 @@ def _cuts(line: Line, most: int, narrowest: Fraction) -> list[list[str]]:
         else:
             found.append([str(end), ""])
             place, step, skip = end, min(step * Fraction(3, 2), width / 4), least
+        tell(float((place - low) / width) if width else 1.0)
         if len(found) > most and place < high:
             found.append([str(high), f"the search ended after {most} blocks"])
             break

@@ -200,7 +200,9 @@ def study(
     _check_kept(case, disturbances)
     tell = Reporter.of(progress, "study")
     parameters = case.parameters
-    proof = _proof_of(parameters) if proofs else None
+    proof = None
+    if proofs:
+        proof, tell = _proof_of(parameters, tell.part(0.0, 0.2)), tell.part(0.2, 1.0)
     tell(0.0, "equilibria and periodic orbits (the kernels are compiled on first use)")
     rotor = Jeffcott(parameters)
     orbits = orbits_within_reach(rotor)
@@ -233,10 +235,10 @@ def _check_kept(case: Case, disturbances: Plan | Disturbance | None) -> None:
         raise InputError("disturbances", model.kind, allowed)
 
 
-def _proof_of(parameters: Parameters) -> Proof:
+def _proof_of(parameters: Parameters, tell: Reporter) -> Proof:
     from carom.proofs import prove  # only here: it needs an extra
 
-    return prove(parameters)
+    return prove(parameters, progress=tell)
 
 
 def _ranges(parameters: Parameters, tell: Reporter) -> tuple[MotionRange, ...]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from carom.core.processors import available_cores
 from carom.outcome import InputError
-from carom.progress import Reporter, ShowProgress, shows_progress
+from carom.progress import Reporter, ShowProgress, duration_words, shows_progress
 from carom.sweeps.chunk import Chunk
 from carom.sweeps.memory import SweepMemory
 from carom.sweeps.plan import SweepPlan
@@ -93,15 +93,6 @@ def rate_words(rate: float, noun: str) -> str:
     from carom.studies.wording import number  # it loads the kernels
 
     return f"{number(rate, 3)} {noun}/s"
-
-
-def duration_words(seconds: float) -> str:
-    """Write a time, with a unit that suits it."""
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    if seconds < 5400:
-        return f"{seconds / 60:.0f} min"
-    return f"{seconds / 3600:.1f} h" if seconds < 172_800 else f"{seconds / 86_400:.1f} days"
 
 
 @shows_progress
