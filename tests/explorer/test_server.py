@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 import socket
 import threading
 from contextlib import contextmanager
@@ -21,7 +22,8 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
 from carom.explorer import server as servers
-from carom.explorer.server import Explorer
+from carom.explorer.page.session import Session
+from carom.explorer.server import WATCH, Explorer
 
 MACHINE = str(Path(__file__).parents[2] / "examples" / "keogh-cole.toml")
 
@@ -116,3 +118,23 @@ def test_stopping_ends_the_work_of_every_page():
     for thread in working:
         thread.join(30.0)
         assert not thread.is_alive()
+
+
+def test_a_page_that_is_closed_stops_its_work(monkeypatch):
+    dropped = threading.Event()
+    monkeypatch.setattr(Session, "drop_work", lambda self: dropped.set())
+    with serving() as (explorer, run):
+        page = status(run, explorer.address).body.decode()
+        token = re.search(r'"token":"([^"]+)"', page)[1]
+        address = explorer.address.replace("http", "ws") + "ws"
+        origin = explorer.address.rstrip("/")
+        connection = run(
+            websocket_connect(HTTPRequest(address, headers={"Origin": origin}), subprotocols=["bokeh", token])
+        )
+        run(connection.read_message())
+        dropped.clear()
+        run(asyncio.sleep(3 * WATCH / 1000))
+        assert not dropped.is_set()
+        connection.close()
+        run(asyncio.to_thread(dropped.wait, 60.0))
+        assert dropped.is_set()

@@ -19,7 +19,7 @@ from bokeh.server.server import BaseServer
 from bokeh.server.tornado import BokehTornado
 from tornado.httpserver import HTTPServer
 from tornado.httputil import HTTPServerRequest
-from tornado.ioloop import IOLoop
+from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.web import ErrorHandler, RequestHandler
 
 from carom.explorer.computing.exports import Origin
@@ -35,8 +35,8 @@ HERE = "127.0.0.1"
 NAMES = (HERE, "localhost")
 """Names under which a browser on this machine asks for the page."""
 PORT = 5006
-LEFT = 10_000
-"""Milliseconds after which a page that was closed is forgotten."""
+LEFT, WATCH = 10_000, 500
+"""Milliseconds after which a page that was closed is forgotten, and between two looks whether one was."""
 
 
 class _Alive(RequestHandler):
@@ -84,10 +84,10 @@ class Explorer:
         self.port = bound.getsockname()[1]
         self.loop = IOLoop.current()
         ready, hosts = threading.Event(), [f"{name}:{self.port}" for name in NAMES]
-        self._sessions: weakref.WeakSet[Session] = weakref.WeakSet()
+        self._sessions: weakref.WeakKeyDictionary[Document, Session] = weakref.WeakKeyDictionary()
 
         def open_page(document: Document) -> None:
-            self._sessions.add(fill(document, origin, ready))
+            self._sessions[document] = fill(document, origin, ready)
 
         application = Application(FunctionHandler(open_page))
         self._tornado = _Tornado(
@@ -102,6 +102,8 @@ class Explorer:
         http.add_socket(bound)
         self._server = BaseServer(self.loop, self._tornado, http)
         self._server.start()
+        self._watch = PeriodicCallback(self._drop_work_of_closed_pages, WATCH)
+        self._watch.start()
         threading.Thread(target=_compile, args=(origin, ready), name="carom compile", daemon=True).start()
 
     @property
@@ -118,10 +120,16 @@ class Explorer:
 
     def stop(self) -> None:
         """Close the port and end all sessions."""
+        self._watch.stop()
         self._server.stop()
         self._server.unlisten()
-        for session in self._sessions:
+        for session in self._sessions.values():
             session.close()
+
+    def _drop_work_of_closed_pages(self) -> None:
+        for page in self._server.get_sessions("/"):
+            if page.connection_count == 0 and page.document in self._sessions:
+                self._sessions[page.document].drop_work()
 
 
 def serve(origin: Origin, port: int = PORT, *, browser: bool = True, tell: Callable[[str], None] = print) -> None:

@@ -135,6 +135,11 @@ class Session:
         if wish.get("chosen"):
             self._answer("exports", self._exports())
 
+    def drop_work(self) -> None:
+        """Interrupt all work: nobody looks at the page."""
+        self._quick.drop()
+        self._long.drop()
+
     def cancel(self) -> None:
         """Interrupt what takes long."""
         self._long.drop()

@@ -1,6 +1,6 @@
 "use strict";
 // Parts of the page share this object; nothing else is global.
-const carom = { looks: window.carom_looks, parts: [], wishes: null, answers: null };
+const carom = { looks: window.carom_looks, parts: [], wishes: null, begun: null };
 const at = (id) => document.getElementById(id);
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const clamp = (value, low, high) => Math.min(high, Math.max(low, value));

@@ -1,7 +1,7 @@
 // Answers of the server go to the part that shows them.
 carom.begin = (wishes, answers, parts, plots) => {
   carom.wishes = wishes;
-  carom.answers = answers;
+  carom.begun = { answers, parts, plots };
   carom.begin_plots(parts, plots);
   const shows = {
     state: [carom.panels.state], problem: [carom.controls.problem], basin: [carom.basin.show, carom.panels.basin], flight: [carom.flight.show],

@@ -1,0 +1,304 @@
+"""The page in a real browser: loaded, dragged, clicked, typed into, copied from, restarted, and attacked."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+import carom
+
+pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
+pytest.importorskip("playwright", reason="needs playwright for Python")
+
+from playwright.sync_api import expect, sync_playwright
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+pytestmark = [
+    pytest.mark.skipif(BROWSER is None, reason="no chromium, chromium-browser or google-chrome on the PATH"),
+    pytest.mark.jit_only,
+]
+OPTIONS = (
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    # Other names lead to this machine, as those of an attacker can.
+    "--host-resolver-rules=MAP evil.test 127.0.0.1",
+)
+PROGRAM = """
+import sys
+from types import SimpleNamespace
+from carom.cli import main
+from carom.explorer.page import session
+session.judge = lambda case, tell: SimpleNamespace(headline="A study takes seconds; it has tests of its own.")
+sys.exit(main(["explore", *sys.argv[1:]]))
+"""
+MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+SOON = 120_000
+"""Milliseconds after which the page is taken to hang; nothing is judged by how long it takes."""
+
+
+@contextmanager
+def served(port: int = 0):
+    """Run the program; yield the process and the address it prints."""
+    command = [sys.executable, "-c", PROGRAM, str(MACHINE), "--no-browser", "--port", str(port)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            address = process.stdout.readline().strip()
+            assert address.startswith("http://127.0.0.1:"), process.stderr.read()
+            yield process, address
+        finally:
+            process.terminate()
+            process.communicate()
+
+
+@pytest.fixture(scope="module")
+def address():
+    with served() as (_, found):
+        yield found
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=BROWSER, args=list(OPTIONS))
+        yield started
+        started.close()
+
+
+@pytest.fixture
+def opened(browser, address):
+    """Open a page, and after the test see that no script of it has failed."""
+    context = browser.new_context(
+        viewport={"width": 1280, "height": 900}, permissions=["clipboard-read", "clipboard-write"]
+    )
+    context.set_default_timeout(SOON)
+    wrong: list[str] = []
+
+    def go(path: str = "", where: str = address):
+        page = context.new_page()
+        page.on("pageerror", lambda problem: wrong.append(str(problem)))
+        page.goto(where + path)
+        answered(page, "basin")
+        return page
+
+    yield go
+    context.close()
+    assert wrong == []
+
+
+def answered(page, name: str, number: int = 1) -> None:
+    """Wait until the page shows an answer about its machine of this number or a later one."""
+    page.wait_for_function("([name, number]) => +document.documentElement.dataset[name] >= number", arg=[name, number])
+
+
+def said(page, expression: str):
+    return page.evaluate(f"() => {expression}")
+
+
+def drag(page, name: str, shares: tuple[float, ...]) -> None:
+    """Drag a slider to shares of its length, one after another, and let it go at the last."""
+    slider = page.locator(f'[data-name="{name}"] .slider')
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    places = [(box["x"] + 9 + share * (box["width"] - 18), box["y"] + box["height"] / 2) for share in shares]
+    value = float(slider.input_value()) / 1000
+    page.mouse.move(box["x"] + 9 + value * (box["width"] - 18), places[0][1])
+    page.mouse.down()
+    for place in places:
+        page.mouse.move(*place)
+        page.wait_for_timeout(30)
+    page.mouse.up()
+
+
+def painted(page, canvas: str) -> int:
+    """Number of colours on a canvas."""
+    return said(
+        page,
+        f"(() => {{ const canvas = document.getElementById('{canvas}');"
+        "const data = new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer);"
+        "return new Set(data).size; })()",
+    )
+
+
+def test_it_loads_and_shows_the_machine(opened):
+    page = opened()
+    expect(page).to_have_title("keogh-cole – carom explore")
+    answered(page, "table")
+    basin = carom.map_basins(carom.load(MACHINE), carom.Grid(carom.disturbances.KickPlane(), (120, 120)))
+    page.wait_for_function("() => carom.basin.message.size === 120")
+    assert said(page, "document.getElementById('share').textContent") == f"{100 * basin.share_recovered.fraction:.3g} %"
+    assert page.locator("#legend li").count() == len(basin.motions) + 1
+    assert page.locator("#motions tbody tr").count() >= 7
+    assert painted(page, "basin") > len(basin.motions)
+    assert painted(page, "clearance") > 4
+
+
+def test_dragging_a_slider_moves_the_basin_and_letting_go_refines_it(opened):
+    page = opened()
+    drag(page, "damping", (0.55, 0.65, 0.75, 0.85))
+    number = said(page, "carom.number")
+    assert number > 2
+    answered(page, "basin", number)
+    page.wait_for_function("() => carom.basin.message.size === 120")
+    value = said(page, "carom.controls.value('damping')")
+    case = carom.load(MACHINE, [f"damping={value} N s/m"])
+    basin = carom.map_basins(case, carom.Grid(carom.disturbances.KickPlane(), (120, 120)))
+    assert said(page, "document.getElementById('share').textContent") == f"{100 * basin.share_recovered.fraction:.3g} %"
+    answered(page, "diagram", number)
+    assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-12)
+
+
+def test_pointing_and_clicking_fly_the_kick(opened):
+    page = opened()
+    box = page.locator("#basin").bounding_box()
+    page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.3 * box["height"])
+    page.wait_for_function("() => carom.flight.message.kick.radial > 0.4 && carom.flight.message.kick.tangential > 0.2")
+    kick, first = (
+        said(page, "carom.flight.message.kick"),
+        said(page, "document.getElementById('flight-words').textContent"),
+    )
+    assert kick == said(page, "carom.basin.kick")
+    page.mouse.move(box["x"] + 0.2 * box["width"], box["y"] + 0.8 * box["height"])
+    page.wait_for_function("() => carom.flight.message.kick.radial < 0")
+    assert said(page, "document.getElementById('flight-words').textContent") != first
+    page.wait_for_function("() => carom.flight.now > 0")
+    answered(page, "exports", 0)
+
+
+def test_arrow_keys_move_the_kick(opened):
+    page = opened()
+    before = said(page, "carom.basin.kick.radial")
+    page.locator("#basin").focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("before => carom.flight.message.kick.radial > before", arg=before)
+
+
+@pytest.mark.parametrize(
+    ("kind", "part"), [("toml", "damping = "), ("options", "--set 'damping=2500 N s/m'"), ("python", "cm.map_basins(")]
+)
+def test_the_machine_is_copied(opened, kind, part):
+    page = opened()
+    page.locator("#box-damping").fill("2500")
+    page.keyboard.press("Enter")
+    page.wait_for_function("() => carom.panels.exports.options.includes('2500')")
+    page.locator(f'[data-copy="{kind}"]').click()
+    expect(page.locator("#copied")).to_contain_text("is in the clipboard")
+    assert part in said(page, "navigator.clipboard.readText()")
+
+
+def test_without_a_clipboard_the_text_is_selected(opened):
+    page = opened()
+    said(page, "(navigator.clipboard.writeText = () => Promise.reject(new Error('no')), 0)")
+    page.wait_for_function("() => carom.panels.exports")
+    page.locator('[data-copy="toml"]').click()
+    expect(page.locator("#copy-text")).to_be_visible()
+    assert said(page, "document.getElementById('copy-text').value").startswith("[machine]")
+
+
+def test_a_wrong_value_is_one_line_and_the_page_goes_on(opened):
+    page = opened()
+    page.locator("#box-damping").fill("a lot <b>")
+    page.keyboard.press("Enter")
+    problem = page.locator("#problem")
+    expect(problem).to_be_visible()
+    assert problem.inner_text().startswith("damping = a lot <b>: must be a damping in N s/m, ")
+    assert "wrong" in page.locator("#box-damping").get_attribute("class")
+    page.locator("#box-damping").fill("3.5e3")
+    page.keyboard.press("Enter")
+    expect(problem).to_be_hidden()
+    answered(page, "basin", said(page, "carom.number"))
+    page.locator("#reset").click()
+    expect(page.locator("#box-damping")).to_have_value("1400")
+
+
+def test_two_pages_are_independent(opened):
+    first, second = opened(), opened()
+    second.locator("#box-damping").fill("6000")
+    second.keyboard.press("Enter")
+    answered(second, "basin", 2)
+    assert said(second, "document.getElementById('share').textContent") == "100 %"
+    assert said(first, "document.getElementById('share').textContent") != "100 %"
+    assert said(first, "carom.number") == 1
+
+
+def test_what_was_set_is_in_the_address(opened):
+    page = opened("#damping=6000+N+s%2Fm&friction=0.1")
+    assert said(page, "document.getElementById('share').textContent") == "100 %"
+    expect(page.locator("#box-damping")).to_have_value("6000")
+    expect(page.locator("#box-friction")).to_have_value("0.1")
+
+
+@pytest.mark.parametrize("width", [390, 700, 1280])
+def test_nothing_is_wider_than_the_screen(opened, width):
+    page = opened()
+    page.set_viewport_size({"width": width, "height": 844})
+    answered(page, "table")
+    assert said(page, "document.documentElement.scrollWidth") <= width
+    for name in ("basin", "clearance"):
+        box = page.locator(f"#{name}").bounding_box()
+        assert box["width"] >= min(250, width - 60)
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= width
+
+
+def test_motion_can_be_left_out(browser, address):
+    context = browser.new_context(reduced_motion="reduce")
+    page = context.new_page()
+    page.goto(address)
+    answered(page, "flight")
+    page.wait_for_function("() => carom.flight.now === carom.flight.message.times.at(-1)", timeout=SOON)
+    context.close()
+
+
+def test_light_and_dark(browser, address):
+    seen = []
+    for scheme in ("light", "dark"):
+        context = browser.new_context(color_scheme=scheme)
+        page = context.new_page()
+        page.goto(address)
+        answered(page, "basin")
+        seen.append(
+            said(
+                page,
+                "[getComputedStyle(document.body).backgroundColor, carom.begun.plots.history.left[0].axis_label_text_color]",
+            )
+        )
+        context.close()
+    assert seen[0][0] != seen[1][0]
+    assert seen[0][1] != seen[1][1]
+
+
+def test_a_server_that_stops_and_comes_back(opened, address):
+    with served() as (first, where):
+        page = opened("#damping=6000+N+s%2Fm", where)
+        first.terminate()
+        first.wait()
+        expect(page.locator("#gone")).to_be_visible(timeout=SOON)
+        assert "has stopped" in page.locator("#gone").inner_text()
+        with served(int(where.rstrip("/").rpartition(":")[2])):
+            page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
+            assert said(page, "document.getElementById('share').textContent") == "100 %"
+
+
+def test_a_foreign_page_gets_nothing(browser, address):
+    context = browser.new_context()
+    page = context.new_page()
+    refused = page.goto(address.replace("127.0.0.1", "evil.test"))
+    assert refused.status == 403
+    # On a page of its own, an attacker reaches neither the page nor the connection.
+    page.route("http://attacker.test/*", lambda route: route.fulfill(body="<p>hello</p>", content_type="text/html"))
+    page.goto("http://attacker.test/")
+    assert said(page, f"fetch('{address}').then(() => 'read', () => 'refused')") == "refused"
+    socket = address.replace("http", "ws") + "ws"
+    opening = f"new Promise(done => {{ const s = new WebSocket('{socket}'); s.onopen = () => done('open'); s.onerror = () => done('refused'); }})"
+    assert said(page, opening) == "refused"
+    context.close()
