@@ -42,6 +42,7 @@ session.judge = lambda case, tell: SimpleNamespace(headline="A study takes secon
 sys.exit(main(["explore", *sys.argv[1:]]))
 """
 MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
+DESK = {"width": 1280, "height": 900}
 SOON = 120_000
 """Milliseconds after which the page is taken to hang; nothing is judged by how long it takes."""
 
@@ -74,12 +75,10 @@ def browser():
         started.close()
 
 
-@pytest.fixture
-def opened(browser, address):
-    """Open a page, and after the test see that no script of it has failed."""
-    context = browser.new_context(
-        viewport={"width": 1280, "height": 900}, permissions=["clipboard-read", "clipboard-write"]
-    )
+@pytest.fixture(scope="module")
+def open_page(browser, address):
+    """Open a page; at the end see that no script of any has failed."""
+    context = browser.new_context(viewport=DESK, permissions=["clipboard-read", "clipboard-write"])
     context.set_default_timeout(SOON)
     wrong: list[str] = []
 
@@ -93,6 +92,20 @@ def opened(browser, address):
     yield go
     context.close()
     assert wrong == []
+
+
+@pytest.fixture(scope="module")
+def one_page(open_page):
+    return open_page()
+
+
+@pytest.fixture
+def page(one_page):
+    """The page as it is after loading; the tests share it, because loading takes seconds on a busy machine."""
+    one_page.bring_to_front()
+    one_page.locator("#reset").click()
+    answered(one_page, "basin", said(one_page, "carom.number"))
+    return one_page
 
 
 def answered(page, name: str, number: int = 1) -> None:
@@ -129,8 +142,7 @@ def painted(page, canvas: str) -> int:
     )
 
 
-def test_it_loads_and_shows_the_machine(opened):
-    page = opened()
+def test_it_loads_and_shows_the_machine(page):
     expect(page).to_have_title("keogh-cole – carom explore")
     answered(page, "table")
     basin = carom.map_basins(carom.load(MACHINE), carom.Grid(carom.disturbances.KickPlane(), (120, 120)))
@@ -142,8 +154,7 @@ def test_it_loads_and_shows_the_machine(opened):
     assert painted(page, "clearance") > 4
 
 
-def test_dragging_a_slider_moves_the_basin_and_letting_go_refines_it(opened):
-    page = opened()
+def test_dragging_a_slider_moves_the_basin_and_letting_go_refines_it(page):
     drag(page, "damping", (0.55, 0.65, 0.75, 0.85))
     number = said(page, "carom.number")
     assert number > 2
@@ -157,8 +168,7 @@ def test_dragging_a_slider_moves_the_basin_and_letting_go_refines_it(opened):
     assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-12)
 
 
-def test_pointing_and_clicking_fly_the_kick(opened):
-    page = opened()
+def test_pointing_and_clicking_fly_the_kick(page):
     box = page.locator("#basin").bounding_box()
     page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.3 * box["height"])
     page.wait_for_function("() => carom.flight.message.kick.radial > 0.4 && carom.flight.message.kick.tangential > 0.2")
@@ -174,8 +184,7 @@ def test_pointing_and_clicking_fly_the_kick(opened):
     answered(page, "exports", 0)
 
 
-def test_arrow_keys_move_the_kick(opened):
-    page = opened()
+def test_arrow_keys_move_the_kick(page):
     before = said(page, "carom.basin.kick.radial")
     page.locator("#basin").focus()
     page.keyboard.press("ArrowRight")
@@ -185,8 +194,7 @@ def test_arrow_keys_move_the_kick(opened):
 @pytest.mark.parametrize(
     ("kind", "part"), [("toml", "damping = "), ("options", "--set 'damping=2500 N s/m'"), ("python", "cm.map_basins(")]
 )
-def test_the_machine_is_copied(opened, kind, part):
-    page = opened()
+def test_the_machine_is_copied(page, kind, part):
     page.locator("#box-damping").fill("2500")
     page.keyboard.press("Enter")
     page.wait_for_function("() => carom.panels.exports.options.includes('2500')")
@@ -195,8 +203,7 @@ def test_the_machine_is_copied(opened, kind, part):
     assert part in said(page, "navigator.clipboard.readText()")
 
 
-def test_without_a_clipboard_the_text_is_selected(opened):
-    page = opened()
+def test_without_a_clipboard_the_text_is_selected(page):
     said(page, "(navigator.clipboard.writeText = () => Promise.reject(new Error('no')), 0)")
     page.wait_for_function("() => carom.panels.exports")
     page.locator('[data-copy="toml"]').click()
@@ -204,8 +211,7 @@ def test_without_a_clipboard_the_text_is_selected(opened):
     assert said(page, "document.getElementById('copy-text').value").startswith("[machine]")
 
 
-def test_a_wrong_value_is_one_line_and_the_page_goes_on(opened):
-    page = opened()
+def test_a_wrong_value_is_one_line_and_the_page_goes_on(page):
     page.locator("#box-damping").fill("a lot <b>")
     page.keyboard.press("Enter")
     problem = page.locator("#problem")
@@ -220,26 +226,27 @@ def test_a_wrong_value_is_one_line_and_the_page_goes_on(opened):
     expect(page.locator("#box-damping")).to_have_value("1400")
 
 
-def test_two_pages_are_independent(opened):
-    first, second = opened(), opened()
+def test_two_pages_are_independent(page, open_page):
+    before, second = said(page, "carom.number"), open_page()
     second.locator("#box-damping").fill("6000")
     second.keyboard.press("Enter")
     answered(second, "basin", 2)
     assert said(second, "document.getElementById('share').textContent") == "100 %"
-    assert said(first, "document.getElementById('share').textContent") != "100 %"
-    assert said(first, "carom.number") == 1
+    assert said(page, "document.getElementById('share').textContent") != "100 %"
+    assert said(page, "carom.number") == before
+    second.close()
 
 
-def test_what_was_set_is_in_the_address(opened):
-    page = opened("#damping=6000+N+s%2Fm&friction=0.1")
+def test_what_was_set_is_in_the_address(open_page):
+    page = open_page("#damping=6000+N+s%2Fm&friction=0.1")
     assert said(page, "document.getElementById('share').textContent") == "100 %"
     expect(page.locator("#box-damping")).to_have_value("6000")
     expect(page.locator("#box-friction")).to_have_value("0.1")
+    page.close()
 
 
 @pytest.mark.parametrize("width", [390, 700, 1280])
-def test_nothing_is_wider_than_the_screen(opened, width):
-    page = opened()
+def test_nothing_is_wider_than_the_screen(page, width):
     page.set_viewport_size({"width": width, "height": 844})
     answered(page, "table")
     assert said(page, "document.documentElement.scrollWidth") <= width
@@ -248,38 +255,30 @@ def test_nothing_is_wider_than_the_screen(opened, width):
         assert box["width"] >= min(250, width - 60)
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= width
+    page.set_viewport_size(DESK)
 
 
-def test_motion_can_be_left_out(browser, address):
-    context = browser.new_context(reduced_motion="reduce")
-    page = context.new_page()
-    page.goto(address)
-    answered(page, "flight")
-    page.wait_for_function("() => carom.flight.now === carom.flight.message.times.at(-1)", timeout=SOON)
-    context.close()
+def test_motion_can_be_left_out(page):
+    page.emulate_media(reduced_motion="reduce")
+    page.locator("#replay").click()
+    assert said(page, "carom.flight.now === carom.flight.message.times.at(-1)")
+    page.emulate_media(reduced_motion="no-preference")
 
 
-def test_light_and_dark(browser, address):
-    seen = []
-    for scheme in ("light", "dark"):
-        context = browser.new_context(color_scheme=scheme)
-        page = context.new_page()
-        page.goto(address)
-        answered(page, "basin")
-        seen.append(
-            said(
-                page,
-                "[getComputedStyle(document.body).backgroundColor, carom.begun.plots.history.left[0].axis_label_text_color]",
-            )
-        )
-        context.close()
-    assert seen[0][0] != seen[1][0]
-    assert seen[0][1] != seen[1][1]
+def test_light_and_dark(page):
+    colours = (
+        "[getComputedStyle(document.body).backgroundColor, carom.begun.plots.history.left[0].axis_label_text_color]"
+    )
+    light = said(page, colours)
+    page.emulate_media(color_scheme="dark")
+    page.wait_for_function(f"light => {colours}.every((one, place) => one !== light[place])", arg=light)
+    page.emulate_media(color_scheme="light")
+    page.wait_for_function(f"light => {colours}.every((one, place) => one === light[place])", arg=light)
 
 
-def test_a_server_that_stops_and_comes_back(opened, address):
+def test_a_server_that_stops_and_comes_back(open_page):
     with served() as (first, where):
-        page = opened("#damping=6000+N+s%2Fm", where)
+        page = open_page("#damping=6000+N+s%2Fm", where)
         first.terminate()
         first.wait()
         expect(page.locator("#gone")).to_be_visible(timeout=SOON)
@@ -287,6 +286,7 @@ def test_a_server_that_stops_and_comes_back(opened, address):
         with served(int(where.rstrip("/").rpartition(":")[2])):
             page.wait_for_function("() => document.getElementById('gone').hidden && carom.basin && carom.basin.message")
             assert said(page, "document.getElementById('share').textContent") == "100 %"
+        page.close()
 
 
 def test_a_foreign_page_gets_nothing(browser, address):
