@@ -23,6 +23,7 @@ from carom.parameters import (
     Machine,
 )
 from carom.parameters.quantities import read_decimal
+from carom.parameters.terms import field_to_vary
 
 REAL = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 PLAIN = {
@@ -371,6 +372,17 @@ def test_other_names_suggest_the_right_one(written, meant):
         machine("eccentricity", **{written: 3})
 
     assert f"did you mean {meant}?" in caught.value.errors[0].allowed
+
+
+def test_a_term_to_vary_names_the_parameter_it_stands_for():
+    error = error_of(lambda: field_to_vary("proportional_gain"))
+
+    assert str(error).startswith("proportional_gain = to vary: stands for stiffness = magnetic_bearings (")
+    assert error.allowed.endswith("; use stiffness here")
+    unbalance = error_of(lambda: Machine(**PLAIN).parameters.replace(unbalance="3 g mm"))
+    assert str(unbalance) == "unbalance = 3 g mm: stands for eccentricity = unbalance/mass; use eccentricity here"
+    assert field_to_vary("stiffness") is MACHINE_FIELDS["stiffness"]
+    assert "did you mean stiffness?" in error_of(lambda: field_to_vary("stifness")).allowed
 
 
 def test_every_entry_of_a_machine_is_described():

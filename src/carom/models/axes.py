@@ -9,7 +9,7 @@ from carom.models.model import Model
 from carom.models.subjects import Subject, model_of
 from carom.outcome import InputError
 from carom.parameters import Field, field_to_vary, read_quantity
-from carom.parameters.fields import no_such_parameter
+from carom.parameters.terms import no_such_parameter
 
 Ends = tuple[float | str, float | str]
 """Both ends of a range: numbers, in SI units if the parameter is physical, or text such as ``"300 N s/m"``."""

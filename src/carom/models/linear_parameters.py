@@ -22,7 +22,7 @@ import numpy as np
 
 from carom.outcome import InputError, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Numbers, read_quantity
-from carom.parameters.fields import no_such_parameter
+from carom.parameters.terms import no_such_parameter
 
 if TYPE_CHECKING:
     from carom.models.linear import LinearRotor

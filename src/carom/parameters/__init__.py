@@ -21,7 +21,6 @@ from carom.parameters.fields import (
     PARAMETERS,
     PHYSICAL_PARTNER,
     Field,
-    field_to_vary,
     unknown_name,
 )
 from carom.parameters.machine import Machine
@@ -30,7 +29,7 @@ from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import UNITS, Parameters, Scales
 from carom.parameters.sizes import Size, read_size
-from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set
+from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
 
 __all__ = [
     "DIMENSIONLESS_FIELDS",

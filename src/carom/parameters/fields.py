@@ -278,21 +278,6 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
     return InputError(shown(name), shown(given), f"unknown name in {where}; {advice}allowed: {', '.join(known)}")
 
 
-def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has_scales: bool) -> InputError:
-    """Error for a parameter that a rotor does not have: an unknown one, or a physical one without scales."""
-    if has_scales or name not in MACHINE_FIELDS:
-        return unknown_name(name, given, varied, "the parameters")
-    allowed = f"not a parameter here ({', '.join(varied)}), as mass, clearance and speed are not known"
-    return InputError(name, shown(given), allowed)
-
-
-def field_to_vary(name: str) -> Field:
-    """Field of a parameter of the planar rotor."""
-    if name not in PARAMETERS:
-        raise unknown_name(name, "to vary", PARAMETERS, "the parameters")
-    return PARAMETERS[name]
-
-
 def name_errors(
     table: Mapping[str, object],
     fields: Mapping[str, Field],

@@ -185,7 +185,7 @@ class _Work:
         for name, users in _USERS.items():
             default = name in DEFAULTS and self.values[name] == DEFAULTS[name]
             if name in self.entries and not default and present.isdisjoint(users):
-                allowed = f"has no effect without {' or '.join(users)}; leave it out or give one of them"
+                allowed = f"has no effect without {' or '.join(users)}"
                 self.problems.errors.append(InputError(name, shown(self.entries[name]), allowed))
         for name in _OF_CURRENT if "current_limit" in self.values else ():
             if name not in self.values:

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.outcome import InputError, shown
-from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Field, no_such_parameter
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PARAMETERS, Field
 from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
+from carom.parameters.terms import no_such_parameter
 
 UNITS = {
     "mass": ("m", "kg"),

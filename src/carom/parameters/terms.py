@@ -214,6 +214,30 @@ def set_by(name: str) -> str:
     return TERMS[name].sets if name in TERMS else PHYSICAL_PARTNER.get(name, name)
 
 
+def field_to_vary(name: str) -> Field:
+    """Field of a parameter of the planar rotor.
+
+    Raises
+    ------
+    InputError
+        There is no such parameter, or it is an entry that stands for one.
+    """
+    if name not in PARAMETERS:
+        raise no_such_parameter(name, "to vary", PARAMETERS, has_scales=True)
+    return PARAMETERS[name]
+
+
+def no_such_parameter(name: str, given: object, varied: Mapping[str, Field], has_scales: bool) -> InputError:
+    """Error for a parameter that a rotor does not have: an unknown one, a term, or a physical one without scales."""
+    if name in TERMS and TERMS[name].sets in varied:
+        field, formula, *_ = TERMS[name]
+        return InputError(name, shown(given), f"stands for {field} = {formula}; use {field} here")
+    if has_scales or name not in MACHINE_FIELDS:
+        return unknown_name(name, given, varied, "the parameters")
+    allowed = f"not a parameter here ({', '.join(varied)}), as mass, clearance and speed are not known"
+    return InputError(name, shown(given), allowed)
+
+
 def field_to_set(name: str) -> Field:
     """Field of anything that a setting, or an axis of a sweep, may change."""
     if name not in SETTABLE:
