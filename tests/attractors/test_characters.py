@@ -12,6 +12,7 @@ from carom.attractors.characters import character_of, lasting_of
 from carom.attractors.survival import Survival
 from carom.models import Jeffcott
 from carom.motions import State, simulate
+from carom.orbits import find_orbits
 from carom.outcome import Outcome
 from tests.compilation import sized
 from tests.machines import PAPER
@@ -48,6 +49,23 @@ def test_chaos_has_an_exponent_that_nearby_motions_confirm_and_is_not_called_an_
     assert rate > 3.0 * error
     value, uncertain = chaos.exponents.across
     assert abs(rate - value) < 5.0 * np.hypot(error, uncertain)
+
+
+def test_the_torus_beside_the_orbit_of_three_impacts():
+    """Two multipliers of that orbit have left the unit circle: the motion turns about it by their angle, and a little more."""
+    machine = PAPER.replace(gamma=0.0918)
+    (orbit,) = (orbit for orbit in find_orbits(machine, impacts=3) if 1.0 < orbit.multipliers.spectral_radius < 1.02)
+    start = State(orbit.departure.position, 1.001 * orbit.departure.velocity)
+    (entry,) = find_attractors(machine, [start], known=False, patience=3000)
+    torus = character_of(machine, entry)
+    assert torus.kind == "torus"
+    assert torus.lasting == "not seen to end"
+    assert torus.rotation.loops == 3
+    turn = abs(np.angle(orbit.multipliers.values[0])) / (2.0 * np.pi)
+    assert abs(torus.rotation.number - min(turn, 1.0 - turn)) < 0.02
+    # Two exponents vanish on a torus.
+    assert np.abs(torus.rates[:2]).max() < 1e-3
+    assert torus.rates[2] < -1e-3
 
 
 def test_periodic_ones_close_and_attract_whatever_their_word():

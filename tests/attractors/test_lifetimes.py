@@ -79,8 +79,9 @@ def test_what_is_not_seen_to_end_is_not_called_an_attractor():
 
 
 def test_short_lives_and_periodic_ends_have_words_of_their_own():
-    assert lived(np.full(50, 20.0)).verdict == "none"
-    assert "more than 100 impacts" in lived(np.full(50, 20.0)).words
+    assert lived(np.full(50, 20.0)).verdict == "too few"
+    assert "None of 50 motions bounced irregularly for more than 100 impacts" in lived(np.full(50, 20.0)).words
+    assert lived(np.array([20.0] * 50 + [300.0] * 9)).verdict == "too few"
     periodic = lived(exponential(3, 500.0), end="2-impact bouncing")
     assert periodic.verdict == "periodic"
     assert "to periodic bouncing" in periodic.words

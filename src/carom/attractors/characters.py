@@ -140,16 +140,21 @@ def _irregular(
         words = f"Nearby motions approach each other ({told}), but no orbit of up to {LONGEST} impacts was found there."
     elif rotation.regular and not exponents.positive and exponents.lost <= 2 * len(rotor.system.exponents) - 2:
         if rotation.locked:
-            words = f"Its rotation number is {rotation.nearest}, but it has not repeated: {told}."
+            words = f"Its rotation number is {rotation.nearest}, but no orbit closes there: {told}."
         else:
             kind = "torus"
             words = (
                 f"Averages over both halves agree to {rotation.digits:.0f} digits and nearby motions do not separate ({told}); "
-                f"rotation number {rotation.number:.10g}, up to a whole multiple."
+                f"{_curves(rotation)}."
             )
     return Character(
         kind, words, lasting_of(attractor.survival), exponents=exponents, rates=exponents.values, rotation=rotation
     )
+
+
+def _curves(rotation: Rotation) -> str:
+    curves = "one closed curve" if rotation.loops == 1 else f"{rotation.loops} closed curves in turn"
+    return f"the impacts lie on {curves}, rotation number {rotation.number:.9g} up to a whole multiple"
 
 
 def lasting_of(survival: Survival | None) -> Lasting:

@@ -21,7 +21,7 @@ from carom.motions.starts import Kick, State, check_whole
 from carom.outcome import InputError, Outcome
 from carom.results import Result
 
-Verdict = Literal["none", "periodic", "not seen to end", "undecided", "transient"]
+Verdict = Literal["too few", "periodic", "not seen to end", "undecided", "transient"]
 
 COUNT = 200
 FORGOTTEN = 100
@@ -30,6 +30,8 @@ FORGOTTEN = 100
 Added to these is the length of a chatter, whose bounces are counted too: about ``CHATTER/|ln d|``.
 """
 CHATTER = 15.0
+FEWEST = 10
+"""Motions from which on a half-life means something."""
 ENOUGH = 5.0
 """Half-lives after which the motions that are left are taken for late ones, not for an attractor: 1 in 32 lasts longer."""
 UNEVEN = 0.01
@@ -134,14 +136,14 @@ class Lifetimes(Result):
     def verdict(self) -> Verdict:
         """What the statistics say of irregular bouncing.
 
-        ``"none"``, ``"periodic"``: no motion was irregular for longer than the forgotten impacts, or none that did not
-        become periodic.  ``"not seen to end"``: none ended; this is no proof that none does.  ``"transient"``: all ended, or
+        ``"too few"``: fewer than ten motions were irregular for longer than the forgotten impacts.  ``"periodic"``: all that
+        were became periodic.  ``"not seen to end"``: none ended; this is no proof that none does.  ``"transient"``: all ended, or
         they were followed for more than five half-lives and ended at a constant rate.  ``"undecided"``: transient or
         attractor.
         """
         among = self.impacts > self.forgotten
-        if not among.any():
-            return "none"
+        if np.count_nonzero(among) < FEWEST:
+            return "too few"
         if not (self.ended & among).any():
             return "not seen to end"
         if self.ended[among].all():
@@ -156,8 +158,11 @@ class Lifetimes(Result):
         """The verdict, and the numbers behind it, in a sentence or two."""
         survival, verdict = self.survival, self.verdict
         low, high = (f"{bound:,.3g}" for bound in survival.interval)
-        if verdict == "none":
-            return f"No motion bounced irregularly for more than {self.forgotten} impacts."
+        if verdict == "too few":
+            return (
+                f"{survival.motions or 'None'} of {len(self)} motions bounced irregularly for more than {self.forgotten} impacts: "
+                "too few to tell how long such motion lasts."
+            )
         told = f"{survival.died} of {survival.motions} motions ended within {self.followed:,} impacts"
         if survival.half_life is None:
             return f"{told}: not seen to end. If it is a transient, its half-life is above {low} impacts (95 %)."

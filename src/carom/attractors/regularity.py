@@ -15,7 +15,9 @@ For 10,000 states of an irregular sequence they agree to about two digits.
 LOCKED = 1e-9
 """Distance from a fraction with a small denominator below which a rotation number counts as locked."""
 DENOMINATOR = 64
-REFINED = 60
+REFINED = 40
+STILL = 1e-9
+"""Relative size below which states do not vary."""
 
 
 @dataclass(frozen=True)
@@ -26,14 +28,17 @@ class Rotation:
     ----------
     digits : float
         Digits to which weighted averages over the first and the second half agree.
+    loops : int
+        Number of closed curves that the impacts visit in turn; each is met every so many impacts.
     number : float
-        Main frequency of the sequence in turns per impact, between 0 and 1/2: the rotation number of a torus, up to a whole
-        multiple of it.
+        Main frequency on one of the curves, in turns per return to it, between 0 and 1/2: the rotation number of a torus, up
+        to its sign and a whole multiple.
     nearest : Fraction
         The fraction nearest to it with a denominator up to 64.
     """
 
     digits: float
+    loops: int
     number: float
     nearest: Fraction
 
@@ -64,8 +69,12 @@ def rotation_of(states: np.ndarray) -> Rotation:
     weights = _weights(half)
     apart = np.abs(weights @ values[:half] - weights @ values[half : 2 * half]).max()
     digits = float(-np.log10(max(apart, 1e-16)))
-    number = _main_frequency(states[: 2 * half])
-    return Rotation(digits, number, Fraction(number).limit_denominator(DENOMINATOR))
+    # Curves that are visited in turn give a line at a fraction: the rotation is that of every return to one of them.
+    whole = _main_frequency(states)
+    line = Fraction(whole).limit_denominator(DENOMINATOR)
+    loops = line.denominator if abs(whole - float(line)) < LOCKED else 1
+    number = _main_frequency(states[::loops])
+    return Rotation(digits, loops, number, Fraction(number).limit_denominator(DENOMINATOR))
 
 
 def _weights(count: int) -> np.ndarray:
@@ -79,6 +88,8 @@ def _weights(count: int) -> np.ndarray:
 def _main_frequency(states: np.ndarray) -> float:
     """Frequency, between 0 and 1/2, at which the weighted spectrum of the coordinate that varies most is largest."""
     varied = states - states.mean(axis=0)
+    if np.abs(varied).max() < STILL * (1.0 + np.abs(states).max()):
+        return 0.0
     series = varied[:, int(np.argmax(np.abs(varied).std(axis=0)))].real
     weighted = _weights(len(series)) * series
     places = np.arange(len(series))

@@ -79,10 +79,11 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
     times = np.append(motion.segment_starts[1:], motion.time)
     kinds, places = _impact_kinds(motion, first, last).tolist(), np.arange(first, last)
     planes = motion.event_planes[first:last]
+    known = {(kind, plane): Segment(Kind(kind), plane) for kind in set(kinds) for plane in set(planes.tolist())}
     phases = zip(*(motion.segment_phases[places + later, planes].tolist() for later in (0, 1)), strict=True)
     for event, struck, plane, (before, after) in zip(places.tolist(), kinds, planes.tolist(), phases, strict=True):
         if before == after == Phase.FLIGHT:
-            steps.append((Segment(Kind(struck), plane), motion.arrivals[event], float(times[event])))
+            steps.append((known[struck, plane], motion.arrivals[event], float(times[event])))
             continue
         if before == after:
             continue  # a long contact is logged in steps

@@ -136,7 +136,7 @@ class Word(Sequence[Segment]):
     @cached_property
     def flies(self) -> bool:
         """Whether all segments are impacts with the flight after them."""
-        return all(segment.kind.is_impact for segment in self)
+        return bool((self.kinds <= Kind.IMPACT_STOPPED).all())
 
     @property
     def least(self) -> int:
@@ -155,12 +155,12 @@ class Word(Sequence[Segment]):
     @cached_property
     def kinds(self) -> np.ndarray:
         """Kinds as whole numbers, shape (m,)."""
-        return np.array([segment.kind for segment in self], np.int64)
+        return np.fromiter((segment.kind for segment in self), np.int64, len(self))
 
     @cached_property
     def planes(self) -> np.ndarray:
         """Contact planes, shape (m,)."""
-        return np.array([segment.plane for segment in self], np.int64)
+        return np.fromiter((segment.plane for segment in self), np.int64, len(self))
 
     @cached_property
     def targets(self) -> np.ndarray:
@@ -170,6 +170,8 @@ class Word(Sequence[Segment]):
     @cached_property
     def conditions(self) -> np.ndarray:
         """Condition at the end of each segment (:mod:`carom.core.segments`), shape (m,)."""
+        if self.flies:
+            return np.full(len(self), segments.MEETS_WALL)
         return np.array(
             [_condition(*pair) for pair in zip(self, self.segments[1:] + self.segments[:1], strict=True)], np.int64
         )
