@@ -1,14 +1,14 @@
 """
-28. A sudden unbalance
-======================
+28. The loss of a blade
+=======================
 
-A lost blade, or a sleeve that shifts, changes the unbalance at once.  The coordinates are the unbalance before the step.
+The unbalance of the levitating rotor becomes larger at once.  Only the phase of the new unbalance is left to chance: the picture is a ring.
 """
 
 import carom as cm
 
-machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
-step = cm.disturbances.UnbalanceStep.in_si(machine.parameters.scales, 0.4e-3)
-basin = cm.map_basins(machine, cm.Grid(step, (40, 60)))
+machine = cm.load("../keogh-cole.toml", ["eccentricity=0.1 mm"])
+loss = cm.disturbances.BladeLoss.in_si(machine.parameters.scales, 0.22e-3)
+basin = cm.map_basins(machine, cm.Grid(loss, (360,)))
 print(basin.share_recovered.words)
 figure = basin.plot()

@@ -17,8 +17,8 @@ class Reference:
         Kind of the BibTeX entry.
     author : str
         Names as in BibTeX, ``"Family, Given and Family, Given"``.
-    title, year : str
-    journal, booktitle, volume, number, pages, publisher, doi : str
+    title : str
+    year, journal, booktitle, volume, number, pages, publisher, doi : str
         Empty where there is none.
     """
 
@@ -26,7 +26,7 @@ class Reference:
     kind: str
     author: str
     title: str
-    year: str
+    year: str = ""
     journal: str = ""
     booktitle: str = ""
     volume: str = ""
@@ -40,10 +40,11 @@ class Reference:
         """The reference on one line."""
         names = [" ".join(reversed(name.split(", "))) for name in self.author.split(" and ")]
         title = self.title.replace("{", "").replace("}", "")
-        home = " ".join(filter(None, (self.journal or self.booktitle, self.volume)))
+        home = " ".join(filter(None, (self.journal.replace("\\&", "&") or self.booktitle, self.volume)))
         where = ", ".join(filter(None, (home, self.pages.replace("--", "–"), self.publisher)))
         link = f", doi:{self.doi}" if self.doi else ""
-        return f"{_listed(names)}, “{title}”, {f'{where} ' if where else ''}({self.year}){link}."
+        when = f"({self.year})" if self.year else ""
+        return ", ".join(filter(None, (_listed(names), f"“{title}”", f"{where} {when}".strip()))) + f"{link}."
 
     @property
     def bibtex(self) -> str:
@@ -96,6 +97,26 @@ _ALL = (
         doi="10.1098/rspa.2013.0490",
     ),
     Reference(
+        key="api617",
+        kind="techreport",
+        author="{American Petroleum Institute}",
+        title="{API} Standard 617: Axial and centrifugal compressors and expander-compressors",
+    ),
+    Reference(
+        key="benettin1980",
+        kind="article",
+        author="Benettin, Giancarlo and Galgani, Luigi and Giorgilli, Antonio and Strelcyn, Jean-Marie",
+        title=(
+            "{Lyapunov} characteristic exponents for smooth dynamical systems and for {Hamiltonian} systems; a method for "
+            "computing all of them"
+        ),
+        journal="Meccanica",
+        volume="15",
+        pages="9--30",
+        year="1980",
+        doi="10.1007/BF02128236",
+    ),
+    Reference(
         key="brent1980",
         kind="article",
         author="Brent, Richard P.",
@@ -118,6 +139,17 @@ _ALL = (
         pages="404--413",
         year="1934",
         doi="10.1093/biomet/26.4.404",
+    ),
+    Reference(
+        key="das2017",
+        kind="article",
+        author="Das, Suddhasattwa and Saiki, Yoshitaka and Sander, Evelyn and Yorke, James A.",
+        title="Quantitative quasiperiodicity",
+        journal="Nonlinearity",
+        volume="30",
+        pages="4111--4140",
+        year="2017",
+        doi="10.1088/1361-6544/aa84c2",
     ),
     Reference(
         key="daza2016",
@@ -181,6 +213,16 @@ _ALL = (
         volume="33",
         pages="71--86",
         year="2003",
+    ),
+    Reference(
+        key="mueller1995",
+        kind="article",
+        author="Müller, Peter C.",
+        title="Calculation of {Lyapunov} exponents for dynamic systems with discontinuities",
+        journal="Chaos, Solitons \\& Fractals",
+        volume="5",
+        pages="1671--1681",
+        year="1995",
     ),
     Reference(
         key="squire1998",

@@ -58,6 +58,8 @@ class Character(Result):
         Regularity of bouncing that does not repeat; its rotation number if it is a torus.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "das2017")
+
     shown: ClassVar[tuple[str, ...]] = ("kind", "lasting", "words", "rates")
 
     kind: Kind

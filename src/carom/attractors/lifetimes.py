@@ -58,6 +58,8 @@ class Lifetimes(Result):
         Impacts at the beginning that the statistics leave out.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
+
     shown: ClassVar[tuple[str, ...]] = ("rotor", "destinations", "followed", "forgotten", "verdict", "words")
 
     rotor: Model

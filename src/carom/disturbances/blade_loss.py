@@ -33,12 +33,15 @@ class BladeLoss(Disturbance):
 
     See Also
     --------
-    UnbalanceStep : Steps to the unbalance of the machine, from others.
+    carom.disturbances.UnbalanceStep : steps to the unbalance of the machine, from others
 
     Examples
     --------
-    >>> loss = BladeLoss.in_si(machine.scales, 0.05e-3)  # doctest: +SKIP
-    >>> cm.map_basins(machine, cm.Grid(loss, (360,))).share_recovered  # doctest: +SKIP
+    >>> import carom as cm
+    >>> machine = cm.load("examples/keogh-cole.toml", ["eccentricity=0.1 mm"])
+    >>> loss = cm.disturbances.BladeLoss.in_si(machine.parameters.scales, 0.2e-3)
+    >>> cm.map_basins(machine, cm.Grid(loss, (36,))).share_recovered.count
+    18
     """
 
     eccentricity_after: float

@@ -110,6 +110,8 @@ class UnbalanceResponse(Result):
         Ranges of speeds with the same steady motions, :class:`Steady`; their ends are exact.
     """
 
+    rests_on: ClassVar[tuple[str, ...]] = ("api617", "iso14839")
+
     figure: ClassVar[str] = "unbalance_response"
 
     case: Case

@@ -1,0 +1,14 @@
+"""
+38. Vibration over speed
+========================
+
+How far the unbalance throws the rotor at each speed, with the critical speed, the limits of API 617 and ISO 14839-2, and the speeds at which it
+touches.
+"""
+
+import carom as cm
+
+machine = cm.load("../keogh-cole.toml", ["eccentricity=0.1 mm"])
+response = cm.studies.unbalance_response(machine, ("500 rpm", "4000 rpm"))
+print(f"amplification factor {response.contact_free.amplification_factor:.3f}")
+figure = response.plot()

@@ -1,0 +1,19 @@
+"""
+39. Irregular bouncing
+======================
+
+At this damping the orbit of twice the period is unstable and the rotor bounces without repeating itself.  A positive Lyapunov exponent
+says how fast neighbouring motions separate; it does not say that the motion lasts.
+"""
+
+import carom as cm
+
+machine = cm.load("../source-paper.toml", ["gamma=0.082"])
+motion = cm.simulate(machine, cm.State(0.3, 0.5j), settle=True, patience=2000)
+print(motion.outcome.meaning, len(motion.contacts), "impacts")
+exponents = cm.orbits.lyapunov_exponents(machine, motion.final, impacts=2000, transient=200)
+print(exponents.values.round(4), "+-", exponents.errors.round(4))
+
+# %%
+# The last hundred units of time.
+figure = cm.plots.motion(motion, since=motion.time - 100.0)
