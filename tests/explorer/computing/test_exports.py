@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -17,7 +17,7 @@ from carom.explorer.computing.kicks import rest_of
 from carom.models import Jeffcott
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
-KEOGH, PAPER = str(EXAMPLES / "keogh-cole.toml"), str(EXAMPLES / "source-paper.toml")
+KEOGH, PAPER, RIG = (str(EXAMPLES / name) for name in ("keogh-cole.toml", "source-paper.toml", "tum-test-rig.toml"))
 
 
 def origin(path=KEOGH, *settings):
@@ -36,6 +36,12 @@ def shown(given, changes):
         (origin(KEOGH, "gamma=0.1", "mass=40 kg"), {"damping": "2000 N s/m", "friction": "0.2"}),
         (origin(KEOGH, "damping=900 N s/m"), {"damping": "2000"}),
         (origin(PAPER, "d=0.8"), {"gamma": "0.2", "mu": "0.1"}),
+        (origin(KEOGH, "omega=0.8"), {"speed": "1500"}),
+        (origin(KEOGH, "omega=0.8", "damping_ratio=10 %"), {}),
+        (origin(KEOGH, "damping_ratio=10 %"), {"stiffness": "1234567"}),
+        (origin(KEOGH, "unbalance=9000 g mm"), {"eccentricity": "0.2 mm"}),
+        (origin(RIG), {"speed": "1500", "friction": "0.1"}),
+        (origin(RIG, "balance_grade=G 16", "force_current_factor=55 N/A"), {"speed": "1500", "damping": "700"}),
     ],
 )
 def test_options_and_file_lead_to_the_same_machine(given, changes, tmp_path):
@@ -64,7 +70,7 @@ def test_the_program_runs_and_computes_what_is_shown(changes, capsys, monkeypatc
         module = next(
             m
             for m in map(
-                sys.modules.get,
+                import_module,
                 ("carom.basins.classification", "carom.motions.trajectories", "carom.bifurcations.diagrams"),
             )
             if hasattr(m, name)

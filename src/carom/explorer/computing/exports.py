@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 from carom.explorer.computing.controls import Control, controls_of, unit_of, with_unit
 from carom.explorer.computing.kicks import Rest
-from carom.parameters import DIMENSIONLESS_FIELDS, PHYSICAL_PARTNER, Case
+from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Case
+from carom.parameters.terms import set_by
 
 
 @dataclass(frozen=True)
@@ -42,11 +43,28 @@ class Origin:
     def all_settings(self, changes: Mapping[str, str]) -> tuple[str, ...]:
         """``name=value`` for every parameter that differs from the file, those changed on the page last."""
         units = {control.name: control.unit for control in controls_of(self.case)}
-        replaced = set(changes)
-        for own, partner in PHYSICAL_PARTNER.items():
-            replaced |= {own, partner} if own in changes or partner in changes else set()
-        kept = [setting for setting in self.settings if setting.partition("=")[0].strip() not in replaced]
+        moved = {set_by(name) for name in changes}
+        kept = [
+            self._in_si(setting) if changes else setting
+            for setting in self.settings
+            if set_by(_name(setting)) not in moved
+        ]
         return (*kept, *(f"{name}={with_unit(units[name], text)}" for name, text in changes.items()))
+
+    def _in_si(self, setting: str) -> str:
+        """A setting of a dimensionless number or of a term as one of the field that it sets.
+
+        Only such settings mean the same whatever else is set.
+        """
+        name, machine = _name(setting), self.case.machine
+        if machine is None or name == set_by(name):
+            return setting
+        field = MACHINE_FIELDS[set_by(name)]
+        return f"{field.name}={getattr(machine, field.name)!r} {field.unit}".strip()
+
+
+def _name(setting: str) -> str:
+    return setting.partition("=")[0].strip()
 
 
 def as_options(origin: Origin, changes: Mapping[str, str]) -> str:
