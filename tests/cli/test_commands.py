@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from pathlib import Path
 
 import pytest
 from studies import QUICK
@@ -147,6 +148,25 @@ def test_a_lost_blade_is_followed_in_the_machine_after_it(carom, machine):
     assert value["start"]["U"] == pytest.approx([state.position.real, state.position.imag])
     assert value["outcome"] == motion.outcome.label
     assert len(value["impacts"]) == len(motion.contacts)
+
+
+def test_loads_are_compared_with_stated_limits(carom, machine, tmp_path):
+    path = tmp_path / "bearing.toml"
+    text = Path(machine).read_text(encoding="utf-8")
+    path.write_text(f'{text}\n[limits]\nimpulse = "5 N s"\nheat = "1 kJ"\n', encoding="utf-8")
+    value = document(carom("simulate", path, "--kick", "0.1,2", "--json"))
+    _, out, _ = carom("simulate", path, "--kick", "0.1,2")
+
+    impulse, heat = value["limits"]
+    assert (impulse["name"], impulse["limit_si"], impulse["exceeded"]) == ("impulse", 5.0, False)
+    assert impulse["value_si"] == value["loads"]["impulse_si"] < 5.0
+    assert (heat["name"], heat["exceeded"], heat["endless"]) == ("heat", True, True)
+    assert heat["reached_after_si"] == pytest.approx(
+        (1000.0 - value["loads"]["heat_si"]) / value["loads"]["lasting_power_si"]
+    )
+    assert "Heat of friction: 538 J; it goes on with 1.01 kW." in out
+    assert "Normal impulse of an impact: 3.04 N s, limit 5 N s: kept." in out
+    assert "limits" not in document(carom("simulate", machine, "--kick", "0.1,2", "--json"))
 
 
 @pytest.mark.parametrize("options", [("--kick", "0.1"), ("--start", "0,0,0,0")])

@@ -88,7 +88,7 @@ def simulate(
     if as_json:
         from carom.studies import trajectory_document
 
-        print_document(trajectory_document(motion))
+        print_document(trajectory_document(motion, case.limits))
     else:
         from carom.cli.tables import print_motion
 
@@ -112,7 +112,7 @@ def _write(out: str, case: Case, motion: Trajectory, tell: Reporter) -> None:
         touched = len(motion.contacts) or motion.lasting_contacts
         over_time = plots.touchdown(motion, energy_ledger(motion)) if touched else plots.radius(motion, case.zones)
         plots.save(over_time, directory / "figures" / ("touchdown" if touched else "radius"))
-        write_json(directory / "simulation.json", trajectory_document(motion))
+        write_json(directory / "simulation.json", trajectory_document(motion, case.limits))
 
 
 def _read(

@@ -15,9 +15,9 @@ from rich.table import Table
 from rich.text import Text
 
 from carom.cli.fitting import fitted, plain_table
-from carom.motions.trajectories import Trajectory
+from carom.motions import Trajectory, touchdown_loads
 from carom.parameters.indentation import indentation_of_hit
-from carom.studies import Study, Wording
+from carom.studies import Study, Wording, check_loads
 from carom.studies.one_page import recommendation_lines
 from carom.studies.summaries import (
     MotionRow,
@@ -171,6 +171,7 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         hardest = f"Hardest hit: normal impulse {say.impulse(float(log.normal_impulse.max()))}"
         console.print(f"{hardest}{'; ' if soft else ''}{soft}.")
     if len(log) or contacts:
+        _print_loads(console, say, case, motion)
         console.print()
         console.print(fitted(console, _events(say, motion)))
     final = motion.final
@@ -179,6 +180,20 @@ def print_motion(console: Console, case: Case, motion: Trajectory) -> None:
         f"At the end: U = {_complex(final.position)} c_r, U' = {_complex(final.velocity)} c_r Ω (co-rotating frame), "
         f"r = {say.radius(abs(final.position))}"
     )
+
+
+def _print_loads(console: Console, say: Wording, case: Case, motion: Trajectory) -> None:
+    """Print the loads on the touchdown bearing, and the limits that are stated for it."""
+    loads = touchdown_loads(motion)
+    if loads.force > 0.0:
+        console.print(
+            f"Lasting contact: normal force up to {say.force(loads.force)}, friction power up to {say.power(loads.power)}."
+        )
+    goes_on = f"; it goes on with {say.power(loads.lasting_power)}" if loads.lasting_power > 0.0 else ""
+    console.print(f"Heat of friction: {say.energy(loads.heat)}{goes_on}.")
+    for check in check_loads(loads, case.limits):
+        words = f"{check.words[0].upper()}{check.words[1:]}."
+        console.print(Text(words, style="bold" if check.exceeded else ""))
 
 
 def _motions(rows: list[MotionRow], title: str, width: int) -> Table:

@@ -31,6 +31,8 @@ class Known:
     """A neighbourhood of that rub which sliding never leaves."""
     runaway: float = np.inf
     """Speed of backward whirl beyond which sliding certainly goes over to lasting rolling; infinite if there is none."""
+    rolling_force: float = 0.0
+    """Largest normal force over a turn of rolling; 0 where that is not known."""
 
 
 @singledispatch
@@ -44,10 +46,11 @@ def known_of(model: Model) -> Known:
 def _of_planar_rotor(model: Jeffcott) -> Known:
     rub = next((rub for rub in find_equilibria(model) if rub.attracts_sliding), None)
     whirl = runaway_speed(model)
-    rolls = whirl.reaches_rolling and rolling(model).holds
+    rolls = rolling(model)
     return Known(
         rubs=True,
         rub=rub,
         around=neighbourhood_of(model, rub) if rub else None,
-        runaway=whirl.certain * (1.0 + GIVEN_UP) if rolls else np.inf,
+        runaway=whirl.certain * (1.0 + GIVEN_UP) if whirl.reaches_rolling and rolls.holds else np.inf,
+        rolling_force=rolls.largest_force,
     )

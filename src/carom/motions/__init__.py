@@ -7,6 +7,7 @@
 ``ensembles``       many motions, on all cores; only their endings are kept
 ``settling``        the record by which settling is recognised, and the orbit of a settled motion
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
+``loads``           loads of a touchdown: forces, impulses, heat
 ``ledger``          energies of a motion
 ``spectrum``        forward and backward whirl at each multiple of the shaft speed
 ==================  =======================================================================
@@ -15,6 +16,7 @@
 from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
+from carom.motions.loads import TouchdownLoads, touchdown_loads
 from carom.motions.settling import PATIENCE, ClosedOrbit, closed_orbit
 from carom.motions.spectrum import FullSpectrum, full_spectrum
 from carom.motions.starts import Kick, State, kick
@@ -31,6 +33,7 @@ __all__ = [
     "Kick",
     "LastingContact",
     "State",
+    "TouchdownLoads",
     "Trajectory",
     "closed_orbit",
     "energy_ledger",
@@ -38,4 +41,5 @@ __all__ = [
     "kick",
     "settle",
     "simulate",
+    "touchdown_loads",
 ]

@@ -13,7 +13,8 @@ from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Phase
 from carom.parameters import Scales
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+"""Gauss rule for a piece, on −1 … 1."""
 LONGEST_PIECE = 1.5
 """Longest stretch, in ``1/max|λ|``, over which one Gauss rule is used; its error is below rounding."""
 HERMITIAN = 1e-12
@@ -91,16 +92,16 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     True
     """
     matrices = trajectory.rotor.matrices
-    edges, counts = _pieces(trajectory)
+    edges, counts = pieces(trajectory)
     if np.abs(matrices.mass - matrices.mass.conj().T).max() > HERMITIAN * np.abs(matrices.mass).max():
         raise InputError("mass", matrices.mass.tolist(), "a Hermitian matrix: otherwise there is no kinetic energy")
     half = 0.5 * np.diff(edges)
-    times = (edges[:-1] + half)[:, None] + half[:, None] * _NODES
+    times = (edges[:-1] + half)[:, None] + half[:, None] * NODES
     position, fixed = _in_fixed_frame(*trajectory.at(times), len(matrices.mass))
     ends = np.concatenate([[0], np.cumsum(counts)])
 
     def work(power: np.ndarray) -> np.ndarray:
-        running: np.ndarray = np.concatenate([[0.0], np.cumsum(half * (power @ _WEIGHTS))])
+        running: np.ndarray = np.concatenate([[0.0], np.cumsum(half * (power @ WEIGHTS))])
         return running[ends]
 
     def at_events(events: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -111,7 +112,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
     masses = _felt(trajectory.rotor, matrices)
     slides, drives = np.zeros(times.shape), np.zeros(times.shape)
     for plane, mass in enumerate(masses):
-        friction, drive = _contact_power(trajectory.seen_at(plane), times)
+        friction, drive = contact_power(trajectory.seen_at(plane), times)
         slides, drives = slides + mass * friction, drives + mass * drive
     skew = 0.5 * (matrices.stiffness - matrices.stiffness.conj().T)
     if np.abs(skew).max() <= HERMITIAN * np.abs(matrices.stiffness).max():
@@ -153,7 +154,7 @@ def _felt(rotor: Model, matrices: Matrices) -> np.ndarray:
     return _form(given.T, matrices.mass, given.T)
 
 
-def _contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Powers of friction on the contact point of a plane and of the drive, per mass that is felt there."""
     position, velocity = motion.at_plane(times)
     drive = float(motion.rotor.system.arrays.drive[motion.plane])
@@ -161,7 +162,7 @@ def _contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, n
     return grip * (drive + (position.conj() * velocity).imag), -(drive - 1.0) * grip
 
 
-def _pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
+def pieces(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     """Edges of the stretches to integrate, and the number of stretches in each segment."""
     bounds = np.append(trajectory.segment_starts, trajectory.time)
     lengths = np.diff(bounds)

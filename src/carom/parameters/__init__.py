@@ -11,6 +11,7 @@
 ``scaling``               :class:`Scales` and their units, :class:`Parameters`
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
+``load_limits``           :class:`LoadLimits` of a touchdown bearing
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
 """
@@ -23,6 +24,7 @@ from carom.parameters.fields import (
     Field,
     unknown_name,
 )
+from carom.parameters.load_limits import LIMIT_FIELDS, LoadLimits
 from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load
 from carom.parameters.numbers import Numbers
@@ -35,6 +37,7 @@ __all__ = [
     "DIMENSIONLESS_FIELDS",
     "ENTRIES",
     "HELPER_FIELDS",
+    "LIMIT_FIELDS",
     "MACHINE_FIELDS",
     "PARAMETERS",
     "PHYSICAL_PARTNER",
@@ -44,6 +47,7 @@ __all__ = [
     "UNITS",
     "Case",
     "Field",
+    "LoadLimits",
     "Machine",
     "Numbers",
     "Parameters",

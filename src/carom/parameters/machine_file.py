@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
 from typing import Any, cast
@@ -17,6 +17,7 @@ from carom.parameters.fields import (
     name_errors,
     unknown_name,
 )
+from carom.parameters.load_limits import LoadLimits
 from carom.parameters.machine import Machine
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters
@@ -91,12 +92,15 @@ class Case:
         The machine, as close to `parameters` as doubles allow; None for a dimensionless file.
     zones : Zones
         Limits of the amplitude zones.
+    limits : LoadLimits
+        Largest loads that are stated for the touchdown bearing.
     """
 
     name: str
     parameters: Parameters
     machine: Machine | None
     zones: Zones
+    limits: LoadLimits = field(default_factory=LoadLimits)
 
     def replace(self, /, **changes: Any) -> Case:
         """Return the case with other parameters of the machine, bit for bit the same as with ``--set``.
@@ -112,12 +116,12 @@ class Case:
             If a name is unknown or a value not allowed.
         """
         if self.machine is None:
-            return Case(self.name, self.parameters.replace(**changes), None, self.zones)
+            return Case(self.name, self.parameters.replace(**changes), None, self.zones, self.limits)
         machine = self.machine.replace(**changes)
         numbers = {
             name: read_quantity(field, changes[name]) for name, field in DIMENSIONLESS_FIELDS.items() if name in changes
         }
-        return Case(self.name, machine.parameters.replace(**numbers), machine, self.zones)
+        return Case(self.name, machine.parameters.replace(**numbers), machine, self.zones, self.limits)
 
 
 def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
@@ -126,7 +130,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     Parameters
     ----------
     path : path
-        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``.
+        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]`` and ``[limits]``.
     settings : iterable of str
         Texts ``"name=value"`` as in ``--set``; the name is a machine field or a dimensionless parameter.
         Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
@@ -136,7 +140,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     Returns
     -------
     Case
-        Name, parameters, machine and zones.
+        Name, parameters, machine, zones and limits.
 
     Raises
     ------
@@ -160,6 +164,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     problems = Problems()
     tables = read_machine_tables(path, problems)
     zones = problems.attempt(_read_zones, tables.zones)
+    limits = problems.attempt(LoadLimits.of, tables.limits, tables.kind == "machine") or LoadLimits()
     of_machine = tables.kind == "machine"
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **tables.values) if of_machine else problems.attempt(_read_dimensionless, tables)
@@ -173,8 +178,8 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     name = printable(Path(path).stem)
     zones = zones or Zones()
     if isinstance(base, Machine):
-        return Case(name, base.parameters, base, zones).replace(**texts)
-    return Case(name, cast("Parameters", base), None, zones).replace(**numbers)
+        return Case(name, base.parameters, base, zones, limits).replace(**texts)
+    return Case(name, cast("Parameters", base), None, zones, limits).replace(**numbers)
 
 
 def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:

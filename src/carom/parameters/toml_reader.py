@@ -14,7 +14,7 @@ from carom.outcome import InputError, Problems, shown, together
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, unknown_name
 
 _WHAT = "machine file"
-_TABLES = {"machine": None, "dimensionless": None, "zones": None}
+_TABLES = {"machine": None, "dimensionless": None, "zones": None, "limits": None}
 _LARGEST_BYTES = 1_000_000
 _REMEDY = "must hold a [machine] or a [dimensionless] table"
 _MOST_LEVELS = 16
@@ -38,6 +38,8 @@ class MachineTables:
     """Entries of that table, as TOML gives them."""
     zones: Mapping[str, Any] = field(default_factory=dict)
     """Entries of the optional table ``[zones]``."""
+    limits: Mapping[str, Any] = field(default_factory=dict)
+    """Entries of the optional table ``[limits]``."""
 
 
 def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:
@@ -46,7 +48,7 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
     Parameters
     ----------
     path : path
-        A TOML file with either a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``.
+        A TOML file with either a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]`` and ``[limits]``.
     problems : Problems
         Collects the errors of other entries in the file.
 
@@ -74,8 +76,8 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
         problems.errors.append(InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}"))
     if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
         problems.tell()
-    zones = content.get("zones", {})
-    return MachineTables(kinds[0], content[kinds[0]], zones if isinstance(zones, dict) else {})
+    zones, limits = (table if isinstance(table := content.get(name, {}), dict) else {} for name in ("zones", "limits"))
+    return MachineTables(kinds[0], content[kinds[0]], zones, limits)
 
 
 def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:

@@ -6,6 +6,7 @@
 ``orbit_ranges``    for which damping and stiffness single-impact orbits are possible, by search
 ``alone``           for which damping and stiffness levitation is the only motion found
 ``advice``          the least change of either that leaves only levitation, checked by simulation
+``load_checks``     loads of touchdowns against stated limits
 ``endings``         where simulated disturbances ended
 ``verdict``         the results in words
 ``findings``        the paragraphs of the verdict
@@ -26,6 +27,7 @@ from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone, OtherMotion
 from carom.studies.assembly import Study, study
 from carom.studies.document import found_orbits_document, orbits_document, trajectory_document
+from carom.studies.load_checks import LoadCheck, WorstLoads, check_loads, worst_loads
 from carom.studies.ranges import Edge, MotionRange, Span, Threshold, free_spans
 from carom.studies.recommendation import Change, Margin, Recommendation, Tried
 from carom.studies.response import Separation, Steady, Stretch, UnbalanceResponse, unbalance_response
@@ -39,6 +41,7 @@ __all__ = [
     "Edge",
     "Finding",
     "LevitationAlone",
+    "LoadCheck",
     "Margin",
     "MotionRange",
     "OtherMotion",
@@ -53,10 +56,13 @@ __all__ = [
     "UnbalanceResponse",
     "Verdict",
     "Wording",
+    "WorstLoads",
+    "check_loads",
     "found_orbits_document",
     "free_spans",
     "orbits_document",
     "study",
     "trajectory_document",
     "unbalance_response",
+    "worst_loads",
 ]

@@ -24,6 +24,7 @@ from carom.studies.actuator import BearingDemand, bearing_demand
 from carom.studies.advice import Advice, advise
 from carom.studies.alone import LevitationAlone, levitation_alone
 from carom.studies.document import study_document
+from carom.studies.load_checks import WorstLoads, worst_loads
 from carom.studies.orbit_ranges import single_impact_ranges
 from carom.studies.ranges import Motion, MotionRange, Threshold, steady_range
 from carom.studies.recommendation import Recommendation, recommend
@@ -61,6 +62,8 @@ class Study(Result):
         The damping above which all disturbances came back, found by simulation at other dampings too.
     fresh : DampingCheck or None
         If all disturbances of the standard set came back: how many of a larger sample do, at the machine's own damping.
+    loads : WorstLoads or None
+        The largest loads of the disturbances against the limits of the touchdown bearing, if any are stated.
     proof : Proof or None
         Theorems about equilibria and orbits, if they were asked for.
     """
@@ -80,6 +83,7 @@ class Study(Result):
     attractors: AttractorSet
     safe_damping: SafeDamping
     fresh: DampingCheck | None
+    loads: WorstLoads | None = None
     proof: Proof | None = None
 
     def rows(self) -> list[tuple[str, str]]:
@@ -220,8 +224,9 @@ def study(
     )
     safe = least_safe_damping(parameters, progress=tell.part(0.55, 1.0, "disturbances at other dampings"))
     advice = advise(parameters, alone, ranges, safe.simulated.gamma if safe.simulated else 0.0)
+    loads = worst_loads(found, case.limits) if case.limits.stated and parameters.scales else None
     steady = find_equilibria(rotor).members
-    return Study(case, rotor, steady, orbits, ranges, boundaries, alone, advice, found, safe, fresh, proof)
+    return Study(case, rotor, steady, orbits, ranges, boundaries, alone, advice, found, safe, fresh, loads, proof)
 
 
 def _check_kept(case: Case, disturbances: Plan | Disturbance | None) -> None:

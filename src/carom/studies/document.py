@@ -16,17 +16,19 @@ from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import rolling
 from carom.models import Jeffcott, jeffcott_of
+from carom.motions.loads import touchdown_loads
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet
-from carom.parameters import MACHINE_FIELDS, Parameters, Scales
+from carom.parameters import MACHINE_FIELDS, LoadLimits, Parameters, Scales
 from carom.parameters.indentation import gives_way, indentation_of_force, indentation_of_hit
 from carom.results import fields_of
 from carom.studies.advice import Advice
 from carom.studies.alone import LevitationAlone
 from carom.studies.endings import came_back, hardest_impulse, largest_all_back, touching
+from carom.studies.load_checks import check_loads, loads_entry
 from carom.studies.one_page import recommendation_document
 from carom.studies.ranges import MotionRange, Span, Threshold
 from carom.studies.safety import DampingCheck, DampingLimit, SafeDamping
@@ -67,8 +69,11 @@ def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[st
     }
 
 
-def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
-    """Return the document of one motion with its impacts and lasting contacts; velocities are those before impacts."""
+def trajectory_document(trajectory: Trajectory, limits: LoadLimits | None = None) -> dict[str, Any]:
+    """Return the document of one motion with its impacts and lasting contacts; velocities are those before impacts.
+
+    Its loads are compared with limits, if some are stated.
+    """
     log = trajectory.contacts
     impacts = zip(log.time, log.angle, log.radial_speed, log.angular_speed, log.normal_impulse, strict=True)
     keys = ("time", "angle", "radial_speed", "angular_speed", "normal_impulse")
@@ -85,11 +90,24 @@ def trajectory_document(trajectory: Trajectory) -> dict[str, Any]:
             for contact in trajectory.lasting_contacts
         ],
         "final": _state(trajectory.final),
+        "loads": _loads(trajectory),
     }
+    if limits is not None and limits.stated:
+        document["limits"] = [loads_entry(check) for check in check_loads(touchdown_loads(trajectory), limits)]
     scales = trajectory.rotor.scales
     if scales is not None:
         document["scales_si"] = _scales(scales)
     return document
+
+
+def _loads(trajectory: Trajectory) -> dict[str, Any]:
+    """Loads of a motion, in units of the equations and in SI units."""
+    loads = touchdown_loads(trajectory)
+    names = ("impulse", "force", "power", "heat", "restitution_loss", "contact_time", "lasting_power")
+    return {
+        **fields_of(loads, "impacts", *names, "goes_on"),
+        **{f"{name}_si": value for name, value in (loads.si() or {}).items()},
+    }
 
 
 def study_document(study: Study) -> dict[str, Any]:
@@ -122,6 +140,7 @@ def study_document(study: Study) -> dict[str, Any]:
         "bearing_demand": study.bearing_demand.document() if study.bearing_demand else None,
         "safe_damping": _safe_damping(study.safe_damping, case.parameters.scales),
         "not_covered": list(NOT_COVERED),
+        "loads": study.loads.document() if study.loads else None,
         "proof": study.proof.document() if study.proof else None,
     }
 

@@ -71,6 +71,8 @@ def verdict(study: Study) -> Verdict:
         findings.append(Finding("Proven", proven_words(study.proof)))
     if study.bearing_demand is not None:
         findings.append(Finding("Magnetic bearings", actuator_words(study)))
+    if study.loads is not None:
+        findings.append(Finding("Touchdown loads", study.loads.words))
     findings.append(Finding("Not covered", "\n".join(NOT_COVERED)))
     level, outcome, headline = _headline(study)
     return Verdict(level, outcome, f"{outcome}: {headline}", tuple(findings))

@@ -87,6 +87,12 @@ class Wording:
         """An impulse given in ``m c_r Ω``."""
         return self._plain(value, "impulse", "N s", "m c_r Ω")
 
+    def energy(self, value: float) -> str:
+        """An energy given in ``m c_r² Ω²``."""
+        if self.scales is None:
+            return f"{number(value, 3)} m c_r² Ω²"
+        return _with_prefix(value * self.scales.energy, "J", least=1.0)
+
     def power(self, value: float) -> str:
         """A power given in ``m c_r² Ω³``."""
         if self.scales is None:

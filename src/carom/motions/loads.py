@@ -1,0 +1,157 @@
+"""Load of a touchdown on its bearing: impacts, forces, and the heat of friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.closed_forms.known import known_of
+from carom.motions.contacts import ContactLog
+from carom.motions.ledger import NODES, WEIGHTS, contact_power, pieces
+from carom.motions.trajectories import Trajectory
+from carom.outcome import Outcome, Phase
+from carom.parameters import Scales
+from carom.results import Result
+
+RECENT = 10
+"""Impacts at least, over which the power of bouncing is averaged."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TouchdownLoads(Result):
+    """Loads of a motion at its contact plane, in units of the equations; :meth:`si` gives them in SI units.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        Where the motion settled, or why it was stopped.
+    impacts : int
+        Number of impacts.
+    impulse : float
+        Largest normal impulse of an impact, ``m c_r Ω``.
+    force : float
+        Largest normal force in lasting contact, ``m c_r Ω²``.  If the motion goes on rolling, that of the planar rotor over a
+        whole turn.
+    power : float
+        Largest power of friction in lasting contact, ``m c_r² Ω³``.
+    heat : float
+        Work lost to friction, in impacts and in lasting contact, ``m c_r² Ω²``.
+    restitution_loss : float
+        Work lost in impacts along the normal, ``m c_r² Ω²``.
+    contact_time : float
+        Duration of lasting contact, ``1/Ω``.
+    lasting_power : float
+        Power of friction with which the motion goes on, ``m c_r² Ω³``: at its end in lasting contact, or averaged over the last
+        impacts; 0 if it does not go on in contact.
+    scales : Scales or None
+    """
+
+    outcome: Outcome
+    impacts: int
+    impulse: float
+    force: float
+    power: float
+    heat: float
+    restitution_loss: float
+    contact_time: float
+    lasting_power: float
+    scales: Scales | None = None
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether the motion has settled in contact, so that impacts or heat have no end."""
+        return self.outcome.settled and self.outcome is not Outcome.LEVITATED
+
+    @property
+    def goes_on_bouncing(self) -> bool:
+        """Whether it has settled to bouncing, so that its impacts have no end."""
+        return self.outcome in (Outcome.BOUNCING, Outcome.MIXED)
+
+    def si(self) -> dict[str, float] | None:
+        """Loads in SI units by name; ``None`` without scales."""
+        scales = self.scales
+        if scales is None:
+            return None
+        return {
+            "impulse": self.impulse * scales.impulse,
+            "force": self.force * scales.force,
+            "power": self.power * scales.power,
+            "heat": self.heat * scales.energy,
+            "restitution_loss": self.restitution_loss * scales.energy,
+            "contact_time": self.contact_time * scales.time,
+            "lasting_power": self.lasting_power * scales.power,
+        }
+
+
+def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
+    """Evaluate the loads of a motion at its contact plane.
+
+    Friction does the work ``F v`` on the contact point, which slips with ``v = s + 1 + θ̇``; in an impact the work is that of the
+    impulse on the mean of the slip velocities before and after.  The largest force and power of lasting contact are those
+    at the ends of its steps and at 16 nodes in each.
+    """
+    at_plane = trajectory.event_planes == trajectory.plane
+    log = trajectory.contacts
+    # A landing stands for the last bounces of a chatter.
+    landings = trajectory.log_of(trajectory.is_landing & at_plane)
+    heat, force, power = _lasting(trajectory)
+    if trajectory.outcome is Outcome.ROLLING:
+        force = max(force, _rolling_force(trajectory))
+    return TouchdownLoads(
+        outcome=trajectory.outcome,
+        impacts=len(log),
+        impulse=float(log.normal_impulse.max(initial=0.0)),
+        force=force,
+        power=power,
+        heat=heat + float(_friction_work(log).sum() + _friction_work(landings).sum()),
+        restitution_loss=float(_normal_work(log).sum() + _normal_work(landings).sum()),
+        contact_time=sum(contact.end - contact.start for contact in trajectory.lasting_contacts),
+        lasting_power=_lasting_power(trajectory, log),
+        scales=trajectory.rotor.scales,
+    )
+
+
+def _friction_work(log: ContactLog) -> np.ndarray:
+    """Work lost to friction in impacts, shape (n,)."""
+    work: np.ndarray = -0.5 * log.tangential_impulse * (log.slip_before + log.slip_after)
+    return work
+
+
+def _normal_work(log: ContactLog) -> np.ndarray:
+    """Work lost along the normal in impacts, shape (n,)."""
+    work: np.ndarray = 0.5 * log.normal_impulse * (log.radial_speed + log.radial_speed_after)
+    return work
+
+
+def _lasting(trajectory: Trajectory) -> tuple[float, float, float]:
+    """Work of friction in lasting contact, and the largest force and power there."""
+    edges, counts = pieces(trajectory)
+    rubs = np.repeat(trajectory.segment_phases[:, trajectory.plane] != Phase.FLIGHT, counts)
+    starts, half = edges[:-1][rubs], 0.5 * np.diff(edges)[rubs]
+    if not len(starts):
+        return 0.0, 0.0, 0.0
+    times = (starts + half)[:, None] + half[:, None] * NODES
+    lost = -contact_power(trajectory, times)[0]
+    ends = np.concatenate([starts, np.nextafter(edges[1:][rubs], 0.0)])
+    largest = max(float(lost.max()), float(-contact_power(trajectory, ends)[0].min()), 0.0)
+    normal, _ = trajectory.forces(np.concatenate([times.ravel(), ends]))
+    return float((half * (lost @ WEIGHTS)).sum()), float(normal.max()), largest
+
+
+def _lasting_power(trajectory: Trajectory, log: ContactLog) -> float:
+    """Power of friction with which a settled motion goes on."""
+    if not trajectory.outcome.settled or trajectory.outcome is Outcome.LEVITATED:
+        return 0.0
+    if trajectory.segment_phases[-1, trajectory.plane] != Phase.FLIGHT:
+        return float(-contact_power(trajectory, np.array([trajectory.time]))[0][0])
+    if len(log) < 2:
+        return 0.0
+    recent = slice(-max(RECENT, 2 * trajectory.multiplicity) - 1, None)
+    times, works = log.time[recent], _friction_work(log)[recent]
+    return float(works[1:].sum() / (times[-1] - times[0]))
+
+
+def _rolling_force(trajectory: Trajectory) -> float:
+    """Largest force of a planar rotor that goes on rolling; 0 for others, of which only what was followed is known."""
+    return known_of(trajectory.rotor).rolling_force

@@ -1,0 +1,90 @@
+"""Limits that a touchdown bearing is stated to bear: the table ``[limits]`` of a machine file."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from carom.outcome import InputError, Problems, shown
+from carom.parameters.fields import Field, unknown_name
+from carom.parameters.quantities import read_quantity
+
+LIMIT_FIELDS: Mapping[str, Field] = {
+    field.name: field
+    for field in (
+        Field("impulse", "", "normal impulse of an impact", "an impulse", "N s", 1e-12, 1e12, '"5 N s"', zero=True),
+        Field("force", "", "normal force in lasting contact", "a force", "N", 1e-12, 1e15, '"2 kN"', zero=True),
+        Field("power", "", "friction power in lasting contact", "a power", "W", 1e-12, 1e15, '"10 kW"', zero=True),
+        Field("heat", "", "friction work of a touchdown", "an energy", "J", 1e-12, 1e15, '"500 J"', zero=True),
+        Field("impacts", "", "impacts of a touchdown", "a whole number", "", 1, 1e9, "20", zero=True, whole=True),
+    )
+}
+"""Entries of a ``[limits]`` table, in SI units; each may be left out."""
+
+
+@dataclass(frozen=True)
+class LoadLimits:
+    """Largest loads of a touchdown that are stated for a touchdown bearing; ``None`` where nothing is stated.
+
+    Every value is a number in the SI unit below, or text with a unit such as ``"2 kN"``.
+
+    Parameters
+    ----------
+    impulse : float or str, optional
+        Normal impulse of an impact, N s.
+    force : float or str, optional
+        Normal force in lasting contact, N.
+    power : float or str, optional
+        Friction power in lasting contact, W.
+    heat : float or str, optional
+        Friction work of the whole touchdown, J.
+    impacts : int or str, optional
+        Number of impacts of the whole touchdown.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind, or below zero.
+    """
+
+    impulse: float | None = None
+    force: float | None = None
+    power: float | None = None
+    heat: float | None = None
+    impacts: float | None = None
+
+    def __post_init__(self) -> None:
+        problems = Problems()
+        for name, field in LIMIT_FIELDS.items():
+            given: Any = getattr(self, name)
+            if given is not None:
+                object.__setattr__(self, name, problems.attempt(read_quantity, field, given))
+        problems.tell()
+
+    @property
+    def stated(self) -> dict[str, float]:
+        """Limits that are stated, in SI units."""
+        return {name: value for name, value in dataclasses.asdict(self).items() if value is not None}
+
+    @classmethod
+    def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> LoadLimits:
+        """Read a table; one beside dimensionless parameters cannot be compared with anything.
+
+        Raises
+        ------
+        InputError
+            An unknown name, a value that is not allowed, or a table without a machine in SI units.
+        """
+        problems = Problems()
+        for name, value in table.items():
+            if name not in LIMIT_FIELDS:
+                problems.errors.append(unknown_name(name, value, LIMIT_FIELDS, "[limits]"))
+        if table and not has_scales:
+            allowed = "not allowed beside [dimensionless]: limits are in SI units, which need a [machine] table"
+            problems.errors.append(InputError("limits", shown(dict(table)), allowed))
+        known = {name: value for name, value in table.items() if name in LIMIT_FIELDS}
+        found = problems.attempt(cls, **known)
+        problems.tell()
+        return found or cls()

@@ -1,0 +1,159 @@
+"""Loads of touchdowns against the limits that are stated for a touchdown bearing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from carom.attractors import AttractorSet
+from carom.motions import TouchdownLoads, simulate, touchdown_loads
+from carom.parameters import LIMIT_FIELDS, LoadLimits
+from carom.results import fields_of
+from carom.studies.wording import number
+
+ENDLESS = ("heat", "impacts")
+"""Loads that have no end in a motion that goes on in contact."""
+
+
+@dataclass(frozen=True)
+class LoadCheck:
+    """A load against its limit, in the SI unit of the limit.
+
+    Attributes
+    ----------
+    name : {"impulse", "force", "power", "heat", "impacts"}
+    value : float
+        Load of the motion, up to where its end was known.
+    limit : float
+    endless : bool
+        Whether the load goes on growing, because the motion has settled in contact.
+    after : float
+        Seconds from then on after which the growing load reaches its limit; 0 where it exceeds it already, infinite if it does not
+        grow.
+    """
+
+    name: str
+    value: float
+    limit: float
+    endless: bool
+    after: float
+
+    @property
+    def exceeded(self) -> bool:
+        """Whether the load exceeds its limit, now or if the motion goes on."""
+        return self.value > self.limit or self.endless
+
+    @property
+    def words(self) -> str:
+        """The check in words."""
+        field = LIMIT_FIELDS[self.name]
+        unit = f" {field.unit}" if field.unit else ""
+        text = f"{field.words}: {number(self.value, 3)}{unit}, limit {number(self.limit, 3)}{unit}"
+        if self.value > self.limit:
+            return f"{text}: exceeded{', and it goes on' if self.endless else ''}"
+        if not self.endless:
+            return f"{text}: kept"
+        when = f" {number(self.after, 3)} s later" if math.isfinite(self.after) else ""
+        return f"{text}: exceeded{when}, as the motion goes on in contact"
+
+
+def check_loads(loads: TouchdownLoads, limits: LoadLimits) -> tuple[LoadCheck, ...]:
+    """Compare the loads of a motion with the limits that are stated; nothing without scales.
+
+    Heat and impacts of a motion that has settled in contact have no end, so they exceed any limit in time.
+    """
+    si = loads.si()
+    if si is None:
+        return ()
+    values = {**si, "impacts": float(loads.impacts)}
+    found = []
+    for name, limit in limits.stated.items():
+        grows = {"heat": loads.goes_on and si["lasting_power"] > 0.0, "impacts": loads.goes_on_bouncing}
+        endless, value = grows.get(name, False), values[name]
+        after = math.inf
+        if value > limit:
+            after = 0.0
+        elif endless and name == "heat":
+            after = (limit - value) / si["lasting_power"]
+        found.append(LoadCheck(name, value, limit, endless, after))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class WorstLoads:
+    """The largest of each load over many motions.
+
+    Attributes
+    ----------
+    checks : tuple of LoadCheck
+        The worst of each limit.
+    motions : tuple of str
+        Name of the motion in which each of these disturbances ended.
+    exceeding : tuple of int
+        Number of disturbances that exceed each limit.
+    disturbances : int
+        Number of disturbances followed that touched the wall.
+    """
+
+    checks: tuple[LoadCheck, ...]
+    motions: tuple[str, ...]
+    exceeding: tuple[int, ...]
+    disturbances: int
+
+    @property
+    def exceeded(self) -> bool:
+        """Whether a limit is exceeded by some disturbance."""
+        return any(check.exceeded for check in self.checks)
+
+    @property
+    def words(self) -> str:
+        """The worst of each load in words."""
+        if not self.disturbances:
+            return "None of the disturbances tried touched the bearing: no load to compare with the limits stated."
+        lines = [f"Largest loads of the {self.disturbances} disturbances that touched, against the limits stated."]
+        for check, motion, count in zip(self.checks, self.motions, self.exceeding, strict=True):
+            field = LIMIT_FIELDS[check.name]
+            unit = f" {field.unit}" if field.unit else ""
+            value = f"{number(check.value, 3)}{unit}{' and growing' if check.endless else ''} (ends in {motion})"
+            kept = f"exceeded by {count} of {self.disturbances}" if count else "kept by all"
+            lines.append(
+                f"{field.words[0].upper()}{field.words[1:]}: {value}, limit {number(check.limit, 3)}{unit}: {kept}."
+            )
+        return "\n".join(lines)
+
+    def document(self) -> dict[str, Any]:
+        """The same as JSON."""
+        parts = zip(self.checks, self.motions, self.exceeding, strict=True)
+        return {
+            "disturbances": self.disturbances,
+            "limits": [loads_entry(check) | {"motion": motion, "exceeding": count} for check, motion, count in parts],
+        }
+
+
+def loads_entry(check: LoadCheck) -> dict[str, Any]:
+    """A check as JSON; values in the SI unit of the limit."""
+    return fields_of(check, "name", "exceeded", "endless", value_si="value", limit_si="limit", reached_after_si="after")
+
+
+def worst_loads(found: AttractorSet, limits: LoadLimits) -> WorstLoads:
+    """Follow all disturbances that touch to their ends and find the worst load for each limit."""
+    checked: list[tuple[str, Sequence[LoadCheck]]] = []
+    for ending in found.disturbances:
+        if ending.touched:
+            motion = simulate(ending.rotor, ending.start.state, settle=True)
+            checked.append((ending.attractor, check_loads(touchdown_loads(motion), limits)))
+    if not checked:
+        return WorstLoads((), (), (), 0)
+    worst, names, counts = [], [], []
+    for place in range(len(checked[0][1])):
+        name, check = max(((name, checks[place]) for name, checks in checked), key=lambda pair: _severity(pair[1]))
+        worst.append(check)
+        names.append(str(name))
+        counts.append(sum(checks[place].exceeded for _, checks in checked))
+    return WorstLoads(tuple(worst), tuple(names), tuple(counts), len(checked))
+
+
+def _severity(check: LoadCheck) -> tuple[bool, bool, float]:
+    return check.exceeded, check.value > check.limit, check.value

@@ -1,0 +1,157 @@
+"""Loads of touchdowns: against the ledger, and against equations of sliding and of impacts integrated a second time."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+import pytest
+from compilation import sized
+from linear_rotors import tilting
+from machines import PAPER
+from scipy.integrate import solve_ivp
+
+import carom as cm
+from carom.closed_forms import rolling
+from carom.motions import energy_ledger, touchdown_loads
+from carom.outcome import Outcome
+from carom.parameters import Parameters, Scales
+
+
+def random_parameters(random: np.random.Generator) -> Parameters:
+    return Parameters(
+        gamma=random.uniform(0.02, 0.5),
+        omega=random.uniform(0.3, 1.5),
+        rho=random.uniform(0.1, 0.6),
+        phi=random.uniform(-3, 3),
+        mu=random.uniform(0.02, 0.4),
+        d=random.uniform(0.0, 0.9),
+        radius_ratio=random.uniform(5, 80),
+    )
+
+
+def test_heat_is_that_of_the_ledger():
+    """What friction and restitution take is what the ledger says that contact takes, for motions with contact of all kinds."""
+    random = np.random.default_rng(31)
+    slides, impacts = 0, 0
+    for _ in range(sized(40, 3, 400)):
+        start = cm.State(
+            cmath.rect(0.9 * math.sqrt(random.uniform()), random.uniform(0, 6.3)), complex(*random.normal(size=2))
+        )
+        motion = cm.simulate(random_parameters(random), start, 40.0)
+        loads, ledger = touchdown_loads(motion), energy_ledger(motion)
+        lost = -(ledger.impacts[-1] + ledger.friction[-1])
+        assert loads.heat + loads.restitution_loss == pytest.approx(lost, rel=1e-10, abs=1e-12)
+        assert loads.heat >= 0.0
+        assert loads.restitution_loss >= 0.0
+        assert loads.impacts == len(motion.contacts)
+        slides += loads.contact_time > 1.0
+        impacts += loads.impacts > 3
+    assert min(slides, impacts) >= sized(10, 1, 100)
+
+
+def slide(at: Parameters, angle: float, whirl: float, time: float):
+    """Sliding with forward slip along the wall: angle from the unbalance, whirl speed and heat."""
+    slip = at.radius_ratio
+
+    def force(x: float, w: float) -> float:
+        return at.rho * math.cos(x) + w * w - at.omega**2
+
+    def rate(_: float, y: np.ndarray) -> list[float]:
+        x, w, _ = y
+        n = force(x, w)
+        return [w - 1.0, -at.gamma * w - at.rho * math.sin(x) - at.mu * n, at.mu * n * (slip + w)]
+
+    return force, solve_ivp(rate, (0.0, time), [angle, whirl, 0.0], rtol=1e-11, atol=1e-12, dense_output=True).sol
+
+
+def test_sliding_against_an_independent_integration():
+    """A rotor released on the wall, pressed on it and slipping forward until the end."""
+    random = np.random.default_rng(32)
+    tried = 0
+    for _ in range(sized(200, 20, 2000)):
+        at = random_parameters(random)
+        angle, whirl, time = random.uniform(-1.5, 1.5), random.uniform(0.5, 3.0), random.uniform(2.0, 12.0)
+        force, found = slide(at, angle, whirl, time)
+        times = np.linspace(0.0, time, 20_001)
+        x, w, heat = found(times)
+        forces = np.array([force(*pair) for pair in zip(x, w, strict=True)])
+        if forces.min() < 1e-3:
+            continue  # it lifts off
+        tried += 1
+        place = cmath.rect(1.0, angle + at.phi)
+        motion = cm.simulate(at, cm.State(place, 1j * (whirl - 1.0) * place), time)
+        loads = touchdown_loads(motion)
+        assert loads.contact_time == pytest.approx(time)
+        assert loads.heat == pytest.approx(heat[-1], rel=1e-7)
+        # A smooth maximum between two nodes is missed by less than a thousandth.
+        assert loads.force == pytest.approx(forces.max(), rel=1e-3)
+        assert loads.power == pytest.approx((at.mu * forces * (at.radius_ratio + w)).max(), rel=1e-3)
+        assert loads.impulse == loads.impacts == 0
+    assert tried >= sized(20, 2, 200)
+
+
+def test_heat_of_impacts_by_the_law_in_polar_form():
+    motion = cm.simulate(PAPER.replace(gamma=0.15), cm.State(0.2, 0.6 + 0.2j), 60.0)
+    log, heat = motion.contacts, 0.0
+    assert len(log) > 10
+    assert not motion.lasting_contacts
+    slip = PAPER.radius_ratio + 1.0
+    for radial, angular in zip(log.radial_speed, log.angular_speed, strict=True):
+        taken = min(PAPER.mu * (1.0 + PAPER.d) * radial, abs(slip + angular)) * math.copysign(1.0, slip + angular)
+        heat += taken * (slip + angular - 0.5 * taken)
+    loads = touchdown_loads(motion)
+    assert loads.heat == pytest.approx(heat, rel=1e-12)
+    assert loads.impulse == pytest.approx((1.0 + PAPER.d) * log.radial_speed.max(), rel=1e-12)
+    assert loads.restitution_loss == pytest.approx(0.5 * (1.0 - PAPER.d**2) * (log.radial_speed**2).sum(), rel=1e-9)
+    assert loads.lasting_power == 0.0  # it has not settled
+    assert not loads.goes_on
+
+
+def test_motions_that_go_on():
+    machine = cm.load("examples/keogh-cole.toml")
+    rub = touchdown_loads(cm.simulate(machine, cm.kick(0.1, 2.0), settle=True))
+    (equilibrium,) = [one for one in cm.find_equilibria(machine) if one.kind == "rub" and one.stable]
+    at = machine.parameters
+    assert rub.outcome is Outcome.FORWARD_RUB
+    assert rub.lasting_power == pytest.approx(at.mu * equilibrium.normal_force * (at.radius_ratio + 1.0), rel=1e-6)
+    assert rub.goes_on
+    assert not rub.goes_on_bouncing
+    bouncing = touchdown_loads(cm.simulate(machine, cm.kick("50 mm/s"), settle=True))
+    orbit = cm.find_orbits(machine)["B1,d"]
+    taken = at.mu * (1.0 + at.d) * orbit.radial_speed
+    power = taken * (at.radius_ratio + 1.0 + orbit.angular_speed - 0.5 * taken) / orbit.period
+    assert bouncing.goes_on_bouncing
+    assert bouncing.lasting_power == pytest.approx(power, rel=1e-6)
+    place = cmath.rect(1.0, 0.3)
+    roll = touchdown_loads(cm.simulate(machine, cm.State(place, -1j * (1.0 + at.radius_ratio) * place), settle=True))
+    assert roll.outcome is Outcome.ROLLING
+    assert roll.force == rolling(machine).largest_force
+    assert roll.lasting_power == pytest.approx(0.0, abs=1e-9)
+
+
+def test_no_contact_no_load():
+    loads = touchdown_loads(cm.simulate(PAPER, cm.kick(1e-3), 10.0))
+    assert (loads.impacts, loads.impulse, loads.force, loads.power, loads.heat) == (0, 0.0, 0.0, 0.0, 0.0)
+    assert loads.si() is None
+
+
+def test_si():
+    scales = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+    machine = Parameters(**PAPER.as_dict(), scales=scales)
+    loads = touchdown_loads(cm.simulate(machine, cm.State(0.2, 0.6 + 0.2j), 30.0))
+    si = loads.si()
+    assert si["impulse"] == pytest.approx(loads.impulse * 50.0 * 0.7e-3 * 184.2)
+    assert si["heat"] == pytest.approx(loads.heat * 50.0 * (0.7e-3 * 184.2) ** 2)
+    assert si["contact_time"] == pytest.approx(loads.contact_time / 184.2)
+
+
+@pytest.mark.jit_only
+def test_any_linear_rotor():
+    machine = tilting()
+    motion = cm.simulate(machine.model, cm.kick(1.5), 60.0)
+    loads, ledger = touchdown_loads(motion), energy_ledger(motion)
+    assert loads.impacts == len(motion.contacts)
+    assert loads.heat > 0.0
+    assert np.isfinite(ledger.friction[-1])

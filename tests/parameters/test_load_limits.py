@@ -1,0 +1,51 @@
+"""The table ``[limits]`` of a machine file."""
+
+from pathlib import Path
+
+import pytest
+
+from carom.outcome import InputError
+from carom.parameters import LoadLimits, load
+
+REAL = "examples/keogh-cole.toml"
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(limits: str, base: str = REAL):
+        path = tmp_path / "machine.toml"
+        path.write_text(f"{Path(base).read_text(encoding='utf-8')}\n{limits}\n", encoding="utf-8")
+        return path
+
+    return written
+
+
+def test_values_with_units(write):
+    text = '[limits]\nimpulse = "5 N s"\nforce = "2 kN"\npower = "10 kW"\nheat = "0.5 kJ"\nimpacts = 20'
+    case = load(write(text))
+    assert case.limits == LoadLimits(impulse=5.0, force=2000.0, power=1e4, heat=500.0, impacts=20)
+    assert case.limits.stated == {"impulse": 5.0, "force": 2000.0, "power": 1e4, "heat": 500.0, "impacts": 20.0}
+    assert case.replace(damping=2000.0).limits == case.limits
+    assert load(write("[limits]\nforce = 0"), ["friction=0.1"]).limits.stated == {"force": 0.0}
+    assert load(REAL).limits.stated == {}
+
+
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        ('[limits]\nforces = "2 kN"', "forces = 2 kN: unknown name in [limits]; did you mean force?"),
+        ('[limits]\nforce = "2 kg"', "force = 2 kg: must be a force in N"),
+        ("[limits]\nheat = -1", "heat = -1: must be an energy in J, >= 0"),
+        ("[limits]\nimpacts = 2.5", "impacts = 2.5: must be a whole number"),
+        ("[[limits]]\nforce = 3", "limits = [{'force': 3}]: must be a table"),
+    ],
+)
+def test_what_cannot_be_a_limit(write, limits, words):
+    with pytest.raises(InputError) as problem:
+        load(write(limits))
+    assert words in str(problem.value)
+
+
+def test_limits_need_a_machine(write):
+    with pytest.raises(InputError, match="not allowed beside"):
+        load(write("[limits]\nforce = 3.0", "examples/source-paper.toml"))
