@@ -11,6 +11,7 @@ from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbi
 from carom.models import Jeffcott
 
 from .auto_equations import follow, why_missing
+from .auto_two_impacts import special_points
 
 pytestmark = pytest.mark.skipif(bool(why_missing()), reason=why_missing() or "installed")
 
@@ -40,3 +41,22 @@ def test_curve_is_that_of_auto(kind, tmp_path):
         nearest = int(np.argmin(np.abs(here.points[:, 1] - omega)))
         assert here.points[nearest, 0] == pytest.approx(values[-1], abs=2e-9)
         assert here.periods[nearest] == pytest.approx(values[0], abs=2e-8)
+
+
+@pytest.mark.jit_only
+def test_branch_of_two_impacts_has_the_folds_and_period_doublings_of_auto(tmp_path):
+    branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.075, 0.11))
+    (doubling,) = [special for special in branch.special if special.kind == "period-doubling"]
+    doubled = doubling.switch((0.078, 0.09))
+    start = doubled.starts_at(0.083)[0]
+    rows = zip(start.nodes, start.durations, strict=True)
+    unknowns = [float(x) for (u, v), time in rows for x in (u.real, u.imag, v.real, v.imag, time)]
+    theirs = special_points(PAPER.replace(gamma=0.083), unknowns, (0.078, 0.09), tmp_path)
+    # Its branch turns where the period is halved, which is a fold of the algebraic equations.
+    folds = [value for value in theirs["fold"] if abs(value - doubling.value) > 1e-6]
+    assert len(folds) == len(theirs["fold"]) - 1
+    for kind, values in (("fold", folds), ("period-doubling", theirs["period-doubling"])):
+        ours = sorted(special.value for special in doubled.special if special.kind == kind)
+        assert len(ours) == 2
+        # It prints eleven digits.
+        assert ours == pytest.approx(sorted(values), abs=2e-11)
