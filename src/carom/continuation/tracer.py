@@ -32,6 +32,8 @@ STRAY = 0.3
 """Largest distance of a corrected point from its prediction, in steps: a point further away is on another branch."""
 UPRIGHT = 0.2
 """Share of the parameter in the tangent above which points are sought at fixed parameter, if there is a solver for that."""
+ROUNDING = 1e-14
+"""Value of a watched function that counts as zero, relative to its values at the ends of a step."""
 JUMP = 1e-4
 """Largest remaining value of a watched function at a zero, relative to its values at the ends of the bracket.
 
@@ -313,6 +315,7 @@ class Tracer:
         """
         at = {0.0: here.x, length: there.x}
         values = {0.0: float(here.watched[which]), length: float(there.watched[which])}
+        largest = max(map(abs, values.values()))
 
         def value(distance: float) -> float:
             if distance not in values:
@@ -322,7 +325,8 @@ class Tracer:
                 share = (distance - before) / (after - before)
                 x = self.near(at[before] + share * (at[after] - at[before]), here)
                 at[distance] = here.x if x is None else x
-                values[distance] = np.nan if x is None else self._watched_value(which, x, here)
+                found = np.nan if x is None else self._watched_value(which, x, here)
+                values[distance] = 0.0 if abs(found) <= ROUNDING * largest else found
             return values[distance]
 
         bracket = sign_change(value, 0.0, length)

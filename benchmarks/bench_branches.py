@@ -1,0 +1,46 @@
+"""Branches of orbits: one impact by the closed form, one and more by multiple shooting; and a curve in two parameters."""
+
+from __future__ import annotations
+
+import pytest
+from workload import source_paper_machine
+
+from carom.bifurcations import OrbitBranch, Plane, SpecialOrbit, continue_curve, continue_orbit
+from carom.bifurcations.words import continue_word
+from carom.orbits import find_orbits
+
+PER_ORBIT = "branch along the damping, per orbit"
+
+
+def doubling() -> SpecialOrbit:
+    branch = continue_orbit(find_orbits(source_paper_machine(0.1))["B1,d"], "gamma", (0.075, 0.11))
+    (point,) = [point for point in branch.special if point.kind == "period-doubling"]
+    return point
+
+
+def test_branch_closed_form(benchmark):
+    orbit = find_orbits(source_paper_machine(0.1))["B1,d"]
+    benchmark.group = PER_ORBIT
+    branch = benchmark(continue_orbit, orbit, "gamma", (0.06, 0.17))
+    assert isinstance(branch, OrbitBranch)
+    benchmark.extra_info.update(who="carom", unit="orbit (closed form, 1 impact)", units=len(branch))
+
+
+@pytest.mark.parametrize("impacts", [1, 2, 3, 6])
+def test_branch_by_shooting(benchmark, impacts):
+    benchmark.group = PER_ORBIT
+    if impacts == 1:
+        arguments = find_orbits(source_paper_machine(0.1))["B1,d"], "gamma", (0.06, 0.17)
+    else:
+        members = find_orbits(source_paper_machine(0.083), impacts=impacts)
+        arguments = members[0], "gamma", (0.0828, 0.0835)
+    branch = benchmark.pedantic(continue_word, args=arguments, rounds=5, warmup_rounds=1)
+    benchmark.extra_info.update(who=f"multiple shooting, impacts: {impacts}", unit="orbit", units=len(branch))
+
+
+def test_curve_of_two_impacts(benchmark):
+    (grazing,) = [point for point in doubling().switch((0.081, 0.0845)).special if point.kind == "grazing"]
+    benchmark.group = "curve in two parameters, per point"
+    plane = Plane("gamma", "omega", (0.05, 0.15), (0.74, 0.78))
+    curve = benchmark.pedantic(continue_curve, args=(grazing, plane), rounds=3)
+    benchmark.extra_info.update(who="multiple shooting, 2 impacts", unit="point", units=len(curve.points))
