@@ -192,7 +192,7 @@ def test_unreadable_units_are_refused_at_once(text):
 
 def fields_of_errors(text):
     """Read a text as every field: the numbers are allowed ones, and the errors name these fields."""
-    for field in MACHINE_FIELDS.values():
+    for field in ENTRIES.values():
         try:
             number = read_quantity(field, text)
         except InputError as error:
@@ -201,7 +201,11 @@ def fields_of_errors(text):
             assert field.contains(number)
 
 
-@given(st.text(max_size=80))
+def test_units_of_entries_with_current_are_common_too():
+    assert {field.unit for field in ENTRIES.values()} <= COMMON_UNITS.keys()
+
+
+@given(st.one_of(st.text(max_size=80), st.text("0123456789 ,.'’Ggm/HzrAN-_", max_size=30)))
 def test_no_text_brings_anything_but_a_number_or_an_input_error(text):
     for candidate in (text, f"5 {text}"):
         assert all(named == field for field, named in fields_of_errors(candidate))
