@@ -30,6 +30,12 @@ def test_values_with_units(write):
     assert load(REAL).limits.stated == {}
 
 
+def test_written_limits_are_read_as_the_same(write):
+    limits = LoadLimits(force=0.1 + 0.2, impacts=3)
+    assert load(write(limits.to_toml())).limits == limits
+    assert LoadLimits().to_toml() == ""
+
+
 @pytest.mark.parametrize(
     ("limits", "words"),
     [

@@ -68,6 +68,11 @@ class LoadLimits:
         """Limits that are stated, in SI units."""
         return {name: value for name, value in dataclasses.asdict(self).items() if value is not None}
 
+    def to_toml(self) -> str:
+        """Return the text of a table that is read as these limits; nothing if none is stated."""
+        lines = [f"{name} = {value!r}  # {LIMIT_FIELDS[name].unit}".rstrip("# ") for name, value in self.stated.items()]
+        return "\n".join(["[limits]", *lines]) + "\n" if lines else ""
+
     @classmethod
     def of(cls, table: Mapping[str, Any], has_scales: bool = True) -> LoadLimits:
         """Read a table; one beside dimensionless parameters cannot be compared with anything.
