@@ -23,6 +23,8 @@ Kind = Literal["change", "no-change-needed", "no-change-found"]
 Bound = Literal["at least", "at most", "about"]
 Evidence = Literal["closed form", "searched", "sampled"]
 
+_SAME = 1e-8
+"""Relative distance up to which two edges are one."""
 _CLOSED_FORMS = ("boundary-equilibrium", "rub-fold", "rolling-limit")
 
 
@@ -162,13 +164,26 @@ def _change(study: Study, advice: Advice) -> Change:
     if calm is not None:
         upward = own < value
         near, end = (calm.low, calm.high) if upward else (calm.high, calm.low)
-        margin, far = Margin(near, advice.margin), end if _happens(end) else None
+        margin, far = Margin(_best_known(study, gain, near), advice.margin), end if _happens(end) else None
         tried = _tried(study, gain, value, end.value)
         if far is None and tried and advice.returned.count == advice.returned.total:
             bound = "at least" if upward else "at most"
     zone = study.case.zones.zone(min(radius, 1.0))
     whirl = runaway_speed(rotor) if rolling(rotor).holds else None
     return Change(advice, own, bound, margin, far, tried, radius, zone, whirl)
+
+
+def _best_known(study: Study, gain: Gain, edge: Edge) -> Edge:
+    """Return the closed form of an edge, if several motions end there and one of them has a closed form."""
+    exact = [
+        other
+        for entry in study.ranges
+        if entry.gain == gain
+        for span in entry.spans
+        for other in (span.low, span.high)
+        if other.kind in _CLOSED_FORMS and math.isclose(other.value, edge.value, rel_tol=_SAME)
+    ]
+    return exact[0] if exact and edge.kind != "simulated" else edge
 
 
 def _calm(study: Study, gain: Gain) -> tuple[Span, ...]:
