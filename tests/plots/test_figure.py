@@ -4,11 +4,13 @@ import io
 
 import matplotlib as mpl
 import pytest
+from machines import PAPER
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.mathtext import MathTextParser
 from matplotlib.textpath import TextToPath
 
+import carom
 from carom import plots
 from carom.plots import arrangement
 from carom.plots import figure as figure_module
@@ -126,3 +128,26 @@ def test_each_row_of_letters_is_placed_once(damped, monkeypatch):
     for figure in figures:
         written(figure, "svg")
     assert len(placed) == len(set(placed))
+
+
+def test_figures_of_one_column(read):
+    """Panels below each other, one or two columns of the legend, titles broken after commas."""
+    motion = carom.simulate(PAPER, carom.kick(0.35), 20.0)
+    wide = plots.motion(motion)
+    with plots.one_column(), plots.heading("a machine: damping 1,400 N s/m, stiffness 980,000 N/m, speed 1,759 rpm"):
+        narrow = plots.motion(motion, title="a motion")
+    assert wide.get_size_inches()[0] == pytest.approx(plots.TWO_COLUMNS)
+    assert narrow.get_size_inches()[0] == pytest.approx(plots.ONE_COLUMN)
+    upper, lower = (axes.get_position() for axes in narrow.axes[:2])
+    assert upper.y0 > lower.y1
+    assert narrow.get_suptitle().split("\n") == [
+        "a machine: damping 1,400 N s/m,",
+        "stiffness 980,000 N/m, speed 1,759 rpm",
+        "a motion",
+    ]
+    narrow.canvas.draw()
+    renderer = narrow.canvas.get_renderer()
+    box = narrow.legends[0].get_window_extent(renderer)
+    assert box.x0 >= 0.0
+    assert box.x1 <= narrow.bbox.x1
+    assert plots.motion(motion).get_suptitle() == wide.get_suptitle()

@@ -13,6 +13,7 @@ from carom.parameters import Parameters, load
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
 
+CHROMIUM = "/usr/bin/chromium"
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
 
 pytestmark = pytest.mark.jit_only
@@ -139,3 +140,60 @@ def test_any_machine_has_a_report(parameters, tmp_path):
     assert page.open == []
     assert len(page.identifiers) == len(set(page.identifiers))
     assert "nan" not in re.sub(r"<svg.*?</svg>", "", text, flags=re.DOTALL)
+
+
+def test_figures_fit_a_telephone(written):
+    """Letters of 7 points in a figure of one column are at least 9 pixels high on a screen 390 pixels wide."""
+    _, path, _ = written
+    for file in (path.parent / "figures").iterdir():
+        width = float(re.search(r'viewBox="0 0 ([\d.]+) ', file.read_text(encoding="utf-8"))[1])
+        assert width == pytest.approx(88.0 / 25.4 * 72.0, abs=0.1)
+        assert 7.0 * 340.0 / width > 9.0
+
+
+def test_tables_are_stacked_on_narrow_screens(written):
+    _, _, text = written
+    tables = re.findall(r'<table class="stacked">(.*?)</table>', text, flags=re.DOTALL)
+    assert len(tables) == 4
+    for table in tables:
+        for row in re.findall(r"<tr[^>]*>(.*?)</tr>", table, flags=re.DOTALL)[1:]:
+            cells = re.findall(r"<td[^>]*>", row)
+            assert all("data-label=" in cell for cell in cells[1:])
+
+
+def test_recommendation_comes_first(written):
+    _result, _, text = written
+    words = re.sub(r"\s+", " ", "".join(Page(text).words))
+    assert words.index("Recommendation") < words.index("Levitation")
+    assert text.count('class="change"') == 2
+    for part in ("damping 1,400 N s/m → at least 3,578 N s/m (× 2.56)", "None of it is proven", "speed 1,759 rpm"):
+        assert part in words
+
+
+def test_png_on_request(written, monkeypatch, tmp_path):
+    result, _, _ = written
+    monkeypatch.setattr("carom.report.page.pictures", lambda study: pictures(study)[:1])
+    write_report(result, str(tmp_path), png=True)
+    assert {file.name for file in (tmp_path / "figures").iterdir()} == {"overview.svg", "overview.png"}
+    assert json.loads((tmp_path / "study.json").read_text(encoding="utf-8"))["figures"] == [
+        "figures/overview.svg",
+        "figures/overview.png",
+    ]
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (390, "dark"), (1280, "light")])
+def test_nothing_is_wider_than_the_screen(width, scheme, written):
+    playwright = pytest.importorskip("playwright.sync_api")
+    if not Path(CHROMIUM).exists():
+        pytest.skip(f"needs {CHROMIUM}")
+    _, path, _ = written
+    with playwright.sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
+        page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=scheme)
+        page.goto(path.absolute().as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth") == width
+        beyond = "[...document.querySelectorAll('table, figure, dd')].filter(e => e.getBoundingClientRect().right > innerWidth)"
+        assert page.evaluate(f"{beyond}.length") == 0
+        letters = "[...document.querySelectorAll('figure svg')].map(s => 7 * s.getBoundingClientRect().width / s.viewBox.baseVal.width)"
+        assert min(page.evaluate(letters)) > 9.0
+        browser.close()

@@ -14,7 +14,7 @@ from carom.plots.attractor_shares import attractors
 from carom.plots.basins import basin
 from carom.plots.conditions import period_condition
 from carom.plots.diagrams import bifurcation_diagram
-from carom.plots.figure import heading
+from carom.plots.figure import heading, one_column
 from carom.plots.files import save
 from carom.plots.gains import gain_map
 from carom.plots.histories import radius
@@ -46,6 +46,7 @@ __all__ = [
     "heading",
     "motion",
     "multipliers",
+    "one_column",
     "orbit",
     "overview",
     "period_condition",

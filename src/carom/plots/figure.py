@@ -17,12 +17,13 @@ from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.cbook import file_requires_unicode, open_file_cm
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, fontManager, get_font
+from matplotlib.legend import Legend
 from matplotlib.mathtext import MathTextParser
 from matplotlib.text import Text
 from matplotlib.textpath import TextToPath
 from matplotlib.transforms import Bbox
 
-from carom.plots.sheet import applied, drawing
+from carom.plots.sheet import ONE_COLUMN, applied, drawing
 
 _heading: ContextVar[str] = ContextVar("_heading", default="")
 
@@ -37,6 +38,26 @@ def heading(text: str) -> Iterator[None]:
         _heading.reset(before)
 
 
+_narrow: ContextVar[bool] = ContextVar("_narrow", default=False)
+_TITLE, _LABEL = 48, 27
+"""Most characters of a line of a title, and of a label of a legend with two columns, in a figure of one column."""
+
+
+@contextmanager
+def one_column() -> Iterator[None]:
+    """Make figures one column wide inside a ``with`` block: readable on a telephone, with panels below each other."""
+    before = _narrow.set(True)
+    try:
+        yield
+    finally:
+        _narrow.reset(before)
+
+
+def narrow() -> bool:
+    """Whether figures are made one column wide now."""
+    return _narrow.get()
+
+
 POINTS = 72.0
 """Dots per inch of an SVG file: its unit is the point."""
 
@@ -48,16 +69,43 @@ class StyledFigure(Figure):
     letters in SVG, the looks of ticks.  Its layout is fixed, so one drawing is enough for a file.
     """
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, layout="constrained", **kwargs)
+    def __init__(self, figsize: tuple[float, float] | None = None, **kwargs: Any) -> None:
+        self._narrow = _narrow.get()
+        if self._narrow and figsize is not None:
+            figsize = min(figsize[0], ONE_COLUMN), figsize[1]
+        super().__init__(figsize, layout="constrained", **kwargs)
         _Canvas(self)
         self._heading = _heading.get()
         if self._heading:
-            super().suptitle(self._heading)
+            super().suptitle(self._wrapped(self._heading))
 
     def suptitle(self, t: str, **kwargs: Any) -> Text:
         """Set the title as :meth:`matplotlib.figure.Figure.suptitle` does, below the heading if there is one."""
-        return super().suptitle(f"{self._heading}\n{t}" if self._heading else t, **kwargs)
+        return super().suptitle(self._wrapped(f"{self._heading}\n{t}" if self._heading else t), **kwargs)
+
+    def _wrapped(self, text: str) -> str:
+        """Break the lines of a title that a figure of one column has no room for, after commas; formulas stay whole."""
+        if not self._narrow:
+            return text
+        lines: list[str] = []
+        for line in text.split("\n"):
+            lines.append("")
+            for part in line.split(", "):
+                together = f"{lines[-1]}, {part}" if lines[-1] else part
+                fits = len(together) <= _TITLE or "$" in line
+                lines[-1:] = [together] if fits or not lines[-1] else [f"{lines[-1]},", part]
+        return "\n".join(lines)
+
+    def legend(self, *args: Any, **kwargs: Any) -> Legend:
+        """Add a legend as :meth:`matplotlib.figure.Figure.legend` does, in one or two columns if the figure is narrow."""
+        if not self._narrow:
+            return super().legend(*args, **kwargs)
+        legend = super().legend(*args, **kwargs | {"ncols": 1})
+        longest = max((len(text.get_text().replace("$", "")) for text in legend.get_texts()), default=0)
+        if longest > _LABEL or len(legend.get_texts()) < 2:
+            return legend
+        legend.remove()
+        return super().legend(*args, **kwargs | {"ncols": 2})
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw as :meth:`matplotlib.figure.Figure.draw` does, under carom's style sheet."""

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from carom.outcome import InputError
 from carom.plots.bands import bands_on_the_circle, drawing_times, flying
-from carom.plots.figure import StyledFigure
+from carom.plots.figure import StyledFigure, narrow
 from carom.plots.plane import (
     Frame,
     clearance_circle,
@@ -27,7 +27,7 @@ from carom.plots.plane import (
     path,
     point,
 )
-from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import counted, ending, orbit_look, orbit_title, time_in_words, turns
 
 if TYPE_CHECKING:
@@ -168,6 +168,10 @@ def _levitation(axes: Axes, equilibrium: complex) -> None:
 
 def _two_frames(axes: Sequence[Axes] | None) -> tuple[Figure, tuple[Axes, Axes]]:
     if axes is None:
+        if narrow():
+            figure = StyledFigure(figsize=(ONE_COLUMN, 2.35 * ONE_COLUMN))
+            left, right = figure.subplots(2, 1)
+            return figure, (left, right)
         figure = StyledFigure(figsize=(TWO_COLUMNS, 0.58 * TWO_COLUMNS))
         left, right = figure.subplots(1, 2)
         return figure, (left, right)

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from carom.plots.closeups import Closeup, closeups
-from carom.plots.figure import StyledFigure
+from carom.plots.figure import StyledFigure, narrow
 from carom.plots.placement import spread_angles
 from carom.plots.plane import (
     Complex,
@@ -27,7 +27,7 @@ from carom.plots.plane import (
     path,
     point,
 )
-from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import orbit_look, orbit_symbol
 
 if TYPE_CHECKING:
@@ -106,6 +106,10 @@ def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
     if axes is not None or not count:
         figure, whole = one_axes(axes, (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS))
         return figure, whole, []
+    if narrow():
+        figure = StyledFigure(figsize=(ONE_COLUMN, 1.85 * ONE_COLUMN))
+        grid = figure.add_gridspec(2, count, height_ratios=(1.0, 1.0 / count))
+        return figure, figure.add_subplot(grid[0, :]), [figure.add_subplot(grid[1, i]) for i in range(count)]
     figure = StyledFigure(figsize=(TWO_COLUMNS, (0.58 if count == 1 else 0.66) * TWO_COLUMNS))
     grid = figure.add_gridspec(count, 2, width_ratios=(count, 1))
     return figure, figure.add_subplot(grid[:, 0]), [figure.add_subplot(grid[i, 1]) for i in range(count)]

@@ -9,6 +9,8 @@ from contextvars import ContextVar
 
 import matplotlib.style
 
+ONE_COLUMN = 88 / 25.4
+"""Width of one column [inch]."""
 _SHEET = "carom.plots.carom"
 _in_use = ContextVar("_in_use", default=False)
 

@@ -37,12 +37,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from carom.plots.arrangement import arrange, write_plain_ticks
+from carom.plots.sheet import ONE_COLUMN as ONE_COLUMN
 from carom.plots.sheet import drawing
 
 Arguments = ParamSpec("Arguments")
 
-ONE_COLUMN = 88 / 25.4
-"""Width of a one-column figure [inch]: 88 mm."""
 
 TWO_COLUMNS = 180 / 25.4
 """Width of a two-column figure [inch]: 180 mm."""

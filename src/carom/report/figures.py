@@ -83,8 +83,8 @@ def _of_orbit(study: Study, orbit: Orbit) -> Iterator[Picture]:
     yield Picture(
         f"orbit-{file}",
         "motions",
-        f"Orbit {orbit.name}, {kind}: one impact every {say.time(orbit.period)}. Left in the frame that turns with the "
-        "shaft, where it repeats; right as seen from outside.",
+        f"Orbit {orbit.name}, {kind}: one impact every {say.time(orbit.period)}. Above in the frame that turns with the "
+        "shaft, where it repeats; below as seen from outside.",
         lambda: plots.orbit(orbit),
     )
     zones = _zones(study, np.abs(orbit.path(np.linspace(0.0, orbit.period, 400))))

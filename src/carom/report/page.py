@@ -21,9 +21,9 @@ from carom.report.figures import Picture, pictures
 from carom.studies import NOT_COVERED, Study
 from carom.studies.one_page import recommendation_lines
 from carom.studies.summaries import dimensionless_rows, kick_rows, machine_rows, motion_rows, range_rows, threshold_rows
+from carom.studies.wording import machine_heading
 
 REPORT = "report.html"
-FORMATS = ("svg",)
 SCREEN_SCALE = 1.3
 """Enlargement of the figures on a screen: they are made for print, and a screen is farther away."""
 
@@ -38,13 +38,16 @@ class InlineFigure:
 
 
 @shows_progress
-def write_report(study: Study, directory: str, *, progress: ShowProgress = None) -> Path:
+def write_report(study: Study, directory: str, *, png: bool = False, progress: ShowProgress = None) -> Path:
     """Write ``report.html``, ``study.json`` and the figures of a study.
 
     Parameters
     ----------
     directory : str
         Target directory, created if it does not exist.  Files of an earlier study are replaced; other files stay.
+
+    png : bool
+        Write the figures as PNG too, which takes about as long as all the rest of the report.
 
     Returns
     -------
@@ -58,12 +61,13 @@ def write_report(study: Study, directory: str, *, progress: ShowProgress = None)
     """
     tell = Reporter.of(progress, "drawing")
     wanted = pictures(study)
-    with filled_at_once(directory, "--out") as place, drawing():
+    named = plots.heading(machine_heading(study.case))
+    with filled_at_once(directory, "--out") as place, drawing(), named, plots.one_column():
         (place / FIGURES).mkdir()
         inline, names = [], []
         for done, picture in enumerate(wanted):
             tell(done / len(wanted), f"figure {done + 1} of {len(wanted)}")
-            paths = plots.save(picture.draw(), place / FIGURES / picture.name, FORMATS)
+            paths = plots.save(picture.draw(), place / FIGURES / picture.name, ("svg", "png") if png else ("svg",))
             names += [f"{FIGURES}/{path.name}" for path in paths]
             inline.append(_inline(picture, paths[0].read_text(encoding="utf-8"), f"f{done + 1}-"))
         document = {**study.to_dict(), "figures": names}
