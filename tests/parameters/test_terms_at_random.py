@@ -10,7 +10,7 @@ from compilation import sized
 from carom.outcome import InputError
 from carom.parameters import Machine, load
 
-CASES = sized(60, 60, 2000)
+CASES = sized(40, 40, 2000)
 TAU = "tau"
 # Per name: units with their size in SI units (of a balance grade: in mm/s), and the range of sensible values there.
 UNITS = {

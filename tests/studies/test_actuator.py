@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 
@@ -18,7 +19,7 @@ from carom.files import as_json
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import orbits_within_reach
-from carom.parameters import load
+from carom.parameters import Case, Machine, Parameters, Scales, Zones, load
 from carom.studies.actuator import bearing_demand, largest_along, limits_of
 
 KEOGH = "examples/keogh-cole.toml"
@@ -123,13 +124,17 @@ def test_without_limits_nothing_is_said_and_a_dimensionless_machine_has_none():
 
 
 KEOGH_PARAMETERS = load(KEOGH).parameters
-QUIET = ["damping=6000 N s/m", "friction=0"]
+QUIET = Parameters(0.5, 0.76, 3 / 7, 0.21, 0.0, 0.95, 400 / 7, Scales(50.0, 0.7e-3, 184.2))
+BEARING_NUMBERS = {"magnetic_bearings": 2, "force_current_factor": 70.0, "negative_stiffness": 2.1e5}
 
 
 @pytest.mark.jit_only
 def test_a_study_says_what_the_bearings_cannot_give():
-    case = limited(*QUIET, force="900 N", current="1 kA")
-    result = study_once(case)
+    """The study of a machine without limits, which other tests look at too, with the limits of its bearings."""
+    free = study_once(QUIET)
+    machine = Machine.from_parameters(QUIET).replace(force_limit="900 N", **BEARING_NUMBERS, current_limit="1 kA")
+    case = Case("limited", QUIET, machine, Zones())
+    result = dataclasses.replace(free, case=case)
     demand = result.bearing_demand
 
     beyond = demand.disturbances[0] > 1.0
