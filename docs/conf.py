@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.metadata
 import importlib.util
 import os
 import sys
 from pathlib import Path
+
+from docutils import nodes
+from sphinx.util.nodes import make_refnode
 
 # Cells run in processes of their own, each in the folder of its page; what they share is in _cells.
 _CELLS = str(Path(__file__).parent / "_cells")
@@ -124,6 +128,72 @@ mathjax3_config = {
 }
 
 
+# ------------------------------------------------------------------------------------------------ references
+
+# Every reference must lead somewhere or name something that exists.
+nitpicky = True
+_PYTHON = "https://docs.python.org/3/library/"
+_ELSEWHERE = {
+    "numpy.ndarray": "https://numpy.org/doc/stable/reference/generated/numpy.ndarray.html",
+    "xarray.Dataset": "https://docs.xarray.dev/en/stable/generated/xarray.Dataset.html",
+    "matplotlib.figure.Figure": "https://matplotlib.org/stable/api/figure_api.html#matplotlib.figure.Figure",
+    "matplotlib.axes.Axes": "https://matplotlib.org/stable/api/_as_gen/matplotlib.axes.Axes.html",
+    "scipy.integrate.solve_ivp": "https://docs.scipy.org/doc/scipy/reference/generated/scipy.integrate.solve_ivp.html",
+    "pathlib.Path": f"{_PYTHON}pathlib.html#pathlib.Path",
+    "os.PathLike": f"{_PYTHON}os.html#os.PathLike",
+    "fractions.Fraction": f"{_PYTHON}fractions.html#fractions.Fraction",
+    "decimal.Decimal": f"{_PYTHON}decimal.html#decimal.Decimal",
+    "dataclasses.asdict": f"{_PYTHON}dataclasses.html#dataclasses.asdict",
+    **{
+        f"collections.abc.{name}": f"{_PYTHON}collections.abc.html#collections.abc.{name}"
+        for name in ("Callable", "Collection", "Iterable", "Iterator", "Mapping", "Sequence")
+    },
+}
+"""Addresses of what other packages document.  Their inventories would have to be downloaded for every build."""
+_SHORT = {"np.ndarray": "numpy.ndarray", "Figure": "matplotlib.figure.Figure", "Axes": "matplotlib.axes.Axes"}
+
+
+def _objects(path: str) -> list[object]:
+    """The object of a dotted path, if there is one, and the package that has it."""
+    parts = path.split(".")
+    for count in range(len(parts), 0, -1):
+        try:
+            found = importlib.import_module(".".join(parts[:count]))
+        except ImportError:
+            continue
+        for name in parts[count:]:
+            fields = getattr(found, "__dataclass_fields__", {})
+            if not hasattr(found, name) and name not in fields and name not in getattr(found, "__annotations__", {}):
+                return []
+            found = getattr(found, name, fields.get(name))
+        return [found]
+    return []
+
+
+def _resolve(app, env, node, contnode):  # type: ignore[no-untyped-def]
+    """Follow a reference to where its object is documented; set a name that exists and is not documented as text."""
+    if node.get("refdomain") != "py":
+        return None
+    target = _SHORT.get(node["reftarget"], node["reftarget"])
+    if target in _ELSEWHERE:
+        return nodes.reference("", "", contnode, internal=False, refuri=_ELSEWHERE[target])
+    module, owner = node.get("py:module") or "carom", node.get("py:class") or ""
+    for path in (target, f"{module}.{target}", f"{module}.{owner}.{target}"):
+        for found in _objects(path):
+            for name, entry in env.get_domain("py").objects.items():
+                alike = not entry.aliased and name.rpartition(".")[2] == target.rpartition(".")[2]
+                if alike and any(other is found for other in _objects(name)):
+                    return make_refnode(app.builder, node["refdoc"], entry.docname, entry.node_id, contnode, name)
+            return contnode
+    return contnode if _is_annotation(target) else None
+
+
+def _is_annotation(name: str) -> bool:
+    """Whether a name stands in annotations only: a type of another package, or one that is imported for checking."""
+    head, _, last = name.rpartition(".")
+    return head.partition(".")[0] in ("np", "numpy", "distributed") or (not head and last[:1].isupper())
+
+
 def _keep_formulas(app, what, name, obj, options, lines) -> None:  # type: ignore[no-untyped-def]
     """Show the indented formulas of module texts as they are: their bars and stars are no markup."""
     if what != "module":
@@ -141,3 +211,4 @@ def _keep_formulas(app, what, name, obj, options, lines) -> None:  # type: ignor
 def setup(app) -> None:  # type: ignore[no-untyped-def]
     """Register what this file adds."""
     app.connect("autodoc-process-docstring", _keep_formulas, priority=100)
+    app.connect("missing-reference", _resolve)

@@ -56,7 +56,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class Citations:
-    """What to cite for a result: :attr:`text` for people, :attr:`bibtex` for a file.
+    """What to cite for a result: ``text`` for people, ``bibtex`` for a file.
 
     Attributes
     ----------

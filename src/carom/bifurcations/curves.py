@@ -193,7 +193,7 @@ def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps:
     Parameters
     ----------
     bifurcation : Bifurcation or SpecialOrbit
-        A special point of a branch or of a diagram, or :meth:`Bifurcation.near`; its kind is one of :data:`KINDS`, or for
+        A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of :data:`KINDS`, or for
         bouncing with rub ``"contact-onset"`` or ``"permanent-contact"``.
 
     Raises

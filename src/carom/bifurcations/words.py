@@ -91,7 +91,7 @@ class SpecialOrbit(Result):
         return self.orbit.admissible or (self.kind in BORDERS and self.orbit.margins.least > -ON_BORDER)
 
     def switch(self, interval: Ends | None = None) -> WordBranch:
-        """Branch that is born in this period doubling, or that goes on with the neighbouring word; see :func:`switched`."""
+        """Branch that is born in this period doubling, or that goes on with the neighbouring word; see ``switched``."""
         return switched(self.kind, self.orbit, self.axis.name, interval)
 
 

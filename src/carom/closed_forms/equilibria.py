@@ -145,7 +145,7 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
 
     Synchronous rub: the contact force ``−N(1 + iμ)e^{iθ}`` (slip is forward, ``s + 1 > 0``) acts through the static
     receptance of the planes (:mod:`carom.closed_forms.statics`).  Rubs at one plane and at two planes at once are all
-    found; at three and more they are searched, and :attr:`EquilibriumSet.complete` is false.  For the planar rotor
+    found; at three and more they are searched, and ``complete`` is false.  For the planar rotor
     ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``: none or two.
 
     For a balanced rotor (``ρ = 0``) no rub is listed, because no angle is distinguished: if ``γ + μ(1 − ω²) = 0``, as

@@ -88,11 +88,11 @@ class Jeffcott:
         return self.parameters.varied
 
     def value(self, name: str) -> float:
-        """Value of a parameter (:meth:`Parameters.value`)."""
+        """Value of a parameter (:meth:`carom.parameters.Parameters.value`)."""
         return self.parameters.value(name)
 
     def replace(self, **changes: Any) -> Jeffcott:
-        """Return the rotor with other parameters (:meth:`Parameters.replace`)."""
+        """Return the rotor with other parameters (:meth:`carom.parameters.Parameters.replace`)."""
         return Jeffcott(self.parameters.replace(**changes))
 
     def attributes(self) -> dict[str, str]:

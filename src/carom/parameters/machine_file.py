@@ -108,7 +108,7 @@ class Case:
         Parameters
         ----------
         **changes
-            As for :meth:`Machine.replace`; for a dimensionless case as for :meth:`Parameters.replace`.
+            As for :meth:`carom.parameters.Machine.replace`; for a dimensionless case as for :meth:`carom.parameters.Parameters.replace`.
 
         Raises
         ------

@@ -93,7 +93,7 @@ def equilibria_and_orbits(
 
 
 def overview(study: Study, title: str | None = None) -> Figure:
-    """Draw :func:`equilibria_and_orbits` of a study; virtual orbits are left out if there are very many."""
+    """Draw :func:`~carom.plots.equilibria_and_orbits` of a study; virtual orbits are left out if there are very many."""
     orbits = study.orbits
     possible = tuple(orbit for orbit in orbits if orbit.admissible)
     if len(orbits) - len(possible) > _MOST_IN_OVERVIEW:

@@ -109,7 +109,7 @@ class Enclosure:
 
     @property
     def short(self) -> str:
-        """The digits that both have in common, at most :data:`_SHOWN`, or both numbers."""
+        """The digits that both have in common, at most ``_SHOWN``, or both numbers."""
         pairs = zip(self.low, self.high, strict=False)
         common = "".join(one for one, _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
         places = {len(end.partition(".")[0]) for end in (self.low, self.high)}

@@ -23,7 +23,7 @@ Spacing = Literal["linear", "log", "list"]
 
 @dataclass(frozen=True)
 class GridAxis:
-    """Values of one parameter; see :meth:`between` and :meth:`of`.
+    """Values of one parameter; see ``between`` and ``of``.
 
     Attributes
     ----------
