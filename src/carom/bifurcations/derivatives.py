@@ -199,7 +199,7 @@ class OrbitChange:
     def equations(self) -> tuple[float, float]:
         """Changes of both equations of an orbit, ``closing`` and ``balance``."""
         values, direction = self.values, self.direction
-        nearness = (values.product.conjugate() * self.product).real / abs(values.product) ** 2
+        nearness = (self.product / values.product).real
         rest = 2.0 * values.size * (direction.rho / abs(values.product) - values.size * nearness)
         place = 1.0 + values.lever * values.speed
         change = self.lever * values.speed + values.lever * direction.speed

@@ -46,9 +46,10 @@ def attractors(
         document = attractors_document(case.parameters, found, characters, exponents) if as_json or out else {}
         if out is not None:
             from carom.files import filled_at_once, write_json
-            from carom.plots import save
+            from carom.plots import heading, save
+            from carom.studies.wording import machine_heading
 
-            with filled_at_once(out, "--out") as directory:
+            with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
                 save(found.plot(), directory / "figures" / "attractors")
                 write_json(directory / "attractors.json", document)
     if as_json:
