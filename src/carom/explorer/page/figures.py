@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from bokeh.models import ColumnDataSource, HoverTool, Range1d
-from bokeh.models.annotations import BoxAnnotation, Span
+from bokeh.models.annotations import Span
 from bokeh.plotting import figure
 
 from carom.plots.style import LOOKS, REGIMES
 
 HEIGHT = 270
-SPANS = 60
-"""Stretches of lasting contact that are shaded at most."""
 
 
 @dataclass(frozen=True)
@@ -48,16 +46,15 @@ def _source(parts: dict[str, Any], name: str, *columns: str) -> ColumnDataSource
     return source
 
 
-def _plot(name: str, x: str, y: str, x_range: Any, y_range: Any, tools: str = "") -> Any:
+def _plot(name: str, x_range: Any, y_range: Any) -> Any:
+    """Plot without any ink of its own: labels and colours come with the page, and differ between light and dark."""
     plot = figure(
         name=name,
         height=HEIGHT,
         sizing_mode="stretch_width",
-        x_axis_label=x,
-        y_axis_label=y,
         x_range=x_range,
         y_range=y_range,
-        tools=tools,
+        tools="",
         toolbar_location=None,
         min_border_left=54,
         min_border_right=14,
@@ -78,16 +75,12 @@ def _history(parts: dict[str, Any]) -> Any:
     """Radius over time: flight as a line, lasting contact shaded, impacts as marks on the wall."""
     plot = _plot(
         "history",
-        "time",
-        "radius (of the clearance)",
         _range(parts, "history_x", 0, 1),
         _range(parts, "history_y", 0, 1.06),
     )
     plot.add_layout(Span(location=1.0, dimension="width", line_color=LOOKS["wall"].colour, line_width=1.5, name="wall"))
-    for place in range(SPANS):
-        box = BoxAnnotation(left=0, right=0, fill_alpha=0.35, line_alpha=0.0, visible=False)
-        parts[f"span_{place}"] = box
-        plot.add_layout(box)
+    spans = _source(parts, "spans", "left", "right", "bottom", "top", "colour")
+    plot.quad("left", "right", "top", "bottom", source=spans, fill_color="colour", fill_alpha=0.35, line_alpha=0.0)
     plot.line(
         "t",
         "r",
@@ -109,8 +102,6 @@ def _section(parts: dict[str, Any]) -> Any:
     """Section at the impacts: angle and radial speed just before each."""
     plot = _plot(
         "section",
-        "angle on the bearing (°)",
-        "radial speed",
         _range(parts, "section_x", -180, 180),
         _range(parts, "section_y", 0, 1),
     )
@@ -122,7 +113,7 @@ def _section(parts: dict[str, Any]) -> Any:
 
 def _diagram(parts: dict[str, Any]) -> Any:
     """Impact speeds of all single-impact orbits along the slider moved last."""
-    plot = _plot("diagram", "", "impact speed", _range(parts, "diagram_x", 0, 1), _range(parts, "diagram_y", -0.1, 1))
+    plot = _plot("diagram", _range(parts, "diagram_x", 0, 1), _range(parts, "diagram_y", -0.1, 1))
     bars = _source(parts, "bars", "left", "right", "bottom", "top", "colour", "words")
     drawn = plot.quad(
         "left", "right", "top", "bottom", source=bars, fill_color="colour", line_alpha=0.0, fill_alpha=0.85

@@ -61,7 +61,7 @@ def basin_message(found: KickMap, rotor: Jeffcott) -> Message:
         "levitates": found.rest.levitates,
         "endings": [asdict(ending) for ending in found.endings],
         "share": f"{100.0 * found.share:.3g} %",
-        "share_remark": f"{basin.recovered.sum():,} of {basin.starts:,} kicks of up to {say.velocity(found.fastest)} a component",
+        "share_remark": f"{basin.recovered.sum():,} of {basin.starts:,} kicks, both parts up to {say.velocity(found.fastest)}",
         "sentence": _sentence(found),
         "harmless": harmless_kick(rotor) / found.fastest if found.rest.levitates else 0.0,
         "lost": "none" if lost is None else say.velocity(lost),

@@ -80,7 +80,7 @@ class Session:
         self._shown = _Shown(0, origin.case, {}, rotor, first, 0.31, 0.12)
         self._cost, self._reported = PATIENCE / COARSE**2, 0.0
         self._diagrams: dict[tuple[Any, ...], Any] = {}
-        self._quick = Desk(("flight", "table", "basin"))
+        self._quick = Desk(("basin", "flight", "table"))
         self._long = Desk(tuple(_LONG), self._report)
 
     def close(self) -> None:
@@ -112,9 +112,9 @@ class Session:
             before.tangential,
         )
         self._long.drop()
+        self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
         self._ask_quick("flight", self._flight)
         self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)))
-        self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
 
     def _finish(self) -> None:
         """Have everything computed that takes longer than a moment."""

@@ -2,7 +2,7 @@
 carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
 
 (() => {
-  const canvas = at("basin"), left = 54, below = 38, edge = 6;
+  const canvas = at("basin"), left = 54, below = 40, edge = 6;
   let frame = null, layer = null;
 
   const paint = (message) => {
@@ -85,7 +85,7 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
       pen.textAlign = "right"; pen.textBaseline = "middle"; pen.fillText(carom.short(value, 3), x0 - 5, clamp(toY(share), y0 + 6, y0 + span - 6));
     }
     pen.textAlign = "center"; pen.textBaseline = "alphabetic";
-    pen.fillText(`kick outward (${message.unit})`, x0 + span / 2, side - 4);
+    pen.fillText(`kick outward (${message.unit})`, x0 + span / 2, y0 + span + 32);
     pen.save(); pen.translate(11, y0 + span / 2); pen.rotate(-Math.PI / 2); pen.fillText(`kick with the rotation (${message.unit})`, 0, 0); pen.restore();
   };
 

@@ -2,7 +2,7 @@
 carom.controls = {};
 carom.number = 0;
 carom.moved = null;
-carom.sentAt = new Map();
+carom.held = false;
 
 (() => {
   const settings = {};
@@ -28,7 +28,7 @@ carom.sentAt = new Map();
 
   const send = (held) => {
     carom.number += 1;
-    carom.sentAt.set(carom.number, performance.now());
+    carom.held = held;
     carom.wishes.machine = { number: carom.number, settings: { ...settings }, held, along: carom.moved || "" };
     const words = new URLSearchParams(settings).toString();
     if (!held) history.replaceState(null, "", words ? `#${words}` : location.pathname);

@@ -1,10 +1,17 @@
 // The figures with axes, drawn by Bokeh: the browser fills them and gives them the colours of the page.
 carom.begin_plots = (parts, plots) => {
   const flight = { message: null, drawn: -1, count: -1 };
-  let along = null;
+  let along = null, special = null;
+  // Near-black is not seen on dark paper.
+  const mark = () => {
+    if (!special) return;
+    const inked = special.colour.map((one) => (one === carom.looks.wall ? colour("ink") : one));
+    parts.points.data = { ...special, colour: inked, fill: special.admissible.map((one) => (one ? 1 : 0)) };
+  };
   const theme = () => {
     const ink = colour("soft"), rule = colour("rule");
     for (const plot of Object.values(plots)) {
+      plot.setv({ border_fill_color: colour("card"), background_fill_color: colour("card"), border_fill_alpha: 1, background_fill_alpha: 1 });
       for (const axis of [...plot.below, ...plot.left]) {
         axis.setv({ axis_label_text_color: ink, major_label_text_color: ink, axis_line_color: rule, major_tick_line_color: rule, minor_tick_line_color: null,
           axis_label_text_font_style: "normal", axis_label_text_font_size: "12px", major_label_text_font_size: "12px" });
@@ -16,7 +23,10 @@ carom.begin_plots = (parts, plots) => {
     const path = plots.history.renderers.find((one) => one.name === "path"), wall = plots.history.center.find((one) => one.name === "wall");
     if (path) path.glyph.line_color = colour("trail");
     if (wall) wall.line_color = colour("wall");
+    mark();
   };
+  plots.history.left[0].axis_label = "radius (of the clearance)";
+  plots.section.below[0].axis_label = "angle on the bearing (°)";
   theme();
   carom.parts.push(theme);
 
@@ -34,6 +44,8 @@ carom.begin_plots = (parts, plots) => {
   };
 
   carom.plots = {
+    // While a slider is held the figures follow now and then, and leave the browser the time for the basin.
+    later: carom.throttled(300, (message) => { if (message === carom.flight.message) carom.plots.flight(message); }),
     flight: (message) => {
       flight.message = message;
       flight.count = -1;
@@ -44,11 +56,11 @@ carom.begin_plots = (parts, plots) => {
       plots.history.below[0].axis_label = `time (${message.time_unit})`;
       plots.section.left[0].axis_label = `radial speed (${message.speed_unit})`;
       parts.section_y.setv({ start: 0, end: 1.1 * message.speed * Math.max(...message.impact_speeds, 1e-3) });
-      for (let place = 0; parts[`span_${place}`]; place += 1) {
-        const span = message.spans[place], box = parts[`span_${place}`];
-        if (span) box.setv({ left: message.time * span.start, right: message.time * span.end, fill_color: span.colour, visible: true });
-        else if (box.visible) box.visible = false;
-      }
+      const all = (value) => message.spans.map(() => value);
+      parts.spans.data = {
+        left: message.spans.map((span) => message.time * span.start), right: message.spans.map((span) => message.time * span.end),
+        bottom: all(0), top: all(1.06), colour: message.spans.map((span) => span.colour),
+      };
       const kinds = new Map(message.spans.map((span) => [span.words, span.colour]));
       at("regimes").replaceChildren(...[...kinds].flatMap(([words, ink]) => {
         const key = document.createElement("i");
@@ -81,7 +93,8 @@ carom.begin_plots = (parts, plots) => {
         left: message.bars.map((bar) => bar.low), right: message.bars.map((bar) => bar.high), colour: message.bars.map((bar) => bar.colour), words: message.bars.map((bar) => bar.words),
         top: message.bars.map((bar) => -(0.04 + 0.06 * row(bar)) * message.top), bottom: message.bars.map((bar) => -(0.08 + 0.06 * row(bar)) * message.top),
       };
-      parts.points.data = { ...message.points, fill: message.points.admissible.map((one) => (one ? 1 : 0)) };
+      special = message.points;
+      mark();
       carom.showCursor(along, carom.controls.value(along));
     },
   };
