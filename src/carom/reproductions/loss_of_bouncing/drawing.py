@@ -16,6 +16,7 @@ from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, styled
 from carom.reproductions.loss_of_bouncing.following import CLOSE, RANGE
 
 if TYPE_CHECKING:
+    from carom.bifurcations import WordBranch
     from carom.reproductions.loss_of_bouncing.following import LossOfBouncing
     from carom.reproductions.loss_of_bouncing.samples import BouncingSample
 
@@ -71,18 +72,25 @@ def _orbits(axes: Axes, found: LossOfBouncing, limits: tuple[float, float]) -> N
         heights = np.array([point.radial_speed for point in single.special])
         branch_line(axes, single, np.arange(len(single)), single.values, single.radial_speed, heights)
     for branch in diagram.several:
-        for k, speeds in enumerate(branch.radial_speeds.T):
-            heights = np.array([point.orbit.impact_speeds[k] for point in branch.special])
-            branch_line(axes, branch, np.arange(len(branch)), branch.values, speeds, heights)
+        _branch(axes, branch)
     for line in axes.lines:
         line.set_linewidth(WIDTHS.get(str(line.get_linestyle()), 1.0) if line.get_alpha() == 1.0 else 0.4)
     for window in found.windows:
-        shown = np.where(window.admissible & window.stable, window.values, np.nan)
-        for speeds in window.radial_speeds.T:
-            axes.plot(shown, speeds, **LOOKS["stable"].stroke)
+        first = len(axes.lines)
+        _branch(axes, window)
+        for line in list(axes.lines)[first:]:
+            if line.get_linestyle() != "-" or line.get_alpha() != 1.0:
+                line.remove()
     for point in diagram.points:
         if point.kind in MARKED and point.admissible and limits[0] < point.value < limits[1]:
             mark_point(axes, point.kind, point.value, point.radial_speed)
+
+
+def _branch(axes: Axes, branch: WordBranch) -> None:
+    """Draw the radial speeds of all impacts along a branch."""
+    for k, speeds in enumerate(branch.radial_speeds.T):
+        heights = np.array([point.orbit.impact_speeds[k] for point in branch.special])
+        branch_line(axes, branch, np.arange(len(branch)), branch.values, speeds, heights)
 
 
 def _impacts(axes: Axes, samples: tuple[BouncingSample, ...]) -> None:
@@ -146,11 +154,10 @@ def _destinations(axes: Axes, samples: tuple[BouncingSample, ...]) -> list[Patch
         shares = np.array([_share(sample, key) for sample in samples])
         if not shares.any():
             continue
-        look = OUTCOMES[key]
-        axes.stairs(
-            base + shares, edges, baseline=base, fill=True, fc=look.colour, ec="#ffffff", lw=0.0, hatch=look.hatch
-        )
-        shown.append(Patch(fc=look.colour, ec="#ffffff", lw=0.0, hatch=look.hatch, label=words))
+        # Irregular bouncing without a pattern: it has to differ from periodic bouncing in greyscale.
+        look, pattern = OUTCOMES[key], "" if key == "irregular" else OUTCOMES[key].hatch
+        axes.stairs(base + shares, edges, baseline=base, fill=True, fc=look.colour, ec="#ffffff", lw=0.0, hatch=pattern)
+        shown.append(Patch(fc=look.colour, ec="#ffffff", lw=0.0, hatch=pattern, label=words))
         base += shares
     axes.set_ylim(0.0, 1.0)
     axes.set_yticks([0.0, 1.0])
