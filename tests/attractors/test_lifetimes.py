@@ -31,7 +31,7 @@ def test_the_interval_holds_the_half_life_as_often_as_it_says(half_life):
     for seed in range(100):
         found = lived(exponential(seed, half_life))
         low, high = found.survival.interval
-        assert low < found.half_life < high
+        assert low < found.survival.half_life < high
         inside += low < half_life < high
         even += found.evenness >= 0.01
         verdicts += found.verdict == ("undecided" if half_life > 20_000 else "transient")
@@ -59,7 +59,16 @@ def test_a_transient_beside_an_attractor_is_not_called_one():
         lives = np.concatenate([exponential(1, 300.0), np.full(int(300 * share / (1.0 - share)), math.inf)])
         found = lived(lives)
         assert found.verdict == "undecided"
-        assert "some stay longer" in found.words
+        assert "not at a constant rate" in found.words
+        assert found.half_life is None
+
+
+def test_ends_that_all_come_at_one_age_have_no_half_life():
+    """A transient, because all ended; but a chatter or a slow spiral does not end by chance."""
+    found = lived(np.random.default_rng(0).normal(2000.0, 100.0, 300))
+    assert found.verdict == "transient"
+    assert found.half_life is None
+    assert "so there is no half-life; half of them lasted longer than 1.99e+03 impacts" in found.words
 
 
 def test_motions_followed_for_less_than_some_half_lives_are_undecided():

@@ -64,7 +64,7 @@ def test_what_never_dies_is_told_with_how_many_were_followed_for_how_long(monkey
 
 
 def test_half_life_is_told_with_two_digits():
-    found = Survival(100, 20_000, 98, 1624.3, (1333.0, 1987.0))
+    found = Survival(100, 20_000, 100, 1624.3, (1333.0, 1987.0))
     assert found.words == "transient, half-life 1,600 impacts (1,300 to 2,000)"
     assert document_of(found) == {
         "transient": True,
@@ -72,6 +72,22 @@ def test_half_life_is_told_with_two_digits():
         "half_life_interval_impacts": [1333.0, 1987.0],
         "survival": found.words,
     }
+
+
+def test_a_transient_is_named_only_if_it_was_followed_for_several_half_lives():
+    for died, half_life, verdict in (
+        (100, 19_000.0, "transient"),
+        (99, 3000.0, "transient"),
+        # One in a hundred should be left: ten of them are on something else.
+        (90, 3000.0, "undecided"),
+        (30, 40_000.0, "undecided"),
+    ):
+        found = Survival(100, 20_000, died, half_life, (0.5 * half_life, 2.0 * half_life))
+        assert found.verdict == verdict
+        assert found.words.startswith(
+            "transient, " if verdict == "transient" else "transient or attractor, undecided, "
+        )
+    assert Survival(100, 20_000, 0, None, (4e5, math.inf)).verdict == "not seen to end"
 
 
 def test_motions_that_all_die_at_once_have_a_short_life(monkeypatch):

@@ -22,6 +22,9 @@ from tests.compilation import sized
 from tests.linear_rotors import tilting
 from tests.machines import PAPER, flight_matrix, random_parameters, rest_position, strike
 
+# Hundreds of impacts with their derivatives.
+pytestmark = pytest.mark.jit_only
+
 CHAOTIC = Parameters(0.0772, 1.098, 0.615, 0.0, 0.1356, 0.95, 3.04)
 STOPPING = Parameters(0.047, 0.745, 0.78, 0.0, 0.34, 0.95, 0.786)
 LANDING = Parameters(0.0274, 1.0566, 0.42048, 0.0, 0.35408, 0.0269, 1.0477)
@@ -54,13 +57,15 @@ def bouncing_from(rotor, starts: int, seed: int = 0, wanted=(Outcome.BOUNCING, O
     return [State(complex(u), complex(v)) for u, v in zip(ends.positions[chosen], ends.velocities[chosen], strict=True)]
 
 
-@pytest.mark.jit_only
 def test_exponents_add_up_to_the_growth_of_volumes():
     rng, compared, lost = np.random.default_rng(5), 0, 0
     for _ in range(sized(120, 1, 1500)):
         rotor = lively(rng)
         for state in bouncing_from(rotor, 30)[:2]:
-            found = lyapunov_exponents(rotor, state, 300, transient=50)
+            try:
+                found = lyapunov_exponents(rotor, state, 300, transient=50)
+            except CaromError:  # a transient that is over
+                continue
             if found.time < 10.0:
                 continue  # cut off within a chatter, whose bounces are too short for rates
             lost += found.lost > 0
@@ -75,7 +80,6 @@ def test_exponents_add_up_to_the_growth_of_volumes():
     assert lost > 2
 
 
-@pytest.mark.jit_only
 def test_sliding_keeps_the_volumes_of_its_divergence():
     """``∂θ̈/∂θ̇ = −γ − 2μ(1 + θ̇)sgn v`` in ``θ, θ̇``, integrated over the segment."""
     compared = 0
@@ -115,7 +119,6 @@ def _turned(motion, begin, lasted):
 
 
 @pytest.mark.parametrize("parameters", [PAPER, PAPER.replace(gamma=0.083), LANDING, WITHOUT_REBOUND, ROLLING])
-@pytest.mark.jit_only
 def test_exponents_of_orbits_are_those_of_their_multipliers(parameters):
     if parameters.mu == PAPER.mu:
         one = find_orbits(parameters)["B1,d"].departure
@@ -175,7 +178,6 @@ def nearby_growth(rotor, state: State, time: float, count: int) -> tuple[float, 
 
 
 @pytest.mark.parametrize("parameters", [CHAOTIC, STOPPING])
-@pytest.mark.jit_only
 def test_nearby_motions_separate_at_the_largest_exponent(parameters):
     rotor = Jeffcott(parameters)
     state = bouncing_from(rotor, 20, wanted=(Outcome.BOUNCING,))[0]
@@ -254,7 +256,6 @@ def _to_next_impact(parameters: Parameters, position: complex, velocity: complex
     return carried, time, complex(end[0], end[2]), complex(end[1], end[3])
 
 
-@pytest.mark.jit_only
 def test_a_coordinate_that_feels_no_contact_adds_its_own_rates():
     orbit = find_orbits(PAPER)["B1,d"]
     rotor = LinearRotor.in_fixed_frame(
@@ -276,7 +277,6 @@ def test_a_coordinate_that_feels_no_contact_adds_its_own_rates():
     assert abs(found.values.sum() - found.volume) < 1e-9
 
 
-@pytest.mark.jit_only
 def test_two_planes_that_are_hit_in_turn():
     rotor = tilting(friction=0.02, restitution=0.97, forcing=np.array([0.3, 0.05])).model
     compared = 0

@@ -8,7 +8,6 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from carom.attractors.groups import Attractor
-from carom.attractors.lifetimes import ENOUGH
 from carom.attractors.regularity import Rotation, rotation_of
 from carom.attractors.survival import Survival
 from carom.closed_forms.equilibria import find_equilibria
@@ -161,12 +160,7 @@ def _curves(rotation: Rotation) -> str:
 
 def lasting_of(survival: Survival | None) -> Lasting:
     """Whether irregular bouncing lasts, from its survival: a transient only if its motions were followed long enough."""
-    if survival is None:
-        return "undecided"
-    if survival.half_life is None:
-        return "not seen to end"
-    ended = survival.died == survival.motions or survival.impacts >= ENOUGH * survival.half_life
-    return "transient" if ended else "undecided"
+    return "undecided" if survival is None else survival.verdict
 
 
 def _undecided(attractor: Attractor, words: str) -> Character:

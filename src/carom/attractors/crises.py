@@ -40,7 +40,7 @@ class Crisis(Result):
 
     @property
     def half_lives(self) -> tuple[tuple[float, float | None], ...]:
-        """Values of the parameter and the half-life in impacts there; ``None`` where no end was seen."""
+        """Values of the parameter and the half-life in impacts there; ``None`` where no end was seen, or none fits the ends."""
         return tuple((value, found.half_life) for value, found in sorted(self.lifetimes.items()))
 
     @property

@@ -12,7 +12,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from carom.attractors.starts import DisturbanceSet, disturbances_of
-from carom.attractors.survival import Survival, still_irregular
+from carom.attractors.survival import ENOUGH, Survival, still_irregular
 from carom.disturbances import Plan
 from carom.models import Model, Subject, model_of
 from carom.motions.ensembles import settle
@@ -32,8 +32,6 @@ Added to these is the length of a chatter, whose bounces are counted too: about 
 CHATTER = 15.0
 FEWEST = 10
 """Motions from which on a half-life means something."""
-ENOUGH = 5.0
-"""Half-lives after which the motions that are left are taken for late ones, not for an attractor: 1 in 32 lasts longer."""
 UNEVEN = 0.01
 """Probability below which early and late deaths are not those of one constant rate."""
 
@@ -103,8 +101,13 @@ class Lifetimes(Result):
 
     @property
     def half_life(self) -> float | None:
-        """In impacts; ``None`` if no motion ended beyond the forgotten impacts."""
-        return self.survival.half_life
+        """In impacts; ``None`` if no motion ended beyond the forgotten impacts, or if they did not at a constant rate."""
+        return self.survival.half_life if self.constant_rate else None
+
+    @property
+    def constant_rate(self) -> bool:
+        """Whether the ends agree with a rate that does not depend on the age, so that a half-life tells how long motions last."""
+        return self.evenness >= UNEVEN and not self.too_many_left
 
     @cached_property
     def evenness(self) -> float:
@@ -128,11 +131,7 @@ class Lifetimes(Result):
     def too_many_left(self) -> bool:
         """Whether more motions are left at the end than the fit explains: some may be on an attractor."""
         left = sum(end == "irregular" for end in self.ends)
-        half_life = self.survival.half_life
-        if not left or half_life is None:
-            return False
-        expected = self.survival.motions * 0.5 ** ((self.followed - self.forgotten) / half_life)
-        return left > 1.0 + expected + 3.0 * math.sqrt(expected) or expected < UNEVEN
+        return left > self.survival.most_left(self.followed - self.forgotten)
 
     @property
     def verdict(self) -> Verdict:
@@ -151,9 +150,8 @@ class Lifetimes(Result):
         if self.ended[among].all():
             bouncing = all("bouncing" in end for end, one in zip(self.ends, among, strict=True) if one)
             return "periodic" if bouncing else "transient"
-        half_life = self.survival.half_life
-        long_enough = half_life is not None and self.followed - self.forgotten >= ENOUGH * half_life
-        return "transient" if long_enough and self.evenness >= UNEVEN and not self.too_many_left else "undecided"
+        long_enough = self.followed - self.forgotten >= ENOUGH * (self.half_life or math.inf)
+        return "transient" if long_enough else "undecided"
 
     @property
     def words(self) -> str:
@@ -169,13 +167,11 @@ class Lifetimes(Result):
         if survival.half_life is None:
             return f"{told}: not seen to end. If it is a transient, its half-life is above {low} impacts (95 %)."
         fitted = f"half-life {survival.half_life:,.3g} impacts ({low} to {high}, 95 %)"
-        if verdict == "undecided":
-            uneven = ""
-            if self.evenness < UNEVEN or self.too_many_left:
-                uneven = ", but not at a constant rate: some stay longer than this says"
-            return f"{told}: transient or attractor, undecided; {fitted}{uneven}."
-        name = "a transient" if verdict == "transient" else "a transient to periodic bouncing"
-        return f"{told}: {name}, {fitted}."
+        if not self.constant_rate:
+            middle = np.median(self.impacts[self.impacts > self.forgotten])
+            fitted = f"not at a constant rate, so there is no half-life; half of them lasted longer than {middle:,.3g} impacts"
+        names = {"undecided": "transient or attractor, undecided", "transient": "a transient"}
+        return f"{told}: {names.get(verdict, 'a transient to periodic bouncing')}; {fitted}."
 
 
 def _chance(count: int, chosen: int, share: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -22,6 +22,8 @@ The first look is not counted: until then the motions forget where they began.
 """
 APART = 1e-6
 """Relative change of velocity that makes several motions of one: irregular motions diverge within a look."""
+ENOUGH = 5.0
+"""Half-lives after which the motions that are left are taken for late ones, not for an attractor: 1 in 32 lasts longer."""
 CONFIDENCE = 0.95
 SEED = 0
 HALF_LIVES = 40
@@ -79,13 +81,30 @@ class Survival:
         return self.died > 0
 
     @property
+    def verdict(self) -> Literal["not seen to end", "transient", "undecided"]:
+        """What follows: a transient only if all motions ended, or if the fit explains those left after five half-lives."""
+        if self.half_life is None:
+            return "not seen to end"
+        left = self.motions - self.died
+        late = self.impacts >= ENOUGH * self.half_life and left <= self.most_left(self.impacts)
+        return "transient" if left == 0 or late else "undecided"
+
+    def most_left(self, impacts: int) -> float:
+        """Most motions that may be left after so many impacts if all end at the rate of the fit: three deviations above the mean."""
+        if self.half_life is None:
+            return math.inf
+        expected = self.motions * 0.5 ** (impacts / max(self.half_life, 1e-9))
+        return expected + 3.0 * math.sqrt(expected)
+
+    @property
     def words(self) -> str:
         """Summary in words: ``transient, half-life 1,600 impacts (1,300 to 2,000)``."""
         low, high = self.interval
         if self.half_life is None:
             died = f"{self.died or 'none'} of {self.motions} died in {self.impacts:,} impacts"
             return f"{died} (half-life above {_rounded(low)} impacts at {100.0 * CONFIDENCE:.0f} %)"
-        return f"transient, half-life {_rounded(self.half_life)} impacts ({_rounded(low)} to {_rounded(high)})"
+        lasting = "transient" if self.verdict == "transient" else "transient or attractor, undecided"
+        return f"{lasting}, half-life {_rounded(self.half_life)} impacts ({_rounded(low)} to {_rounded(high)})"
 
 
 def _share_with(left: int, looks: int, chance: float) -> float:

@@ -202,9 +202,8 @@ def _stretches(rotor: Model, state: State, impacts: int) -> Iterator[_Stretch]:
         if len(hits) < 2:
             further *= 4
             if motion.outcome is not Outcome.EVENT_LIMIT or further > FURTHER:
-                raise CaromError(
-                    f"the motion stops hitting the wall ({motion.outcome.label}): it has no such exponents"
-                )
+                how = "it stays in contact" if motion.outcome is Outcome.EVENT_LIMIT else motion.outcome.label
+                raise CaromError(f"the motion stops hitting the wall ({how}): it has no exponents of impacts")
             continue
         further = 1
         count = min(impacts, len(hits) - 1)
