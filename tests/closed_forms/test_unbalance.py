@@ -17,7 +17,7 @@ from carom.outcome import InputError
 from carom.parameters import Machine, Parameters
 
 MACHINES = sized(compiled=100, interpreted=20, deep=2000)
-SWEPT = sized(compiled=8, interpreted=3, deep=500)
+SWEPT = sized(compiled=8, interpreted=3, deep=100)
 
 
 def random_machine(random: np.random.Generator, most_damped: float = 0.35) -> Machine:
