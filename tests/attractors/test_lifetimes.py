@@ -85,6 +85,7 @@ def test_what_is_not_seen_to_end_is_not_called_an_attractor():
     assert found.survival.interval[0] == pytest.approx(200 * 19_900 * math.log(2.0) / math.log(20.0), rel=1e-3)
     assert "If it is a transient" in found.words
     assert "attractor" not in found.words
+    assert lived(np.full(3, math.inf)).verdict == "not seen to end"
 
 
 def test_short_lives_and_periodic_ends_have_words_of_their_own():

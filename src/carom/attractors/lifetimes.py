@@ -137,16 +137,16 @@ class Lifetimes(Result):
     def verdict(self) -> Verdict:
         """What the statistics say of irregular bouncing.
 
-        ``"too few"``: fewer than ten motions were irregular for longer than the forgotten impacts.  ``"periodic"``: all that
+        ``"too few"``: fewer than ten motions were irregular for longer than the forgotten impacts, and some ended.  ``"periodic"``: all that
         were became periodic.  ``"not seen to end"``: none ended; this is no proof that none does.  ``"transient"``: all ended, or
         they were followed for more than five half-lives and ended at a constant rate.  ``"undecided"``: transient or
         attractor.
         """
         among = self.impacts > self.forgotten
+        if among.any() and not (self.ended & among).any():
+            return "not seen to end"
         if np.count_nonzero(among) < FEWEST:
             return "too few"
-        if not (self.ended & among).any():
-            return "not seen to end"
         if self.ended[among].all():
             bouncing = all("bouncing" in end for end, one in zip(self.ends, among, strict=True) if one)
             return "periodic" if bouncing else "transient"
