@@ -1,7 +1,7 @@
 """The command line.
 
 A module for each command (``study``, ``simulate``, ``orbits``, ``response``, ``bifurcations`` with ``regions``, ``basins``, ``sweep``,
-``paper``), and what they share:
+``paper``, ``explore``), and what they share:
 
 =================  ==========================================================
 ``app``            all commands, and how errors are reported

@@ -10,7 +10,10 @@ carom.panels = { exports: null };
     at("cancel").hidden = state.kind !== "working";
     if (state.kind === "compiling") {
       const began = performance.now();
-      const say = () => endless(`Compiling the kernels. This is done once, and takes a minute or two: ${Math.round((performance.now() - began) / 1000)} s`);
+      const say = () => {
+        const seconds = Math.round((performance.now() - began) / 1000);
+        endless(seconds < 8 ? "Loading the kernels …" : `Compiling the kernels. This is done once, and takes a minute or two: ${seconds} s`);
+      };
       say();
       compiling = setInterval(say, 1000);
     } else if (state.kind === "working") {
