@@ -230,7 +230,16 @@ def test_study_for_people(carom, machine):
     code, out, err = carom("study", machine)
 
     assert (code, err) == (0, "")
-    for words in ("may not come back", "3,408 N s/m", "zone D", "B1,d", "901 N", "Not covered", "add --out DIR"):
+    for words in (
+        "May not come back",
+        "Recommendation",
+        "3,408 N s/m",
+        "zone D",
+        "B1,d",
+        "901 N",
+        "Not covered",
+        "add --out DIR",
+    ):
         assert words in out
     assert "\x1b" not in out
 

@@ -41,7 +41,7 @@ class Start:
     Attributes
     ----------
     kind : {"kick", "start", "orbit", "rub", "whirl"}
-        A velocity kick out of contact-free levitation; the start after any other disturbance; a start next to an orbit
+        A velocity kick out of levitation; the start after any other disturbance; a start next to an orbit
         or a synchronous rub that is known in closed form; a start in backward whirl along the wall.
     words : str
         Description of a start next to a known motion.

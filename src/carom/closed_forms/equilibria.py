@@ -1,4 +1,4 @@
-"""Equilibria in the co-rotating frame of any linear rotor: contact-free levitation and synchronous rub."""
+"""Equilibria in the co-rotating frame of any linear rotor: levitation and synchronous rub."""
 
 from __future__ import annotations
 

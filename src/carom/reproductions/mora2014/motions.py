@@ -26,7 +26,7 @@ class ShownMotion(Result):
     words : str
         Description of the motion.
     orbit : Orbit or None
-        ``None`` for contact-free levitation, which is a point of the co-rotating frame.
+        ``None`` for levitation, which is a point of the co-rotating frame.
     highest : float
         Largest radius away from impacts, in clearances.
     """
