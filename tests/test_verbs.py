@@ -19,7 +19,7 @@ from carom.attractors import DisturbanceSet
 from carom.disturbances import Grid, Sample, VelocityKick
 from carom.models import Jeffcott
 from carom.orbits.shooting import Start
-from carom.outcome import InputError
+from carom.outcome import CaromError, InputError
 from carom.parameters import Case, Machine, Scales, Zones
 from carom.studies.safety import least_safe_damping, try_disturbances
 from carom.sweeps import GridAxis
@@ -44,10 +44,25 @@ def settled(machine):
     return cm.settle(machine, *(states if len(system.rest) > 1 else (part[:, 0] for part in states)))
 
 
+def told(call):
+    """The result, or the reason why there is none."""
+    try:
+        return call()
+    except CaromError as problem:
+        return str(problem)
+
+
 CALLS = {
+    "attractors.character_of": lambda m: cm.attractors.character_of(
+        m, next(iter(cm.find_attractors(m, FEW, known=False)))
+    ),
     "attractors.find_attractors": lambda m: cm.find_attractors(m, FEW, known=False),
     "attractors.follow_out": lambda m: cm.attractors.follow_out(m, settled(m), impacts=100),
     "attractors.known_starts": lambda m: cm.attractors.known_starts(m, []),
+    "attractors.locate_crisis": lambda m: told(
+        lambda: cm.attractors.locate_crisis(m, "gamma", 0.4, 0.41, count=4, impacts=50)
+    ),
+    "attractors.measure_lifetimes": lambda m: cm.attractors.measure_lifetimes(m, count=4, impacts=50),
     "basins.map_basins": lambda m: cm.map_basins(m, KICKS),
     "basins.map_gains": lambda m: cm.map_gains(m, KICKS, ("gamma", "omega"), shape=(2, 2)),
     "basins.smallest_loss": lambda m: cm.basins.smallest_loss(m, VelocityKick(fastest=0.5)),
@@ -81,6 +96,7 @@ CALLS = {
     "motions.settle": lambda m: settled(m),
     "motions.simulate": lambda m: cm.simulate(m, cm.kick(0.3), 5.0),
     "orbits.find_orbits": lambda m: cm.find_orbits(m, 10.0),
+    "orbits.lyapunov_exponents": lambda m: told(lambda: cm.orbits.lyapunov_exponents(m, cm.kick(0.01), 10)),
     "orbits.orbit_near": lambda m: cm.orbits.orbit_near(
         m,
         cm.orbits.Word.of(cm.orbits.Kind.IMPACT_FORWARD),
@@ -98,6 +114,10 @@ CALLS = {
 }
 """A small call of each function that takes a rotor."""
 GENERAL = {
+    "attractors.character_of",
+    "attractors.locate_crisis",
+    "attractors.measure_lifetimes",
+    "orbits.lyapunov_exponents",
     "attractors.find_attractors",
     "bifurcations.sample_attractors",
     "attractors.follow_out",
