@@ -20,7 +20,7 @@ RECENT = 10
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TouchdownLoads(Result):
-    """Loads of a motion at its contact plane, in units of the equations; :meth:`si` gives them in SI units.
+    """Loads of a motion at its contact plane, in units of the equations; ``si`` gives them in SI units.
 
     Attributes
     ----------
