@@ -120,7 +120,6 @@ def _read(
 ) -> tuple[Model, State | Kick, float | None]:
     """Read the machine that moves, its start and the end, and refuse wrong input before the kernels are loaded."""
     from carom.cli.starts import read_blade_loss, read_kick, read_start, read_time
-    from carom.models import Jeffcott
 
     scales, options = case.parameters.scales, {"--start": start, "--kick": kick, "--blade-loss": blade_loss}
     chosen = {option: text for option, text in options.items() if text is not None}
@@ -129,11 +128,15 @@ def _read(
         allowed = "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE] and --blade-loss AFTER[,PHASE]"
         raise InputError("--start", given, allowed)
     end = None if until is None else read_time(until, scales)
+    lost = None if blade_loss is None else read_blade_loss(blade_loss, scales)
+    given = read_start(start, scales) if start is not None else read_kick(str(kick), scales) if lost is None else None
+    from carom.models import Jeffcott
+
     rotor: Model = Jeffcott(case.parameters)
-    if blade_loss is not None:
-        loss, phase = read_blade_loss(blade_loss, scales)
+    if lost is not None:
+        loss, phase = lost
         return *loss.release(rotor, phase), end
-    return rotor, read_kick(str(kick), scales) if start is None else read_start(start, scales), end
+    return rotor, given, end
 
 
 def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
