@@ -319,13 +319,11 @@ class Tracer:
 
         def value(distance: float) -> float:
             if distance not in values:
-                # On the chord between the nearest points known: the closer these are, the closer is the guess.
-                before = max(each for each in at if each < distance)
-                after = min(each for each in at if each > distance)
-                share = (distance - before) / (after - before)
-                x = self.near(at[before] + share * (at[after] - at[before]), here)
-                at[distance] = here.x if x is None else x
-                found = np.nan if x is None else self._watched_value(which, x, here)
+                x = self.near(here.x + distance / length * (there.x - here.x), here)
+                found = np.nan
+                if x is not None:
+                    at[distance] = x
+                    found = self._watched_value(which, x, here)
                 values[distance] = 0.0 if abs(found) <= ROUNDING * largest else found
             return values[distance]
 
