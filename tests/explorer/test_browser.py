@@ -43,6 +43,8 @@ sys.exit(main(["explore", *sys.argv[1:]]))
 """
 MACHINE = Path(__file__).parents[2] / "examples" / "keogh-cole.toml"
 DESK = {"width": 1280, "height": 900}
+BOKEHS_OWN = "Failed to execute 'close' on 'WebSocket': The close code must be"
+"""Bokeh's client closes a connection on which a message arrives too early with a code that browsers refuse; it then goes on."""
 SOON = 120_000
 """Milliseconds after which the page is taken to hang; nothing is judged by how long it takes."""
 
@@ -91,7 +93,7 @@ def open_page(browser, address):
 
     yield go
     context.close()
-    assert wrong == []
+    assert [problem for problem in wrong if not problem.startswith(BOKEHS_OWN)] == []
 
 
 @pytest.fixture(scope="module")
