@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -83,10 +83,16 @@ def provenance(rotor: Model, plan: Plan) -> dict[str, str]:
     return {
         "Conventions": "CF-1.11",
         "title": "Where disturbances of a rotor inside its touchdown bearing end",
-        "source": f"carom {version('carom')}, numba {version('numba')}, numpy {version('numpy')}",
+        "source": _programs(),
         **rotor.attributes(),
         "disturbances": json.dumps({"model": plan.model.describe(), **how}),
     }
+
+
+@cache
+def _programs() -> str:
+    # Looking up a version takes milliseconds, as much as a small map.
+    return f"carom {version('carom')}, numba {version('numba')}, numpy {version('numpy')}"
 
 
 def dataset_of(

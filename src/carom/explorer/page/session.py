@@ -25,7 +25,7 @@ from carom.progress import Progress
 COARSE, FINE = 60, 120
 """Cells along each side of the picture while a slider is dragged, and after that."""
 COARSEST = 16
-PATIENCE = 0.075
+PATIENCE = 0.05
 """Seconds that a picture may take while a slider is dragged; where it would take longer it is coarser."""
 QUIET = 0.15
 """Seconds between two reports of progress."""
