@@ -128,15 +128,17 @@ def _read(
         allowed = "give one of --start RE,IM,VRE,VIM, --kick SPEED[,ANGLE] and --blade-loss AFTER[,PHASE]"
         raise InputError("--start", given, allowed)
     end = None if until is None else read_time(until, scales)
-    lost = None if blade_loss is None else read_blade_loss(blade_loss, scales)
-    given = read_start(start, scales) if start is not None else read_kick(str(kick), scales) if lost is None else None
+    if blade_loss is not None:
+        loss, phase = read_blade_loss(blade_loss, scales)
+        return *loss.release(_rotor(case), phase), end
+    begun = read_kick(str(kick), scales) if start is None else read_start(start, scales)
+    return _rotor(case), begun, end
+
+
+def _rotor(case: Case) -> Model:
     from carom.models import Jeffcott
 
-    rotor: Model = Jeffcott(case.parameters)
-    if lost is not None:
-        loss, phase = lost
-        return *loss.release(rotor, phase), end
-    return rotor, given, end
+    return Jeffcott(case.parameters)
 
 
 def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | None, tell: Reporter) -> Trajectory:
