@@ -298,3 +298,14 @@ def test_steps_may_grow_along_an_asymptote():
     assert places(grown, "thirty") == pytest.approx([1.0 / 30.0], abs=1e-14)
     largest = Steps().largest * np.maximum(1.0, grown.unknowns[:, 0])
     assert (gaps(grown) <= 1.05 * np.maximum(largest[:-1], largest[1:])).all()
+
+
+@pytest.mark.parametrize("error", [-1e-12, 0.0, 1e-12])
+def test_a_branch_that_begins_on_a_limit_does_not_leave_it(error):
+    inside = Watch("edge", lambda u, p: 1.0 - u[0], limit=True)
+
+    branch = continue_branch(lambda u, p: u - p, np.array([1.0 + error]), 1.0 + error, (0.0, 3.0), watches=[inside])
+
+    assert branch.parameters.max() <= 1.0 + 1e-9
+    assert branch.parameters.min() == pytest.approx(0.0, abs=1e-12)
+    assert branch.stops == ("parameter limit", "edge")

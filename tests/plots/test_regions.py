@@ -20,7 +20,7 @@ def figure(corner):
 def test_words_of_the_legend(corner, figure):
     words = legend_words(figure)
     for expected in (
-        "grazing: B1,b/d, B2,b, B3,b",
+        "grazing: B1,d, B2,b, B3,b",
         "period doubling: B1,d",
         "Neimark–Sacker bifurcation: B1,d",
         "two at once",
@@ -28,6 +28,15 @@ def test_words_of_the_legend(corner, figure):
         f"the machine as it is: region {corner.present_region}",
     ):
         assert expected in words
+
+
+def test_no_curve_leaves_the_plane(corner):
+    """The machine lies on an edge: a curve of grazing passes through the edge beside it."""
+    points = np.concatenate([curve.points for curve in corner.curves])
+    lows, highs = np.transpose([corner.plane.first_range, corner.plane.second_range])
+    assert points[:, 0].max() == pytest.approx(highs[0], abs=1e-12)
+    assert (points >= lows - 1e-12).all()
+    assert (points <= highs + 1e-12).all()
 
 
 def test_figure_and_document_number_the_same_regions(corner, figure):

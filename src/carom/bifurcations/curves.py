@@ -251,7 +251,6 @@ def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps:
         test = TESTS[name]
         return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), name in definition.ends)
 
-    edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
     bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), ends_branch=True)] if definition.unknowns else []
     sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
     equations, jacobian = _system(kind, numbers_at)
@@ -262,7 +261,7 @@ def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps:
         float(start[1]),
         plane.second_range,
         jacobian=jacobian,
-        watches=[edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
+        watches=[plane.edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=scales,
         reach=relative_to_speed if definition.unknowns else None,

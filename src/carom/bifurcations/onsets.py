@@ -11,7 +11,7 @@ import numpy as np
 from carom.bifurcations.lift_offs import DIFFERENCE, LiftOff, end_of_motions, next_lift_off
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.rubbing import RubbingPoint
-from carom.continuation import Branch, Steps, Watch, continue_branch
+from carom.continuation import Branch, Steps, continue_branch
 from carom.models import Jeffcott
 from carom.outcome import CaromError, InputError
 
@@ -56,7 +56,6 @@ def follow_onset(point: RubbingPoint, plane: Plane) -> tuple[np.ndarray, tuple[s
         raise InputError("plane", f"{plane.first},{plane.second}", f"a plane with {point.parameter}")
     base, whirl = point.numbers, point.whirl
     plane.axes(base.parameters)
-    low, high = plane.first_range
 
     def lift_off(angle: float, x: float, y: float) -> LiftOff | None:
         try:
@@ -75,13 +74,12 @@ def follow_onset(point: RubbingPoint, plane: Plane) -> tuple[np.ndarray, tuple[s
     start = np.array(plane.place_of(base.moved(point.parameter, value)))
     widths = np.ptp([plane.first_range, plane.second_range], axis=1)
     sizes = np.maximum(np.abs(start), 0.1 * widths)
-    edge = Watch(EDGE, lambda u, _: min(u[1] - low, high - u[1]), ends_branch=True)
     beside = continue_branch(
         residual,
         np.array([angle, start[0]]),
         float(start[1]),
         plane.second_range,
-        watches=[edge],
+        watches=[plane.edge],
         steps=STEPS,
         scales=np.array([1.0, *sizes]),
     )

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.continuation import Watch
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
@@ -49,6 +50,12 @@ class Plane:
     def widths(self) -> np.ndarray:
         """Widths of both ranges, shape (2,)."""
         return np.ptp([self.first_range, self.second_range], axis=1)
+
+    @property
+    def edge(self) -> Watch:
+        """Limit of a curve whose last unknown is the first parameter: the edges of its range, in widths of the plane."""
+        low, high = self.first_range
+        return Watch(EDGE, lambda u, _: min(u[-1] - low, high - u[-1]) / (high - low), limit=True)
 
     def place_of(self, at: Parameters | Numbers) -> tuple[float, float]:
         """Values of both parameters, whether inside the plane or outside."""

@@ -124,7 +124,7 @@ def continue_word_curve(special: SpecialOrbit, plane: Plane, steps: Steps | None
         float(start[1]),
         plane.second_range,
         jacobian=lambda u, p: equations.slopes(np.append(u, p)),
-        watches=_watches(equations, lows, highs),
+        watches=_watches(equations, plane),
         steps=steps or STEPS,
         scales=sizes,
         # A fold in the second parameter is only a turning point of the curve.
@@ -133,7 +133,7 @@ def continue_word_curve(special: SpecialOrbit, plane: Plane, steps: Steps | None
     return _curve(special, plane, equations, branch)
 
 
-def _watches(equations: _CurveEquations, lows: np.ndarray, highs: np.ndarray) -> list[Watch]:
+def _watches(equations: _CurveEquations, plane: Plane) -> list[Watch]:
     def watch(name: str) -> Watch:
         def value(u: np.ndarray, p: float) -> float:
             at = equations.point(np.append(u, p))
@@ -146,8 +146,7 @@ def _watches(equations: _CurveEquations, lows: np.ndarray, highs: np.ndarray) ->
     if equations.kind == "neimark-sacker":
         # At the resonances 1:1 and 1:2 two multipliers are 1, or −1.
         others = [name for name in others if name not in ("fold", "period-doubling")] + list(RESONANCES)
-    edge = Watch(EDGE, lambda u, _: min(u[-1] - lows[0], highs[0] - u[-1]), ends_branch=True)
-    return [edge, *map(watch, others)]
+    return [plane.edge, *map(watch, others)]
 
 
 def _curve(special: SpecialOrbit, plane: Plane, equations: _CurveEquations, branch: Branch) -> Curve:

@@ -50,11 +50,15 @@ class Watch:
         Of ``u`` and ``p``; ``nan`` where it is not defined.  A jump from one sign to the other is not a zero.
     ends_branch : bool
         Whether the branch ends there.
+    limit : bool
+        Whether it is followed only where the function is not negative: it ends there too, and at once if it begins on a
+        zero and leaves.
     """
 
     kind: str
     function: Callable[[np.ndarray, float], float]
     ends_branch: bool = False
+    limit: bool = False
 
 
 @dataclass(frozen=True, eq=False, repr=False)

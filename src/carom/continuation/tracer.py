@@ -34,6 +34,8 @@ UPRIGHT = 0.2
 """Share of the parameter in the tangent above which points are sought at fixed parameter, if there is a solver for that."""
 ROUNDING = 1e-14
 """Value of a watched function that counts as zero, relative to its values at the ends of a step."""
+ON_LIMIT = 1e-9
+"""Largest value of a limit, relative to its range, at which a point counts as on it."""
 JUMP = 1e-4
 """Largest remaining value of a watched function at a zero, relative to its values at the ends of the bracket.
 
@@ -139,6 +141,11 @@ class Tracer:
     reach: Callable[[np.ndarray], float] | None = None
     solver: Solver | None = None
 
+    @cached_property
+    def limits(self) -> dict[int, str]:
+        """Kinds of the limits, by their place among the watched values."""
+        return {0: "parameter limit"} | {i: watch.kind for i, watch in enumerate(self.watches, 1) if watch.limit}
+
     def plain(self, x: np.ndarray) -> tuple[np.ndarray, float]:
         """Unknowns and parameter without scaling."""
         y = x * self.scales
@@ -213,8 +220,9 @@ class Tracer:
             there, share, ending, known = self._step(here, length), None, None, len(path.special)
             if there is not None:
                 there.watched = self._watched(there)
-                if there.watched[0] < 0.0 and here.watched[0] <= 1e-9:
-                    path.stop = "parameter limit"
+                left = self._left(here, there)
+                if left:
+                    path.stop = left
                     return path
                 share = self._return(path, here, there, heading)
                 ending = self._locate(path, here, there, length, share)
@@ -236,6 +244,12 @@ class Tracer:
             length = min(length, self._largest(there.x))
             here = there
         return path
+
+    def _left(self, here: _Point, there: _Point) -> str:
+        """The limit that a step leaves from a point on it; empty if there is none."""
+        return next(
+            (kind for i, kind in self.limits.items() if there.watched[i] < 0.0 and here.watched[i] <= ON_LIMIT), ""
+        )
 
     def _largest(self, x: np.ndarray) -> float:
         """Length of the largest step at a point."""
@@ -293,10 +307,12 @@ class Tracer:
     def _locate(self, path: _Path, here: _Point, there: _Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, "branch point"]
-        ends = [True, *(watch.ends_branch for watch in self.watches), False, False]
+        ends = [True, *(watch.ends_branch or watch.limit for watch in self.watches), False, False]
         reached: list[tuple[float, int, np.ndarray]] = []
         changed = here.watched * there.watched < 0.0
         for i in np.flatnonzero(changed | (np.isnan(here.watched) != np.isnan(there.watched))):
+            if i in self.limits and there.watched[i] > 0.0:
+                continue  # It began beyond the limit by a rounding error, and comes in.
             place = self._root_on_step(here, there, length, int(i))
             if place is not None and (share is None or place[0] <= share * length):
                 reached.append((place[0], int(i), place[1]))
@@ -319,7 +335,11 @@ class Tracer:
 
         def value(distance: float) -> float:
             if distance not in values:
-                x = self.near(here.x + distance / length * (there.x - here.x), here)
+                # On the chord between the nearest points found: the closer these are, the closer is the guess.
+                before = max(each for each in at if each < distance)
+                after = min(each for each in at if each > distance)
+                share = (distance - before) / (after - before)
+                x = self.near(at[before] + share * (at[after] - at[before]), here)
                 found = np.nan
                 if x is not None:
                     at[distance] = x
