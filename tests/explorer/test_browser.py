@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import carom
+from carom.explorer.computing.motions import table_of
 
 pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
 pytest.importorskip("playwright", reason="needs playwright for Python")
@@ -168,6 +169,34 @@ def test_dragging_a_slider_moves_the_basin_and_letting_go_refines_it(page):
     assert said(page, "document.getElementById('share').textContent") == f"{100 * basin.share_recovered.fraction:.3g} %"
     answered(page, "diagram", number)
     assert said(page, "carom.begun.parts.cursor.location") == pytest.approx(value, rel=1e-12)
+
+
+def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
+    answered(page, "table")
+    picture = page.evaluate(
+        """() => new Promise((done) => {
+          const slider = document.querySelector('[data-name="damping"] .slider');
+          const pale = () => [...document.querySelectorAll("[data-of]")].map((card) => card.classList.contains("old"));
+          slider.value = 560;
+          slider.dispatchEvent(new Event("input"));
+          const arrived = carom.controls.arrived;
+          carom.controls.arrived = (number) => {
+            carom.controls.arrived = arrived;
+            arrived(number);
+            setTimeout(() => done([number, carom.number, ...pale()]));
+          };
+        })"""
+    )
+    assert picture == [said(page, "carom.number")] * 2 + [True] * 3
+    page.wait_for_function("() => document.querySelectorAll('[data-of].old').length === 0")
+    value = said(page, "carom.controls.value('damping')")
+    rotor = carom.models.Jeffcott(carom.load(MACHINE, [f"damping={value} N s/m"]).parameters)
+    names = said(
+        page, "[...document.querySelectorAll('#motions tbody td:first-child')].map((cell) => cell.textContent)"
+    )
+    assert names == [row.name for row in table_of(rotor).rows]
+    # The line of the time shown is at the end: the figure is that of the flight, whose instants are in milliseconds.
+    assert said(page, "carom.begun.parts.now.location") == said(page, "carom.begun.parts.history.data.t.at(-1)")
 
 
 def test_pointing_and_clicking_fly_the_kick(page):

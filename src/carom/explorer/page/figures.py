@@ -71,6 +71,11 @@ def _range(parts: dict[str, Any], name: str, low: float, high: float) -> Range1d
     return parts[name]
 
 
+def _moving_line(**look: Any) -> Span:
+    """Upright line that moves many times a second: drawn above the figure, which stays as it is."""
+    return Span(location=0.0, dimension="height", level="overlay", **look)
+
+
 def _history(parts: dict[str, Any]) -> Any:
     """Radius over time: flight as a line, lasting contact shaded, impacts as marks on the wall."""
     plot = _plot(
@@ -93,7 +98,7 @@ def _history(parts: dict[str, Any]) -> Any:
     plot.scatter(
         "t", "r", source=struck, marker="inverted_triangle", size=6, color=LOOKS["unstable"].colour, name="struck"
     )
-    parts["now"] = Span(location=0.0, dimension="height", line_color=LOOKS["virtual"].colour, line_dash="dashed")
+    parts["now"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
     plot.add_layout(parts["now"])
     return plot
 
@@ -130,7 +135,7 @@ def _diagram(parts: dict[str, Any]) -> Any:
     special = plot.scatter(
         "x", "y", source=points, marker="diamond", size=11, line_color="colour", fill_color="colour", fill_alpha="fill"
     )
-    parts["cursor"] = Span(location=0.0, dimension="height", line_width=1.6, line_color="#808080")
+    parts["cursor"] = _moving_line(line_width=1.6, line_color="#808080")
     plot.add_layout(parts["cursor"])
     plot.add_tools(HoverTool(renderers=[special], tooltips="@words at @x{0.[0000]}"))
     plot.add_tools(HoverTool(renderers=[drawn], tooltips="@words: stable from @left{0.[00]} to @right{0.[00]}"))

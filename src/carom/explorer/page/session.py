@@ -160,7 +160,8 @@ class Session:
         cells = int(min(COARSE, max(COARSEST, (PATIENCE / self._cost) ** 0.5)))
         began = time.perf_counter()
         message = self._picture(shown, COARSE if cells > 0.85 * COARSE else cells, tell)
-        self._cost = 0.5 * (self._cost + (time.perf_counter() - began) / message["size"] ** 2)
+        cost = (time.perf_counter() - began) / message["size"] ** 2
+        self._cost = min(cost, 0.5 * (self._cost + cost))  # one slow machine among others is soon forgotten
         return message
 
     def _picture(self, shown: _Shown, cells: int, tell: Callable[[Progress], None]) -> messages.Message:

@@ -5,44 +5,22 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
   const canvas = at("basin"), left = 54, below = 40, edge = 6;
   let frame = null, layer = null;
 
-  const paint = (message) => {
-    const n = message.size, image = new ImageData(n, n), colours = message.endings.map((one) => carom.rgb(one.colour));
-    for (let row = 0; row < n; row += 1) {
-      for (let column = 0; column < n; column += 1) {
-        const ending = message.cells[(n - 1 - row) * n + column];
-        if (ending < colours.length) image.data.set([...colours[ending], 255], 4 * (row * n + column));
+  // Cells with their textures in pixels of the screen, painted once for a picture and a size.
+  const paint = (message, wide) => {
+    const n = message.size, image = new ImageData(wide, wide), pixels = new Uint32Array(image.data.buffer);
+    const cell = Array.from({ length: wide }, (_, place) => Math.floor(((place + 0.5) * n) / wide));
+    const tiles = message.endings.map((one) => carom.tile(one.colour, one.hatch));
+    for (let row = 0; row < wide; row += 1) {
+      const below = (n - 1 - cell[row]) * n;
+      for (let column = 0; column < wide; column += 1) {
+        const tile = tiles[message.cells[below + cell[column]]];
+        if (tile) pixels[row * wide + column] = tile.pixels[(row % tile.side) * tile.side + (column % tile.side)];
       }
     }
-    const small = document.createElement("canvas");
-    small.width = small.height = n;
-    small.getContext("2d").putImageData(image, 0, 0);
-    return small;
-  };
-  const mask = (message, ending) => {
-    const n = message.size, image = new ImageData(n, n);
-    for (let row = 0; row < n; row += 1) {
-      for (let column = 0; column < n; column += 1) {
-        if (message.cells[(n - 1 - row) * n + column] === ending) image.data[4 * (row * n + column) + 3] = 255;
-      }
-    }
-    const small = document.createElement("canvas");
-    small.width = small.height = n;
-    small.getContext("2d").putImageData(image, 0, 0);
-    return small;
-  };
-  const hatch = (pen, message, x, y, width) => {
-    message.endings.forEach((one, place) => {
-      if (!one.hatch) return;
-      const sheet = document.createElement("canvas"), ratio = window.devicePixelRatio || 1;
-      sheet.width = sheet.height = Math.round(width * ratio);
-      const draw = sheet.getContext("2d");
-      draw.imageSmoothingEnabled = false;
-      draw.drawImage(mask(message, place), 0, 0, sheet.width, sheet.height);
-      draw.globalCompositeOperation = "source-in";
-      draw.fillStyle = carom.texture(draw, one.hatch, carom.inkOn(one.colour));
-      draw.fillRect(0, 0, sheet.width, sheet.height);
-      pen.drawImage(sheet, x, y, width, width);
-    });
+    const sheet = document.createElement("canvas");
+    sheet.width = sheet.height = wide;
+    sheet.getContext("2d").putImageData(image, 0, 0);
+    return { message, sheet };
   };
 
   const draw = () => {
@@ -54,9 +32,10 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
     pen.clearRect(0, 0, side, side);
     pen.font = "12px system-ui, sans-serif";
     if (!message) { pen.fillStyle = colour("void"); pen.fillRect(x0, y0, span, span); return; }
+    const wide = Math.round(span * (canvas.width / side));
+    if (layer === null || layer.message !== message || layer.sheet.width !== wide) layer = paint(message, wide);
     pen.imageSmoothingEnabled = false;
-    pen.drawImage(layer, x0, y0, span, span);
-    hatch(pen, message, x0, y0, span);
+    pen.drawImage(layer.sheet, x0, y0, span, span);
     const toX = (share) => x0 + span * (share + 1) / 2, toY = (share) => y0 + span * (1 - share) / 2;
     // Rings of equal size, and the axes.
     const step = carom.step(message.largest, 3);
@@ -89,31 +68,37 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
     pen.save(); pen.translate(11, y0 + span / 2); pen.rotate(-Math.PI / 2); pen.fillText(`kick with the rotation (${message.unit})`, 0, 0); pen.restore();
   };
 
+  // Rows stay while the motions are the same: only the shares change then.
+  let listed = "", shares = [];
   const legend = (message) => {
-    const rows = message.endings.map((one) => {
-      const item = document.createElement("li"), swatch = document.createElement("canvas"), words = document.createElement("span"), share = document.createElement("span");
-      item.append(swatch, words, share);
-      words.textContent = one.words;
-      share.textContent = `${carom.short(100 * one.share, 3)} %`;
-      swatch.width = swatch.height = 24;
-      const pen = swatch.getContext("2d");
-      pen.fillStyle = one.colour; pen.fillRect(0, 0, 24, 24);
-      if (one.hatch) { pen.fillStyle = carom.texture(pen, one.hatch, carom.inkOn(one.colour)); pen.fillRect(0, 0, 24, 24); }
-      return item;
-    });
-    if (message.harmless > 0) {
-      const item = document.createElement("li");
-      item.innerHTML = '<i class="ring"></i><span>inside the dashed ring: proven never to touch</span>';
-      rows.push(item);
+    const names = JSON.stringify([message.harmless > 0, ...message.endings.map((one) => [one.words, one.colour, one.hatch])]);
+    if (names !== listed) {
+      listed = names;
+      shares = message.endings.map(() => document.createElement("span"));
+      const rows = message.endings.map((one, place) => {
+        const item = document.createElement("li"), swatch = document.createElement("canvas"), words = document.createElement("span");
+        item.append(swatch, words, shares[place]);
+        words.textContent = one.words;
+        swatch.width = swatch.height = 24;
+        const pen = swatch.getContext("2d");
+        pen.fillStyle = pen.createPattern(carom.tile(one.colour, one.hatch).canvas, "repeat");
+        pen.fillRect(0, 0, 24, 24);
+        return item;
+      });
+      if (message.harmless > 0) {
+        const item = document.createElement("li");
+        item.innerHTML = '<i class="ring"></i><span>inside the dashed ring: proven never to touch</span>';
+        rows.push(item);
+      }
+      at("legend").replaceChildren(...rows);
     }
-    at("legend").replaceChildren(...rows);
+    message.endings.forEach((one, place) => { shares[place].textContent = `${carom.short(100 * one.share, 3)} %`; });
   };
 
   carom.basin.show = (message) => {
     if (carom.basin.message && message.number < carom.basin.message.number) return;
     if (message.refused) { at("sentence").textContent = message.refused; return; }
     carom.basin.message = message;
-    layer = paint(message);
     draw();
     legend(message);
     at("rest").textContent = message.rest;

@@ -93,7 +93,7 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
     lasts = clamp(end / pace, shortest, longest);
     const slower = message.time_unit === "ms" ? (1000 * lasts) / (message.time * end) : 0;
     at("pace").textContent = slower > 1.5 ? `slowed down ${carom.short(slower, 2)} times` : "";
-    if (still.matches || carom.held) { carom.flight.now = end; running = false; draw(); if (carom.plots) carom.plots.now(end, true); return; }
+    if (still.matches || carom.held) { carom.flight.now = end; running = false; draw(); if (carom.plots && !carom.held) carom.plots.now(end, true); return; }
     began = performance.now();
     if (!running) { running = true; requestAnimationFrame(advance); }
   };
@@ -101,7 +101,7 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
     carom.flight.message = message;
     if (message.refused) { at("flight-words").textContent = message.refused; running = false; draw(); return; }
     at("flight-words").textContent = message.words + (message.whole ? "" : " Its beginning is shown.");
-    if (carom.plots) (carom.held ? carom.plots.later : carom.plots.flight)(message);
+    if (carom.plots) carom.plots.flight(message);
     carom.flight.play();
   };
   at("replay").addEventListener("click", () => carom.flight.play());

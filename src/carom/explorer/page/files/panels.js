@@ -32,8 +32,9 @@ carom.panels = { exports: null };
     at(`${name}-remark`).textContent = remark;
     at(name).classList.toggle("old", old);
   };
-  // What is finer than the picture belongs to one machine: it is pale until it is known of the present one.
+  // What does not come with the picture belongs to one machine: it is pale until it is known of the present one.
   const exact = { loss: 0, hardest: 0, verdict: 0 };
+  carom.panels.pale = (what, pale) => { for (const card of document.querySelectorAll(`[data-of="${what}"]`)) card.classList.toggle("old", pale); };
   carom.panels.basin = (message) => {
     if (message.refused) return;
     at("sentence").textContent = message.sentence;
@@ -41,6 +42,7 @@ carom.panels = { exports: null };
     if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
     if (exact.hardest !== message.number) at("hardest").classList.add("old");
     if (exact.verdict !== message.number) at("headline").classList.add("old");
+    if (carom.held) for (const what of ["flight", "table"]) carom.panels.pale(what, true);
   };
   carom.panels.loss = (message) => {
     exact.loss = message.number;
@@ -55,8 +57,9 @@ carom.panels = { exports: null };
     at("headline").classList.remove("old");
     at("headline").textContent = message.refused || message.text;
   };
-  carom.panels.table = (message) => {
+  carom.panels.table = carom.unhurried((message) => {
     const body = document.querySelector("#motions tbody");
+    carom.panels.pale("table", false);
     if (message.refused) { body.replaceChildren(); at("argument").textContent = message.refused; return; }
     body.replaceChildren(...message.rows.map((row) => {
       const line = document.createElement("tr");
@@ -69,7 +72,7 @@ carom.panels = { exports: null };
       return line;
     }));
     at("argument").textContent = message.argument;
-  };
+  });
 
   const words = { toml: "machine file", options: "options of the command line", python: "program" };
   for (const button of document.querySelectorAll("[data-copy]")) {

@@ -44,9 +44,7 @@ carom.begin_plots = (parts, plots) => {
   };
 
   carom.plots = {
-    // While a slider is held the figures follow now and then, and leave the browser the time for the basin.
-    later: carom.throttled(300, (message) => { if (message === carom.flight.message) carom.plots.flight(message); }),
-    flight: (message) => {
+    flight: carom.unhurried((message) => {
       flight.message = message;
       flight.count = -1;
       const { times, x, y } = message, end = message.time * times[times.length - 1];
@@ -67,8 +65,9 @@ carom.begin_plots = (parts, plots) => {
         key.className = "key"; key.style.background = ink;
         return [key, words];
       }));
-      section(carom.flight.now);
-    },
+      carom.panels.pale("flight", false);
+      carom.plots.now(carom.flight.now, true);
+    }),
     now: (time, last) => {
       const clock = performance.now();
       if (!flight.message || (!last && clock - flight.drawn < 120)) return;
