@@ -11,7 +11,7 @@ from typing import Any
 
 import jinja2
 from bokeh.document import Document
-from bokeh.events import DocumentReady
+from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 
 from carom.explorer.computing.exports import Origin
@@ -55,6 +55,10 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         args={"wishes": wishes, "answers": answers, "parts": figures.parts, "plots": figures.plots}, code=_BEGIN
     )
     document.js_on_event(DocumentReady, begin)
+    # Bokeh's client would connect again without forgetting the message in which the connection broke, and understand
+    # nothing after it: the page begins again instead.
+    document.config.update(reconnect_session=False, notify_connection_status=False)
+    document.js_on_event(ConnectionLost, CustomJS(code=_LOST))
     document.on_session_destroyed(lambda context: session.close())
     return session
 
@@ -64,7 +68,7 @@ def _act(act: Callable[[Any], None], name: str, old: object, new: object) -> Non
     act(new)
 
 
-_BEGIN = "carom.begin(wishes, answers, parts, plots)"
+_BEGIN, _LOST = "carom.begin(wishes, answers, parts, plots)", "carom.panels.lost()"
 
 
 @cache

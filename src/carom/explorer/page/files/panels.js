@@ -93,11 +93,13 @@ carom.panels = { exports: null };
     });
   }
 
-  let server = "";
+  // Without its connection, or with another server in its place, the page begins again as soon as a server answers.
+  let server = "", lost = false;
+  carom.panels.lost = () => { lost = true; };
   const look = async () => {
     try {
       const found = await (await fetch("alive", { cache: "no-store" })).json();
-      if (server && found.server !== server) { location.reload(); return; }
+      if (lost || (server && found.server !== server)) { location.reload(); return; }
       server = found.server;
       at("gone").hidden = true;
     } catch {
