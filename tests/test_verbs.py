@@ -34,7 +34,6 @@ SUBJECTS = {
 KICKS = Grid(VelocityKick(fastest=0.5), (2, 2))
 FEW = Sample(VelocityKick(fastest=0.5), 2)
 START = cm.State(0.4 + 0.1j, 0.2j)
-SPEED = 0.5 + 0.5j
 
 
 def settled(machine):
@@ -92,7 +91,6 @@ CALLS = {
     "models.case_of": lambda m: cm.models.case_of(m).parameters,
     "models.jeffcott_of": cm.models.jeffcott_of,
     "models.model_of": cm.models.model_of,
-    "motions.closed_orbit": lambda m: cm.motions.closed_orbit(m, 1.0 + 0j, SPEED, 1),
     "motions.settle": lambda m: settled(m),
     "motions.simulate": lambda m: cm.simulate(m, cm.kick(0.3), 5.0),
     "orbits.find_orbits": lambda m: cm.find_orbits(m, 10.0),
@@ -127,7 +125,6 @@ GENERAL = {
     "disturbances.outward_from",
     "models.axis",
     "models.model_of",
-    "motions.closed_orbit",
     "motions.settle",
     "motions.simulate",
     "sweeps.plan_sweep",

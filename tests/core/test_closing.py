@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from compilation import sized
 from machines import PAPER
 
 from carom.attractors import find_attractors
-from carom.core.closing import least_period
+from carom.core.closing import ATTRACTS, OPEN, REPELS, close, least_period
 from carom.core.fate import memory
 from carom.models import Jeffcott
 from carom.motions.ensembles import settle
-from carom.motions.settling import _tools, closed_orbit
+from carom.motions.settling import _tools
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
 from carom.orbits.single_impact import find_orbits
@@ -39,11 +41,27 @@ def drawn_starts(random, count):
     return points[0], 2.0 * points[1]
 
 
+@dataclass
+class Closed:
+    positions: np.ndarray
+    velocities: np.ndarray
+    period: float
+    found: int
+
+
+def closed(rotor, position, velocity, impacts):
+    """The orbit of so many impacts next to a state just before one of them, or nothing."""
+    states, durations = np.empty((impacts + 1, 2), complex), np.empty(impacts)
+    states[0] = rotor.system.amplitudes(position, velocity)
+    found = close(rotor.system.arrays, rotor.system.table, states, durations, *_tools())
+    return None if found == OPEN else Closed(*rotor.system.state(states[:-1]), float(durations.sum()), found)
+
+
 def assert_closes(rotor, position, velocity, impacts):
     """An orbit with that many impacts, and no fewer, goes on as simulation says; the orbit."""
-    orbit = closed_orbit(rotor, position, velocity, impacts)
+    orbit = closed(rotor, position, velocity, impacts)
     assert orbit is not None
-    assert orbit.attracts
+    assert orbit.found == ATTRACTS
     start = State(complex(orbit.positions[0]), complex(orbit.velocities[0]))
     log = simulate(rotor, start, 1.5 * orbit.period + 1.0).contacts
     states = np.stack([np.exp(1j * log.angle), log.radial_speed, log.angular_speed])
@@ -88,21 +106,21 @@ def test_an_orbit_that_is_not_closed_yet_is_found_next_to_a_state():
     rotor = Jeffcott(PAPER)
     known = find_orbits(rotor)["B1,d"]
     before = known.section.state
-    near = closed_orbit(rotor, before.position, before.velocity * (1.0 + 1e-5j), 1)
+    near = closed(rotor, before.position, before.velocity * (1.0 + 1e-5j), 1)
     assert near is not None
-    assert near.attracts
+    assert near.found == ATTRACTS
     assert near.period == pytest.approx(known.period, rel=1e-11)
     assert near.positions[0] == pytest.approx(before.position, abs=1e-10)
     assert near.velocities[0] == pytest.approx(before.velocity, abs=1e-10)
-    assert closed_orbit(rotor, before.position, 1.05 * before.velocity, 1) is None
+    assert closed(rotor, before.position, 1.05 * before.velocity, 1) is None
 
 
 def test_an_orbit_that_repels_closes_but_does_not_attract():
     rotor = Jeffcott(PAPER.replace(gamma=0.08))
     before = find_orbits(rotor)["B1,d"].section.state
-    found = closed_orbit(rotor, before.position, before.velocity * (1.0 + 1e-6), 1)
+    found = closed(rotor, before.position, before.velocity * (1.0 + 1e-6), 1)
     assert found is not None
-    assert not found.attracts
+    assert found.found == REPELS
 
 
 def test_what_is_known_of_an_orbit_is_not_asked_again_nor_taken_for_more():
@@ -148,7 +166,7 @@ def test_a_motion_that_only_passes_by_an_orbit_goes_on():
     for endings in (together, on_orbit):
         impacts = int(endings.multiplicities[0])
         if endings.outcomes[0] in REPEATING and impacts > 0:
-            assert closed_orbit(rotor, endings.positions[0], endings.velocities[0], impacts).attracts
+            assert closed(rotor, endings.positions[0], endings.velocities[0], impacts).found == ATTRACTS
 
 
 @pytest.mark.jit_only

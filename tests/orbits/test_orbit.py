@@ -12,7 +12,7 @@ from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.admissibility import why_virtual
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, orbit_near, same_orbit
+from carom.orbits.orbit import Orbit, margins_of, orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, closed_flights, converged, links_of, pack, unpack
 from carom.orbits.word import Kind, Word
@@ -286,3 +286,15 @@ def test_the_jacobian_of_a_grazing_impact_is_regular():
     start = Start(np.array([one.nodes[0], node]), np.array([0.3, one.period - 0.3]))
     links = links_of(rotor, one.word.repeated(2), start)
     assert np.linalg.cond(links.jacobian) < 1e6
+
+
+def test_without_friction_the_direction_of_the_slip_makes_no_other_word():
+    smooth = Jeffcott(PAPER.replace(mu=0.0, radius_ratio=0.05))
+    motion = simulate(smooth, State(0.9 + 0j, 1.0 - 2.0j), 20.0)
+    slips = smooth.parameters.radius_ratio + 1.0 + motion.contacts.angular_speed
+    assert slips[0] < 0.0
+    word, start = segments_of(motion, 0, 1)
+    assert str(word) == "impact+"
+    at_wall = links_of(smooth, word, start).arrivals[0]
+    assert at_wall == pytest.approx(smooth.system.states_of(motion.arrivals[1:2])[0], abs=1e-9)
+    assert margins_of(links_of(smooth, word, start), smooth, word).slip == np.inf

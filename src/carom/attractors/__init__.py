@@ -1,14 +1,14 @@
 """Attractors that a sample of disturbances, and starts next to the known motions, lead to.
 
 ``starts``      the standard set of disturbances, and starts next to every motion known in closed form
-``cycles``      the cycle that a settled motion repeats, and the comparison of cycles
 ``following``   starts followed until they settle
 ``survival``    :class:`Survival`: how long irregular motion lasts
 ``lifetimes``   :func:`measure_lifetimes`: after how many impacts motions stop bouncing; transient, or not seen to end
 ``crises``      :func:`locate_crisis`: where along a parameter bouncing begins to end
+``settled``     what a settled motion repeats, and whether two repeat the same
 ``names``       :class:`MotionName`: what a motion is called
 ``naming``      the motions on which starts end, by name
-``groups``      :class:`Attractor`: motions that have settled to the same cycle
+``groups``      :class:`Attractor`: motions that have settled to the same one
 ``regularity``  how fast weighted averages of a sequence converge, and its rotation number
 ``characters``  :func:`character_of`: rest, rub, periodic, torus or chaotic
 ``search``      :func:`find_attractors`, :class:`AttractorSet`

@@ -16,7 +16,7 @@ from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.recognising import orbit_of_motion, with_impacts
+from carom.orbits.recognising import with_impacts
 from carom.outcome import CaromError, Outcome
 from carom.results import Result
 
@@ -111,10 +111,9 @@ def _rub_rates(rotor: Model, attractor: Attractor) -> np.ndarray | None:
 def _bouncing(rotor: Model, attractor: Attractor, impacts: int) -> Character:
     """Character of bouncing, with or without lasting contact in between."""
     if attractor.name.multiplicity:
-        orbit = orbit_of_motion(simulate(rotor, attractor.state, settle=True))
-        if orbit is None:
+        if attractor.orbit is None:
             return _undecided(attractor, "The motion recurs, but Newton's method closes no orbit there.")
-        return _periodic(attractor, orbit)
+        return _periodic(attractor, attractor.orbit)
     try:
         exponents = lyapunov_exponents(rotor, attractor.state, impacts)
     except CaromError as reason:

@@ -1,18 +1,19 @@
-"""Attractors: groups of motions that have settled to the same cycle."""
+"""Attractors: groups of motions that have settled to the same one."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from carom.attractors.cycles import Cycle, Whirl, cycle_of, forces_on, seen_in_contact, whirl_of
 from carom.attractors.following import FIRST_PATIENCE, Ending
 from carom.attractors.names import MotionName
+from carom.attractors.settled import SettledMotion, Whirl, forces_on, seen_in_contact, settled_motion, whirl_of
 from carom.attractors.starts import Start
 from carom.attractors.survival import Survival
 from carom.motions.settling import REPEATING
 from carom.motions.starts import Kick, State
 from carom.motions.trajectories import Trajectory, simulate
+from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome
 from carom.results import Result
 
@@ -48,6 +49,8 @@ class Attractor(Result):
         Largest normal force of lasting contact on it, in ``m c_r Ω²``.
     survival : Survival or None
         How long it lasts, if it is irregular bouncing.
+    orbit : Orbit or None
+        The orbit of periodic bouncing; ``None`` for other motions, and where Newton's method closes none.
     """
 
     name: MotionName
@@ -62,6 +65,7 @@ class Attractor(Result):
     largest_impulse: float
     largest_force: float
     survival: Survival | None = None
+    orbit: Orbit | None = None
 
     @property
     def settled(self) -> bool:
@@ -87,27 +91,27 @@ def attractor_of(name: MotionName, endings: Sequence[Ending], state: State) -> A
     here = [ending for ending in endings if ending.attractor == name]
     first = here[0]
     motion = _representative(first, state)
-    cycle = cycle_of(motion)
-    if name.irregular or not name.outcome.settled:
-        cycle = Cycle(name.outcome, False, None, cycle.positions[:0], cycle.velocities[:0])
-    impulse, force = forces_on(motion, cycle)
+    given_up = name.irregular or not name.outcome.settled
+    settled = SettledMotion(motion, name.outcome) if given_up else settled_motion(motion)
+    impulse, force = forces_on(settled)
     hit = [ending.start for ending in here if ending.start.disturbance]
     total = sum(ending.start.disturbance for ending in endings)
     survival = first.survival if name.irregular else None
-    words = _words(cycle, name)
+    words = _words(settled, name)
     return Attractor(
         name=name,
         words=f"{words} {_sentence(survival.words)}" if survival else words,
-        period=cycle.period,
-        whirl=whirl_of(motion, cycle),
+        period=settled.period,
+        whirl=whirl_of(settled),
         count=len(hit),
         share=len(hit) / total if total else 0.0,
         known=len(here) - len(hit),
         representative=min(hit, key=lambda start: (start.kind != "kick", start.speed), default=first.start),
-        state=motion.final,
+        state=settled.motion.final,
         largest_impulse=impulse,
         largest_force=force,
         survival=survival,
+        orbit=settled.orbit and replace(settled.orbit, name=name.orbit or settled.orbit.name),
     )
 
 
@@ -124,14 +128,14 @@ def _sentence(words: str) -> str:
     return f"{words[0].upper()}{words[1:]}."
 
 
-def _words(cycle: Cycle, name: MotionName) -> str:
-    if cycle.outcome in REPEATING:
-        doing = "bounces" if cycle.outcome is Outcome.BOUNCING else "alternates between bounces and lasting contact"
-        if not cycle.multiplicity:
+def _words(settled: SettledMotion, name: MotionName) -> str:
+    if settled.outcome in REPEATING:
+        doing = "bounces" if settled.outcome is Outcome.BOUNCING else "alternates between bounces and lasting contact"
+        if not settled.multiplicity:
             return f"The rotor {doing} irregularly: it did not repeat itself as far as it was followed."
-        impacts = "one impact" if cycle.multiplicity == 1 else f"{cycle.multiplicity} impacts"
-        return f"The rotor {doing} ({name}): {impacts} in each period of {cycle.period:.4g}/Omega."
-    if cycle.outcome is Outcome.FORWARD_RUB:
-        how = "in step with the shaft" if cycle.synchronous else "out of step with the shaft"
+        impacts = "one impact" if settled.multiplicity == 1 else f"{settled.multiplicity} impacts"
+        return f"The rotor {doing} ({name}): {impacts} in each period of {settled.period:.4g}/Omega."
+    if settled.outcome is Outcome.FORWARD_RUB:
+        how = "in step with the shaft" if settled.synchronous else "out of step with the shaft"
         return f"The rotor rubs along the touchdown bearing {how}."
-    return cycle.outcome.meaning
+    return settled.outcome.meaning

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from carom.attractors.cycles import SAME, Cycle, cycle_of, orbit_of, same_cycle
 from carom.attractors.names import SYNCHRONOUS_RUB, MotionName
+from carom.attractors.settled import SAME, SettledMotion, known_orbit, same_motion, settled_motion
 from carom.closed_forms.known import known_of
 from carom.models import Model
 from carom.motions.ensembles import Endings
@@ -109,31 +109,31 @@ def _periodic(
     if positions.ndim > 1:
         radial, along = radial.sum(axis=1), along.sum(axis=1)
     first, kinds = _alike(codes, counts, radial.round(ALIKE), along.round(ALIKE))
-    known: dict[MotionName, Cycle] = {}
+    known: dict[MotionName, SettledMotion] = {}
     found = []
     for kind, place in enumerate(first):
         chosen = np.zeros(endings.outcomes.size, bool)
         chosen[places[kinds == kind]] = True
         if kind < LOOKED_AT:
             state = State.of(positions[place], velocities[place])
-            name = _cycle_name(cycle_of(simulate(rotor, state, settle=True)), known, orbits)
+            name = _name_of(settled_motion(simulate(rotor, state, settle=True)), known, orbits)
         else:
             name = MotionName(Outcome(codes[place]), int(counts[place]))
         found.append((chosen.reshape(endings.outcomes.shape), name))
     return found
 
 
-def _cycle_name(cycle: Cycle, known: dict[MotionName, Cycle], orbits: Sequence[Orbit]) -> MotionName:
-    """Name of a cycle; if it is none of those known, it is added to them with a new name."""
+def _name_of(settled: SettledMotion, known: dict[MotionName, SettledMotion], orbits: Sequence[Orbit]) -> MotionName:
+    """Name of a settled motion; if it is none of those known, it is added to them with a new name."""
     for name, other in known.items():
-        if same_cycle(other, cycle):
+        if same_motion(other, settled):
             return name
-    orbit = orbit_of(cycle, orbits)
-    drifting = cycle.outcome is Outcome.FORWARD_RUB and not cycle.synchronous
-    name = MotionName(cycle.outcome, cycle.multiplicity, drifting, orbit.name if orbit else None)
+    orbit = known_orbit(settled.orbit, orbits)
+    drifting = settled.outcome is Outcome.FORWARD_RUB and not settled.synchronous
+    name = MotionName(settled.outcome, settled.multiplicity, drifting, orbit.name if orbit else None)
     alike = sum(replace(other, number=1) == name for other in known)
     name = replace(name, number=alike + 1)
-    known[name] = cycle
+    known[name] = settled
     return name
 
 

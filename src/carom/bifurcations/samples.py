@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.attractors import Attractor, AttractorSet, DisturbanceSet, Survival, find_attractors
-from carom.attractors.cycles import seen_in_contact
+from carom.attractors.settled import seen_in_contact
 from carom.disturbances import Plan
 from carom.models import Model, Subject, model_of
 from carom.models.axes import Ends, axis, read_interval

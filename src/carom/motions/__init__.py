@@ -5,7 +5,7 @@
 ``trajectories``    one motion
 ``storage``         motions as datasets and files
 ``ensembles``       many motions, on all cores; only their endings are kept
-``settling``        the record by which settling is recognised, and the orbit of a settled motion
+``settling``        the record by which settling is recognised
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``ledger``          energies of a motion
@@ -17,14 +17,13 @@ from carom.motions.contacts import ContactHistory, ContactLog, LastingContact
 from carom.motions.ensembles import Endings, settle
 from carom.motions.ledger import EnergyLedger, energy_ledger
 from carom.motions.loads import TouchdownLoads, touchdown_loads
-from carom.motions.settling import PATIENCE, ClosedOrbit, closed_orbit
+from carom.motions.settling import PATIENCE
 from carom.motions.spectrum import FullSpectrum, full_spectrum
 from carom.motions.starts import Kick, State, kick
 from carom.motions.trajectories import Trajectory, simulate
 
 __all__ = [
     "PATIENCE",
-    "ClosedOrbit",
     "ContactHistory",
     "ContactLog",
     "Endings",
@@ -35,7 +34,6 @@ __all__ = [
     "State",
     "TouchdownLoads",
     "Trajectory",
-    "closed_orbit",
     "energy_ledger",
     "full_spectrum",
     "kick",

@@ -1,21 +1,18 @@
-"""How a motion is recognised as settled: its memory, the proofs about its end, and the orbit it settles to."""
+"""How a motion is recognised as settled: its memory, and the proofs about its end."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 
 from carom.closed_forms.known import known_of
 from carom.closed_forms.rub_stability import rub_attracts
-from carom.core.closing import ATTRACTS, OPEN, PASSES, close, least_period
+from carom.core.closing import PASSES, least_period
 from carom.core.fate import doubt, memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.planar_proofs import planar_proofs
-from carom.models import Model, Subject, model_of
+from carom.models import Model
 from carom.motions.recurrence import least_recurrence
 from carom.outcome import Outcome
-from carom.results import Result
 
 PATIENCE = 20_000
 """Default number of impacts without recurrence after which bouncing counts as irregular.
@@ -32,26 +29,6 @@ AT_REST = 1e-6
 REPEATING = (Outcome.BOUNCING, Outcome.MIXED)
 MODES = 2
 """Modes of the rotors whose orbits are closed here."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class ClosedOrbit(Result):
-    """A periodic orbit, closed to rounding.
-
-    Attributes
-    ----------
-    positions, velocities : ndarray of complex, shape (p,)
-        States just before the impacts of one period, co-rotating frame.
-    period : float
-        In ``1/Ω``.
-    attracts : bool
-        Whether nearby motions approach it, judged by the derivative of the return map.
-    """
-
-    positions: np.ndarray
-    velocities: np.ndarray
-    period: float
-    attracts: bool
 
 
 def fresh_memory(rotor: Model, patience: int, stop_at_chatter: bool = False, *, absorb: bool = False) -> np.record:
@@ -124,19 +101,6 @@ def _is_at_rest(rotor: Model, amplitudes: np.ndarray) -> bool:
     """Whether a rub is synchronous; one that runs round the wall has been recognised by a full turn."""
     _, velocity = rotor.system.state(amplitudes)
     return bool(np.max(np.abs(velocity)) < AT_REST)
-
-
-def closed_orbit(machine: Subject, position: complex, velocity: complex, impacts: int) -> ClosedOrbit | None:
-    """Find the periodic orbit of a given number of impacts near a state just before an impact, or ``None``."""
-    rotor = model_of(machine)
-    if not rotor.system.is_planar:
-        return None
-    states, durations = np.empty((impacts + 1, MODES), complex), np.empty(impacts)
-    states[0] = rotor.system.amplitudes(position, velocity)
-    found = close(rotor.system.arrays, rotor.system.table, states, durations, *_tools())
-    if found == OPEN:
-        return None
-    return ClosedOrbit(*rotor.system.state(states[:-1]), float(durations.sum()), found == ATTRACTS)
 
 
 def _tools() -> tuple[tuple[np.ndarray, ...], np.record, np.record, np.record]:

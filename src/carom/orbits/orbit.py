@@ -41,7 +41,7 @@ class Margins(Result):
         Least radial speed before an impact, in ``c_r Ω``.
     slip : float
         Least slip velocity left after an impact in its direction; where friction stops the slip, what friction could
-        still take away.  In ``c_r Ω``; infinite without impacts.
+        still take away.  In ``c_r Ω``; infinite without impacts or friction.
     normal_force, cone : float
         Least normal force, and least distance of friction from its limit while rolling, at the beginning of lasting contact;
         in ``m c_r Ω²``, infinite without it.
@@ -251,7 +251,7 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     heights, left, cones = [], [], []
     for i, segment in enumerate(word):
         friction = contacts[segment.plane].friction
-        if segment.kind.is_impact:
+        if segment.kind.is_impact and friction > 0.0:
             taken = friction * (1.0 + contacts[segment.plane].restitution) * radial[i]
             if segment.kind is Kind.IMPACT_STOPPED:
                 left.append(taken - abs(slips[i]))

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from carom.core.advance import SHORTEST_LAP
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Segment, Word
-from carom.outcome import Outcome, Phase
+from carom.outcome import InputError, Outcome, Phase
 
 PERIODIC = (Outcome.BOUNCING, Outcome.MIXED)
 MORE = 1.1
 """Periods that are simulated to find a whole one between two lift-offs."""
 SAME_TIME = 1e-3
 """Relative difference of the time between two lift-offs and the period, if they are the same lift-off."""
+AROUND = 1e-3
+"""Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
 
 def orbit_of_motion(motion: Trajectory) -> Orbit | None:
@@ -28,7 +33,7 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     Returns
     -------
     Orbit or None
-        ``None`` if the motion has not settled to such an orbit, or if Newton's method does not close it.
+        ``None`` if the motion has not settled to such an orbit, or if Newton's method closes none next to it.
 
     See Also
     --------
@@ -47,12 +52,26 @@ def orbit_of_motion(motion: Trajectory) -> Orbit | None:
     times = motion.segment_starts[1:][motion.is_impact]
     if motion.outcome not in PERIODIC or count == 0 or len(times) < count:
         return None
-    first = int(np.flatnonzero(motion.is_impact)[-count])
+    begun = first_of_period(motion, count)
+    first = int(np.flatnonzero(motion.is_impact)[begun])
     if motion.is_landing[first:].any():
         # The last period may begin within a chatter: look for one from lift-off to lift-off.
-        period = motion.time - float(times[-count])
+        period = motion.time - float(times[begun])
         return _between_lift_offs(simulate(motion.rotor, motion.final, (1.0 + MORE) * period), period)
-    return orbit_near(motion.rotor, *segments_of(motion, first, len(motion.arrivals)))
+    return _closed(motion, first, len(motion.arrivals))
+
+
+def first_of_period(motion: Trajectory, count: int) -> int:
+    """Number of the impact with which the last period of a motion begins, of ``count`` impacts at different instants."""
+    times = motion.segment_starts[1:][motion.is_impact]
+    if len(motion.rotor.system.arrays.rows) == 1 or not count:
+        return len(times) - count
+    noted, last = [], -math.inf
+    for number, time in enumerate(times.tolist()):
+        if time - last > SHORTEST_LAP:
+            noted.append(number)
+            last = time
+    return noted[-min(count, len(noted))]
 
 
 def _between_lift_offs(motion: Trajectory, period: float) -> Orbit | None:
@@ -66,7 +85,19 @@ def _between_lift_offs(motion: Trajectory, period: float) -> Orbit | None:
     last = int(np.argmin(np.abs(times - times[0] - period)))
     if abs(times[last] - times[0] - period) > SAME_TIME * period:
         return None
-    return orbit_near(motion.rotor, *segments_of(motion, int(lifts[0]), int(lifts[last])))
+    return _closed(motion, int(lifts[0]), int(lifts[last]))
+
+
+def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
+    """Orbit next to a motion from one event up to another a period later."""
+    try:
+        word, start = segments_of(motion, first, last)
+    except InputError:  # an impact at one plane while another stays in contact has no word
+        return None
+    orbit, begun = orbit_near(motion.rotor, word, start), start.nodes[0]
+    if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):
+        return None
+    return orbit
 
 
 def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = False) -> tuple[Word, Start]:
@@ -116,11 +147,12 @@ def _impact_kinds(motion: Trajectory, first: int, last: int) -> np.ndarray:
     arrays, planes = motion.rotor.system.arrays, motion.event_planes[first:last]
     position, before = motion.rotor.system.at_planes(motion.arrivals[first:last], planes)
     local = position.conj() * before
-    slip = arrays.drive[planes] + local.imag
-    taken = arrays.friction[planes] * (1.0 + arrays.restitution[planes]) * local.real
+    slip, friction = arrays.drive[planes] + local.imag, arrays.friction[planes]
+    taken = friction * (1.0 + arrays.restitution[planes]) * local.real
     sliding = np.where(slip > 0.0, Kind.IMPACT_FORWARD, Kind.IMPACT_BACKWARD)
     kinds: np.ndarray = np.where(taken >= np.abs(slip), Kind.IMPACT_STOPPED, sliding)
-    return kinds
+    # Without friction the direction of the slip changes nothing: one motion has one word, that of the closed form.
+    return np.where(friction > 0.0, kinds, Kind.IMPACT_FORWARD)
 
 
 def with_impacts(motion: Trajectory, first: int, count: int) -> tuple[Word, Start] | None:

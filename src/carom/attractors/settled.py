@@ -1,0 +1,170 @@
+"""What a settled motion repeats, and whether two motions repeat the same."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carom.closed_forms.whirl import rolling
+from carom.models import Jeffcott
+from carom.motions.settling import REPEATING
+from carom.motions.trajectories import Trajectory
+from carom.orbits.orbit import Orbit, same_orbit
+from carom.orbits.recognising import first_of_period, orbit_of_motion
+from carom.outcome import Outcome, Phase
+from carom.results import Result
+
+Whirl = Literal["forward", "backward", "none"]
+
+SAME = 1e-6
+"""Distance, relative to one plus the size of the state, below which states are the same; speed below which a rotor is at rest."""
+SAMPLES = 1000
+TURNS = 10.0
+"""Turns of the shaft over which a motion without a period is evaluated."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SettledMotion(Result):
+    """A motion at its end, and what it repeats there."""
+
+    motion: Trajectory
+    """Seen at the plane that touches."""
+    outcome: Outcome
+    multiplicity: int = 0
+    """Impacts per period; 0 without a period or impacts."""
+    orbit: Orbit | None = None
+    """The orbit of periodic bouncing; ``None`` for other motions, and where Newton's method closes none."""
+    period: float | None = None
+    """In ``1/Ω``; ``None`` if it is at rest, does not repeat or has not settled."""
+    synchronous: bool = False
+    """Whether it is at rest in the co-rotating frame."""
+
+
+def settled_motion(motion: Trajectory) -> SettledMotion:
+    """Determine from the end of a motion what it repeats.
+
+    Periodic bouncing is closed to its orbit (:func:`~carom.orbits.recognising.orbit_of_motion`).  Motions that approach one orbit
+    then have the same one, however far from it they were when found to be periodic.
+    """
+    outcome, motion = motion.outcome, seen_in_contact(motion)
+    if outcome is Outcome.ROLLING:
+        turn = 2.0 * math.pi / float(motion.rotor.system.arrays.drive[motion.plane])
+        return SettledMotion(motion, outcome, period=turn)
+    if outcome not in REPEATING:
+        resting = outcome is Outcome.LEVITATED or (
+            outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME
+        )
+        whirling = outcome is Outcome.BACKWARD_WHIRL or (outcome is Outcome.FORWARD_RUB and not resting)
+        return SettledMotion(motion, outcome, period=_turn_time(motion) if whirling else None, synchronous=resting)
+    count = motion.multiplicity
+    if count == 0:
+        return SettledMotion(motion, outcome)
+    span = motion.time - float(motion.segment_starts[1:][motion.is_impact][first_of_period(motion, count)])
+    orbit = orbit_of_motion(motion)
+    if orbit is None:
+        return SettledMotion(motion, outcome, count, period=span)
+    return SettledMotion(motion, outcome, max(1, round(count * orbit.period / span)), orbit, orbit.period)
+
+
+def seen_in_contact(motion: Trajectory) -> Trajectory:
+    """The motion seen at the first plane in lasting contact at its end, otherwise at that of the last impact."""
+    touching = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
+    struck = motion.event_planes[motion.is_impact]
+    return motion.seen_at(int(touching[0]) if len(touching) else int(struck[-1]) if len(struck) else 0)
+
+
+def _turn_time(motion: Trajectory) -> float | None:
+    """Duration of the last full turn along the wall in the co-rotating frame; ``None`` if there was none."""
+    row, final = motion.rotor.system.planes[motion.plane], motion.final
+    end = complex(row @ np.atleast_1d(final.position))
+    speed = abs((end.conjugate() * complex(row @ np.atleast_1d(final.velocity))).imag)
+    span = 2.0 * math.pi * min(TURNS, 4.0 / speed if speed > 0.0 else TURNS)
+    times = np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
+    angles = np.unwrap(np.angle(motion.at_plane(times)[0] / end))
+    turned = np.flatnonzero(np.abs(angles - angles[-1]) >= 2.0 * math.pi * (1.0 - SAME))
+    if not len(turned):
+        return None
+    start = float(times[turned[-1]])
+    for _ in range(4):  # Newton's method from a start less than a sample's width away
+        position, velocity = motion.at_plane(np.array(start))
+        start -= cmath.phase(complex(position) / end) / (complex(position).conjugate() * complex(velocity)).imag
+        start = max(0.0, start)
+    return motion.time - start
+
+
+def same_motion(first: SettledMotion, second: SettledMotion) -> bool:
+    """Whether two motions have settled to the same one, whichever impact of the period they ended at."""
+    if (first.outcome, first.synchronous, first.multiplicity) != (
+        second.outcome,
+        second.synchronous,
+        second.multiplicity,
+    ):
+        return False
+    if first.multiplicity == 0:
+        return True
+    if first.orbit is not None and second.orbit is not None:
+        return same_orbit(first.orbit, second.orbit)
+    if first.orbit is not None or second.orbit is not None:
+        return False
+    states, others = _last_states(first), _last_states(second)
+    apart = [np.abs(np.roll(others, -places, axis=0) - states).max() for places in range(len(states))]
+    return bool(min(apart) < SAME * (1.0 + np.abs(states).max()))
+
+
+def _last_states(settled: SettledMotion) -> np.ndarray:
+    """Coordinates and rates just before the impacts of the last period, complex, shape (p, 2n)."""
+    motion = settled.motion
+    last = np.flatnonzero(motion.is_impact)[first_of_period(motion, settled.multiplicity) :]
+    return motion.rotor.system.states_of(motion.arrivals[last[-settled.multiplicity :]])
+
+
+def known_orbit(orbit: Orbit | None, orbits: Sequence[Orbit]) -> Orbit | None:
+    """Return the admissible one among ``orbits`` that is the given one, or ``None``."""
+    if orbit is None:
+        return None
+    return next((known for known in orbits if known.admissible and same_orbit(known, orbit)), None)
+
+
+def _last_times(settled: SettledMotion) -> np.ndarray:
+    """Times over the last period, or over the last turns of the shaft; the end alone if the rotor is at rest."""
+    motion = settled.motion
+    if settled.synchronous:
+        return np.array([motion.time])
+    span = settled.period or 2.0 * math.pi * TURNS
+    return np.linspace(max(0.0, motion.time - span), motion.time, SAMPLES)
+
+
+def forces_on(settled: SettledMotion) -> tuple[float, float]:
+    """Largest normal impulse (``m c_r Ω``) and largest lasting normal force (``m c_r Ω²``) on the attractor, at any plane."""
+    motion = settled.motion
+    if settled.outcome is Outcome.LEVITATED:
+        return 0.0, 0.0
+    if settled.outcome is Outcome.ROLLING and isinstance(motion.rotor, Jeffcott):
+        return 0.0, rolling(motion.rotor).largest_force
+    impulses = motion.log_of(motion.is_impact).normal_impulse
+    # Of irregular bouncing only the later half is used: the first half may be a transient.
+    last = impulses[first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(impulses) // 2 :]
+    touching = settled.outcome in (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
+    impulse = float(last.max()) if len(last) and not touching else 0.0
+    if (motion.segment_phases == Phase.FLIGHT).all():
+        return impulse, 0.0
+    times = _last_times(settled)
+    planes = range(motion.segment_phases.shape[1])
+    return impulse, max(float(motion.seen_at(plane).forces(times)[0].max()) for plane in planes)
+
+
+def whirl_of(settled: SettledMotion) -> Whirl:
+    """Direction of whirl: the sign of the mean areal velocity of the rotor centre in the fixed frame.
+
+    The areal velocity is ``Im(Z̄Ż)/2 = (|U|² + Im(ŪU̇))/2``.
+    """
+    position, velocity = settled.motion.at_plane(_last_times(settled))
+    swept = float((np.abs(position) ** 2 + (position.conj() * velocity).imag).mean())
+    if abs(swept) < SAME:
+        return "none"
+    return "forward" if swept > 0.0 else "backward"

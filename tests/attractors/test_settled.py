@@ -1,0 +1,171 @@
+"""What settled motions repeat."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from carom.attractors.settled import forces_on, known_orbit, same_motion, settled_motion, whirl_of
+from carom.closed_forms.equilibria import find_equilibria
+from carom.closed_forms.whirl import rolling
+from carom.models import Jeffcott
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
+from carom.orbits.single_impact import find_orbits
+from carom.outcome import Outcome
+from carom.parameters import Parameters
+
+SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
+
+
+def settled(rotor, state):
+    return simulate(rotor, state, 1e5, settle=True)
+
+
+@pytest.fixture(scope="module")
+def bouncing():
+    rotor = Jeffcott(SOURCE)
+    return settled(rotor, State(0.2 + 0.1j, -1.0 + 0.5j))
+
+
+@pytest.fixture(scope="module")
+def doubled():
+    rotor = Jeffcott(SOURCE.replace(gamma=0.0832))
+    leaving = find_orbits(rotor)["B1,d"].departure
+    return [settled(rotor, State(leaving.position, factor * leaving.velocity)) for factor in (0.999, 1.001, 1.01, 0.99)]
+
+
+def test_bouncing_repeats_its_orbit(bouncing):
+    orbits = find_orbits(bouncing.rotor)
+    ended = settled_motion(bouncing)
+
+    assert ended.multiplicity == ended.orbit.impacts == 1
+    assert ended.period == pytest.approx(orbits["B1,d"].period, rel=1e-11)
+    assert ended.orbit.multipliers.values == pytest.approx(orbits["B1,d"].multipliers.values, abs=1e-9)
+    assert known_orbit(ended.orbit, orbits).name == "B1,d"
+    assert known_orbit(ended.orbit, [orbits["B1,c"]]) is None
+
+
+@pytest.mark.jit_only
+def test_two_impacts_a_period_are_the_same_from_either_impact(doubled):
+    ends = [settled_motion(motion) for motion in doubled]
+    last = [motion.final.velocity for motion in doubled]
+
+    assert {ended.multiplicity for ended in ends} == {2}
+    assert max(abs(np.diff(last))) > 1e-2, "all of them ended at the same of the two impacts"
+    assert all(same_motion(ends[0], ended) for ended in ends)
+    assert known_orbit(ends[0].orbit, find_orbits(doubled[0].rotor)) is None
+
+
+@pytest.mark.jit_only
+def test_where_no_orbit_closes_the_last_impacts_are_compared(bouncing, doubled):
+    ends = [dataclasses.replace(settled_motion(motion), orbit=None) for motion in doubled]
+
+    assert all(same_motion(ends[0], ended) for ended in ends)
+    assert not same_motion(ends[0], settled_motion(doubled[0]))
+    assert not same_motion(ends[0], dataclasses.replace(settled_motion(bouncing), orbit=None, multiplicity=2))
+
+
+@pytest.mark.jit_only
+def test_orbit_of_two_impacts_closes(doubled):
+    ended = settled_motion(doubled[0])
+    log = simulate(doubled[0].rotor, ended.orbit.section.state, 1.2 * ended.period).contacts
+
+    assert ended.orbit.stable
+    assert ended.orbit.admissible
+    assert log.time[2] == pytest.approx(ended.period, abs=1e-9)
+    assert log.radial_speed[:2] == pytest.approx(ended.orbit.impact_speeds, abs=1e-9)
+    assert log.radial_speed[2] == pytest.approx(log.radial_speed[0], abs=1e-9)
+    assert log.angular_speed[2] == pytest.approx(log.angular_speed[0], abs=1e-9)
+    assert log.angle[2] == pytest.approx(log.angle[0], abs=1e-9)
+    assert abs(log.radial_speed[1] - log.radial_speed[0]) > 1e-2
+
+
+@pytest.mark.jit_only
+def test_different_orbits_are_different_motions(bouncing, doubled):
+    ended = settled_motion(bouncing)
+    assert not same_motion(ended, settled_motion(doubled[0]))
+    other = dataclasses.replace(ended.orbit, nodes=ended.orbit.nodes * (1.0 + 1e-4))
+    assert not same_motion(ended, dataclasses.replace(ended, orbit=other))
+
+
+@pytest.mark.jit_only
+def test_bouncing_with_rub_repeats_an_orbit_with_lasting_contact():
+    parameters = Parameters(0.0431456484, 1.25902546543, 1.31671186334, 0.0, 0.427612705, 0.43781982, 2.0)
+    motion = settled(Jeffcott(parameters), State(0.3, 0.5 + 1.0j))
+    ended = settled_motion(motion)
+
+    assert ended.outcome is Outcome.MIXED
+    assert ended.multiplicity == motion.multiplicity
+    assert ended.orbit.stable
+    assert ended.orbit.admissible
+    assert not ended.orbit.word.flies
+    times = motion.segment_starts[1:][motion.is_impact]
+    assert ended.period == pytest.approx(motion.time - times[-motion.multiplicity], rel=1e-9)
+
+
+def test_impulse_on_an_orbit_is_that_of_its_impact(bouncing):
+    orbit = find_orbits(bouncing.rotor)["B1,d"]
+
+    assert forces_on(settled_motion(bouncing)) == pytest.approx((1.95 * orbit.radial_speed, 0.0), rel=1e-7)
+
+
+@pytest.mark.jit_only
+def test_synchronous_rub_presses_with_the_force_of_its_equilibrium():
+    rotor = Jeffcott(SOURCE.replace(gamma=0.2))
+    rub = find_equilibria(rotor)[1]
+    motion = settled(rotor, State(rub.position, 0.05j * rub.position))
+    ended = settled_motion(motion)
+
+    assert (ended.outcome, ended.synchronous, ended.period) == (Outcome.FORWARD_RUB, True, None)
+    impulse, force = forces_on(ended)
+    assert impulse == 0.0
+    assert force == pytest.approx(rub.normal_force, rel=1e-8)
+    assert whirl_of(ended) == "forward"
+
+
+def test_rolling_goes_backward_with_its_closed_form_force():
+    motion = settled(Jeffcott(SOURCE), State(1.0 + 0j, -1j * (1.0 + 400 / 7)))
+    ended = settled_motion(motion)
+
+    assert ended.outcome is Outcome.ROLLING
+    assert ended.period == pytest.approx(2.0 * math.pi / (1.0 + 400 / 7), rel=1e-12)
+    assert forces_on(ended)[1] == pytest.approx((400 / 7) ** 2 - 0.76**2 + 3 / 7, rel=1e-12)
+    assert whirl_of(ended) == "backward"
+
+
+@pytest.mark.jit_only
+@pytest.mark.parametrize("ratio", [5.0, 400 / 7])
+def test_rolling_that_slides_a_part_of_each_turn_is_backward_whirl(ratio):
+    # Damping halfway between that up to which rolling holds and that beyond which no backward whirl can.
+    parameters = SOURCE.replace(radius_ratio=ratio, rho=1.0)
+    limits = rolling(Jeffcott(parameters))
+    rotor = Jeffcott(parameters.replace(gamma=0.5 * (limits.largest_damping + limits.damping_bound)))
+    motion = settled(rotor, State(1.0 + 0j, -1j * (1.0 + ratio)))
+    ended = settled_motion(motion)
+
+    assert (ended.outcome, ended.synchronous) == (Outcome.BACKWARD_WHIRL, False)
+    assert ended.period > limits.period
+    again = simulate(rotor, motion.final, ended.period).final
+    assert again.position == pytest.approx(motion.final.position, abs=1e-8)
+    assert again.velocity == pytest.approx(motion.final.velocity, abs=1e-8 * ratio)
+    assert whirl_of(ended) == "backward"
+    impulse, force = forces_on(ended)
+    assert impulse == 0.0
+    assert limits.least_force < force <= limits.largest_force
+
+
+def test_levitation_is_at_rest_and_touches_nothing():
+    motion = settled(Jeffcott(SOURCE.replace(gamma=0.5)), State(0.1 + 0j))
+    ended = settled_motion(motion)
+
+    assert (ended.outcome, ended.synchronous) == (Outcome.LEVITATED, True)
+    assert forces_on(ended) == (0.0, 0.0)
+    assert whirl_of(ended) == "forward"
+
+
+def test_rotor_without_unbalance_does_not_whirl():
+    motion = simulate(Jeffcott(SOURCE.replace(gamma=0.5, rho=0.0)), State(0j), 100.0, settle=True)
+
+    assert whirl_of(settled_motion(motion)) == "none"
