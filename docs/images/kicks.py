@@ -30,7 +30,7 @@ def draw() -> Figure:
     """Draw the basin and the two flights."""
     case = cm.load(HERE.parent.parent / "examples" / "keogh-cole.toml", ["eccentricity=0.15 mm"])
     velocity = 1e3 * case.parameters.scales.velocity
-    kicks = cm.disturbances.KickPlane.in_si(case.parameters.scales, FASTEST)
+    kicks = cm.disturbances.KickPlane.of(case, f"{FASTEST} m/s")
     basin = cm.map_basins(case, cm.Grid(kicks, (CELLS, CELLS)))
     outward = cm.disturbances.outward_from(case)
     settings = {"font.size": 12, "axes.linewidth": 0.8, "hatch.linewidth": 0.6, "font.family": "sans-serif"}

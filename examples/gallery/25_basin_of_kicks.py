@@ -8,7 +8,7 @@ Each point is a kick: outward to the right, in the sense of rotation upward.  It
 import carom as cm
 
 machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
-kicks = cm.disturbances.KickPlane.in_si(machine.parameters.scales, 0.3)
+kicks = cm.disturbances.KickPlane.of(machine, "300 mm/s")
 basin = cm.map_basins(machine, cm.Grid(kicks, (100, 100)))
 print(basin.share_recovered.words)
 figure = basin.plot()

@@ -8,7 +8,7 @@ The housing is shaken by a half-sine pulse of 5 ms.  Kept by size and direction,
 import carom as cm
 
 machine = cm.load("../keogh-cole.toml", ["eccentricity=0.15 mm"])
-shocks = cm.BaseShock.in_si(machine.parameters.scales, g=8, milliseconds=5)
+shocks = cm.BaseShock.of(machine, "8 g", "5 ms")
 basin = cm.map_basins(machine, cm.Grid(shocks, (40, 60)))
 print(basin.share_recovered.words)
 figure = basin.plot()

@@ -8,7 +8,7 @@ The unbalance of the levitating rotor becomes larger at once.  Only the phase of
 import carom as cm
 
 machine = cm.load("../keogh-cole.toml", ["eccentricity=0.1 mm"])
-loss = cm.disturbances.BladeLoss.in_si(machine.parameters.scales, 0.22e-3)
+loss = cm.disturbances.BladeLoss.of(machine, "0.22 mm")
 basin = cm.map_basins(machine, cm.Grid(loss, (360,)))
 print(basin.share_recovered.words)
 figure = basin.plot()

@@ -9,7 +9,7 @@ The share of kicks that comes back, over stiffness (P gain) and damping (D gain)
 import carom as cm
 
 machine = cm.load("../keogh-cole.toml")
-kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
 sample = cm.disturbances.Sample(kicks, 200, seed=1)
 ranges = (("5e5 N/m", "2e6 N/m"), ("700 N s/m", "5000 N s/m"))
 gains = cm.map_gains(machine, sample, ranges=ranges, shape=(10, 10))

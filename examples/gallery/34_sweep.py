@@ -13,7 +13,7 @@ axes = [
     GridAxis.between("speed", "1500 rpm", "3000 rpm", 12),
     GridAxis.between("damping", "700 N s/m", "5000 N s/m", 10, "log"),
 ]
-kicks = cm.disturbances.VelocityKick.in_si(case.parameters.scales, 0.1)
+kicks = cm.disturbances.VelocityKick.of(case, "100 mm/s")
 data = cm.run_sweep(plan_sweep(case, axes, cm.disturbances.Sample(kicks, 60, seed=1))).dataset
 print(dict(data.sizes))
 figure = cm.plots.sweep_map(data, "recovered")

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.jit_only
 
 SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 MACHINE = PAPER.replace(gamma=0.152, scales=SCALES)
-KICKS = Grid(VelocityKick.in_si(SCALES, 0.02), (10, 10))
+KICKS = Grid(VelocityKick.of(MACHINE, "20 mm/s"), (10, 10))
 RANGES = ((7.0e5, 1.4e6), (500.0, 4500.0))
 
 
@@ -97,7 +97,7 @@ def test_no_change_and_no_way(found):
 def test_physical_kicks_stay_what_they_are_when_the_speed_changes():
     found = map_gains(MACHINE, KICKS, ("speed", "damping"), shape=(2, 2), ranges=((120.0, 400.0), (3000.0, 6000.0)))
     slow = MACHINE.replace(speed=120.0, damping=3000.0)
-    plan = Grid(VelocityKick.in_si(slow.scales, 0.02), (10, 10))
+    plan = Grid(VelocityKick.of(slow, "20 mm/s"), (10, 10))
     assert plan.model.fastest != pytest.approx(KICKS.model.fastest, rel=0.1)
     share = map_basins(carom.models.Jeffcott(slow), plan).share_recovered
     assert found.dataset["recovered"].values[0, 0] == pytest.approx(share.fraction, abs=0.011)

@@ -108,7 +108,7 @@ def test_the_motion_is_that_of_an_integration_in_the_fixed_frame():
     for _ in range(sized(4, 1, 40)):
         machine = LIGHT.replace(eccentricity=2e-4 * random.uniform(0.0, 0.2), damping=random.uniform(500.0, 5000.0))
         after, phase = 2e-4 * random.uniform(0.2, 0.6), random.uniform(-math.pi, math.pi)
-        loss = BladeLoss.in_si(machine.scales, after)
+        loss = BladeLoss.of(machine, f"{after} m")
         rotor, state = loss.release(machine, phase)
         impacts, late, found = integrated(machine, after, phase, 4.0)
         motion = cm.simulate(rotor, state, 4.0 * 2.0 * math.pi)
@@ -128,7 +128,7 @@ def test_what_is_said_to_be_survived_is():
     random = np.random.default_rng(22)
     tried = 0
     for machine in (LIGHT, LIGHT.replace(damping=6000.0, friction=0.05, speed=1400.0))[: sized(1, 1, 2)]:
-        found = smallest_loss(machine, BladeLoss.in_si(machine.scales, 0.15e-3))
+        found = smallest_loss(machine, BladeLoss.of(machine, "0.15 mm"))
         assert found.harmless < found.all_back < found.size
         assert found.size - found.all_back < 2e-3 * found.size
         for _ in range(sized(2, 1, 60)):
@@ -195,8 +195,8 @@ def test_sizes_are_checked(size):
 
 @pytest.mark.jit_only
 def test_it_goes_where_every_disturbance_goes(tmp_path):
-    loss = BladeLoss.in_si(LIGHT.scales, 0.067e-3)
-    assert Disturbance.of(loss.describe()) == loss
+    loss = BladeLoss.of(LIGHT, "0.067 mm")
+    assert Disturbance.from_description(loss.describe()) == loss
     basin = cm.map_basins(LIGHT, Grid(loss, (24,)))
     after = loss.machine_after(Jeffcott(LIGHT.parameters))
     alone = cm.settle(after, basin_positions(basin), np.zeros(24))

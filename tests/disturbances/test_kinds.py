@@ -11,7 +11,6 @@ from machines import PAPER, rest_position
 
 import carom
 from carom.disturbances import (
-    GRAVITY,
     AnyState,
     BaseShock,
     ContactRelease,
@@ -25,6 +24,7 @@ from carom.disturbances import (
 from carom.outcome import InputError
 
 SCALES = carom.parameters.Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
+MACHINE = PAPER.replace(scales=SCALES)
 QUIET = PAPER.replace(rho=0.2)
 GROUNDED = PAPER.replace(gamma=0.05)
 """Its equilibrium lies outside the wall."""
@@ -117,19 +117,39 @@ def test_cells_have_equal_weight():
     assert direction[0] == pytest.approx(math.pi / 8)
 
 
-def test_si_numbers_go_through_the_scales():
-    shock = BaseShock.in_si(SCALES, g=20.0, milliseconds=3.0)
-    assert shock.peak * SCALES.acceleration == pytest.approx(20.0 * GRAVITY)
+def test_text_with_a_unit_goes_through_the_scales():
+    shock = BaseShock.of(MACHINE, "20 g", "3 ms")
+    assert shock.peak * SCALES.acceleration == pytest.approx(20.0 * 9.80665)
     assert shock.duration * SCALES.time == pytest.approx(3e-3)
-    assert shock.velocity_change * SCALES.velocity == pytest.approx(2.0 * 20.0 * GRAVITY * 3e-3 / math.pi)
-    assert VelocityKick.in_si(SCALES, 0.05).fastest * SCALES.velocity == pytest.approx(0.05)
+    assert shock.velocity_change * SCALES.velocity == pytest.approx(2.0 * 20.0 * 9.80665 * 3e-3 / math.pi)
+    assert VelocityKick.of(MACHINE, "50 mm/s").fastest * SCALES.velocity == pytest.approx(0.05)
+    assert VelocityKick.of(PAPER, 0.5) == VelocityKick(0.5)
+    assert ContactRelease.of(PAPER) == ContactRelease()
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: VelocityKick("50 mm/s"), r"fastest = 50 mm/s: a number; text .* VelocityKick.of\(machine"),
+        (lambda: VelocityKick.of(PAPER, "50 mm/s"), "fastest = 50 mm/s: must be a number without a unit"),
+        (lambda: VelocityKick.of(MACHINE, "50 mm"), "fastest = 50 mm: must be a velocity"),
+        (lambda: VelocityKick.of(MACHINE, "-50 mm/s"), "fastest = -.*: a size, above 0"),
+        (lambda: VelocityKick.of(MACHINE, 1.0, 2.0), "sizes = .*: at most 1: fastest"),
+        (lambda: VelocityKick.of(1.0, "50 mm/s"), "machine = 1.0"),
+    ],
+)
+def test_bad_sizes_are_one_line(make, message):
+    with pytest.raises(InputError, match=message) as problem:
+        make()
+    assert "\n" not in str(problem.value)
 
 
 def test_rescaling_keeps_what_happens_in_si():
     other = carom.parameters.Scales(mass=80.0, clearance=0.3e-3, speed=400.0)
-    shock = BaseShock.in_si(SCALES, g=20.0, milliseconds=3.0)
+    different = MACHINE.replace(scales=other)
+    shock = BaseShock.of(MACHINE, "20 g", "3 ms")
     again = shock.rescaled(SCALES, other)
-    expected = BaseShock.in_si(other, g=20.0, milliseconds=3.0)
+    expected = BaseShock.of(different, "20 g", "3 ms")
     assert (again.peak, again.duration) == pytest.approx((expected.peak, expected.duration))
     slice_ = StateSlice(0.1 + 0.2j).rescaled(SCALES, other)
     assert slice_.velocity * other.velocity == pytest.approx((0.1 + 0.2j) * SCALES.velocity)

@@ -161,7 +161,7 @@ def test_what_cannot_be_saved_is_refused():
 
 def test_an_unknown_kind_says_what_to_do():
     with pytest.raises(InputError, match="imported before"):
-        Disturbance.of({"kind": "nudge"})
+        Disturbance.from_description({"kind": "nudge"})
 
 
 def test_a_coordinate_has_a_unit_that_exists():

@@ -122,12 +122,12 @@ def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
 @pytest.mark.parametrize(
     ("plan", "labels"),
     [
-        (Grid(BaseShock.in_si(SCALES, 8.0, 5.0), (6, 8)), ("peak acceleration of the base (g)",)),
-        (Grid(UnbalanceStep.in_si(SCALES, 0.2e-3), (6, 8)), ("eccentricity before the step (mm)",)),
+        (Grid(BaseShock.of(MACHINE, "8 g", "5 ms"), (6, 8)), ("peak acceleration of the base (g)",)),
+        (Grid(UnbalanceStep.of(MACHINE, "0.2 mm"), (6, 8)), ("eccentricity before the step (mm)",)),
         (Grid(KickPlane(1.0), (10, 10)), ("kick outward (mm/s)", "kick in the sense of rotation (mm/s)")),
         (Grid(StateSlice(), (12, 12)), ("Re $U$", "Im $U$", "0.7 mm")),
         (Grid(ContactRelease("rotating"), (20,)), ("released from the wall, at rest in the co-rotating frame",)),
-        (Grid(BladeLoss.in_si(SCALES, 0.25e-3), (20,)), ("phase of the unbalance after the loss", "to 0.25 mm")),
+        (Grid(BladeLoss.of(MACHINE, "0.25 mm"), (20,)), ("phase of the unbalance after the loss", "to 0.25 mm")),
         (Sample(AnyState(1.0), 100), ("share of 100 starts (%), with 95 % confidence",)),
     ],
 )
@@ -176,7 +176,7 @@ def test_a_grid_of_states_has_no_picture(rotor):
 
 
 def test_gain_map(rotor):
-    plan = Grid(VelocityKick.in_si(SCALES, 0.08), (8, 8))
+    plan = Grid(VelocityKick.of(MACHINE, "80 mm/s"), (8, 8))
     found = map_gains(MACHINE, plan, shape=(6, 7), ranges=((7e5, 1.6e6), (200.0, 4000.0)))
     change = least_gain_change(found, 0.9)
     figure = plots.gain_map(found, change)
@@ -206,7 +206,7 @@ def test_gain_map(rotor):
 
 
 def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
-    plan = Grid(VelocityKick.in_si(SCALES, 0.08), (5, 5))
+    plan = Grid(VelocityKick.of(MACHINE, "80 mm/s"), (5, 5))
     found = map_gains(MACHINE, plan, shape=(3, 3))
     x, y = (found.dataset[axis.name].values for axis in found.axes)
     node = abs(x - found.present[0]).argmin(), abs(y - found.present[1]).argmin()
@@ -231,7 +231,7 @@ def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
     assert "every kick tried comes back" in words(figure)
     assert "smallest kick tried that does not come back (m/s)" in [axes.get_ylabel() for axes in figure.axes]
 
-    drawn = map_gains(MACHINE, Sample(VelocityKick.in_si(SCALES, 0.08), 20), shape=(2, 2))
+    drawn = map_gains(MACHINE, Sample(VelocityKick.of(MACHINE, "80 mm/s"), 20), shape=(2, 2))
     with pytest.raises(InputError, match="one that this map has: recovered"):
         plots.gain_map(drawn, measure="integrity")
 

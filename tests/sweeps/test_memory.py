@@ -46,7 +46,7 @@ def machine(tmp_path):
 def test_file_and_python_give_the_same_in_a_store_and_in_memory(tmp_path, machine, work):
     (tmp_path / "sweep.toml").write_text(FILE.format(work=work))
     read = load_sweep(tmp_path / "sweep.toml")
-    kicks = Sample(VelocityKick.in_si(machine.parameters.scales, 0.1), 30, seed=3)
+    kicks = Sample(VelocityKick.of(machine, "100 mm/s"), 30, seed=3)
     planned = plan_sweep(machine, AXES, kicks if work == KICKS else StudyTask(15), seed=3, chunk=2)
 
     assert planned == read

@@ -115,8 +115,8 @@ def test_shock_is_read_in_standard_gravities(write):
     plan = load_sweep(write(do=do))
     scales = plan.case.parameters.scales
 
-    read, meant = plan.task.model(scales), carom.BaseShock.in_si(scales, 20.0, 11.0)
-    # Both multiply and divide three doubles, not in the same order.
+    read, meant = plan.task.model(scales), carom.BaseShock.of(plan.case, "20 g", "11 ms")
+    # Both multiply and divide doubles, not in the same order.
     np.testing.assert_allclose([read.peak, read.duration], [meant.peak, meant.duration], rtol=1e-15)
 
 

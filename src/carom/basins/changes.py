@@ -78,7 +78,7 @@ def least_gain_change(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> gains = cm.map_gains(machine, cm.Grid(kicks, (4, 6)), shape=(3, 3))
     >>> change = cm.basins.least_gain_change(gains, wanted=0.3)
     >>> print(change if change is None else change.share.count)

@@ -192,7 +192,7 @@ def map_basins(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> basin = cm.map_basins(machine, cm.Grid(kicks, (6, 12)))
     >>> basin.share_recovered.count, basin.share_recovered.total
     (6, 72)

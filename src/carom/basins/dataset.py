@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 def plan_of(document: Mapping[str, Any]) -> Plan:
     """Plan from its description in the attributes of a dataset; an unknown kind of disturbance is refused."""
-    model = Disturbance.of(document["model"])
+    model = Disturbance.from_description(document["model"])
     if "cells" in document:
         return Grid(model, tuple(document["cells"]))
     return Sample(model, document["starts"], document["seed"])

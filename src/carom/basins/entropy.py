@@ -71,7 +71,7 @@ def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> basin = cm.map_basins(machine, cm.Grid(kicks, (10, 12)))
     >>> print(cm.basins.basin_entropy(basin).boxes)
     4

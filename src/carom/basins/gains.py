@@ -131,7 +131,7 @@ def map_gains(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> gains = cm.map_gains(machine, cm.Grid(kicks, (4, 6)), shape=(3, 3))
     >>> dict(gains.dataset.sizes)
     {'stiffness': 3, 'damping': 3}

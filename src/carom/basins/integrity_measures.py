@@ -67,7 +67,7 @@ def integrity(basin: Basin) -> Integrity:
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> basin = cm.map_basins(machine, cm.Grid(kicks, (10, 12)))
     >>> print(round(cm.basins.integrity(basin).local, 3))
     0.05

@@ -175,7 +175,7 @@ def smallest_loss(
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> found = cm.basins.smallest_loss(machine, kicks)
     >>> print(f"{found.size * machine.parameters.scales.velocity * 1e3:.3f} mm/s, ends in {found.outcome.label}")
     5.466 mm/s, ends in forward-rub

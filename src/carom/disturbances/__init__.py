@@ -19,12 +19,12 @@ co-rotating frame, from which the motion is free.
 A subclass of :class:`Disturbance` is a model too, wherever one can be given.
 
 Models and plans load the kernels only when a shock is followed, so that sweeps are planned without them.
-Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  The constructors ``in_si`` take SI numbers and the
-scales of a machine.
+Numbers are dimensionless: lengths in clearances, times in ``1/Ω``.  ``VelocityKick.of(machine, "50 mm/s")`` takes text with
+units.
 """
 
 from carom.disturbances.blade_loss import BladeLoss
-from carom.disturbances.blows import GRAVITY, BaseShock, KickPlane, VelocityKick, outward_from
+from carom.disturbances.blows import BaseShock, KickPlane, VelocityKick, outward_from
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.disturbances.kinds import MODELS
 from carom.disturbances.model import FASTEST, Disturbance
@@ -33,7 +33,6 @@ from carom.disturbances.states import AnyState, ContactRelease, StateSlice, Unba
 
 __all__ = [
     "FASTEST",
-    "GRAVITY",
     "MODELS",
     "AnyState",
     "BaseShock",

@@ -39,7 +39,7 @@ class BladeLoss(Disturbance):
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml", ["eccentricity=0.1 mm"])
-    >>> loss = cm.disturbances.BladeLoss.in_si(machine.parameters.scales, 0.2e-3)
+    >>> loss = cm.disturbances.BladeLoss.of(machine, "0.2 mm")
     >>> cm.map_basins(machine, cm.Grid(loss, (36,))).share_recovered.count
     18
     """

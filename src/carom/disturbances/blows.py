@@ -5,20 +5,17 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts, angle_coordinate, complex_of, displaced, speed_coordinate
 from carom.disturbances.model import FASTEST, Disturbance
 from carom.outcome import InputError
-from carom.parameters import Scales
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
 
-GRAVITY = 9.80665
-"""Standard acceleration of free fall, m/s²."""
 LONGEST_SHOCK = 1e4
 """Longest duration, in ``1/Ω``: every pulse is followed to its end, over at most some 1600 turns of the shaft."""
 
@@ -43,7 +40,7 @@ class VelocityKick(Disturbance):
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> print(f"{kicks.fastest:.4f}")
     0.7756
     """
@@ -122,7 +119,7 @@ class BaseShock(Disturbance):
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> shock = cm.BaseShock.in_si(machine.parameters.scales, g=10, milliseconds=11)
+    >>> shock = cm.BaseShock.of(machine, "10 g", "11 ms")
     >>> [coordinate.name for coordinate in shock.coordinates]
     ['peak_acceleration', 'direction']
     """
@@ -136,11 +133,6 @@ class BaseShock(Disturbance):
         super().__post_init__()
         if self.duration > LONGEST_SHOCK:
             raise InputError("duration", self.duration, f"at most {LONGEST_SHOCK:g}, in 1/Omega: a shock is short")
-
-    @classmethod
-    def in_si(cls, scales: Scales, g: float, milliseconds: float) -> Self:  # type: ignore[override]
-        """Create from the largest peak in standard gravities and the duration in ms."""
-        return cls(g * GRAVITY / scales.acceleration, 1e-3 * milliseconds / scales.time)
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:

@@ -11,10 +11,10 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.outcome import InputError, shown
-from carom.parameters import Scales
+from carom.parameters import Scales, own_size
 
 if TYPE_CHECKING:
-    from carom.models import Model
+    from carom.models import Model, Subject
 
 FASTEST = 2.0
 """Default largest speed in ``c_r Ω``: twice that of a whirl that fills the clearance."""
@@ -52,6 +52,8 @@ class Disturbance:
     def __post_init__(self) -> None:
         for name, scale in self.measured_in.items():
             value = getattr(self, name)
+            if isinstance(value, str):
+                raise InputError(name, value, f"a number; text with a unit is for {type(self).__name__}.of(machine, …)")
             if not np.isfinite(value):
                 raise InputError(name, value, f"a finite number, in the unit of {scale} of the equations")
             if name in _SIZES and value <= 0.0:
@@ -77,11 +79,27 @@ class Disturbance:
         return rotor
 
     @classmethod
-    def in_si(cls, scales: Scales, *sizes: float) -> Self:
-        """Create from the first fields in SI units, in their order."""
-        fields = dataclasses.fields(cls)[: len(sizes)]
-        units = (getattr(scales, cls.measured_in[one.name]) for one in fields)
-        return cls(*(size / unit for size, unit in zip(sizes, units, strict=True)))
+    def of(cls, machine: Subject, *sizes: float | str) -> Self:
+        """Disturbance with sizes for a machine, such as ``VelocityKick.of(machine, "50 mm/s")``.
+
+        Parameters
+        ----------
+        machine : Machine, Case, Parameters or model
+        *sizes : float or str
+            Of the fields with a unit, in their order (``measured_in``): text with a unit, or numbers in the units of the equations.
+
+        Raises
+        ------
+        InputError
+            A size is not allowed, or has a unit and the machine has no scales.
+        """
+        if len(sizes) > len(cls.measured_in):
+            raise InputError("sizes", shown(sizes), f"at most {len(cls.measured_in)}: {', '.join(cls.measured_in)}")
+        from carom.models import model_of
+
+        scales = model_of(machine).scales
+        pairs = zip(cls.measured_in.items(), sizes, strict=False)
+        return cls(**{name: own_size(name, size, kind, scales) for (name, kind), size in pairs})
 
     def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:
         """Return the disturbance that is the same in SI units for a machine with other scales.
@@ -114,7 +132,7 @@ class Disturbance:
         return {"kind": self.kind, **numbers}
 
     @staticmethod
-    def of(description: Mapping[str, Any]) -> Disturbance:
+    def from_description(description: Mapping[str, Any]) -> Disturbance:
         """Disturbance from its description.
 
         Raises

@@ -49,7 +49,7 @@ class UnbalanceStep(Disturbance):
     --------
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
-    >>> step = cm.disturbances.UnbalanceStep.in_si(machine.parameters.scales, 0.1e-3)
+    >>> step = cm.disturbances.UnbalanceStep.of(machine, "0.1 mm")
     >>> print(f"{step.largest:.4f}")
     0.1429
     """

@@ -14,7 +14,7 @@ from carom.core.contact_series import AWAY, FLIGHT
 from carom.core.impact import set_on_wall
 from carom.models import Model
 from carom.outcome import InputError, shown
-from carom.parameters import Scales, read_size
+from carom.parameters import Scales, own_size
 
 LARGEST_SPEED = 1e100
 """Largest speed of a start: for far larger ones the bounds that prove a flight contact-free overflow."""
@@ -101,11 +101,6 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
     Kick(speed='50 mm/s', angle='30 deg')
     """
     return Kick(speed, angle)
-
-
-def own_size(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
-    """Convert text with a unit to the units of the equations; a number is already in these."""
-    return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given
 
 
 def time_until(until: object, scales: Scales | None) -> float:

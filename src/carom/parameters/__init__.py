@@ -30,7 +30,7 @@ from carom.parameters.machine_file import Case, Zones, load
 from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import UNITS, Parameters, Scales
-from carom.parameters.sizes import Size, read_size
+from carom.parameters.sizes import Size, own_size, read_size
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
 
 __all__ = [
@@ -57,6 +57,7 @@ __all__ = [
     "field_to_set",
     "field_to_vary",
     "load",
+    "own_size",
     "read_quantity",
     "read_size",
     "unknown_name",

@@ -88,3 +88,8 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Siz
         words = f"must be a number without a unit, in {own}: the machine file is dimensionless and has no scales"
         raise InputError(name, shown(given), words)
     return Size(number, True, kind)
+
+
+def own_size(name: str, given: float | str, kind: str, scales: Scales | None) -> float:
+    """Convert text with a unit to the units of the equations; a number is already in these."""
+    return read_size(name, given, kind, scales).own(scales) if isinstance(given, str) else given

@@ -150,7 +150,7 @@ def run_sweep(
     >>> import carom as cm
     >>> machine = cm.load("examples/keogh-cole.toml")
     >>> axes = [cm.sweeps.GridAxis.between("damping", "1000 N s/m", "4000 N s/m", 3)]
-    >>> kicks = cm.disturbances.VelocityKick.in_si(machine.parameters.scales, 0.1)
+    >>> kicks = cm.disturbances.VelocityKick.of(machine, "100 mm/s")
     >>> plan = cm.sweeps.plan_sweep(machine, axes, cm.disturbances.Sample(kicks, 10, seed=1))
     >>> cm.run_sweep(plan).dataset.recovered.values
     array([0.1, 0.3, 1. ])
