@@ -229,7 +229,7 @@ def test_gain_map_tells_why_a_cell_has_no_shade(rotor):
     found.dataset["smallest_unrecovered_kick"].values[0, 1] = np.nan
     figure = plots.gain_map(found, measure="smallest_unrecovered_kick")
     assert "every kick tried comes back" in words(figure)
-    assert "smallest kick tried that does not come back (m/s)" in [axes.get_ylabel() for axes in figure.axes]
+    assert "smallest kick tried that does not come back (mm/s)" in [axes.get_ylabel() for axes in figure.axes]
 
     drawn = map_gains(MACHINE, Sample(VelocityKick.of(MACHINE, "80 mm/s"), 20), shape=(2, 2))
     with pytest.raises(InputError, match="one that this map has: recovered"):

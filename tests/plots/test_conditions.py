@@ -68,7 +68,7 @@ def test_no_claim_beyond_an_unfinished_search(damped, read):
 def test_no_roots(quiet, read):
     figure = _drawn(quiet)
     assert read.lines(figure.axes[0], "root") == []
-    assert "no root: no orbit with one impact per period" in read.legend(figure)
+    assert "no root: no orbit with one impact a period" in read.legend(figure)
 
 
 def test_many_roots_names_do_not_crowd(damped):

@@ -28,7 +28,7 @@ def test_looks_change_at_the_special_points():
         "virtual",
         "period doubling",
         "grazing",
-        "fold of rub equilibria",
+        "fold of synchronous rubs",
     ):
         assert expected in words
     assert "Neimark–Sacker bifurcation" not in words

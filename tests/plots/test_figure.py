@@ -4,6 +4,7 @@ import io
 
 import matplotlib as mpl
 import pytest
+from drawn_legends import fits
 from machines import PAPER
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -14,6 +15,8 @@ import carom
 from carom import plots
 from carom.plots import arrangement
 from carom.plots import figure as figure_module
+from carom.plots.figure import StyledFigure
+from carom.plots.style import styled
 
 SETTINGS = {
     "font.size": 23.0,
@@ -128,6 +131,33 @@ def test_each_row_of_letters_is_placed_once(damped, monkeypatch):
     for figure in figures:
         written(figure, "svg")
     assert len(placed) == len(set(placed))
+
+
+@pytest.mark.parametrize("size", [(2.5, 2.5), (7.0, 3.0)])
+def test_long_titles_and_legends_fit(size):
+    """Titles are broken, legends lose columns; what has room stays as it is wanted."""
+    with plots.heading("a machine with a long name for a small page: damping 1,400 N s/m, stiffness 980,000 N/m"):
+        figure = _with_legend(size, "synchronous rub, saddle: normal force", 4)
+    assert fits(figure)
+    assert _columns(_with_legend(size, "rub", 2)) == 2
+    short = _with_legend(size, "rub", 1)
+    short.suptitle("a machine, and more")
+    assert short.get_suptitle() == "a machine, and more"
+
+
+@styled
+def _with_legend(size, words, columns):
+    figure = StyledFigure(figsize=size)
+    axes = figure.subplots()
+    for number in range(4):
+        axes.plot([0.0, 1.0], label=f"{words} {number}")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=columns)
+    return figure
+
+
+def _columns(figure):
+    figure.draw_without_rendering()
+    return len({round(text.get_window_extent().x0) for text in figure.legends[0].get_texts()})
 
 
 def test_figures_of_one_column(read):

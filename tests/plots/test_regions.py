@@ -68,5 +68,7 @@ def test_resonances_the_machine_and_changes_without_a_curve_are_marked(corner):
     assert regions_document(PAPER, marked)["unexplained"][0]["point"] == [0.05, 0.5]
 
 
-def test_legends_fit(figure):
+def test_legends_and_title_fit(corner, figure):
     assert fits(figure)
+    with plots.heading("keogh-cole: damping 1,400 N s/m, stiffness 980,000 N/m, speed 1,759 rpm"):
+        assert fits(plots.region_map(corner))

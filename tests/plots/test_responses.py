@@ -25,7 +25,7 @@ def lines_in(axes, look):
     return [line for line in axes.lines if line.get_color() == look.colour and line.get_linestyle() == look.line]
 
 
-def test_contact_free_motion_is_solid_only_where_it_is_possible(real):
+def test_levitation_is_solid_only_where_it_is_possible(real):
     figure = plots.unbalance_response(real)
     upper, lower = figure.axes
     for axes in (upper, lower):
@@ -38,7 +38,7 @@ def test_contact_free_motion_is_solid_only_where_it_is_possible(real):
     np.testing.assert_allclose(rub.get_ydata(), np.degrees(real.rub_lags[0]))
     words = legend_words(figure)
     for expected in (
-        "contact-free",
+        "levitation",
         "virtual",
         "rub, stable",
         "rub, unstable",

@@ -142,8 +142,8 @@ def test_cells_of_a_geometric_axis_stay_on_it():
 @pytest.mark.parametrize(
     ("name", "label"),
     [
-        ("levitation_radius", r"radius of the contact-free whirl ($c_\mathrm{r}$)"),
-        ("levitation_radius_si", "radius of the contact-free whirl (m)"),
+        ("levitation_radius", r"radius of levitation ($c_\mathrm{r}$)"),
+        ("levitation_radius_si", "radius of levitation (m)"),
         ("rub_force", r"normal force of the stable synchronous rub ($m$ $c_\mathrm{r}$ $\Omega^2$)"),
         ("stable_orbits", "stable orbits with one impact a period"),
     ],

@@ -110,7 +110,7 @@ def _print(found: UnbalanceResponse, out: str | None) -> None:
     for sentence in found.words:
         screen.print(sentence)
     screen.print()
-    columns = ("from", "to", "contact-free motion", "synchronous rubs", "rolling in backward whirl")
+    columns = ("from", "to", "levitation", "synchronous rubs", "rolling backward whirl")
     table = plain_table("Steady motions over speed", *columns, right=("from", "to"), no_wrap=("from", "to"))
     for stretch in found.stretches:
         steady = stretch.what
@@ -119,7 +119,7 @@ def _print(found: UnbalanceResponse, out: str | None) -> None:
         free = "possible" if steady.contact_free else "virtual: the rotor touches"
         table.add_row(rpm(stretch.low), rpm(stretch.high), free, rubs, "holds" if steady.rolls else "does not hold")
     screen.print(fitted(screen, table))
-    zones = plain_table("Zones of ISO 14839-2 of the contact-free motion", "from", "to", "zone", right=("from", "to"))
+    zones = plain_table("Zones of ISO 14839-2 of levitation", "from", "to", "zone", right=("from", "to"))
     for stretch in found.zones:
         zones.add_row(rpm(stretch.low), rpm(stretch.high), stretch.what or "in contact")
     screen.print(fitted(screen, zones))

@@ -11,9 +11,10 @@ from matplotlib.ticker import NullLocator
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import ArrayLike
 
+from carom.plots.figure import narrow
 from carom.plots.placement import spread
 from carom.plots.plane import Floats, finish, one_axes
-from carom.plots.style import LOOKS, TWO_COLUMNS, styled
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, styled
 from carom.plots.words import number, orbit_symbol, time_in_words
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ _SAME_PERIOD = 1e-6
 """Relative difference below which an orbit belongs to a root: far above rounding, far below the spacing of roots."""
 _MOST_NAMES = 10
 """Largest number of names above the frame; if there are more roots, only those with an admissible orbit are named."""
+_NAME = 0.48
+"""Room for a name above the frame [inch]."""
 _LINEAR = 0.05
 """Value of F1 at which the scale changes from linear to logarithmic."""
 
@@ -42,9 +45,9 @@ def period_condition(orbits: OrbitSet, periods: ArrayLike, values: ArrayLike, *,
     values : array_like, shape (n,)
         F1 at those periods (no unit).
     """
-    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.42 * TWO_COLUMNS))
+    figure, drawn = one_axes(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.42 * TWO_COLUMNS))
     times, condition = np.asarray(periods, dtype=float), np.asarray(values, dtype=float)
-    words = r"period condition $F_1(T)$, zero for an orbit with one impact per period"
+    words = r"period condition $F_1(T)$, zero for an orbit with one impact a period"
     drawn.plot(times, condition, color=_INK, lw=0.9, label=words, gid="condition")
     drawn.axhline(0.0, color="#1a1a1a", lw=0.5, gid="zero")
     _limits(drawn, times, orbits.longest_period)
@@ -101,7 +104,7 @@ def _roots(axes: Axes, orbits: OrbitSet) -> None:
     """Mark the roots on the zero line; the names of their orbits stand above the frame."""
     roots = np.asarray(orbits.periods, dtype=float)
     if not len(roots):
-        axes.plot([], [], linestyle="none", label="no root: no orbit with one impact per period")
+        axes.plot([], [], linestyle="none", label="no root: no orbit with one impact a period")
         return
     members = [[orbit for orbit in orbits if _belongs(orbit, root)] for root in roots]
     physical = np.array([any(orbit.admissible for orbit in found) for found in members])
@@ -138,7 +141,7 @@ def _mark(axes: Axes, roots: Floats, face: str, edge: str, size: float, words: s
 
 def _name_roots(axes: Axes, roots: Floats, labels: list[str]) -> None:
     left, right = axes.get_xlim()
-    gap = 0.085 * (right - left)
+    gap = _NAME * axes.figure.dpi / axes.bbox.width * (right - left)
     places = spread(roots, gap, left + gap / 2.0, right - gap / 2.0)
     across = blended_transform_factory(axes.transData, axes.transAxes)
     for root, place, label in zip(roots, places, labels, strict=True):

@@ -15,6 +15,7 @@ from matplotlib.lines import Line2D
 
 from carom.plots.coexistence import coexistence, row_of_point, rows_of
 from carom.plots.figure import StyledFigure
+from carom.plots.plane import legend_above
 from carom.plots.proven import proven_line
 from carom.plots.style import LOOKS, TWO_COLUMNS, Look, styled
 from carom.plots.words import number, parameter_label, parameter_unit
@@ -45,7 +46,7 @@ POINTS = MappingProxyType(
         "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
         "boundary-equilibrium": Look("#009e73", "levitation meets the wall", marker="p"),
-        "rub-fold": Look("#cc79a7", "fold of rub equilibria", marker="X"),
+        "rub-fold": Look("#cc79a7", "fold of synchronous rubs", marker="X"),
         "contact-onset": Look("#7a4fa3", "lasting contact begins", marker="^"),
         "permanent-contact": Look("#7a4fa3", "contact becomes permanent", marker="o"),
         "rolling-limit": Look("#882255", "rolling no longer holds", marker="d"),
@@ -63,7 +64,7 @@ CURVES = MappingProxyType(
         "slip-stop": Look("#e69f00", "friction stops the slip", line=":", width=1.1),
         "boundary-equilibrium": Look("#009e73", "levitation meets the wall", line="-", width=1.2),
         "non-smooth-hopf": Look("#a3dcca", "non-smooth Hopf bifurcation", line="-", width=4.5),
-        "rub-fold": Look("#cc79a7", "fold of rub equilibria", line="--", width=1.4),
+        "rub-fold": Look("#cc79a7", "fold of synchronous rubs", line="--", width=1.4),
         "contact-onset": Look("#7a4fa3", "lasting contact begins", line="-", width=1.1),
         "permanent-contact": Look("#7a4fa3", "contact becomes permanent", line="--", width=1.1),
         "rolling-limit": Look("#882255", "rolling no longer holds", line="-.", width=1.1),
@@ -138,7 +139,7 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     figure.align_ylabels([upper, lower])
     figure.legend(handles=[*_diagram_key(diagram, marked), *present], loc="outside lower center", ncols=4)
     if key:
-        figure.legend(handles=key, loc="outside upper center", ncols=2)
+        legend_above(upper, key, 2)
     return figure
 
 

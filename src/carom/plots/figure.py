@@ -10,6 +10,7 @@ from functools import cache, lru_cache
 from io import BytesIO, StringIO
 from typing import Any
 
+from matplotlib import rcParams
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_mixed import MixedModeRenderer
@@ -39,8 +40,8 @@ def heading(text: str) -> Iterator[None]:
 
 
 _narrow: ContextVar[bool] = ContextVar("_narrow", default=False)
-_TITLE, _LABEL = 48, 27
-"""Most characters of a line of a title, and of a label of a legend with two columns, in a figure of one column."""
+_MARGIN = 3.0
+"""Least distance of a title or a legend from the left and right edge of a figure [pt]."""
 
 
 @contextmanager
@@ -79,33 +80,57 @@ class StyledFigure(Figure):
         if self._heading:
             super().suptitle(self._wrapped(self._heading))
 
+    @property
+    def heading(self) -> str:
+        """The line above the title; empty if there is none."""
+        return self._heading
+
     def suptitle(self, t: str, **kwargs: Any) -> Text:
         """Set the title as :meth:`matplotlib.figure.Figure.suptitle` does, below the heading if there is one."""
         return super().suptitle(self._wrapped(f"{self._heading}\n{t}" if self._heading else t), **kwargs)
 
     def _wrapped(self, text: str) -> str:
-        """Break the lines of a title that a figure of one column has no room for, after commas; formulas stay whole."""
-        if not self._narrow:
-            return text
+        """Break the lines of a title that are wider than the figure: after commas, and between words if that is not enough."""
         lines: list[str] = []
         for line in text.split("\n"):
-            lines.append("")
-            for part in line.split(", "):
-                together = f"{lines[-1]}, {part}" if lines[-1] else part
-                fits = len(together) <= _TITLE or "$" in line
-                lines[-1:] = [together] if fits or not lines[-1] else [f"{lines[-1]},", part]
+            lines += self._broken(line, ", ")
         return "\n".join(lines)
 
+    def _broken(self, line: str, between: str) -> list[str]:
+        if self._room_for(line) or between not in line:
+            return [line]
+        first, *rest = line.split(between)
+        lines = [first]
+        for part in rest:
+            together = f"{lines[-1]}{between}{part}"
+            lines[-1:] = [together] if self._room_for(together) else [f"{lines[-1]}{between.rstrip()}", part]
+        return lines if between == " " else [piece for part in lines for piece in self._broken(part, " ")]
+
+    def _room_for(self, line: str) -> bool:
+        with applied():
+            font = FontProperties(size=rcParams["figure.titlesize"])
+            width = gauge().get_text_width_height_descent(line, font, "$" in line)[0]
+        return width <= POINTS * self.get_figwidth() - 2.0 * _MARGIN
+
     def legend(self, *args: Any, **kwargs: Any) -> Legend:
-        """Add a legend as :meth:`matplotlib.figure.Figure.legend` does, in one or two columns if the figure is narrow."""
-        if not self._narrow:
-            return super().legend(*args, **kwargs)
-        legend = super().legend(*args, **kwargs | {"ncols": 1})
-        longest = max((len(text.get_text().replace("$", "")) for text in legend.get_texts()), default=0)
-        if longest > _LABEL or len(legend.get_texts()) < 2:
-            return legend
-        legend.remove()
-        return super().legend(*args, **kwargs | {"ncols": 2})
+        """Add a legend as :meth:`matplotlib.figure.Figure.legend` does, in as many columns as the figure has room for."""
+        columns = int(kwargs.get("ncols", 1))
+        if self._narrow:
+            columns = 2
+        while True:
+            legend = super().legend(*args, **kwargs | {"ncols": columns})
+            if columns == 1 or self._holds(legend):
+                return legend
+            legend.remove()
+            columns -= 1
+
+    def _holds(self, legend: Legend) -> bool:
+        dpi, self.dpi = self.dpi, POINTS
+        try:
+            width = legend.get_window_extent(gauge()).width
+        finally:
+            self.dpi = dpi
+        return bool(width <= POINTS * self.get_figwidth() - 2.0 * _MARGIN)
 
     def draw(self, renderer: RendererBase) -> None:
         """Draw as :meth:`matplotlib.figure.Figure.draw` does, under carom's style sheet."""

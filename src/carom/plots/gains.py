@@ -83,7 +83,7 @@ def gain_map(
     if measure == "smallest_unrecovered_kick":
         scales = found.rotor.scales
         values, bar = (
-            (values, rf"{bar} ($c_r \Omega$)") if scales is None else (values * scales.velocity, f"{bar} (m/s)")
+            (values, rf"{bar} ($c_r \Omega$)") if scales is None else (1e3 * values * scales.velocity, f"{bar} (mm/s)")
         )
     grounded = found.dataset["levitates"].values == 0.0
     edges = cell_edges(x), cell_edges(y)

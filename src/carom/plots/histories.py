@@ -14,8 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom.outcome import Outcome
 from carom.plots.bands import bands_over_time, drawing_times
+from carom.plots.figure import narrow
 from carom.plots.plane import MANY_POINTS, Floats, finish, marker_size, one_axes, orbit_path, point
-from carom.plots.style import LOOKS, TWO_COLUMNS, ZONE_SHADES, Look, styled
+from carom.plots.style import LOOKS, ONE_COLUMN, TWO_COLUMNS, ZONE_SHADES, Look, styled
 from carom.plots.words import axis_length, axis_time, ending, orbit_look, orbit_title
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def radius(
     """
     if hasattr(motion, "path"):
         title = title or orbit_title(cast("Orbit", motion))
-    figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
+    figure, drawn = one_axes(axes, (ONE_COLUMN, ONE_COLUMN) if narrow() else (TWO_COLUMNS, 0.40 * TWO_COLUMNS))
     draw_radius(drawn, motion, zones, periods)
     _second_axes(drawn, motion.rotor.scales)
     return finish(figure, drawn, axes, title, columns=5)

@@ -104,7 +104,8 @@ def overview(study: Study, title: str | None = None) -> Figure:
 def _panels(axes: Axes | None, count: int) -> tuple[Figure, Axes, list[Axes]]:
     """Return axes for the whole circle (left) and the close-ups (right): one of the same size, or two stacked."""
     if axes is not None or not count:
-        figure, whole = one_axes(axes, (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS))
+        size = (ONE_COLUMN, 1.25 * ONE_COLUMN) if narrow() else (0.7 * TWO_COLUMNS, 0.79 * TWO_COLUMNS)
+        figure, whole = one_axes(axes, size)
         return figure, whole, []
     if narrow():
         figure = StyledFigure(figsize=(ONE_COLUMN, 1.85 * ONE_COLUMN))

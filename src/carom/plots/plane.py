@@ -276,6 +276,11 @@ def legend_below(axes: Axes, columns: int = 2) -> Legend:
     return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(columns, len(words)))
 
 
+def legend_above(axes: Axes, handles: Sequence[Artist], columns: int) -> Legend:
+    """Add a legend above axes and below the title, where a legend of the figure would overlap the title."""
+    return axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns)
+
+
 def _unique(drawn: Iterable[Axes]) -> tuple[Sequence[Artist], list[str]]:
     found: dict[str, Artist] = {}
     for axes in drawn:

@@ -14,6 +14,7 @@ from carom.plots.arrangement import arrange
 from carom.plots.diagrams import CURVES, FAINT, curve_line
 from carom.plots.figure import StyledFigure
 from carom.plots.numerals import number_regions
+from carom.plots.plane import legend_above
 from carom.plots.proven import proven_line
 from carom.plots.style import TWO_COLUMNS, styled
 from carom.plots.words import parameter_label, parameter_unit
@@ -66,7 +67,7 @@ def region_map(found: RegionMap, proof: Proof | None = None) -> Figure:
     drawn.set_xlim(*(np.array(found.plane.first_range) / units[0]))
     drawn.set_ylim(*(np.array(found.plane.second_range) / units[1]))
     lines = [*_curve_key(found), *_mark_points(drawn, found, units), *key]
-    figure.legend(handles=lines, loc="outside upper center", ncols=3)
+    legend_above(drawn, lines, 3)
     handles = [Line2D([], [], ls="none", label=words) for words in listed]
     figure.legend(handles=handles, loc="outside lower center", ncols=columns, handlelength=0.0, fontsize=6.5)
     arrange(figure)

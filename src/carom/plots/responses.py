@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 RPM = math.pi / 30.0
 """One revolution per minute in rad/s."""
-_FREE = Look("#009e73", "contact-free motion", line="-", width=1.5)
+_FREE = Look("#009e73", "levitation", line="-", width=1.5)
 _VIRTUAL = Look("#4d4d4d", "virtual: beyond the clearance", line=":", width=1.4)
 _RUB = Look("#cc79a7", "synchronous rub, stable", line="-", width=3.0)
-_SADDLE = Look("#a34f7e", "synchronous rub, unstable", line="--", width=1.1)
+_SADDLE = Look("#5c1f47", "synchronous rub, unstable", line="--", width=1.1)
 _LIMIT = Look("#d55e00", "limit of API 617", line="-.", width=1.1)
 _PRESENT = Look("#1a1a1a", "present speed", line=(0.0, (4.0, 2.0)), width=0.9)
 _CRITICAL = Look("#0072b2", "critical speed", line=(0.0, (1.0, 1.5)), width=1.1)
@@ -38,9 +38,9 @@ def unbalance_response(response: UnbalanceResponse) -> Figure:
     """Draw amplitude and phase over the speed of the shaft in two panels.
 
     Upper: vibration in µm peak to peak, with the zones of ISO 14839-2 as bands, the wall, and the limit of API 617; on the
-    right as radius in clearances.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.  A
-    stable rub is drawn along the wall, an unstable one just above it.  Lower: the angle by which the rotor lags its unbalance.  The present and the critical speed are
-    marked in both.
+    right as radius in clearances.  Where the contact-free response is virtual it is dotted, and these speeds are hatched.
+    Rubs lie on the wall, an unstable one dashed upon the stable one.  Lower: the angle by which the rotor lags its
+    unbalance.  The present and the critical speed are marked in both.
     """
     figure = StyledFigure(figsize=(TWO_COLUMNS, 0.78 * TWO_COLUMNS))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1.0))
@@ -52,16 +52,18 @@ def unbalance_response(response: UnbalanceResponse) -> Figure:
         axes.set_xlim(response.interval[0] / RPM, response.interval[1] / RPM)
     lower.set_xlabel("speed of the shaft (rpm)")
     figure.align_ylabels([upper, lower])
-    figure.suptitle(_title(response))
+    figure.suptitle(_title(response, named=bool(figure.heading)))
     key(figure, (upper, lower), columns=3)
     return figure
 
 
-def _title(response: UnbalanceResponse) -> str:
+def _title(response: UnbalanceResponse, *, named: bool) -> str:
+    """Write the amplitude at the present speed and the critical speed, with the name of the machine if it is not above."""
     free, present = response.contact_free, response.present
     radius = float(free.amplitude(np.array(present)))
     now = f"{2e6 * response.scales.clearance * radius:,.4g} µm peak to peak, zone {response.zone_at(present)}"
-    parts = [f"{response.case.name} at {present / RPM:,.0f} rpm: {now if radius <= 1.0 else 'no contact-free motion'}"]
+    where = f"at {present / RPM:,.0f} rpm" if named else f"{response.case.name} at {present / RPM:,.0f} rpm"
+    parts = [f"{where}: {now if radius <= 1.0 else 'no levitation'}"]
     if free.critical_speed is not None:
         parts.append(f"critical speed {free.critical_speed / RPM:,.0f} rpm")
         if free.amplification_factor is not None and math.isfinite(free.amplification_factor):
@@ -95,9 +97,9 @@ def _amplitudes(axes: Axes, response: UnbalanceResponse, speeds: Floats, width: 
     wall = LOOKS["wall"]
     if top > 1.0:
         axes.axhline(width, **wall.stroke, label="wall (touchdown bearing)", zorder=2)
-        for look, angles, height in ((_RUB, response.rubs[0], 1.0), (_SADDLE, response.rubs[1], 1.025)):
+        for look, angles in zip((_RUB, _SADDLE), response.rubs, strict=True):
             if not np.isnan(angles).all():
-                line = np.where(np.isnan(angles), np.nan, width * height)
+                line = np.where(np.isnan(angles), np.nan, width)
                 axes.plot(speeds, line, **look.stroke, label=look.words, zorder=2.5)
     limit = 1e6 * _limit(response)
     axes.plot(speeds, limit, **_LIMIT.stroke, label=_LIMIT.words, zorder=2)
@@ -168,8 +170,8 @@ def _phases(axes: Axes, response: UnbalanceResponse, speeds: Floats) -> None:
 
 
 def _marks(axes: Axes, response: UnbalanceResponse) -> None:
-    """Mark the present and the critical speed, and where no contact-free motion is possible."""
-    words = "no contact-free motion possible"
+    """Mark the present and the critical speed, and where no levitation is possible."""
+    words = "no levitation possible"
     for stretch in response.stretches:
         if not stretch.what.contact_free:
             axes.axvspan(

@@ -20,7 +20,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, PercentFor
 
 from carom.outcome import InputError
 from carom.parameters import SETTABLE, Field
-from carom.plots.plane import Floats, one_axes
+from carom.plots.plane import Floats, legend_above, one_axes
 from carom.plots.style import ONE_COLUMN, TWO_COLUMNS, Look, styled
 from carom.plots.words import parameter_label, parameter_unit
 
@@ -63,8 +63,8 @@ _INK = "#8c8c8c"
 """Colour of the hatching and edges of cells without a value."""
 _PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
 """Range of plain numbers on a logarithmic axis, and largest ratio of its ends with such ticks."""
-_FLAGS = ("#dbe4f0", "#56739f", "#e8c26a", "#7a4f1d")
-"""Colours of the values of a flag, distinguishable by colour-blind readers and in greyscale."""
+_FLAGS = ("#e9eff7", "#a9c3e0", "#cc8e3c", "#6b3f12")
+"""Colours of the values of a flag, darker from each to the next: distinguishable by colour-blind readers and in greyscale."""
 
 
 @styled
@@ -141,7 +141,7 @@ def _mark(axes: Axes, present: list[float], places: list[np.ndarray]) -> None:
     else:
         star: dict[str, Any] = {"marker": "*", "ms": 9.0, "mfc": "white", "mec": "#1a1a1a", "mew": 0.7, "ls": "none"}
         axes.plot(*present, gid="present", label=words, **star)
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
+    legend_above(axes, axes.get_legend_handles_labels()[0], 1)
 
 
 def _field(coordinate: xarray.DataArray) -> Field:

@@ -44,8 +44,8 @@ def ending(outcome: Outcome) -> str:
 
 
 def number(value: float, digits: int = 4) -> str:
-    """Write a number for a label, without trailing zeros; powers of ten as mathematical text."""
-    text = f"{value:.{digits}g}"
+    """Write a number for a label, without trailing zeros, with thousands separators; powers of ten as mathematical text."""
+    text = f"{value:,.{digits}g}"
     if "e" not in text:
         return text
     mantissa, exponent = text.split("e")

@@ -113,7 +113,7 @@ def _contact(response: UnbalanceResponse) -> list[str]:
     else:
         held = [stretch for stretch in touching if stretch.what.stable_rubs]
         free = [stretch for stretch in touching if not stretch.what.stable_rubs]
-        found = [f"No contact-free motion is possible {_from_to(touching)}: the response calculated there is virtual."]
+        found = [f"No levitation is possible {_from_to(touching)}: the response calculated there is virtual."]
         if held:
             found.append(f"In contact, a stable synchronous rub can hold the rotor {_from_to(held)}.")
         if free:
@@ -123,7 +123,7 @@ def _contact(response: UnbalanceResponse) -> list[str]:
     both = [stretch for stretch in stretches if stretch.what.contact_free and stretch.what.stable_rubs]
     if both:
         found.append(
-            f"Contact-free motion and a stable synchronous rub are both possible {_from_to(both)}: which of them the rotor takes "
+            f"Levitation and a stable synchronous rub are both possible {_from_to(both)}: which of them the rotor takes "
             "depends on how it came there."
         )
     rolls = [stretch for stretch in stretches if stretch.what.rolls]

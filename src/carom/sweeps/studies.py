@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 _SIMPLE = (
     Variable("levitates", "whether levitation exists and is stable", "flag", flags=("no", "yes")),
-    Variable("levitation_radius", "radius of the contact-free whirl", scale="length"),
+    Variable("levitation_radius", "radius of levitation", scale="length"),
     Variable("levitation_decay", "slowest decay of disturbances in levitation", unit="Omega"),
-    Variable("zone", "zone of the contact-free amplitude", "flag", flags=("A", "B", "C", "D")),
+    Variable("zone", "zone of the amplitude of levitation", "flag", flags=("A", "B", "C", "D")),
     Variable("rubs", "synchronous rubs", "count"),
     Variable("rub_stable", "whether a stable synchronous rub exists", "flag", flags=("no", "yes")),
     Variable("rub_force", "normal force of the stable synchronous rub", scale="force"),

@@ -63,7 +63,7 @@ def test_special_points_are_those_of_the_library(case, picture):
     np.testing.assert_allclose(
         [point.x for point in picture.points], [point.value for point in found.points], rtol=1e-9
     )
-    assert {point.words for point in picture.points} >= {"period doubling, B1,d", "fold of rub equilibria"}
+    assert {point.words for point in picture.points} >= {"period doubling, B1,d", "fold of synchronous rubs"}
 
 
 def test_bars_end_where_steady_motions_do(case, picture):
@@ -74,7 +74,7 @@ def test_bars_end_where_steady_motions_do(case, picture):
     assert levitation.high == 7000.0
     assert rub.high == pytest.approx(3407.85, abs=step)
     points = {point.words: point.x for point in picture.points}
-    assert points["fold of rub equilibria"] - rub.high < step
+    assert points["fold of synchronous rubs"] - rub.high < step
 
 
 def test_a_diagram_along_the_speed_is_in_rpm(case):
