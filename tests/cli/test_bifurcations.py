@@ -75,7 +75,7 @@ def test_run_up_with_all_motions(capsys):
 
 @pytest.mark.jit_only
 def test_starts_next_to_a_motion_are_no_disturbances(capsys):
-    """Rolling holds up to a hundred times this damping, but no disturbance of 0.258 m/s gets there."""
+    """Rolling holds up to a hundred times this damping, but no disturbance of 258 mm/s gets there."""
     words = ["bifurcations", MACHINE, "--along", "damping", "--from", "3450 N s/m", "--to", "4000 N s/m"]
     assert main([*words, "--attractors", "12"]) == 0
     lines = capsys.readouterr().out.splitlines()

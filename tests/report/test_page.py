@@ -12,6 +12,7 @@ from studies import study_once
 from carom.parameters import Parameters, load
 from carom.report import report_page, write_report
 from carom.report.figures import pictures
+from carom.report.page import _with_subscripts
 
 CHROMIUM = "/usr/bin/chromium"
 SOURCE = Parameters(gamma=0.1, omega=0.76, rho=3 / 7, phi=0.21, mu=0.15, d=0.95, radius_ratio=400 / 7)
@@ -66,6 +67,26 @@ def written(tmp_path_factory):
     )
     assert told == sorted(told)
     return result, path, path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("6.9 m c_r² Ω³ of Omega", "6.9\xa0m\xa0c<sub>r</sub>²\xa0Ω³ of Ω"),
+        ("from 19.8 N s/m to 7,928 N s/m", "from 19.8\xa0N\xa0s/m to 7,928\xa0N\xa0s/m"),
+        ("33 % of 5.44×10⁹ N/m at B1,d", "33\xa0% of 5.44×10⁹\xa0N/m at B<sub>1,d</sub>"),
+        ("200 starts, 12 of 12 at 1 mm/s", "200 starts, 12 of 12 at 1\xa0mm/s"),
+    ],
+)
+def test_symbols_are_formulas_and_numbers_keep_their_units(text, shown):
+    assert _with_subscripts(text) == shown
+
+
+def test_every_symbol_of_a_report_is_a_formula(written):
+    for page in (written[2], report_page(study_once(SOURCE), [])):
+        words = " ".join(Page(page).words)
+        assert not re.search(r"[ceFik]_(max|[rcis])|Omega", words)
+        assert not re.search(r"\d (N|mm|m)/?s?\b", words)
 
 
 def test_page_is_well_formed_and_self_contained(written):

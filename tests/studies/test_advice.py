@@ -58,6 +58,6 @@ def test_a_machine_that_brings_back_the_share_is_not_told_to_change(advised):
 def test_the_words_promise_a_share_and_not_levitation_alone(advised):
     lines = recommendation_lines(dataclasses.replace(study_once(PAPER), advice=(advised,)))
     said = {line.label: line.text for line in lines}
-    assert said["Change"] == "gamma 0.1 → 0.4046 (× 4.05)"
+    assert said["Change"] == "γ 0.1 → 0.4046 (× 4.05)"
     assert "brings back at least 99 %" in said["Margin"]
     assert "of 2,000 fresh disturbances of up to 2 c_r Ω came back" in said["Tried"]

@@ -89,5 +89,5 @@ def test_smallest_kick_is_a_bracket(lost, words):
 
 def test_dimensionless_limits_are_bare_numbers():
     text = said_of(SOURCE.replace(scales=None))
-    assert "only gamma above 8.57 rules that out (from 8.562 on it can roll" in text
-    assert "that takes gamma = 8.57)" in said_of(SOURCE.replace(scales=None, gamma=9.0))
+    assert "only γ above 8.57 rules that out (from 8.562 on it can roll" in text
+    assert "that takes γ = 8.57)" in said_of(SOURCE.replace(scales=None, gamma=9.0))

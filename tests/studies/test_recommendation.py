@@ -67,8 +67,8 @@ def test_the_page_says_present_value_change_margin_disturbances_and_evidence(rea
     assert said["Change"] == "stiffness 980,000 N/m → at least 2,495,000 N/m (× 2.55), tried up to 3,918,000 N/m"
     assert said["Or"] == "damping 1,400 N s/m → at least 3,578 N s/m (× 2.56), tried up to 73,450 N s/m"
     assert said["Margin"] == "5 % beyond 3,408 N s/m, where a stable and an unstable rub meet (fold) (closed form)"
-    assert said["Tried"].startswith("sampled: all of 2,000 fresh disturbances of up to 0.258 m/s came back")
-    assert "up to 0.258 m/s" in said["Disturbances"]
+    assert said["Tried"].startswith("sampled: all of 2,000 fresh disturbances of up to 258 mm/s came back")
+    assert "up to 258 mm/s" in said["Disturbances"]
     assert said["How sure"].endswith("None of it is proven.")
     assert "clearance 0.7 mm, eccentricity 0.3 mm" in said["Machine"]
 
@@ -97,7 +97,7 @@ def test_a_share_is_no_bound():
     result = dataclasses.replace(study_once(PAPER), advice=(advised,))
     (change,) = recommend(result).changes
     assert (change.bound, change.margin, change.tried) == ("about", None, ())
-    assert texts(result)["Change"] == "gamma 0.1 → 0.4046 (× 4.05)"
+    assert texts(result)["Change"] == "γ 0.1 → 0.4046 (× 4.05)"
     assert texts(result)["Margin"].startswith("none: no value tried leaves only levitation, and this one brings back")
     assert "no value beyond it was tried" in texts(result)["Tried"] or advised.returned.count < advised.returned.total
 

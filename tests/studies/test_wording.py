@@ -23,8 +23,8 @@ PLAIN = Wording(None)
         (0.0728524, 3, "0.0729"),
         (-0.15, 3, "-0.15"),
         (999.96, 4, "1,000"),
-        (1e-5, 3, "1e-5"),
-        (5.4363e9, 4, "5.436e9"),
+        (1e-5, 3, "1×10⁻⁵"),
+        (5.4363e9, 4, "5.436×10⁹"),
         (math.inf, 4, "inf"),
         (12.0, 3, "12"),
     ],
@@ -45,6 +45,9 @@ def test_quantities_with_units():
     assert SI.length(0.0452) == "31.6 µm"
     assert SI.time(2.328416) == "12.6 ms"
     assert SI.velocity(0.05) == "6.45 mm/s"
+    assert SI.velocity(2.0) == "258 mm/s"
+    assert SI.slip(58.142857) == "7.5 m/s"
+    assert SI.gain_name("gamma") == "damping"
     assert SI.force(0.75853) == "901 N"
     assert SI.force(3265.0) == "3.88 MN"
     assert SI.impulse(1.4359) == "9.26 N s"
@@ -58,6 +61,8 @@ def test_quantities_without_scales_keep_the_units_of_the_equations():
     assert PLAIN.radius(0.955) == "0.955 c_r"
     assert PLAIN.time(2.5) == "2.5/Ω"
     assert PLAIN.velocity(0.05) == "0.05 c_r Ω"
+    assert PLAIN.slip(58.0) == "58 c_r Ω"
+    assert PLAIN.gain_name("omega") == "ω"
     assert PLAIN.force(0.75853) == "0.759 m c_r Ω²"
     assert PLAIN.power(2.0) == "2 m c_r² Ω³"
     assert PLAIN.per_second(math.pi) == "2 times a turn"

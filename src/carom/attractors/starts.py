@@ -117,7 +117,7 @@ class DisturbanceSet:
         Parameters
         ----------
         speed : callable, optional
-            Formats a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in m/s.
+            Formats a speed given in ``c_r Ω``; by default in this unit and, where the scales are known, in mm/s.
         """
         write, kicks = speed or _speed_of(rotor), self.kicks(rotor)
         parts = []
@@ -141,7 +141,7 @@ def _speed_of(rotor: Model) -> Callable[[float], str]:
     scales = rotor.scales
 
     def write(speed: float) -> str:
-        return f"{speed:.3g} c_r Omega" + (f" ({speed * scales.velocity:.3g} m/s)" if scales else "")
+        return f"{speed:.3g} c_r Omega" + (f" ({1e3 * speed * scales.velocity:.3g} mm/s)" if scales else "")
 
     return write
 

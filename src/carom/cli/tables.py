@@ -265,7 +265,7 @@ def _event_rows(say: Wording, motion: Trajectory) -> list[tuple[str, ...]]:
             "forward" if log.angular_speed[place] > -1.0 else "backward",
             say.impulse(float(log.normal_impulse[place])),
             say.impulse(float(log.tangential_impulse[place])),
-            "stops" if log.sticks[place] else say.velocity(float(log.slip_after[place])),
+            "stops" if log.sticks[place] else say.slip(float(log.slip_after[place])),
         )
         entries.append((time, row))
     for contact in motion.lasting_contacts:

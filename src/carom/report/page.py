@@ -117,18 +117,25 @@ def _versions() -> str:
     return f"carom {version('carom')}, Python {platform.python_version()}, {packages}"
 
 
-_SUBSCRIPT = re.compile(r"\b([ceFik])_(max|[rcis])\b|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
+_SUBSCRIPT = re.compile(r"\b([ceFik])_(max|[rcis])(?![A-Za-z0-9])|\b([BR])(\d+,[a-d])\b|\b(F)(1)\b")
+_UNITS = (
+    "m c_r² Ω³|m c_r² Ω²|m c_r Ω²|m c_r Ω|c_r Ω|c_r|N s/m|A s/m|N s|g mm|kg mm|%|rpm|rad|mm/s|µm/s|m/s|mm|µm|m|ms|µs|s|kg|kN|MN|"
+    "N/mm|N/m|N/A|N|A/m|A|kW|W|kJ|J"
+)
+_QUANTITY = re.compile(rf"(?<=[0-9⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:{_UNITS})(?![\w/²³])")
+"""A unit behind a number: no line ends within them."""
 _COMMAND = re.compile(r"`(carom \w+)`")
 
 
 def _with_subscripts(text: str) -> Markup:
-    """Write ``c_r``, ``B1,d``, ``F1`` and ``Omega`` as formulas, and commands as code."""
+    """Write ``c_r``, ``B1,d``, ``F1`` and ``Omega`` as formulas, commands as code, and keep numbers with their units."""
 
     def formula(match: re.Match[str]) -> str:
         letter, index = (part for part in match.groups() if part)
         return f"{letter}<sub>{index}</sub>"
 
     escaped = _COMMAND.sub(r"<code>\1</code>", str(Markup.escape(text)).replace("Omega", "Ω"))
+    escaped = _QUANTITY.sub(lambda match: match[0].replace(" ", "\N{NO-BREAK SPACE}"), escaped)
     return Markup(_SUBSCRIPT.sub(formula, escaped))  # escaped above
 
 

@@ -99,7 +99,7 @@ def _rub_load(study: Study, rub: Equilibrium) -> str:
     text = _with_weight(study, rub.normal_force)
     if friction > 0:
         text += (
-            f", and friction of {say.force(friction)} at a slip of {say.velocity(slip)} would heat the contact with "
+            f", and friction of {say.force(friction)} at a slip of {say.slip(slip)} would heat the contact with "
             f"{say.power(friction * slip)}"
         )
     return text + _of_force(study, rub.normal_force)
@@ -238,7 +238,7 @@ def _backward_whirl(study: Study) -> str:
     if roll.damping_bound <= 0.0:
         return "Friction cannot sustain any backward whirl in lasting contact, whatever the damping."
     if gamma > roll.damping_bound:
-        least = bound if say.scales else f"gamma = {bound}"
+        least = bound if say.scales else f"γ = {bound}"
         return f"Damping is so strong that no backward whirl in lasting contact sustains itself (that takes {least})."
     if not roll.holds:
         return (
@@ -290,7 +290,8 @@ def _remedies_along(study: Study, gain: Gain) -> list[str]:
         entry = study.range_of(motion, gain)
         if entry is not None and (entry.spans or motion != "stable-single-impact"):
             parts.append(f"{words} {say.where(gain, entry.spans, entry.searched)}")
-    sentences = [f"{name[0].upper()}{name[1:]} (this machine: {own}): {'; '.join(parts)}."]
+    along = name if say.scales is None else f"{name[0].upper()}{name[1:]}"  # A symbol keeps its case: Ω is not ω.
+    sentences = [f"{along} (this machine: {own}): {'; '.join(parts)}."]
     return [*sentences, *alone_sentences(study, gain)]
 
 

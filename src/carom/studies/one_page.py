@@ -91,6 +91,8 @@ def _place(study: Study, radius: float) -> str:
 def _change(study: Study, change: Change) -> str:
     say, gain, value = study.wording, change.gain, change.advice.value
     ratio = "there is none now" if math.isinf(change.advice.change) else f"× {number(change.advice.change, 3)}"
+    if say.scales is None and gain == "omega":
+        ratio = f"stiffness {ratio}"  # It is the square of ω.
     name, present = say.gain_name(gain), say.gain(gain, change.present)
     text = f"{name} {present} → {_BOUNDS[change.bound]}{say.gain(gain, value)} ({ratio})"
     if change.bound == "about":
@@ -121,7 +123,7 @@ def _tried(study: Study, change: Change) -> str:
     for tried in change.tried:
         last = tried.values[-1]
         places = f"{counted(len(tried.values), 'value')} {'up' if last > value else 'down'} to {say.gain(gain, last)}"
-        others.append(f"of {tried.disturbances:,} at each of {places}")
+        others.append(f"of {tried.disturbances:,} at {'each of ' if len(tried.values) > 1 else ''}{places}")
     return f"{text}; beyond it none was lost {listed(others)}" if others else f"{text}; no value beyond it was tried"
 
 

@@ -118,7 +118,7 @@ def given_words(machine: Machine, name: str) -> str:
 def dimensionless_rows(case: Case) -> list[ValueRow]:
     """Return the rows of the dimensionless parameters."""
     return [
-        ValueRow(field.symbol, field.words, f"{getattr(case.parameters, name):.9g}")
+        ValueRow(field.symbol, field.words, f"{getattr(case.parameters, name):.6g}")
         for name, field in DIMENSIONLESS_FIELDS.items()
     ]
 
@@ -230,7 +230,7 @@ def threshold_rows(study: Study) -> list[ThresholdRow]:
                 entry.exists,
                 say.gain_name(entry.gain),
                 say.gain(entry.gain, entry.edge.value) if say.scales else "",
-                f"{'γ' if entry.gain == 'gamma' else 'ω'} = {entry.edge.value:.8g}",
+                f"{DIMENSIONLESS_FIELDS[entry.gain].symbol} = {entry.edge.value:.5g}",
                 what,
             )
         )

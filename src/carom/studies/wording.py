@@ -11,11 +11,12 @@ from carom.parameters.indentation import gives_way
 from carom.parameters.numbers import CONVERSIONS
 from carom.studies.ranges import Span
 
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 
 
 def number(value: float, digits: int = 4) -> str:
-    """Write a number with the given significant digits and thousands separators: ``1,400``, ``0.0725``, ``2.38e9``."""
+    """Write a number with the given significant digits and thousands separators: ``1,400``, ``0.0725``, ``2.38×10⁹``."""
     if value == 0:
         return "0"
     if not math.isfinite(value):
@@ -23,7 +24,7 @@ def number(value: float, digits: int = 4) -> str:
     rounded = float(f"{value:.{digits - 1}e}")
     if not 1e-4 <= abs(rounded) < 1e8:
         mantissa, exponent = f"{rounded:.{digits - 1}e}".split("e")
-        return f"{float(mantissa):g}e{int(exponent)}"
+        return f"{float(mantissa):g}×10{str(int(exponent)).translate(_RAISED)}"
     decimals = max(0, digits - 1 - math.floor(math.log10(abs(rounded))))
     text = f"{rounded:,.{decimals}f}"
     return text.rstrip("0").rstrip(".") if "." in text else text
@@ -74,8 +75,12 @@ class Wording:
         return f"{number(value, 3)}/Ω" if self.scales is None else self._quantity(value, "time", "s", "")
 
     def velocity(self, value: float) -> str:
-        """A velocity given in ``c_r Ω``."""
-        return self._quantity(value, "velocity", "m/s", "c_r Ω")
+        """A velocity of the rotor centre given in ``c_r Ω``; always in mm/s, so that those of a page compare at a glance."""
+        return self._plain(1e3 * value if self.scales else value, "velocity", "mm/s", "c_r Ω")
+
+    def slip(self, value: float) -> str:
+        """The speed of the surface of the rotor on the wall, given in ``c_r Ω``, in m/s."""
+        return self._plain(value, "velocity", "m/s", "c_r Ω")
 
     def force(self, value: float) -> str:
         """A force given in ``m c_r Ω²``; below 100,000 N without prefix, as bearing loads are usually given in N."""
@@ -127,8 +132,8 @@ class Wording:
         return MACHINE_FIELDS[PHYSICAL_PARTNER[gain]].unit
 
     def gain_name(self, gain: Gain) -> str:
-        """Return ``damping`` or ``stiffness``; the dimensionless name if the machine is not known."""
-        return gain if self.scales is None else PHYSICAL_PARTNER[gain]
+        """Return ``damping`` or ``stiffness``; the symbol, ``γ`` or ``ω``, if the machine is not known."""
+        return DIMENSIONLESS_FIELDS[gain].symbol if self.scales is None else PHYSICAL_PARTNER[gain]
 
     def where(self, gain: Gain, spans: tuple[Span, ...], searched: Span | None = None) -> str:
         """Say for which values of a gain something holds: ``below 3,408 N s/m``."""
