@@ -40,6 +40,10 @@ class Claim:
         Why it is undecided, or what refutes it.
     enclosures : mapping of str to Enclosure
         Numbers that belong to it.
+    interval : tuple of str
+        Ends of the interval of a parameter on which it holds; empty for a claim about one machine.
+    motions : tuple of str
+        Orbits of the interval that are motions of the machine.
     limited_by_precision : bool
         Whether it is undecided only because of the number of bits computed with.
     """
@@ -50,6 +54,8 @@ class Claim:
     status: Status
     reason: str = ""
     enclosures: Mapping[str, Enclosure] = field(default_factory=dict)
+    interval: tuple[str, ...] = ()
+    motions: tuple[str, ...] = ()
     limited_by_precision: bool = False
 
     @property
@@ -61,7 +67,8 @@ class Claim:
         """As plain data for JSON."""
         ends = {name: [entry.low, entry.high] for name, entry in self.enclosures.items()}
         words = {"about": self.about, "kind": self.kind, "statement": self.statement, "status": self.status}
-        return {**words, "reason": self.reason, "enclosures": ends}
+        where = {"interval": list(self.interval), "motions": list(self.motions)} if self.interval else {}
+        return {**words, "reason": self.reason, "enclosures": ends, **where}
 
 
 def claim_of(
@@ -88,7 +95,7 @@ def claim_of(
     """
     status: Status = "proven" if sign > 0 else "refuted" if sign < 0 else "undecided"
     told = "" if sign > 0 else reason
-    return Claim(about, kind, statement, status, told, enclosures or {}, limited and sign == 0)
+    return Claim(about, kind, statement, status, told, enclosures or {}, limited_by_precision=limited and sign == 0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -16,6 +16,7 @@ from carom.parameters import Parameters
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import line_of
+from carom.proofs.ranges import PERIOD
 
 _ROUNDING = 1e-12
 """Relative difference of numbers of the same machine, once exact and once in doubles."""
@@ -127,14 +128,13 @@ def _check_machine(hypotheses: Hypotheses, model: Model) -> None:
 
 def _stretch(claim: Claim) -> ProvenStretch:
     """Stretch that a claim of :mod:`carom.proofs.ranges` states."""
-    low, high = (float(Fraction(end)) for end in claim.about.partition("[")[2].rstrip("]").split(", "))
+    low, high = (float(Fraction(end)) for end in claim.interval)
     periods = {
-        name.removesuffix(" period"): (float(entry.low), float(entry.high))
+        name.removesuffix(PERIOD): (float(entry.low), float(entry.high))
         for name, entry in claim.enclosures.items()
-        if name.endswith(" period")
+        if name.endswith(PERIOD)
     }
-    motions = tuple(name for name in periods if f"{name}: motion of the machine" in claim.statement)
-    return ProvenStretch(low, high, periods, motions)
+    return ProvenStretch(low, high, periods, claim.motions)
 
 
 def _compare(diagram: Diagram, stretch: ProvenStretch) -> None:

@@ -8,7 +8,7 @@ parameter and blocks share their ends, an orbit keeps its name along a stretch.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
 from math import floor, log2
@@ -31,6 +31,8 @@ _LONGEST = 300
 BITS = 64
 """Precision."""
 _FIRST_STEPS = 4
+PERIOD = " period"
+"""Follows the name of an orbit in the names of the enclosures of its period."""
 
 
 @dataclass(frozen=True)
@@ -309,8 +311,10 @@ def _stretch_claim(line: Line, stretch: Stretch) -> Claim:
     enclosures: dict[str, Enclosure] = {}
     for fact in stretch.facts or ():
         enclosures |= {
-            f"{fact.name} period": enclosure_of(fact.period),
+            f"{fact.name}{PERIOD}": enclosure_of(fact.period),
             f"{fact.name} radial_speed": enclosure_of(fact.speed),
         }
     statement = "The closing conditions have exactly these solutions, and each keeps its properties: "
-    return claim_of(about, "orbits", statement + ("; ".join(told) or "none"), 1, enclosures=enclosures, limited=False)
+    claim = claim_of(about, "orbits", statement + ("; ".join(told) or "none"), 1, enclosures=enclosures, limited=False)
+    motions = tuple(fact.name for fact in stretch.facts or () if fact.admissible)
+    return replace(claim, interval=stretch.inner, motions=motions)
