@@ -50,6 +50,40 @@ def test_of_each_kind_only_the_newest_that_waits_is_done_and_the_most_urgent_fir
     assert not old.begun.is_set()
 
 
+def test_what_pauses_lets_newer_and_more_urgent_work_go_first():
+    told: list[str] = []
+    desk = Desk(("urgent", "later"))
+    old, new, urgent, soon = (Work(name, told) for name in ("old", "new", "urgent", "soon"))
+    for work in (old, new, urgent, soon):
+        work.go.set()
+    # It would begin after the test: what ends its pause is always one of the requests that follow.
+    desk.ask("later", Request(old.run, old.done, pause=2 * SOON))
+    desk.ask("urgent", urgent.request)
+    assert urgent.ended.wait(SOON)
+    desk.ask("later", Request(new.run, new.done, pause=2 * SOON))
+    desk.ask("later", Request(soon.run, soon.done, pause=0.01))
+    assert soon.ended.wait(SOON)
+    desk.close()
+    assert desk.join(SOON)
+    assert told == ["urgent", "soon"]
+
+
+def test_a_pause_ends_when_its_work_is_dropped_or_the_desk_closed():
+    told: list[str] = []
+    desk = Desk(("one",))
+    dropped, kept, last = (Work(name, told) for name in ("dropped", "kept", "last"))
+    for work in (dropped, kept, last):
+        work.go.set()
+    desk.ask("one", Request(dropped.run, dropped.done, pause=2 * SOON))
+    desk.drop()
+    desk.ask("one", kept.request)
+    assert kept.ended.wait(SOON)
+    desk.ask("one", Request(last.run, last.done, pause=2 * SOON))
+    desk.close()
+    assert desk.join(SOON)
+    assert told == ["kept"]
+
+
 def test_what_is_dropped_ends_at_its_next_report_and_says_nothing():
     told: list[str] = []
     desk = Desk(("one",))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from carom.progress import Progress
@@ -25,10 +26,13 @@ class Request:
         :class:`SupersededError` where the work is no longer wanted.
     done : callable
         Receives the result, or the exception, in that thread; nothing if the work was interrupted.
+    pause : float
+        Seconds for which the desk waits for a newer or more urgent request before it begins with this one.
     """
 
     work: Callable[[Callable[[Progress], None]], Any]
     done: Callable[[Any], None]
+    pause: float = 0.0
 
 
 class Desk:
@@ -79,12 +83,22 @@ class Desk:
 
     def _next(self) -> tuple[str, Request] | None:
         with self._changed:
-            self._changed.wait_for(lambda: self._waiting or self._closed)
-            if self._closed:
-                return None
-            self._stale.clear()
-            kind = next(kind for kind in self._kinds if kind in self._waiting)
-            return kind, self._waiting.pop(kind)
+            while True:
+                self._changed.wait_for(lambda: self._waiting or self._closed)
+                if self._closed:
+                    return None
+                kind, request = self._most_urgent()
+                if not self._changed.wait_for(partial(self._is_overtaken, request), request.pause):
+                    self._stale.clear()
+                    del self._waiting[kind]
+                    return kind, request
+
+    def _most_urgent(self) -> tuple[str, Request]:
+        kind = next(kind for kind in self._kinds if kind in self._waiting)
+        return kind, self._waiting[kind]
+
+    def _is_overtaken(self, request: Request) -> bool:
+        return self._closed or not self._waiting or self._most_urgent()[1] is not request
 
     def _run(self) -> None:
         while (found := self._next()) is not None:

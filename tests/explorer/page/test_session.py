@@ -83,6 +83,16 @@ def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
     assert {name for name, _ in page.seen} == {"problem", "flight", "table", "basin"}
 
 
+def test_while_a_slider_moves_on_only_the_picture_is_computed(page, monkeypatch):
+    monkeypatch.setattr(sessions, "PAUSE", 2 * SOON)
+    for number, damping in enumerate(("2000", "2500"), start=1):
+        page.session.show(wish(number, held=True, damping=damping))
+        page.numbered("basin", number)
+    page.session.show(wish(3, damping="3000"))
+    page.numbered("table", 3)
+    assert [value["number"] for name, value in page.seen if name in ("flight", "table")] == [3, 3]
+
+
 def test_the_picture_is_as_fine_as_it_can_follow_the_hand(page):
     page.session._cost = 1.0
     page.session.show(wish(1, held=True))

@@ -27,6 +27,8 @@ COARSE, FINE = 60, 120
 COARSEST = 16
 PATIENCE = 0.05
 """Seconds that a picture may take while a slider is dragged; where it would take longer it is coarser."""
+PAUSE = 0.06
+"""Seconds without a further step after which, while a slider is dragged, more than the picture is computed."""
 QUIET = 0.15
 """Seconds between two reports of progress."""
 
@@ -113,8 +115,9 @@ class Session:
         )
         self._long.drop()
         self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
-        self._ask_quick("flight", self._flight)
-        self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)))
+        pause = PAUSE if held else 0.0
+        self._ask_quick("flight", self._flight, pause)
+        self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)), pause)
 
     def _finish(self) -> None:
         """Have everything computed that takes longer than a moment."""
@@ -185,13 +188,21 @@ class Session:
             "python": as_python(self.origin, shown.settings, rest_of(shown.rotor), kick, self.controls[shown.along]),
         }
 
-    def _ask_quick(self, kind: str, work: Work) -> None:
-        self._ask(self._quick, kind, work, kind)
+    def _ask_quick(self, kind: str, work: Work, pause: float = 0.0) -> None:
+        self._ask(self._quick, kind, work, kind, pause=pause)
 
     def _ask_long(self, kind: str, work: Work, name: str = "") -> None:
         self._ask(self._long, kind, work, name or kind)
 
-    def _ask(self, desk: Desk, kind: str, work: Work, name: str, afterwards: Callable[[], None] | None = None) -> None:
+    def _ask(
+        self,
+        desk: Desk,
+        kind: str,
+        work: Work,
+        name: str,
+        afterwards: Callable[[], None] | None = None,
+        pause: float = 0.0,
+    ) -> None:
         """Have work done for the machine shown now, and its result handed over; then, if it is still shown, go on."""
         shown = self._shown
 
@@ -213,7 +224,7 @@ class Session:
             if afterwards is not None and self._shown.number == shown.number:
                 afterwards()
 
-        desk.ask(kind, Request(run, done))
+        desk.ask(kind, Request(run, done, pause))
 
     def _wait_for_kernels(self) -> None:
         if not self._ready.is_set():

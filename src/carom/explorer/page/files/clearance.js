@@ -79,6 +79,7 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
   };
 
   const advance = (clock) => {
+    if (carom.held) running = false; // that of an older machine
     if (!running) return;
     const message = carom.flight.message, end = message.times[message.times.length - 1];
     carom.flight.now = Math.min(end, end * (clock - began) / (1000 * lasts));
@@ -99,6 +100,7 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
   };
   carom.flight.show = (message) => {
     carom.flight.message = message;
+    carom.panels.shown("flight", message);
     if (message.refused) { at("flight-words").textContent = message.refused; running = false; draw(); return; }
     at("flight-words").textContent = message.words + (message.whole ? "" : " Its beginning is shown.");
     if (carom.plots) carom.plots.flight(message);

@@ -34,7 +34,8 @@ carom.panels = { exports: null };
   };
   // What does not come with the picture belongs to one machine: it is pale until it is known of the present one.
   const exact = { loss: 0, hardest: 0, verdict: 0 };
-  carom.panels.pale = (what, pale) => { for (const card of document.querySelectorAll(`[data-of="${what}"]`)) card.classList.toggle("old", pale); };
+  const pale = (what, old) => { for (const card of document.querySelectorAll(`[data-of="${what}"]`)) card.classList.toggle("old", old); };
+  carom.panels.shown = (what, message) => pale(what, carom.basin.message !== null && message.number < carom.basin.message.number);
   carom.panels.basin = (message) => {
     if (message.refused) return;
     at("sentence").textContent = message.sentence;
@@ -42,7 +43,7 @@ carom.panels = { exports: null };
     if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
     if (exact.hardest !== message.number) at("hardest").classList.add("old");
     if (exact.verdict !== message.number) at("headline").classList.add("old");
-    if (carom.held) for (const what of ["flight", "table"]) carom.panels.pale(what, true);
+    if (carom.held) for (const what of ["flight", "figures", "table"]) pale(what, true);
   };
   carom.panels.loss = (message) => {
     exact.loss = message.number;
@@ -59,7 +60,7 @@ carom.panels = { exports: null };
   };
   carom.panels.table = carom.unhurried((message) => {
     const body = document.querySelector("#motions tbody");
-    carom.panels.pale("table", false);
+    carom.panels.shown("table", message);
     if (message.refused) { body.replaceChildren(); at("argument").textContent = message.refused; return; }
     body.replaceChildren(...message.rows.map((row) => {
       const line = document.createElement("tr");

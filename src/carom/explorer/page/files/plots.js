@@ -65,7 +65,7 @@ carom.begin_plots = (parts, plots) => {
         key.className = "key"; key.style.background = ink;
         return [key, words];
       }));
-      carom.panels.pale("flight", false);
+      carom.panels.shown("figures", message);
       carom.plots.now(carom.flight.now, true);
     }),
     now: (time, last) => {
