@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
+from drawn_legends import fits
 
 from carom import plots
 from carom.cli.app import main
@@ -67,10 +69,11 @@ def test_both_formats_with_name_and_present_values(command, drawn, tmp_path, cap
     figures = {name for name in written if name.endswith((".svg", ".png"))}
     assert figures == {f"{stem}.{ending}" for stem in stems for ending in ("svg", "png")}
     assert headings(drawn) == [NAMED] * len(stems)
+    assert all(fits(figure) for figure in drawn)
     if command == "bifurcations":
         (line,) = [line for line in drawn[0].axes[0].lines if line.get_gid() == "present"]
         assert line.get_xdata()[0] == pytest.approx(1758.98, abs=0.01)
-        assert "present value: 1759 rpm" in [text.get_text() for text in drawn[0].legends[0].get_texts()]
+        assert "present value: 1,759 rpm" in [text.get_text() for text in drawn[0].legends[0].get_texts()]
 
 
 def test_maps_of_a_sweep(drawn, tmp_path, capsys):
@@ -97,3 +100,14 @@ def test_a_sweep_over_three_axes_has_no_maps(tmp_path, capsys):
     assert main(("sweep", str(file), "--out", str(tmp_path / "store"), "--figures", str(tmp_path / "maps"))) == 2
     assert "--figures = " in capsys.readouterr().err
     assert not (tmp_path / "store").exists()
+
+
+def test_a_kick_that_is_known_to_return_at_once_is_drawn_until_it_has_decayed(drawn, tmp_path, capsys):
+    assert main(["simulate", "examples/tum-test-rig.toml", "--kick", "1 mm/s", "--out", str(tmp_path / "out")]) == 0
+    assert "Known at once" in capsys.readouterr().out
+    (path, radius) = drawn
+    assert "no impact in" in path.get_suptitle()
+    assert "returns to levitation" in path.get_suptitle()
+    (line,) = (line for line in radius.axes[0].lines if line.get_label() == "radius")
+    assert np.ptp(line.get_xdata()) > 1.0
+    assert line.get_ydata()[-1] == pytest.approx(line.get_ydata()[0], rel=0.05)

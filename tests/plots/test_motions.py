@@ -113,6 +113,8 @@ def test_motion_without_its_transient(bouncing, read):
         read.marked(rotating, "forward") + read.marked(rotating, "backward") == (bouncing.contacts.time >= 50.0).sum()
     )
     (start,) = read.lines(rotating, "start")
+    (path,) = [line for line in read.lines(rotating, "path") if len(line.get_xdata()) > 2]
+    assert len(path.get_xdata()) >= 2000, "the part that is shown is drawn smoothly"
     first = bouncing.position(np.array([50.0]))[0]
     assert (start.get_xdata()[0], start.get_ydata()[0]) == pytest.approx((first.real, first.imag))
 

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import matplotlib as mpl
 import numpy as np
 import pytest
 from compilation import COMPILED
+from machines import PAPER
+from matplotlib.colors import to_rgb
 
 import carom
 from carom import plots
 from carom.motions.ledger import energy_ledger
 from carom.motions.spectrum import full_spectrum
+from carom.plots import LOOKS, touchdowns
+from carom.plots.style import REGIMES
 
 
 @pytest.fixture(scope="module")
@@ -110,3 +116,21 @@ def test_user_settings_are_left_alone(rub, ledger):
     before = dict(mpl.rcParams)
     plots.touchdown(rub, ledger)
     assert dict(mpl.rcParams) == before
+
+
+def test_areas_differ_in_grey():
+    """Two regimes, or two directions of whirl, of nearly the same grey have different hatches."""
+    for looks in (REGIMES, (LOOKS["forward"], LOOKS["backward"])):
+        for one, other in combinations(looks, 2):
+            grey = [float(np.dot((0.299, 0.587, 0.114), to_rgb(look.colour))) for look in (one, other)]
+            assert abs(grey[0] - grey[1]) > 0.2 or one.hatch != other.hatch
+    figure = plots.regimes(carom.simulate(PAPER, carom.kick(2.0, angle=2.0), until=4.0))
+    hatched = {area.get_label(): area.get_hatch() for area in figure.axes[0].collections if "_" not in area.get_label()}
+    assert hatched["backward whirl"]
+    assert not hatched["flight"]
+
+
+def test_large_forces_and_energies_are_in_kilo():
+    assert touchdowns._unit_of(10.0, 1187.5, "N") == (1187.5, "N")
+    assert touchdowns._unit_of(3265.0, 1187.5, "N") == (pytest.approx(1.1875), "kN")
+    assert touchdowns._unit_of(3265.0, None, "N") == (1.0, "")

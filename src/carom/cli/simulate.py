@@ -84,7 +84,7 @@ def simulate(
             for option, path in targets.items():
                 writers[option](motion, path)
         if out is not None:
-            _write(out, case, motion, tell.part(0.4, 1.0, "drawing"))
+            _write(out, case, motion, tell.part(0.4, 1.0, "drawing"), decaying=end is None)
     if as_json:
         from carom.studies import trajectory_document
 
@@ -97,8 +97,11 @@ def simulate(
         console(errors=True).print(f"Written to {out}", soft_wrap=True)
 
 
-def _write(out: str, case: Case, motion: Trajectory, tell: Reporter) -> None:
-    """Write the path, its touchdown over time if there is a contact, and the document."""
+def _write(out: str, case: Case, motion: Trajectory, tell: Reporter, *, decaying: bool) -> None:
+    """Write the path, its touchdown over time if there is a contact, and the document.
+
+    The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
+    """
     from carom import plots
     from carom.files import filled_at_once, write_json
     from carom.motions.ledger import energy_ledger
@@ -107,12 +110,28 @@ def _write(out: str, case: Case, motion: Trajectory, tell: Reporter) -> None:
 
     with filled_at_once(out, "--out") as directory, plots.heading(machine_heading(case)):
         tell(0.0)
-        plots.save(plots.motion(motion), directory / "figures" / "motion")
+        shown, title = _shown(motion) if decaying else (motion, None)
+        plots.save(plots.motion(shown, title=title), directory / "figures" / "motion")
         tell(0.5)
-        touched = len(motion.contacts) or motion.lasting_contacts
-        over_time = plots.touchdown(motion, energy_ledger(motion)) if touched else plots.radius(motion, case.zones)
+        touched = len(shown.contacts) or shown.lasting_contacts
+        over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
         plots.save(over_time, directory / "figures" / ("touchdown" if touched else "radius"))
         write_json(directory / "simulation.json", trajectory_document(motion, case.limits))
+
+
+def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
+    """Return the motion to draw, and its title if that of the motion does not say it."""
+    from carom.motions.trajectories import simulate as follow
+    from carom.outcome import Outcome
+    from carom.plots.words import counted, time_in_words
+    from carom.report.figures import until_decayed
+
+    if motion.outcome is not Outcome.LEVITATED:
+        return motion, None
+    rotor = motion.rotor
+    longer = follow(rotor, motion.start, until_decayed(rotor, motion.time))
+    time = time_in_words(longer.time, rotor.scales)
+    return longer, f"{counted(len(longer.contacts), 'impact')} in {time} \N{EM DASH} returns to levitation"
 
 
 def _read(

@@ -30,13 +30,17 @@ def flying(trajectory: Trajectory, times: Floats) -> NDArray[np.bool_]:
     return free
 
 
-def drawing_times(trajectory: Trajectory) -> Floats:
-    """Return the times at which a motion is drawn: dense in flight, only the two ends of a lasting contact.
+def drawing_times(trajectory: Trajectory, since: float = 0.0) -> Floats:
+    """Return the times at which a motion is drawn from a time on: dense in flight, only the two ends of a lasting contact.
 
     In contact the radius is 1, and :func:`bands_on_the_circle` draws the rest.
     """
     # Enough points for smooth curves, but few enough for a small file.
-    times = trajectory.sample(int(np.clip(60.0 * trajectory.time, 2000, 12000)))
+    shown = trajectory.time - since
+    even = np.linspace(since, trajectory.time, int(np.clip(60.0 * shown, 2000, 12000)))
+    events = trajectory.segment_starts[1:]
+    times = np.unique(np.concatenate([even, events, np.nextafter(events, 0.0)]))
+    times = times[times >= since]
     ends = [moment for span in trajectory.lasting_contacts for moment in (span.start, span.end)]
     return times[flying(trajectory, times) | np.isin(times, ends)]
 

@@ -130,7 +130,7 @@ def motion(
         raise InputError("since", since, f"a time from 0 to the end of the motion at {trajectory.time:g}/Omega")
     figure, frames = _two_frames(axes)
     scales = trajectory.rotor.scales
-    times = drawing_times(trajectory)
+    times = drawing_times(trajectory, since)
     times = np.append(since, times[times > since])
     contacts = trajectory.contacts
     shown = contacts.time >= since

@@ -101,7 +101,7 @@ LOOKS = MappingProxyType(
         "slide": Look("#cc79a7", "lasting contact, sliding", line="-", width=2.0),
         "roll": Look("#882255", "lasting contact, rolling", line="--", width=2.0),
         "forward": Look("#56b4e9", "impact, forward whirl", marker="^"),
-        "backward": Look("#e69f00", "impact, backward whirl", marker="v"),
+        "backward": Look("#e69f00", "impact, backward whirl", marker="v", hatch="\\\\\\\\"),
         "start": Look("#1a1a1a", "start", marker="o"),
         "end": Look("#1a1a1a", "end", marker="X"),
     }
@@ -111,10 +111,10 @@ LOOKS = MappingProxyType(
 REGIMES = (
     Look("#dfe5ec", "flight"),
     Look("#cc79a7", "sliding, slip forward"),
-    Look("#7a4fa3", "sliding, slip backward"),
-    Look("#882255", "rolling"),
+    Look("#7a4fa3", "sliding, slip backward", hatch="...."),
+    Look("#882255", "rolling", hatch="////"),
 )
-"""Colours of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
+"""Looks of the regimes of a touchdown, in the order of :class:`carom.outcome.Phase`."""
 
 OUTCOMES = MappingProxyType(
     {

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from carom.plots.cells import ink
 from carom.plots.figure import StyledFigure
 from carom.plots.histories import draw_radius
 from carom.plots.plane import Floats, key, one_axes
-from carom.plots.style import LOOKS, REGIMES, TWO_COLUMNS, WORKS, styled
+from carom.plots.style import LOOKS, REGIMES, TWO_COLUMNS, WORKS, Look, styled
 from carom.plots.words import axis_time
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from carom.parameters import Scales
 
 _SAMPLES = 4000
+_LARGE = 1e5
+"""Size in N and J from which kN and kJ are written."""
 _WIDE_RANGE = 50.0
 """Ratio of the largest to the median contact force beyond which the axis is logarithmic."""
 
@@ -56,14 +59,14 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     shown = {}
     for first, last in trajectory.stretches():
         regime = REGIMES[int(trajectory.segment_phases[first, trajectory.plane])]
-        _ribbon(drawn, ends[first], ends[last], 1.05, regime.colour)
-        shown[regime.words] = regime.colour
+        _ribbon(drawn, ends[first], ends[last], 1.05, regime)
+        shown[regime.words] = regime
     for start, end, forward in _whirl(trajectory):
         whirl = "forward" if forward else "backward"
-        _ribbon(drawn, start, end, 0.0, LOOKS[whirl].colour)
-        shown[f"{whirl} whirl"] = LOOKS[whirl].colour
-    for words, colour in shown.items():
-        drawn.fill_between([], [], color=colour, lw=0, label=words)
+        _ribbon(drawn, start, end, 0.0, LOOKS[whirl])
+        shown[f"{whirl} whirl"] = LOOKS[whirl]
+    for words, look in shown.items():
+        drawn.fill_between([], [], **_filled(look), label=words)
     drawn.set_ylim(-0.1, 2.1)
     drawn.set_yticks([0.475, 1.525], ["whirl", "regime"])
     drawn.tick_params(axis="y", length=0)
@@ -74,8 +77,13 @@ def regimes(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
     return figure
 
 
-def _ribbon(axes: Axes, start: float, end: float, bottom: float, colour: str) -> None:
-    axes.fill_between([start, end], bottom, bottom + 0.95, color=colour, lw=0)
+def _ribbon(axes: Axes, start: float, end: float, bottom: float, look: Look) -> None:
+    axes.fill_between([start, end], bottom, bottom + 0.95, **_filled(look))
+
+
+def _filled(look: Look) -> dict[str, Any]:
+    """Colour and hatching of an area, which differ in greyscale too."""
+    return {"facecolor": look.colour, "edgecolor": ink(look.colour), "hatch": look.hatch or None, "lw": 0}
 
 
 def _whirl(trajectory: Trajectory) -> list[tuple[float, float, bool]]:
@@ -116,7 +124,9 @@ def forces(trajectory: Trajectory, *, axes: Axes | None = None) -> Figure:
 def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None:
     """Draw normal and friction force over the intervals of lasting contact."""
     times = _contact_times(trajectory)
-    normal, friction = (part * (scales.force if scales else 1.0) for part in trajectory.forces(times))
+    forces = trajectory.forces(times)
+    unit, name = _unit_of(np.nanmax(forces[0]), scales.force if scales else None, "N")
+    normal, friction = (part * unit for part in forces)
     gaps = np.isnan(times)
     for values, look, words in (
         (normal, LOOKS["wall"], "normal force of lasting contact"),
@@ -128,7 +138,14 @@ def _contact_forces(axes: Axes, trajectory: Trajectory, scales: Scales | None) -
         axes.set_yscale("log")
     else:
         axes.set_ylim(0.0, 1.1 * held.max() if len(held) else None)
-    axes.set_ylabel("contact force (N)" if scales else r"contact force ($m c_r \Omega^2$)")
+    axes.set_ylabel(f"contact force ({name})" if scales else r"contact force ($m c_r \Omega^2$)")
+
+
+def _unit_of(largest: float, unit: float | None, name: str) -> tuple[float, str]:
+    """Return the factor to a unit in which large numbers need no power of ten, and its name; 1 without a unit."""
+    if unit is None:
+        return 1.0, ""
+    return (1e-3 * unit, f"k{name}") if unit * largest >= _LARGE else (unit, name)
 
 
 def _contact_times(trajectory: Trajectory) -> Floats:
@@ -160,7 +177,8 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
     """Draw the energy of the rotor and the works that change it, circulatory ones where there are any."""
     figure, drawn = one_axes(axes, (TWO_COLUMNS, 0.4 * TWO_COLUMNS))
     scales = ledger.scales
-    unit = scales.energy if scales else 1.0
+    largest = max(float(np.abs(getattr(ledger, name)).max()) for name in WORKS)
+    unit, short = _unit_of(largest, scales.energy if scales else None, "J")
     drawn.axhline(0.0, color="#a6a6a6", lw=0.5)
     for name, look in WORKS.items():
         values = getattr(ledger, name)
@@ -168,7 +186,7 @@ def energies(ledger: EnergyLedger, *, axes: Axes | None = None) -> Figure:
             drawn.plot(ledger.times, unit * values, **look.stroke, label=look.words)
     drawn.set_xlim(0.0, float(ledger.times[-1]))
     drawn.set_xlabel(axis_time(scales))
-    drawn.set_ylabel("energy, work since the start (J)" if scales else r"energy, work ($m c_r^2 \Omega^2$)")
+    drawn.set_ylabel(f"energy, work since the start ({short})" if scales else r"energy, work ($m c_r^2 \Omega^2$)")
     if axes is None:
         key(figure, [drawn], columns=3)
     return figure

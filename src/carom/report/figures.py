@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from carom import plots
 from carom.attractors import Ending
+from carom.models import Model
 from carom.motions.ledger import energy_ledger
 from carom.motions.trajectories import simulate
 from carom.orbits.orbit import Orbit
@@ -125,15 +126,19 @@ def _file_name(name: str) -> str:
 
 def _history(study: Study, example: Ending) -> Figure:
     """Draw the motion until it has settled, with forces and energies; a return to levitation a little longer."""
-    decay = -float(study.rotor.system.exponents.real.max())
     if example.recovered:
-        end = min(example.time + (SHOWN_TAIL / decay if decay > 0 else 0.0), LONGEST_SHOWN)
-        motion = simulate(study.rotor, example.start.state, end)
+        motion = simulate(study.rotor, example.start.state, until_decayed(study.rotor, example.time))
     else:
         motion = simulate(study.rotor, example.start.state, LONGEST_SHOWN, settle=True)
     if len(motion.contacts) or motion.lasting_contacts:
         return plots.touchdown(motion, energy_ledger(motion))
     return plots.radius(motion, _zones(study, motion.radius(motion.sample())))
+
+
+def until_decayed(rotor: Model, time: float) -> float:
+    """Return the time until which a motion is shown that returns to levitation at a time, in ``1/Ω``."""
+    decay = -float(rotor.system.exponents.real.max())
+    return min(time + (SHOWN_TAIL / decay if decay > 0.0 else 0.0), LONGEST_SHOWN)
 
 
 def _condition(orbits: OrbitSet) -> Picture:
