@@ -17,6 +17,7 @@ COMMANDS = {
     "orbits": ("orbits", PAPER, "--impacts", "2", "--starts", "4"),
     "basins": ("basins", MACHINE, "--grid", "6x6"),
     "bifurcations": ("bifurcations", PAPER, "--along", "gamma", "--from", "0.1", "--to", "0.12"),
+    "response": ("response", MACHINE, "--out", "OUT"),
     "prove": ("prove", PAPER),
     "prove along": ("prove", PAPER, "--along", "gamma", "--from", "0.1", "--to", "0.101"),
 }
@@ -28,6 +29,18 @@ pytestmark = pytest.mark.jit_only
 def test_shares_grow_to_the_end(command, monkeypatch, tmp_path, capsys):
     if command.startswith("prove"):
         pytest.importorskip("flint")
+    words = [str(tmp_path / "out") if word == "OUT" else word for word in COMMANDS[command]]
+    _shares_grow(words, monkeypatch, capsys)
+
+
+@pytest.mark.parametrize("command", ["prove", "prove along"])
+def test_shares_of_a_check_grow_to_the_end(command, monkeypatch, tmp_path, capsys):
+    pytest.importorskip("flint")
+    assert main([*COMMANDS[command], "--out", str(tmp_path)]) == 0
+    _shares_grow(["prove", "--check", str(tmp_path / "proof.json")], monkeypatch, capsys)
+
+
+def _shares_grow(words, monkeypatch, capsys):
     told = []
 
     @contextmanager
@@ -35,9 +48,8 @@ def test_shares_grow_to_the_end(command, monkeypatch, tmp_path, capsys):
         told.append((0.0, step))
         yield Reporter(lambda report: told.append((report.share, report.step)))
 
-    module = importlib.import_module(f"carom.cli.{command.split()[0]}")
+    module = importlib.import_module(f"carom.cli.{words[0]}")
     monkeypatch.setattr(module, "progress", shown)
-    words = [str(tmp_path / "out") if word == "OUT" else word for word in COMMANDS[command]]
     assert main(words) == 0
     shares = [share for share, _ in told]
     assert len(set(shares)) >= 3

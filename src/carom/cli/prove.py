@@ -58,8 +58,7 @@ def prove(
             others = (machine, longest_period, out, along, start, stop)
             if settings or impacts != 1 or any(other is not None for other in others):
                 raise InputError("--check", shown(check), "must stand alone: a certificate holds its machine")
-            tell(0.1, "checking the certificate")
-            proof = verify(check)
+            proof = verify(check, progress=tell)
         elif machine is None:
             raise InputError("MACHINE.toml", None, "give a machine file, or a certificate with --check")
         else:

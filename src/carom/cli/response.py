@@ -50,18 +50,22 @@ def response(
     case = load(machine, settings or ())
     interval, run = _read(case, start, end, operating)
     check_output(out)
-    with progress("response over speed"):
+    with progress("response over speed") as tell:
         from carom.studies.response import unbalance_response
 
         found = unbalance_response(case, interval, operating=run)
+        tell(0.3, "response over speed")
         document = found.to_dict() if as_json or out is not None else {}
         if out is not None:
+            tell(0.4, "drawing")
             from carom.files import filled_at_once, write_json
             from carom.plots import heading, save
             from carom.studies.wording import machine_heading
 
             with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
-                save(found.plot(), directory / "figures" / "response")
+                figure = found.plot()
+                tell(0.7, "writing")
+                save(figure, directory / "figures" / "response")
                 write_json(directory / "response.json", document)
     if as_json:
         print_document(document)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.outcome import CaromError, InputError, printable, shown
+from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.proofs.balls import Enclosure
 from carom.proofs.claims import FORMAT, Claim, Proof
 from carom.proofs.evidence import Evidence, NotShownError
@@ -25,7 +26,8 @@ _WIDEST = 64
 _KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence")
 
 
-def check(source: str | os.PathLike[str] | Mapping[str, Any]) -> Proof:
+@shows_progress
+def check(source: str | os.PathLike[str] | Mapping[str, Any], *, progress: ShowProgress = None) -> Proof:
     """Verify a certificate by itself.
 
     All inequalities are evaluated again in ball arithmetic, from the numbers of the machine in the certificate and from its
@@ -47,13 +49,13 @@ def check(source: str | os.PathLike[str] | Mapping[str, Any]) -> Proof:
     """
     document, name = (source, "the data given") if isinstance(source, Mapping) else (_read(source), shown(source))
     try:
-        proof = _proof_of(document)
+        proof = _proof_of(document, Reporter.of(progress, "checking the certificate"))
     except (CaromError, ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
         raise InputError("certificate", name, f"is refused: {printable(str(problem))}") from None
     return proof
 
 
-def _proof_of(document: Mapping[str, Any]) -> Proof:
+def _proof_of(document: Mapping[str, Any], tell: Reporter) -> Proof:
     if sorted(document) != sorted(_KEYS) or document["format"] != FORMAT:
         raise NotShownError(f"it must have the format {FORMAT!r} and the keys {', '.join(_KEYS)}")
     theorem, bits = document["theorem"], document["bits"]
@@ -61,9 +63,10 @@ def _proof_of(document: Mapping[str, Any]) -> Proof:
         raise NotShownError(f"it must name a known theorem and 2 to {MOST_BITS} bits")
     if sorted(document["options"]) != sorted(THEOREMS[theorem].options):
         raise NotShownError(f"its options must be {', '.join(THEOREMS[theorem].options)}")
-    evidence = Evidence(document["evidence"])
+    evidence = Evidence(document["evidence"], tell)
     hypotheses = Hypotheses.from_document(document["hypotheses"])
     proof = proof_at(bits, theorem, hypotheses, dict(document["options"]), evidence)
+    tell(1.0)
     found = proof.document()
     for key in _KEYS:
         if key != "claims" and found[key] != document[key]:

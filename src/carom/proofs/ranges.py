@@ -98,8 +98,9 @@ def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
 
 
 def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction) -> list[Claim]:
-    cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest, evidence.tell))
-    stretches = _stretches(_pieces(line, cuts, most))
+    cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest, evidence.tell.part(0.0, 0.5)))
+    tell = evidence.tell if evidence.reading else evidence.tell.part(0.5, 1.0)
+    stretches = _stretches(_pieces(line, cuts, most, tell))
     slip = _slip_claim(line, evidence)
     claims = [slip, _all_claim(line, stretches, slip)]
     for name in sorted({fact.name for stretch in stretches for fact in stretch.facts or ()}):
@@ -171,7 +172,7 @@ def _facts_if_counted(line: Line, low: Fraction, high: Fraction) -> tuple[OrbitF
         return None
 
 
-def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int) -> list[Stretch]:
+def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int, tell: Reporter) -> list[Stretch]:
     """What holds on each block."""
     low, high = line.ends
     ends = [rational_of(end) for end, _ in cuts]
@@ -188,6 +189,7 @@ def _pieces(line: Line, cuts: Sequence[Sequence[str]], most: int) -> list[Stretc
                 f"the certificate does not show what it claims up to {float(after):.9g}: {problem}"
             ) from None
         decided = facts is not None and not any(fact.doubt for fact in facts)
+        tell(float((after - low) / (high - low)) if high > low else 1.0)
         found.append(Stretch(before, after, facts, "" if decided else str(reason)))
     return found
 
