@@ -72,6 +72,7 @@ def test_text_reads_as_in_a_list_of_references():
     found = citations(cm.find_orbits(PAPER))
     assert str(found) == found.text
     assert found.bibtex.startswith("@software{carom,")
+    assert found.text.startswith("The carom developers, ")
 
 
 def test_anything_else_is_refused():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import indent
 from typing import Any
 
 from matplotlib.figure import Figure
@@ -18,4 +19,7 @@ def named_figures(block: object, block_vars: dict[str, Any], gallery_conf: dict[
             figure.in_gallery = True  # type: ignore[attr-defined]
             found.append(next(block_vars["image_path_iterator"]))
             figure.savefig(found[-1], dpi=150)
-    return figure_rst(found, gallery_conf["src_dir"]) if found else ""
+    if not found:
+        return ""
+    pictures = indent(figure_rst(found, gallery_conf["src_dir"]).strip("\n"), "   ")
+    return f"\n.. container:: wide-figure\n\n{pictures}\n\n"

@@ -20,6 +20,9 @@ for point in branch.special:
 # The period over the damping.
 figure = Figure(figsize=(6.0, 3.6), layout="constrained")
 panel = figure.subplots()
-panel.plot(branch.values, branch.period)
-panel.plot([point.value for point in branch.special], [point.period for point in branch.special], "o")
+panel.plot(branch.values, branch.period, label="B1,d and beyond its fold B1,c")
+panel.plot(
+    [point.value for point in branch.special], [point.period for point in branch.special], "o", label="special points"
+)
+panel.legend()
 panel.set(xlabel="damping (N s/m)", ylabel="period (1/$\\Omega$)")

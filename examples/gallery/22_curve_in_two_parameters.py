@@ -5,6 +5,7 @@
 The fold in which the bouncing orbits vanish, followed as damping and speed change together.
 """
 
+import numpy as np
 from matplotlib.figure import Figure
 
 import carom as cm
@@ -20,7 +21,8 @@ print(curve.kind, len(curve.points), "points; ends:", curve.stops)
 # To the right of the curve no orbit with one impact a period exists.
 figure = Figure(figsize=(5.0, 3.8), layout="constrained")
 panel = figure.subplots()
-panel.plot(curve.points[:, 0], curve.points[:, 1])
-panel.plot(1400, 184.2, "o")
-panel.annotate("this machine", (1400, 184.2), (8, 4), textcoords="offset points")
-panel.set(xlabel="damping (N s/m)", ylabel="speed (rad/s)")
+rpm = np.pi / 30.0
+panel.plot(curve.points[:, 0], curve.points[:, 1] / rpm, label="fold of two orbits")
+panel.plot(1400, 184.2 / rpm, "*", ms=12, label="this machine")
+panel.legend()
+panel.set(xlabel="damping (N s/m)", ylabel="speed (rpm)")

@@ -38,8 +38,8 @@ class Reference:
     @property
     def text(self) -> str:
         """The reference on one line."""
-        names = [" ".join(reversed(name.split(", "))) for name in self.author.split(" and ")]
-        title = self.title.replace("{", "").replace("}", "")
+        author, title = (text.replace("{", "").replace("}", "") for text in (self.author, self.title))
+        names = [" ".join(reversed(name.split(", "))) for name in author.split(" and ")]
         home = " ".join(filter(None, (self.journal.replace("\\&", "&") or self.booktitle, self.volume)))
         where = ", ".join(filter(None, (home, self.pages.replace("--", "–"), self.publisher)))
         link = f", doi:{self.doi}" if self.doi else ""

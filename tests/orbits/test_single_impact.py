@@ -343,14 +343,14 @@ def test_the_argument_says_what_was_proven():
     assert orbits.complete
     assert orbits.slip_stays_forward
     assert orbits.argument == (
-        f"F1 has 2 roots for 0 < T ≤ {orbits.longest_period:.4g}/Omega, isolated by a bound of its second derivative; "
+        f"F1 has 2 roots for 0 < T ≤ {orbits.longest_period:.4g}/Ω, isolated by a bound of its second derivative; "
         "beyond, the decay of the free motion keeps F1 above zero; "
         "an impact that stopped the slip would send the rotor out of the clearance."
     )
     some = find_orbits(Jeffcott(PAPER.replace(radius_ratio=0.3)), longest_period=1.0)
     assert not some.complete
     assert [orbit.name for orbit in some] == ["B1,a", "B1,c"]
-    assert "F1 has 1 root for 0 < T ≤ 1/Omega" in some.argument
+    assert "F1 has 1 root for 0 < T ≤ 1/Ω" in some.argument
     assert "longer periods were not searched; orbits whose impacts stop the slip were not searched." in some.argument
 
 

@@ -157,7 +157,7 @@ class Lifetimes(Result):
     def words(self) -> str:
         """The verdict, and the numbers behind it, in a sentence or two."""
         survival, verdict = self.survival, self.verdict
-        low, high = (f"{bound:,.3g}" for bound in survival.interval)
+        low, high = (_impacts(bound) for bound in survival.interval)
         if verdict == "too few":
             return (
                 f"{survival.motions or 'None'} of {len(self)} motions bounced irregularly for more than {self.forgotten} impacts: "
@@ -166,10 +166,10 @@ class Lifetimes(Result):
         told = f"{survival.died} of {survival.motions} motions ended within {self.followed:,} impacts"
         if survival.half_life is None:
             return f"{told}: not seen to end. If it is a transient, its half-life is above {low} impacts (95 %)."
-        fitted = f"half-life {survival.half_life:,.3g} impacts ({low} to {high}, 95 %)"
+        fitted = f"half-life {_impacts(survival.half_life)} impacts ({low} to {high}, 95 %)"
         if not self.constant_rate:
             middle = np.median(self.impacts[self.impacts > self.forgotten])
-            fitted = f"not at a constant rate, so there is no half-life; half of them lasted longer than {middle:,.3g} impacts"
+            fitted = f"not at a constant rate, so there is no half-life; half of them lasted longer than {_impacts(float(middle))} impacts"
         names = {"undecided": "transient or attractor, undecided", "transient": "a transient"}
         return f"{told}: {names.get(verdict, 'a transient to periodic bouncing')}; {fitted}."
 
@@ -249,3 +249,8 @@ def _label(outcome: int, multiplicity: int) -> str:
     if outcome in REPEATING:
         return f"{multiplicity}-impact bouncing" + (" with rub" if outcome == Outcome.MIXED else "")
     return Outcome(outcome).label
+
+
+def _impacts(count: float) -> str:
+    """Write a number of impacts with three digits: ``670``, ``17,300``; beyond a million as a power of ten."""
+    return f"{float(f'{count:.3g}'):,.0f}" if 10.0 <= count < 1e6 else f"{count:,.3g}"

@@ -73,7 +73,7 @@ class OrbitSet(Result, OrbitSequence):
     def argument(self) -> str:
         """Why no orbit is missing, in one sentence."""
         count = len(self.periods)
-        found = f"F1 has {count or 'no'} root{'' if count == 1 else 's'} for 0 < T ≤ {self.longest_period:.4g}/Omega"
+        found = f"F1 has {count or 'no'} root{'' if count == 1 else 's'} for 0 < T ≤ {self.longest_period:.4g}/Ω"
         search = f"{found}, isolated by a bound of its second derivative"
         beyond = "beyond, the decay of the free motion keeps F1 above zero"
         stopping = "an impact that stopped the slip would send the rotor out of the clearance"
