@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 from workload import source_paper_machine
 
-from carom.bifurcations import OrbitBranch, Plane, SpecialOrbit, continue_curve, continue_orbit
+from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit
 from carom.bifurcations.words import continue_word
 from carom.orbits import find_orbits
 
 PER_ORBIT = "branch along the damping, per orbit"
 
 
-def doubling() -> SpecialOrbit:
+def doubling() -> Bifurcation:
     branch = continue_orbit(find_orbits(source_paper_machine(0.1))["B1,d"], "gamma", (0.075, 0.11))
     (point,) = [point for point in branch.special if point.kind == "period-doubling"]
     return point
@@ -22,7 +22,7 @@ def test_branch_closed_form(benchmark):
     orbit = find_orbits(source_paper_machine(0.1))["B1,d"]
     benchmark.group = PER_ORBIT
     branch = benchmark(continue_orbit, orbit, "gamma", (0.06, 0.17))
-    assert isinstance(branch, OrbitBranch)
+    assert branch.closed
     benchmark.extra_info.update(who="carom", unit="orbit (closed form, 1 impact)", units=len(branch))
 
 

@@ -7,9 +7,9 @@ from functools import cache, reduce
 import numpy as np
 import pytest
 
-from carom.bifurcations import Border, SpecialOrbit, WordBranch, continue_orbit, examine_border
+from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border
 from carom.bifurcations.neighbours import neighbour
-from carom.bifurcations.words import continue_word
+from carom.bifurcations.words import WordOrbits, continue_word
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -23,13 +23,13 @@ pytestmark = pytest.mark.jit_only
 
 
 @cache
-def three_impacts() -> WordBranch:
+def three_impacts() -> OrbitBranch:
     """The branch of orbits with one impact more that ends where the doubled orbit grazes."""
     return located("grazing", 0.08267).switch((0.079, 0.088))
 
 
 @cache
-def stopped() -> SpecialOrbit:
+def stopped() -> Bifurcation:
     """B1,d of a small rotor, where friction begins to stop the slip."""
     orbit = find_orbits(PAPER.replace(radius_ratio=1.0))["B1,d"]
     (point,) = [each for each in continue_word(orbit, "radius_ratio", (0.5, 1.2)).special if each.kind == "slip-stop"]
@@ -137,12 +137,12 @@ def test_no_orbit_is_constructed_beyond_other_points():
 
 
 @cache
-def resonant() -> WordBranch:
+def resonant() -> OrbitBranch:
     """A stable orbit of three impacts, between a period doubling and a Neimark–Sacker bifurcation."""
     found = find_orbits(PAPER.replace(gamma=0.09), impacts=3, starts=60)
     (orbit,) = [each for each in found if each.stable]
     branch = continue_orbit(orbit, "gamma", (0.086, 0.094))
-    assert isinstance(branch, WordBranch)
+    assert isinstance(branch.points, WordOrbits)
     return branch
 
 

@@ -8,15 +8,15 @@ import mpmath
 import numpy as np
 import pytest
 
-from carom.bifurcations import OrbitBranch, SpecialOrbit, WordBranch, continue_orbit
-from carom.bifurcations.words import continue_word
+from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
+from carom.bifurcations.words import WordOrbits, continue_word
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.shooting import Start
-from carom.outcome import InputError
+from carom.outcome import CaromError, InputError
 from tests.machines import PAPER
 from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state, tilting_too
 
@@ -28,17 +28,17 @@ pytestmark = pytest.mark.jit_only
 @cache
 def single() -> OrbitBranch:
     branch = continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.075, 0.11))
-    assert isinstance(branch, OrbitBranch)
+    assert branch.closed.pair == 1
     return branch
 
 
 @cache
-def doubled() -> WordBranch:
+def doubled() -> OrbitBranch:
     (point,) = [point for point in single().special if point.kind == "period-doubling"]
     return point.switch((0.078, 0.09))
 
 
-def located(kind: str, near: float) -> SpecialOrbit:
+def located(kind: str, near: float) -> Bifurcation:
     (point,) = [p for p in doubled().special if p.kind == kind and abs(p.value - near) < 1e-4]
     return point
 
@@ -52,6 +52,40 @@ def test_special_points_of_a_single_impact_orbit_are_those_of_the_closed_form():
         (expected,) = [point for point in known.special if point.kind == kind]
         assert found.value == pytest.approx(expected.value, abs=1e-12)
         assert found.orbit.period == pytest.approx(expected.period, abs=1e-10)
+
+
+def test_shooting_passes_where_orbits_of_one_impact_shrink_to_a_point_on_the_wall():
+    """Levitation meets the wall there, and is an orbit of any period: the equations of shooting are singular in one point."""
+    orbit = find_orbits(PAPER)["B1,b"]
+    branch = continue_word(orbit, "gamma", (0.06, 0.11))
+    known = continue_orbit(orbit, "gamma", (0.06, 0.11))
+    (vanishing,) = branch.special
+    (hopf,) = known.special
+    assert (vanishing.kind, hopf.kind) == ("vanishing-impact", "non-smooth-hopf")
+    assert vanishing.value == pytest.approx(hopf.value, abs=1e-9)
+    assert branch.radial_speed.min() < 0.0 < branch.radial_speed.max()
+    for p, speed in zip(branch.values, branch.radial_speed, strict=True):
+        start = known.starts_at(float(p))[0]
+        position, velocity = start.nodes[0]
+        assert (position.conjugate() * velocity).real == pytest.approx(speed, abs=1e-9)
+
+
+def test_both_equations_tell_the_same_of_the_orbits_at_a_value():
+    branch = continue_word(find_orbits(PAPER)["B1,d"], "gamma", (0.075, 0.11))
+    for found in (single(), branch):
+        (start,) = found.starts_at(0.09)
+        known = find_orbits(PAPER.replace(gamma=0.09))["B1,d"]
+        assert start.nodes == pytest.approx(known.nodes, abs=1e-10)
+        assert start.durations == pytest.approx(known.durations, abs=1e-10)
+        assert (found.name, found.impacts, str(found.word), found.parameter) == ("B1,d", 1, "impact+", "gamma")
+        for values in (found.period, found.radial_speed, found.angular_speed, found.admissible, found.stable):
+            assert values.shape == (len(found),)
+        assert found.radial_speeds.shape == (len(found), 1)
+        assert found.multipliers.shape == (len(found), 3)
+    ours, theirs = (np.interp(0.09, found.values, found.angular_speed) for found in (single(), branch))
+    assert ours == pytest.approx(theirs, abs=1e-3)  # straight lines between points of different branches
+    with pytest.raises(CaromError, match="not followed by the closed form"):
+        _ = branch.closed
 
 
 def test_folds_of_a_single_impact_orbit_are_those_of_the_closed_form():
@@ -72,7 +106,7 @@ def test_the_doubled_branch_begins_at_the_period_doubling():
     # Next to its end the branch is a parabola, so an error of 1e-4 in the unknowns is one of 1e-8 in the damping.
     assert end.value == pytest.approx(DOUBLING, abs=1e-6)
     assert end.orbit.period == pytest.approx(2.0 * find_orbits(PAPER.replace(gamma=end.value))["B1,d"].period, abs=1e-4)
-    assert (branch.unknowns.shape[1], len(branch.word)) == (10, 2)
+    assert (branch.points.unknowns.shape[1], len(branch.word)) == (10, 2)
 
 
 def test_every_orbit_of_the_doubled_branch_solves_the_equations():
@@ -168,7 +202,7 @@ def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
     orbit = orbit_near(rotor, planar.word, Start(node, planar.durations))
     assert isinstance(orbit, Orbit)
     branch = continue_orbit(orbit, "restitution", (0.93, 0.97))
-    assert isinstance(branch, WordBranch)
+    assert isinstance(branch.points, WordOrbits)
     assert branch.stops == ("parameter limit", "parameter limit")
     assert branch.admissible.all()
     for at in branch.orbits[::4]:

@@ -16,7 +16,7 @@ from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rub
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.steady import EquilibriumBranch, RollingBranch
 from carom.bifurcations.windows import OrbitWindows, Window, WindowEnd, orbit_windows
-from carom.bifurcations.words import SpecialOrbit, WordBranch, continue_orbit
+from carom.bifurcations.words import continue_orbit
 
 __all__ = [
     "KINDS",
@@ -38,11 +38,9 @@ __all__ = [
     "RollingBranch",
     "RubbingBranch",
     "RubbingOrbit",
-    "SpecialOrbit",
     "UnexplainedChange",
     "Window",
     "WindowEnd",
-    "WordBranch",
     "boundary_equilibria",
     "continue_curve",
     "continue_orbit",

@@ -9,7 +9,6 @@ import numpy as np
 
 from carom.bifurcations.neighbours import neighbour
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.words import SpecialOrbit
 from carom.models import Model
 from carom.models.axes import axis
 from carom.motions.starts import State
@@ -47,7 +46,7 @@ class Border(Result):
 
     Attributes
     ----------
-    point : SpecialOrbit or Bifurcation
+    point : Bifurcation
     inside : {1, -1, 0}
         Side on which the orbit is a motion of the machine: where the parameter is above, or below, the border; 0 if not on exactly
         one.
@@ -62,7 +61,7 @@ class Border(Result):
         infinite for motions that no longer bounce.  Empty if the orbit is unstable or has no outside.
     """
 
-    point: SpecialOrbit | Bifurcation
+    point: Bifurcation
     inside: int
     word: Word
     neighbours: tuple[Orbit | None, Orbit | None]
@@ -126,7 +125,7 @@ class Border(Result):
         ]
 
 
-def examine_border(point: SpecialOrbit | Bifurcation) -> Border:
+def examine_border(point: Bifurcation) -> Border:
     """Look at both sides of a special point at which the word of an orbit changes.
 
     On both sides the orbits of both words next to the border are computed, with certified admissibility.  If the orbit is stable on
@@ -134,7 +133,7 @@ def examine_border(point: SpecialOrbit | Bifurcation) -> Border:
 
     Parameters
     ----------
-    point : SpecialOrbit or Bifurcation
+    point : Bifurcation
         Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``.
 
     Raises

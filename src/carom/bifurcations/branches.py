@@ -1,10 +1,11 @@
-"""Branches of single-impact orbits along one parameter, with their bifurcations."""
+"""Branches of orbits along a parameter, and those of orbits with one impact a period by the equations of the closed form."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from carom.bifurcations.conditions import (
     SHORTEST,
     TESTS,
     conditions_at,
+    corrected,
     is_admissible,
     jacobian_at,
     margins_of,
@@ -26,11 +28,18 @@ from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.naming import meeting_at
 from carom.bifurcations.points import Bifurcation
 from carom.continuation import SpecialPoint, Steps, Watch, continue_branch
+from carom.models import Model
 from carom.models.axes import Axis, Ends, axis, interval_around
-from carom.orbits.names import OrbitName
+from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
+from carom.orbits.shooting import Start
+from carom.orbits.word import Word
+from carom.outcome import CaromError
 from carom.parameters import Numbers
 from carom.results import Result
+
+if TYPE_CHECKING:
+    from carom.bifurcations.words import WordOrbits
 
 STEPS = Steps(first=0.02, largest=0.06, sharpest_turn=0.2, most_points=1500)
 NOTHING = 1e-8
@@ -52,34 +61,48 @@ WATCHED = (
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OrbitBranch(Result):
-    """Single-impact orbits along a parameter, admissible and virtual.
+    """Orbits of a word along a parameter, motions of the machine and others.
 
     Attributes
     ----------
     axis : Axis
         The parameter.
-    pair : int
-        Number of the pair of periods, from 1.
-    numbers : tuple of Numbers
-        Parameters at the points of the branch; with negative ``mu`` if the orbits slip backward.
-    values, period, radial_speed : ndarray, shape (m,)
-        The parameter, ``T`` and ``ṙ`` before the impact.
+    name : OrbitName or CountedName
+        Name of the orbit from which it was followed.
+    word : Word
+    rotor : Model
+        The rotor of that orbit.
+    values : ndarray, shape (m,)
+        The parameter.
+    points : SingleImpactOrbits or WordOrbits
+        Its orbits, by the unknowns of the equations: those of the closed form for orbits with one impact, otherwise those of
+        multiple shooting.
     special : tuple of Bifurcation
         In the order of the branch.
     stops : tuple of two str
-        Reason for its end at both ends: ``"radial speed without bound"``, or see :class:`~carom.continuation.Branch`.
+        Reason for its end at both ends: ``"radial speed without bound"``, ``"period-halving"``, or see
+        :class:`~carom.continuation.Branch`.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
 
-    shown: ClassVar[tuple[str, ...]] = ("parameter", "pair", "values", "period", "radial_speed", "special", "stops")
+    shown: ClassVar[tuple[str, ...]] = (
+        "parameter",
+        "name",
+        "word",
+        "values",
+        "period",
+        "radial_speed",
+        "special",
+        "stops",
+    )
 
     axis: Axis
-    pair: int
-    numbers: tuple[Numbers, ...]
+    name: OrbitName | CountedName
+    word: Word
+    rotor: Model
     values: np.ndarray
-    period: np.ndarray
-    radial_speed: np.ndarray
+    points: SingleImpactOrbits | WordOrbits
     special: tuple[Bifurcation, ...]
     stops: tuple[str, str]
 
@@ -90,6 +113,110 @@ class OrbitBranch(Result):
     def parameter(self) -> str:
         """Name of the parameter."""
         return self.axis.name
+
+    @property
+    def closed(self) -> SingleImpactOrbits:
+        """Its orbits, with the unknowns of the closed form.
+
+        Raises
+        ------
+        CaromError
+            It was followed by multiple shooting.
+        """
+        if not isinstance(self.points, SingleImpactOrbits):
+            raise CaromError(f"the branch of {self.name} was not followed by the closed form")
+        return self.points
+
+    @property
+    def impacts(self) -> int:
+        """Impacts per period."""
+        return self.word.impacts
+
+    @property
+    def orbits(self) -> tuple[Orbit, ...]:
+        """Every orbit, with its multipliers and its admissibility certified."""
+        return self.points.orbits
+
+    @property
+    def names(self) -> tuple[OrbitName | CountedName, ...]:
+        """Names of the orbits; those of the closed form change at folds, others do not."""
+        return self.points.names
+
+    @property
+    def period(self) -> np.ndarray:
+        """Periods in ``1/Ω``, shape (m,)."""
+        return self.points.period
+
+    @property
+    def radial_speeds(self) -> np.ndarray:
+        """``ṙ`` just before each impact in ``c_r Ω``, shape (m, n)."""
+        return self.points.radial_speeds
+
+    @property
+    def radial_speed(self) -> np.ndarray:
+        """``ṙ`` just before the first impact in ``c_r Ω``, shape (m,)."""
+        first: np.ndarray = self.radial_speeds[:, 0]
+        return first
+
+    @property
+    def angular_speed(self) -> np.ndarray:
+        """``θ̇`` just before the first impact in ``Ω``, shape (m,)."""
+        return self.points.angular_speed
+
+    @property
+    def admissible(self) -> np.ndarray:
+        """Which orbits are motions of the machine, bool, shape (m,); the closed form judges by the extrema of the radius."""
+        return self.points.admissible
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Non-trivial Floquet multipliers, complex, shape (m, 2N − 1)."""
+        return self.points.multipliers
+
+    @property
+    def stable(self) -> np.ndarray:
+        """Which orbits have all multipliers inside the unit circle, bool, shape (m,)."""
+        return np.abs(self.multipliers).max(axis=1) < 1.0
+
+    def starts_at(self, value: float) -> list[Start]:
+        """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there."""
+        return self.points.starts_at(value)
+
+
+def passing(values: np.ndarray, value: float) -> Iterator[tuple[int, float]]:
+    """Steps of a branch that pass a value of the parameter: index of the first point, and share of the step before the value."""
+    for i in np.flatnonzero((values[:-1] - value) * (values[1:] - value) <= 0.0).tolist():
+        width = values[i + 1] - values[i]
+        yield i, float((value - values[i]) / width) if width else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class SingleImpactOrbits:
+    """Orbits with one impact a period, by their two unknowns in the closed form.
+
+    Attributes
+    ----------
+    parameter : str
+    values : ndarray, shape (m,)
+    pair : int
+        Number of the pair of periods, from 1.
+    numbers : tuple of Numbers
+        Parameters of each; with negative ``mu`` if the orbits slip backward.
+    period, radial_speed : ndarray, shape (m,)
+        ``T`` and ``ṙ`` before the impact.
+    """
+
+    parameter: str
+    values: np.ndarray
+    pair: int
+    numbers: tuple[Numbers, ...]
+    period: np.ndarray
+    radial_speed: np.ndarray
+
+    @property
+    def radial_speeds(self) -> np.ndarray:
+        """``ṙ`` just before the impact, shape (m, 1)."""
+        return self.radial_speed[:, None]
 
     @cached_property
     def orbits(self) -> tuple[Orbit, ...]:
@@ -111,15 +238,26 @@ class OrbitBranch(Result):
         """Non-trivial Floquet multipliers, complex, shape (m, 3)."""
         return np.linalg.eigvals(np.array([jacobian_at(*point) for point in self._each])).astype(complex)
 
-    @property
-    def stable(self) -> np.ndarray:
-        """Which orbits have all multipliers inside the unit circle, bool, shape (m,)."""
-        return np.abs(self.multipliers).max(axis=1) < 1.0
-
     @cached_property
     def angular_speed(self) -> np.ndarray:
         """``θ̇`` before the impact, shape (m,)."""
         return np.array([-conditions_at(*point).turn.imag * point[2] for point in self._each])
+
+    def at(self, value: float) -> Numbers:
+        """Parameters of an orbit of this branch at a value of its parameter."""
+        numbers = self.numbers[0].moved(self.parameter, value)
+        return numbers._replace(mu=-abs(numbers.mu)) if self.numbers[0].mu < 0.0 else numbers
+
+    def starts_at(self, value: float) -> list[Start]:
+        """Node and duration of the orbits at a value of the parameter, one for each time the branch passes there."""
+        found, numbers = [], self.at(value)
+        for i, share in passing(self.values, value):
+            period, speed = (
+                float((1.0 - share) * each[i] + share * each[i + 1]) for each in (self.period, self.radial_speed)
+            )
+            orbit = orbit_of(numbers, self.pair, *corrected(numbers, period, speed))
+            found.append(Start(orbit.nodes, orbit.durations))
+        return found
 
     @property
     def _each(self) -> list[tuple[Numbers, float, float]]:
@@ -182,11 +320,18 @@ def continue_single_impact(orbit: Orbit, parameter: str, interval: Ends, steps: 
     special = (_bifurcation(point, along.name, numbers_at(point.parameter), pair) for point in branch.special)
     return OrbitBranch(
         axis=along,
-        pair=pair,
-        numbers=tuple(numbers_at(p) for p in branch.parameters.tolist()),
+        name=orbit.name,
+        word=orbit.word,
+        rotor=orbit.rotor,
         values=branch.parameters,
-        period=branch.unknowns[:, 0],
-        radial_speed=branch.unknowns[:, 1],
+        points=SingleImpactOrbits(
+            along.name,
+            branch.parameters,
+            pair,
+            tuple(numbers_at(p) for p in branch.parameters.tolist()),
+            branch.unknowns[:, 0],
+            branch.unknowns[:, 1],
+        ),
         special=tuple(point for point in special if point is not None),
         stops=branch.stops,
     )

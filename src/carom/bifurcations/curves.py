@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -32,9 +32,6 @@ from carom.orbits.names import CountedName, OrbitName, combined
 from carom.outcome import InputError
 from carom.parameters import Numbers
 from carom.results import Result
-
-if TYPE_CHECKING:
-    from carom.bifurcations.words import SpecialOrbit
 
 Function = Callable[[np.ndarray, float], np.ndarray]
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
@@ -178,7 +175,7 @@ def can_be_followed(point: Bifurcation) -> bool:
     return point.kind in ONSETS if isinstance(point, RubbingPoint) else point.kind in KINDS
 
 
-def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps: Steps | None = None) -> Curve:
+def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None) -> Curve:
     """Follow a bifurcation in the plane of two parameters.
 
     The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
@@ -192,7 +189,7 @@ def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps:
 
     Parameters
     ----------
-    bifurcation : Bifurcation or SpecialOrbit
+    bifurcation : Bifurcation
         A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of :data:`KINDS`, or for
         bouncing with rub ``"contact-onset"`` or ``"permanent-contact"``.
 
@@ -217,7 +214,7 @@ def continue_curve(bifurcation: Bifurcation | SpecialOrbit, plane: Plane, steps:
     >>> cm.continue_curve(branch.special[0], plane).stops
     ('edge of the plane', 'edge of the plane')
     """
-    if not isinstance(bifurcation, Bifurcation):
+    if bifurcation.shot is not None:
         from carom.bifurcations.word_curves import continue_word_curve  # that module needs this one
 
         return continue_word_curve(bifurcation, plane, steps)

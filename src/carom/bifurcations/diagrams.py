@@ -23,7 +23,6 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
-from carom.bifurcations.words import SpecialOrbit, WordBranch
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.orbit import Orbit
@@ -60,11 +59,11 @@ class Diagram(Result):
     equilibria : tuple of EquilibriumBranch
     rolling : RollingBranch
     orbits : tuple of OrbitBranch
-    several : tuple of WordBranch
+    several : tuple of OrbitBranch
         Orbits with several impacts a period that a search and period doublings lead to; empty unless asked for.
     rubbing : tuple of RubbingBranch
         Periodic motions with a stretch of lasting contact; empty unless asked for.
-    points : tuple of Bifurcation or SpecialOrbit
+    points : tuple of Bifurcation
         In ascending order of the parameter.
     attractors : tuple of AttractorSample
         Motions to which simulated disturbances, and starts next to known motions, settled; empty unless asked for.
@@ -82,9 +81,9 @@ class Diagram(Result):
     equilibria: tuple[EquilibriumBranch, ...]
     rolling: RollingBranch
     orbits: tuple[OrbitBranch, ...]
-    several: tuple[WordBranch, ...]
+    several: tuple[OrbitBranch, ...]
     rubbing: tuple[RubbingBranch, ...]
-    points: tuple[Bifurcation | SpecialOrbit, ...]
+    points: tuple[Bifurcation, ...]
     attractors: tuple[AttractorSample, ...] = ()
     disturbances: DisturbanceSet | None = None
 
@@ -99,7 +98,7 @@ class Diagram(Result):
         ]
 
     @property
-    def branches(self) -> list[OrbitBranch | WordBranch]:
+    def branches(self) -> list[OrbitBranch]:
         """Branches of orbits with one impact a period, then those of orbits with several."""
         return [*self.orbits, *self.several]
 
@@ -211,8 +210,7 @@ def special_points(
 ) -> tuple[Bifurcation, ...]:
     """Special points of :func:`find_bifurcations`, in ascending order of the parameter."""
     chosen = _Chosen(1, virtual, lasting)
-    points = _follow(parameters, axis(parameters, parameter), interval, chosen, Reporter()).points
-    return tuple(point for point in points if isinstance(point, Bifurcation))
+    return _follow(parameters, axis(parameters, parameter), interval, chosen, Reporter()).points
 
 
 class _Chosen(NamedTuple):
@@ -227,9 +225,9 @@ class _Followed(NamedTuple):
     """Branches of orbits and of motions with lasting contact, and the special points of all motions."""
 
     orbits: tuple[OrbitBranch, ...]
-    several: tuple[WordBranch, ...]
+    several: tuple[OrbitBranch, ...]
     rubbing: tuple[RubbingBranch, ...]
-    points: tuple[Bifurcation | SpecialOrbit, ...]
+    points: tuple[Bifurcation, ...]
 
 
 def _follow(
@@ -248,11 +246,11 @@ def _follow(
             if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
                 rubbing.append(continue_rubbing(motion, along.name, limits))
         single((done + 1) / SAMPLES)
-    several: tuple[WordBranch, ...] = ()
+    several: tuple[OrbitBranch, ...] = ()
     if chosen.impacts > 1:
         at, rest = (Jeffcott(parameters), along, limits, chosen.impacts, branches), tell.part(SINGLE_SHARE, 1.0)
         several = several_impacts(*at, virtual=chosen.virtual, tell=rest)
-    points: list[Bifurcation | SpecialOrbit] = [
+    points: list[Bifurcation] = [
         *steady_points(parameters, along, limits),
         *(point for branch in branches for point in branch.special),
     ]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from carom.attractors import DisturbanceSet, document_of
+from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.diagrams import Diagram
 from carom.bifurcations.regions import RegionMap
-from carom.bifurcations.words import WordBranch
 from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
@@ -103,7 +103,7 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
     }
 
 
-def _word(orbit: Orbit | WordBranch | None) -> dict[str, Any]:
+def _word(orbit: Orbit | OrbitBranch | None) -> dict[str, Any]:
     """Word and number of impacts of an orbit; ``None`` for other motions."""
     return {"word": str(orbit.word) if orbit else None, "impacts": orbit.impacts if orbit else None}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from carom.bifurcations.conditions import orbit_of
 from carom.models import Subject, jeffcott_of
@@ -16,7 +16,7 @@ from carom.parameters import Numbers
 from carom.results import Result
 
 if TYPE_CHECKING:
-    from carom.bifurcations.words import WordBranch
+    from carom.bifurcations.branches import OrbitBranch
     from carom.models.axes import Ends
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
@@ -30,18 +30,22 @@ class Bifurcation(Result):
     Attributes
     ----------
     kind : str
-        Of orbits: ``"fold"`` (two periods meet), ``"speed-fold"`` (two radial speeds of one period meet),
-        ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"``, ``"non-smooth-hopf"``, ``"slip-stop"`` (friction
-        begins to stop the slip), ``"contact-onset"`` (lasting contact begins), or ``"radius-extremum"`` (the radius gains
-        a maximum and a minimum between impacts: no bifurcation).  Of steady motions: ``"boundary-equilibrium"``,
-        ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at every angle).  Of
-        bouncing with rub also ``"permanent-contact"`` (the rotor no longer lifts off).
-    numbers : Numbers
-        Parameters there; with negative ``mu`` if it happens to orbits with backward slip.
+        Of orbits: ``"fold"`` (of the closed form: two periods meet), ``"speed-fold"`` (two radial speeds of one period meet),
+        ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"`` (a maximum of the radius reaches the wall),
+        ``"non-smooth-hopf"`` (orbits with one impact shrink to a boundary equilibrium), ``"vanishing-impact"`` (the speed of an
+        impact vanishes: grazing of the orbit without this impact), ``"slip-stop"`` (friction begins or ceases to stop the slip in an
+        impact), ``"contact-onset"`` (lasting contact begins), ``"cone-limit"`` (rolling begins at the limit of friction),
+        ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the period), or
+        ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).  Of steady motions:
+        ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at
+        every angle).  Of bouncing with rub also ``"permanent-contact"`` (the rotor no longer lifts off).
+    numbers : Numbers or None
+        Parameters there; with negative ``mu`` if the closed form gives it for orbits with backward slip.  ``None`` for other rotors
+        than the planar one.
     period, radial_speed : float
         Those of the orbit, in ``1/Ω`` and ``c_r Ω``; ``nan`` for steady motions.
     name : str
-        The motion: an :class:`~carom.orbits.names.OrbitName` (where two orbits meet, of the one with the longer period or
+        The motion: the name of the orbit (where two orbits of the closed form meet, of the one with the longer period or
         the higher speed), ``"contact-free"``, ``"rub"``, ``"rolling"``, or ``"rubbing 1"`` and so on.
     parameter : str
         Parameter along which it was found.
@@ -54,10 +58,13 @@ class Bifurcation(Result):
         (levitation and an unstable rub vanish together).
     place : float
         Position on the branch: index of the point before it plus the fraction of the step; ``nan`` without a branch.
+    shot : Orbit or None
+        The orbit there, if multiple shooting has found it and not the closed form.
     """
 
     kind: str
-    numbers: Numbers
+    # Not narrower: the closed form reads the numbers.
+    numbers: Any
     period: float = math.nan
     radial_speed: float = math.nan
     name: str = ""
@@ -66,6 +73,7 @@ class Bifurcation(Result):
     admissible: bool = True
     detail: str = ""
     place: float = math.nan
+    shot: Orbit | None = None
 
     @classmethod
     def near(cls, kind: str, machine: Subject, period: float = math.nan, radial_speed: float = math.nan) -> Bifurcation:
@@ -83,7 +91,7 @@ class Bifurcation(Result):
 
     @property
     def motion(self) -> MotionKind:
-        """Kind of the motion: an orbit with one impact a period, a steady motion, or bouncing with rub."""
+        """Kind of the motion: an orbit, a steady motion, or bouncing with rub."""
         return _STEADY.get(self.kind, "orbit")
 
     @cached_property
@@ -95,13 +103,15 @@ class Bifurcation(Result):
         InputError
             It happens to another motion.
         """
+        if self.shot is not None:
+            return self.shot
         if not isinstance(self.name, OrbitName):
             raise InputError(
                 "bifurcation", f"{self.kind} of {self.name or 'a motion without a name'}", "one of an orbit"
             )
         return orbit_of(self.numbers, self.name.pair, self.period, self.radial_speed)
 
-    def switch(self, interval: Ends | None = None) -> WordBranch:
+    def switch(self, interval: Ends | None = None) -> OrbitBranch:
         """Branch that is born here or goes on with the neighbouring word; see :func:`carom.bifurcations.words.switched`."""
         from carom.bifurcations.words import switched  # that module needs this one
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.words import SpecialOrbit, WordBranch, continue_word, switched
+from carom.bifurcations.words import continue_word, renamed, switched
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.motions.starts import State
@@ -37,7 +37,7 @@ def several_impacts(
     *,
     virtual: bool,
     tell: Reporter,
-) -> tuple[WordBranch, ...]:
+) -> tuple[OrbitBranch, ...]:
     """Branches of orbits with 2 up to a number of impacts a period.
 
     They are born in period doublings of known branches, or pass through orbits that a search finds at evenly spaced values.  What a
@@ -51,14 +51,14 @@ def several_impacts(
     virtual : bool
         Follow them among virtual orbits to any distance from a motion.
     """
-    found: list[WordBranch] = []
+    found: list[OrbitBranch] = []
 
-    def add(branch: WordBranch) -> None:
+    def add(branch: OrbitBranch) -> None:
         number = 1 + sum(known.impacts == branch.impacts for known in found)
-        found.append(branch.named(CountedName(branch.impacts, number)))
+        found.append(renamed(branch, CountedName(branch.impacts, number)))
         follow_doublings(branch.special)
 
-    def follow_doublings(points: Sequence[Bifurcation | SpecialOrbit]) -> None:
+    def follow_doublings(points: Sequence[Bifurcation]) -> None:
         for point in points:
             if point.kind != "period-doubling" or 2 * point.orbit.impacts > impacts:
                 continue
@@ -80,9 +80,11 @@ def several_impacts(
     return tuple(found)
 
 
-def _starts(rotor: Model, value: float, singles: Sequence[OrbitBranch], found: Sequence[WordBranch]) -> Iterator[State]:
+def _starts(
+    rotor: Model, value: float, singles: Sequence[OrbitBranch], found: Sequence[OrbitBranch]
+) -> Iterator[State]:
     """States beside the known orbits at a value of the parameter, then random ones."""
-    known: list[OrbitBranch | WordBranch] = [*singles, *found]
+    known: list[OrbitBranch] = [*singles, *found]
     for branch in known:
         nearest = int(np.argmin(np.abs(branch.values - value)))
         if branch.admissible[nearest]:
@@ -93,7 +95,7 @@ def _starts(rotor: Model, value: float, singles: Sequence[OrbitBranch], found: S
         yield random_start(rotor, random)
 
 
-def lies_on(orbit: Orbit, value: float, branch: WordBranch) -> bool:
+def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     """Whether a branch passes through an orbit, whichever impact either of them begins with."""
     turns = [k for k in range(len(orbit.word)) if orbit.word.turned(k) == branch.word]
     if len(orbit.word) != len(branch.word) or not turns:
@@ -107,7 +109,7 @@ def lies_on(orbit: Orbit, value: float, branch: WordBranch) -> bool:
     return False
 
 
-def _begins_at(branch: WordBranch, point: Bifurcation | SpecialOrbit) -> bool:
+def _begins_at(branch: OrbitBranch, point: Bifurcation) -> bool:
     """Whether a branch is born in a period doubling."""
     return any(
         end.kind == "period-halving"

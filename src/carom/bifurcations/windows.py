@@ -287,7 +287,7 @@ def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[flo
         except CaromError:
             continue
         periods, speeds = branch.period.tolist(), branch.radial_speed.tolist()
-        passed += [(branch.numbers[end], periods[end], speeds[end]) for end in (0, -1)]
+        passed += [(branch.closed.numbers[end], periods[end], speeds[end]) for end in (0, -1)]
         arcs += _arcs(branch)
     return arcs
 
@@ -331,9 +331,7 @@ def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, f
     """
     middle = 0.5 * float(course[0, 0] + course[-1, 0])
     values, *others = course[np.argsort(course[:, 0])].T
-    numbers = branch.numbers[0].moved(branch.parameter, middle)
-    if branch.numbers[0].mu < 0.0:
-        numbers = numbers._replace(mu=-abs(numbers.mu))
+    numbers = branch.closed.at(middle)
     period, speed = corrected(numbers, *(float(np.interp(middle, values, other)) for other in others))
     return (numbers, period, speed) if np.isfinite([period, speed]).all() and period > 0.0 else None
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from carom.bifurcations.curves import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
+from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.word_equations import REMEMBERED, SHORTEST, TESTS, FamilyPoint
-from carom.bifurcations.words import SpecialOrbit
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Model
 from carom.models.axes import axis
@@ -34,7 +34,7 @@ ENDING = ("resonance-1:1", "resonance-1:2")
 class _CurveEquations:
     """The equations of special points of one kind of orbits of one word."""
 
-    def __init__(self, special: SpecialOrbit, plane: Plane, sizes: np.ndarray) -> None:
+    def __init__(self, special: Bifurcation, plane: Plane, sizes: np.ndarray) -> None:
         self.kind, self.word, self.rotor, self.plane = special.kind, special.orbit.word, special.orbit.rotor, plane
         self.sizes = sizes
         self.known: OrderedDict[bytes, FamilyPoint | None] = OrderedDict()
@@ -97,7 +97,7 @@ class _CurveEquations:
         self.weight = 1.0 / largest if np.isfinite(largest) and largest > 0.0 else 1.0
 
 
-def continue_word_curve(special: SpecialOrbit, plane: Plane, steps: Steps | None = None) -> Curve:
+def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None = None) -> Curve:
     """:func:`~carom.bifurcations.continue_curve` for a special point of an orbit of any word.
 
     Raises
@@ -149,7 +149,7 @@ def _watches(equations: _CurveEquations, plane: Plane) -> list[Watch]:
     return [plane.edge, *map(watch, others)]
 
 
-def _curve(special: SpecialOrbit, plane: Plane, equations: _CurveEquations, branch: Branch) -> Curve:
+def _curve(special: Bifurcation, plane: Plane, equations: _CurveEquations, branch: Branch) -> Curve:
     def happens(x: np.ndarray) -> bool:
         at = equations.point(x)
         return at is not None and at.margins.least > -ON_CURVE
@@ -175,7 +175,7 @@ def _curve(special: SpecialOrbit, plane: Plane, equations: _CurveEquations, bran
         periods=measured[:, 0],
         radial_speeds=measured[:, 1],
         admissible=np.array([happens(row) for row in rows]),
-        orbits=(special.name,),
+        orbits=(special.orbit.name,),
         codimension2=tuple(meetings),
         stops=(stops[0], stops[1]),
     )

@@ -8,22 +8,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
+from typing import Any
 
 import numpy as np
 
-from carom.bifurcations.branches import OrbitBranch, continue_single_impact
+from carom.bifurcations.branches import OrbitBranch, continue_single_impact, passing
 from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
+from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.word_equations import FAR, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
-from carom.models import Model
+from carom.models import Jeffcott, Model
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
 from carom.orbits.shooting import Links, Start, links_of, pack, unpack
 from carom.orbits.word import Word
 from carom.outcome import InputError
-from carom.results import Result
+from carom.parameters import Numbers
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
 BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "cone-limit")
@@ -34,92 +35,23 @@ BEYOND = 0.2
 """Half of the range, relative to the parameter, in which a branch is followed that is switched to without a range."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class SpecialOrbit(Result):
-    """A special point of a branch of orbits of any word.
-
-    Attributes
-    ----------
-    kind : str
-        ``"fold"``, ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"`` (a maximum of the radius reaches the wall),
-        ``"vanishing-impact"`` (the speed of an impact vanishes: grazing of the orbit without this impact), ``"slip-stop"``
-        (friction begins or ceases to stop the slip in an impact), ``"contact-onset"`` (the normal force at the beginning of lasting
-        contact vanishes), ``"cone-limit"`` (rolling begins at the limit of friction), or ``"period-halving"`` (both halves of the
-        period become equal: the branch ends on one of orbits of half the period).
-    axis : Axis
-        The parameter.
-    value : float
-        Its value.
-    orbit : Orbit
-        The orbit there.
-    place : float
-        Position on the branch: index of the point before it plus the fraction of the step.
-    """
-
-    kind: str
-    axis: Axis
-    value: float
-    orbit: Orbit
-    place: float
-    motion: ClassVar[str] = "orbit"
-    detail: ClassVar[str] = ""
-
-    @property
-    def name(self) -> OrbitName | CountedName:
-        """Name of the orbit."""
-        name: OrbitName | CountedName = self.orbit.name
-        return name
-
-    @property
-    def parameter(self) -> str:
-        """Name of the parameter."""
-        return self.axis.name
-
-    @property
-    def period(self) -> float:
-        """In ``1/Ω``."""
-        return self.orbit.period
-
-    @property
-    def radial_speed(self) -> float:
-        """``ṙ`` just before the first impact in ``c_r Ω``."""
-        return self.orbit.radial_speed
-
-    @cached_property
-    def admissible(self) -> bool:
-        """Whether it happens to a motion of the machine, or to one that just becomes or ceases to be one."""
-        return self.orbit.admissible or (self.kind in BORDERS and self.orbit.margins.least > -ON_BORDER)
-
-    def switch(self, interval: Ends | None = None) -> WordBranch:
-        """Branch that is born in this period doubling, or that goes on with the neighbouring word; see ``switched``."""
-        return switched(self.kind, self.orbit, self.axis.name, interval)
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class WordBranch(Result):
-    """Orbits of a word along a parameter, motions of the machine and others.
+@dataclass(frozen=True, eq=False)
+class WordOrbits:
+    """Orbits of a word along a parameter, by the unknowns of multiple shooting.
 
     Attributes
     ----------
     axis : Axis
     name : OrbitName or CountedName
-        Name of all its orbits, on both sides of its folds: that of the orbit from which it was followed.
+        Name of all of them, on both sides of folds: that of the orbit from which they were followed.
     word : Word
     rotor : Model
-        The rotor from which the branch was followed.
+        The rotor of that orbit.
     values : ndarray, shape (m,)
         The parameter.
     unknowns : ndarray, shape (m, k)
         Nodes and durations, in the order of :func:`carom.orbits.shooting.pack`.
-    special : tuple of SpecialOrbit
-        In the order of the branch.
-    stops : tuple of two str
-        Reason for its end at both ends: ``"period-halving"``, or see :class:`~carom.continuation.Branch`.
     """
-
-    rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977")
-
-    shown: ClassVar[tuple[str, ...]] = ("axis", "name", "word", "values", "period", "special", "stops")
 
     axis: Axis
     name: OrbitName | CountedName
@@ -127,45 +59,27 @@ class WordBranch(Result):
     rotor: Model
     values: np.ndarray
     unknowns: np.ndarray
-    special: tuple[SpecialOrbit, ...]
-    stops: tuple[str, str]
-
-    def __len__(self) -> int:
-        return len(self.values)
 
     @property
-    def impacts(self) -> int:
-        """Impacts per period."""
-        return self.word.impacts
-
-    @property
-    def names(self) -> tuple[str, ...]:
+    def names(self) -> tuple[OrbitName | CountedName, ...]:
         """Name of each orbit."""
-        return (self.name,) * len(self)
+        return (self.name,) * len(self.values)
 
     @cached_property
     def radial_speeds(self) -> np.ndarray:
         """``ṙ`` just before each impact in ``c_r Ω``, shape (m, n)."""
         return np.array([orbit.impact_speeds for orbit in self.orbits])
 
-    @property
-    def radial_speed(self) -> np.ndarray:
-        """``ṙ`` just before the first impact in ``c_r Ω``, shape (m,)."""
-        first: np.ndarray = self.radial_speeds[:, 0]
-        return first
-
-    def named(self, name: OrbitName | CountedName) -> WordBranch:
-        """The branch with another name."""
-        special = tuple(replace(point, orbit=replace(point.orbit, name=name)) for point in self.special)
-        return replace(self, name=name, special=special)
+    @cached_property
+    def angular_speed(self) -> np.ndarray:
+        """``θ̇`` just before the first impact in ``Ω``, shape (m,)."""
+        return np.array([orbit.angular_speed for orbit in self.orbits])
 
     def starts_at(self, value: float) -> list[Start]:
-        """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there."""
+        """Nodes and durations of the orbits at a value of the parameter, one for each time the branch passes there."""
         family = Family(self.rotor, self.axis, self.word, (float(self.values.min()), float(self.values.max())))
         found = []
-        for i in np.flatnonzero((self.values[:-1] - value) * (self.values[1:] - value) <= 0.0):
-            width = self.values[i + 1] - self.values[i]
-            share = (value - self.values[i]) / width if width else 0.0
+        for i, share in passing(self.values, value):
             guess = (1.0 - share) * self.unknowns[i] + share * self.unknowns[i + 1]
             solved = family.solved(guess, value)
             found.append(unpack(guess if solved is None else solved, len(self.word)))
@@ -174,7 +88,7 @@ class WordBranch(Result):
     @property
     def period(self) -> np.ndarray:
         """Periods in ``1/Ω``, shape (m,)."""
-        total: np.ndarray = self.unknowns.reshape(len(self), len(self.word), -1)[:, :, -1].sum(axis=1)
+        total: np.ndarray = self.unknowns.reshape(len(self.values), len(self.word), -1)[:, :, -1].sum(axis=1)
         return total
 
     @cached_property
@@ -189,19 +103,22 @@ class WordBranch(Result):
         return np.array([orbit.admissible for orbit in self.orbits])
 
     @cached_property
-    def stable(self) -> np.ndarray:
-        """Which orbits have all multipliers inside the unit circle, bool, shape (m,)."""
-        return np.array([orbit.stable for orbit in self.orbits])
-
-    @cached_property
     def multipliers(self) -> np.ndarray:
         """Non-trivial Floquet multipliers, complex, shape (m, 2N − 1)."""
         return np.array([orbit.multipliers.values for orbit in self.orbits])
 
 
-def continue_orbit(
-    orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None
-) -> OrbitBranch | WordBranch:
+def renamed(branch: OrbitBranch, name: CountedName) -> OrbitBranch:
+    """A branch followed by multiple shooting, with another name."""
+    points: Any = branch.points
+    special = tuple(
+        replace(point, name=name, shot=replace(point.shot, name=name) if point.shot else None)
+        for point in branch.special
+    )
+    return replace(branch, name=name, points=replace(points, name=name), special=special)
+
+
+def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None) -> OrbitBranch:
     """Continue an orbit along a parameter, through folds, grazing and stretches where it is virtual.
 
     Orbits of the closed form are continued by their own two equations, all others by multiple shooting.
@@ -215,7 +132,7 @@ def continue_orbit(
 
     Returns
     -------
-    OrbitBranch or WordBranch
+    OrbitBranch
 
     Raises
     ------
@@ -242,7 +159,7 @@ def continue_orbit(
 
 def continue_word(
     orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
-) -> WordBranch:
+) -> OrbitBranch:
     """:func:`continue_orbit` by multiple shooting, for an orbit of any word; on request not far among virtual orbits."""
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
@@ -253,7 +170,7 @@ def continue_word(
 
 def switched(
     kind: str, orbit: Orbit, parameter: str, interval: Ends | None = None, *, virtual: bool = True
-) -> WordBranch:
+) -> OrbitBranch:
     """Branch that crosses or continues another at a special point.
 
     At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and where friction
@@ -318,7 +235,7 @@ def _follow(
     name: OrbitName | CountedName,
     *,
     virtual: bool,
-) -> WordBranch:
+) -> OrbitBranch:
     """Follow a branch through a point, in both directions."""
     branch = continue_branch(
         family.residual,
@@ -333,7 +250,7 @@ def _follow(
     )
     passed = branch.of_kind("period-halving"), branch.of_kind("vanishing-impact")
     special = tuple(
-        SpecialOrbit(
+        _special_point(
             point.kind,
             family.along,
             point.parameter,
@@ -343,8 +260,23 @@ def _follow(
         for point in branch.special
         if _is_special(family, point, *passed)
     )
-    return WordBranch(
-        family.along, name, family.word, family.rotor, branch.parameters, branch.unknowns, special, branch.stops
+    at = family.along, name, family.word, family.rotor, branch.parameters
+    return OrbitBranch(*at, WordOrbits(*at, branch.unknowns), special, branch.stops)
+
+
+def _special_point(kind: str, along: Axis, value: float, orbit: Orbit, place: float) -> Bifurcation:
+    """Special point at which multiple shooting has found the orbit."""
+    return Bifurcation(
+        kind,
+        Numbers.of(orbit.rotor.parameters) if isinstance(orbit.rotor, Jeffcott) else None,
+        orbit.period,
+        orbit.radial_speed,
+        orbit.name,
+        along.name,
+        value,
+        orbit.admissible or (kind in BORDERS and orbit.margins.least > -ON_BORDER),
+        place=place,
+        shot=orbit,
     )
 
 

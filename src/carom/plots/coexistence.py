@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from carom.plots.style import LOOKS, OUTCOMES
 
 if TYPE_CHECKING:
-    from carom.bifurcations import AttractorSample, Bifurcation, Diagram, OrbitBranch, SpecialOrbit, WordBranch
+    from carom.bifurcations import AttractorSample, Bifurcation, Diagram, OrbitBranch
 
 Interval = tuple[float, float]
 
@@ -61,7 +61,7 @@ def rows_of(diagram: Diagram) -> list[str]:
     return [row for row in ROWS if exists.get(row, False) or row in present]
 
 
-def row_of_point(point: Bifurcation | SpecialOrbit) -> str | None:
+def row_of_point(point: Bifurcation) -> str | None:
     """Return the row in which a special point is marked; ``None`` if it belongs to another panel."""
     return {"rubbing": "bouncing with rub", "rolling": "rolling backward whirl"}.get(point.motion)
 
@@ -125,7 +125,7 @@ def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[
     return steps
 
 
-def _on_orbits(branches: list[OrbitBranch | WordBranch]) -> tuple[list[Interval], list[Interval]]:
+def _on_orbits(branches: list[OrbitBranch]) -> tuple[list[Interval], list[Interval]]:
     """Return the intervals of branches with stable and with unstable orbits; each has the look of its orbit."""
     stable: list[Interval] = []
     unstable: list[Interval] = []

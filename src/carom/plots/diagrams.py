@@ -27,8 +27,6 @@ if TYPE_CHECKING:
         Diagram,
         EquilibriumBranch,
         OrbitBranch,
-        SpecialOrbit,
-        WordBranch,
     )
     from carom.proofs import Proof
     from carom.proofs.proven_lines import ProvenLine
@@ -194,7 +192,7 @@ def _mark_points(diagram: Diagram, panels: tuple[Axes, Axes, Axes], unit: float)
 
 def branch_line(
     axes: Axes,
-    branch: OrbitBranch | WordBranch,
+    branch: OrbitBranch,
     places: np.ndarray,
     values: np.ndarray,
     heights: np.ndarray,
@@ -259,7 +257,7 @@ def _top(branch: EquilibriumBranch) -> float:
     return 1.1 * float(heights.max()) if len(heights) else 0.0
 
 
-def _height(diagram: Diagram, point: Bifurcation | SpecialOrbit) -> float:
+def _height(diagram: Diagram, point: Bifurcation) -> float:
     """Return the height of an equilibrium's special point: zero for levitation, the common force where rubs meet."""
     if point.motion == "contact-free":
         return 0.0

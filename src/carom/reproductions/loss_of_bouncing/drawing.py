@@ -16,7 +16,7 @@ from carom.plots.style import LOOKS, OUTCOMES, TWO_COLUMNS, styled
 from carom.reproductions.loss_of_bouncing.following import CLOSE, RANGE
 
 if TYPE_CHECKING:
-    from carom.bifurcations import WordBranch
+    from carom.bifurcations import OrbitBranch
     from carom.reproductions.loss_of_bouncing.following import LossOfBouncing
     from carom.reproductions.loss_of_bouncing.samples import BouncingSample
 
@@ -86,7 +86,7 @@ def _orbits(axes: Axes, found: LossOfBouncing, limits: tuple[float, float]) -> N
             mark_point(axes, point.kind, point.value, point.radial_speed)
 
 
-def _branch(axes: Axes, branch: WordBranch) -> None:
+def _branch(axes: Axes, branch: OrbitBranch) -> None:
     """Draw the radial speeds of all impacts along a branch."""
     for k, speeds in enumerate(branch.radial_speeds.T):
         heights = np.array([point.orbit.impact_speeds[k] for point in branch.special])

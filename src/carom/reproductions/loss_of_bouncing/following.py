@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.bifurcations import Diagram, WordBranch, find_bifurcations
+from carom.bifurcations import Diagram, OrbitBranch, find_bifurcations
 from carom.bifurcations.several import lies_on
 from carom.bifurcations.words import continue_word
 from carom.models import Jeffcott
@@ -32,7 +32,7 @@ class LossOfBouncing(Result):
     ----------
     diagram : Diagram
         Orbits with up to some impacts a period.
-    windows : tuple of WordBranch
+    windows : tuple of OrbitBranch
         Branches of orbits with more impacts, up to 12, on which simulated motions settled.
     samples : tuple of BouncingSample
         Over the whole range, in ascending order.
@@ -43,7 +43,7 @@ class LossOfBouncing(Result):
     shown: ClassVar[tuple[str, ...]] = ("diagram", "lost")
 
     diagram: Diagram
-    windows: tuple[WordBranch, ...]
+    windows: tuple[OrbitBranch, ...]
     samples: tuple[BouncingSample, ...]
     close: tuple[BouncingSample, ...]
 
@@ -103,9 +103,9 @@ def follow_loss(
     return LossOfBouncing(diagram, _windows((*found[0], *found[1]), impacts), *found)
 
 
-def _windows(samples: tuple[BouncingSample, ...], impacts: int) -> tuple[WordBranch, ...]:
+def _windows(samples: tuple[BouncingSample, ...], impacts: int) -> tuple[OrbitBranch, ...]:
     """Branches through the orbits on which motions settled and that have too many impacts for the search."""
-    branches: list[WordBranch] = []
+    branches: list[OrbitBranch] = []
     for sample in samples:
         orbit = sample.orbit
         if orbit is None or not max(impacts, 1) < orbit.impacts <= MOST_IMPACTS:
