@@ -24,7 +24,6 @@ help: ## list the targets
 
 demo: $(RUN) ## study the machine of examples/keogh-cole.toml
 	$(BIN)/carom study examples/keogh-cole.toml --out demo-output
-	@echo "Report: $(CURDIR)/demo-output/report.html"
 
 test: $(TEST) ## run the tests
 	$(PYTEST) $(ARGS)

@@ -17,6 +17,7 @@ from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     ENTRIES,
     MACHINE_FIELDS,
+    Machine,
     Scales,
     Size,
     quantities,
@@ -74,9 +75,12 @@ def error_of(call):
         ("eccentricity", "300 um", 0.0003),
         ("clearance", "0.7 mm", 0.0007),
         ("clearance", "1 thou", 0.0000254),
+        ("clearance", "1 mil", 0.0000254),
+        ("eccentricity", "2.5 mils", 0.0000635),
         ("rotor_radius", "40 mm", 0.04),
         ("speed", "184.2 rad/s", 184.2),
         ("speed", "1759 rpm", float(1759 * mpmath.mpf(2) * mpmath.mp.pi / 60)),
+        ("speed", "1759 U/min", float(1759 * mpmath.mpf(2) * mpmath.mp.pi / 60)),
         ("friction", "15 %", 0.15),
         ("friction", "0.15", 0.15),
         ("restitution", 1, 1.0),
@@ -319,6 +323,16 @@ def test_unknown_names_suggest_the_nearest(written, meant):
 
     assert error.field == written
     assert f"did you mean {meant}?" in error.allowed
+
+
+def test_several_unknown_names_list_those_allowed_once():
+    with pytest.raises(InputError) as caught:
+        Machine(ki="70 N/A", ks="210 N/mm", p_gain="10 A/mm")
+    lines = str(caught.value).splitlines()
+
+    assert [line.split(" = ")[0] for line in lines[:3]] == ["ki", "ks", "p_gain"]
+    assert [line.count("allowed: mass, damping") for line in lines[:3]] == [1, 0, 0]
+    assert lines[2].endswith("unknown name in [machine]; did you mean proportional_gain?")
 
 
 def test_unknown_names_without_a_near_one_list_all():

@@ -57,6 +57,14 @@ def test_quantities_with_units():
     assert SI.gain("omega", 0.76) == "979,900 N/m"
 
 
+def test_entries_of_a_machine_are_in_usual_units_and_short_lengths_in_micrometres():
+    assert SI.field("speed", 184.2) == "1,759 rpm"
+    assert SI.field("clearance", 0.7e-3) == "0.7 mm"
+    assert SI.field("clearance", 1e-4) == "0.1 mm"
+    assert SI.field("eccentricity", 1.5918e-6) == "1.592 µm"
+    assert SI.field("eccentricity", 0.0) == "0 mm"
+
+
 def test_quantities_without_scales_keep_the_units_of_the_equations():
     assert PLAIN.radius(0.955) == "0.955 c_r"
     assert PLAIN.time(2.5) == "2.5/Ω"

@@ -14,7 +14,7 @@ _NUMBER = re.compile(
     r"(?P<number>[+-]?[0-9]+ */ *[0-9]+|[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(?P<unit>.*)"
 )
 _TURNS = {
-    **dict.fromkeys(("rpm", "RPM", "rev/min", "r/min"), Fraction(1, 30)),
+    **dict.fromkeys(("rpm", "RPM", "rev/min", "r/min", "U/min"), Fraction(1, 30)),
     **dict.fromkeys(("deg", "degree", "degrees", "°", "deg/s"), Fraction(1, 180)),
     **dict.fromkeys(("rev/s", "Hz"), Fraction(2)),
     "kHz": Fraction(2000),

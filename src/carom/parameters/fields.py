@@ -254,7 +254,7 @@ _SYNONYMS = {
 """Other names in use; none of them is accepted, but errors suggest the right one."""
 
 
-def unknown_name(name: str, given: object, known: Mapping[str, object], where: str) -> InputError:
+def unknown_name(name: str, given: object, known: Mapping[str, object], where: str, listed: bool = True) -> InputError:
     """Error for a name that does not exist, with the nearest name that does.
 
     Parameters
@@ -267,6 +267,8 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
         The names allowed there; the symbol or the partner (``gamma`` for ``damping``) of a name is recognised too.
     where : str
         Where the name stood, for example ``"[machine]"``.
+    listed : bool
+        List the names allowed there.
 
     Returns
     -------
@@ -274,8 +276,10 @@ def unknown_name(name: str, given: object, known: Mapping[str, object], where: s
         To be raised by the caller.
     """
     best = nearest_name(name, known)
-    advice = f"did you mean {best}? " if best else ""
-    return InputError(shown(name), shown(given), f"unknown name in {where}; {advice}allowed: {', '.join(known)}")
+    advice = [f"did you mean {best}?"] if best else []
+    names = [f"allowed: {', '.join(known)}"] if listed else []
+    remedy = " ".join(advice + names)
+    return InputError(shown(name), shown(given), f"unknown name in {where}" + (f"; {remedy}" if remedy else ""))
 
 
 def name_errors(
@@ -286,7 +290,8 @@ def name_errors(
 ) -> list[InputError]:
     """Errors for all names of a table that are unknown or missing.
 
-    If an unknown name seems to be a misspelt missing one, only the unknown name is reported.
+    If an unknown name seems to be a misspelt missing one, only the unknown name is reported.  The first error about an
+    unknown name lists those that are allowed.
 
     Parameters
     ----------
@@ -303,7 +308,10 @@ def name_errors(
     unknown = [name for name in table if name not in fields]
     absent = {name: names for name, names in ways.items() if not any(way in table for way in names)}
     meant = {nearest_name(name, fields) for name in unknown[:_MOST_SUGGESTIONS]}
-    errors = [unknown_name(name, table[name], fields, where) for name in unknown[:_MOST_SUGGESTIONS]]
+    errors = [
+        unknown_name(name, table[name], fields, where, listed=name == unknown[0])
+        for name in unknown[:_MOST_SUGGESTIONS]
+    ]
     errors += [InputError(name, shown(table[name]), f"unknown name in {where}") for name in unknown[_MOST_SUGGESTIONS:]]
     return errors + [
         InputError(name, None, "; or give ".join([f"missing in {where}; {fields[name].allowed}", *names[1:]]))

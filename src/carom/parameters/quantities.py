@@ -28,8 +28,12 @@ _GROUPS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?P<gap>[ '])[0-9]{3}(?:(?P=gap)[0-9]
 _COMMAS = re.compile(r"([+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]*)?) *(rpm|RPM|rev/min|r/min)")
 _DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]")
 _HYPHEN = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")
-_TURNS_A_SECOND = {"Hz": 1, "kHz": 1000}
-"""Frequencies as units of an angular speed: one turn a second is 2π rad/s.  To pint, 1 Hz is 1 rad/s."""
+_MEANT = {
+    "rad/s": {"Hz": "rev/s", "kHz": "krev/s", "U/min": "rpm"},
+    "m": {"mil": "thou", "mils": "thou"},
+}
+"""Units that pint takes for others in a field of this unit: 1 Hz for 1 rad/s, the U (turn) of German papers for an amount
+of an enzyme, a mil for an angle."""
 _DIGITS = decimal.Context(prec=40)
 # Errors that pint raises besides its own, which derive from some of these.
 _PARSER_ERRORS = (
@@ -145,9 +149,7 @@ def unit_factor(field: Field, unit: str, text: str) -> Decimal:
     try:
         if len(unit) > _LONGEST_UNIT or not _UNIT.fullmatch(_HYPHEN.sub("*", unit)):
             raise ValueError(unit)
-        if field.unit == "rad/s" and unit in _TURNS_A_SECOND:
-            return _TURNS_A_SECOND[unit] * _roots("rev/s")[0]
-        scale, roots = _roots(_HYPHEN.sub("*", unit))
+        scale, roots = _roots(_MEANT.get(field.unit, {}).get(unit) or _HYPHEN.sub("*", unit))
         field_scale, field_roots = _roots(field.unit)
     except _PARSER_ERRORS:
         raise field.error(text, f"{unit!r} is not a unit that can be used here") from None

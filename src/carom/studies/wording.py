@@ -111,8 +111,10 @@ class Wording:
         return f"{number(1.0 / (period * self.scales.time), 3)} times a second"
 
     def field(self, name: str, value: float, digits: int = 4) -> str:
-        """An entry of a machine given in SI units, in the unit in which people usually say it: ``1,759 rpm``."""
+        """An entry of a machine given in SI units, in the unit in which people usually say it: ``1,759 rpm``, ``1.592 µm``."""
         field = ENTRIES[name]
+        if field.usual_unit == "mm" and 0.0 < value < 1e-4:
+            return f"{number(value / 1e-6, digits)} µm"
         return f"{number(field.in_usual_unit(value), digits)} {field.usual_unit}".rstrip()
 
     def gain(self, gain: Gain, value: float) -> str:
