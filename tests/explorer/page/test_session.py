@@ -131,7 +131,7 @@ def test_a_kick_is_followed(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
     flight = page.until("flight")
     assert flight["kick"] == {"radial": 0.5, "tangential": -0.25}
-    assert flight["words"].startswith("A kick of 0.144 m/s ends in bouncing on B1,d; hardest impulse")
+    assert flight["words"].startswith("A kick of 144 mm/s ends in bouncing on B1,d; hardest impulse")
 
 
 @pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])
