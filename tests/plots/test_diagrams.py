@@ -82,3 +82,11 @@ def test_bars_say_what_exists_where():
 def test_legends_fit(parameters):
     found = bifurcations.find_bifurcations(parameters, "gamma", (0.02, 0.4))
     assert fits(plots.bifurcation_diagram(found))
+
+
+def test_a_panel_without_orbits_says_so():
+    empty = plots.bifurcation_diagram(bifurcations.find_bifurcations(PAPER, "gamma", (0.25, 0.4)))
+    full = plots.bifurcation_diagram(bifurcations.find_bifurcations(PAPER, "gamma", (0.1, 0.15)))
+    said = [[text.get_text() for text in figure.axes[0].texts] for figure in (empty, full)]
+    assert said[0] == ["no possible orbit found along this range"]
+    assert said[0][0] not in said[1]

@@ -129,8 +129,12 @@ def test_shares_are_in_percent_and_counts_whole(failing, studies):
     bar = plots.sweep_map(failing.assign(recovered=share), "recovered").axes[1]
     assert bar.get_ylim() == (0.0, 1.0)
     assert [text.get_text() for text in bar.get_yticklabels()][-1] == "100 %"
-    ticks = plots.sweep_map(studies, "stable_orbits").axes[1].get_yticks()
+    figure = plots.sweep_map(studies, "stable_orbits")
+    ticks = figure.axes[1].get_yticks()
     assert (ticks == ticks.round()).all()
+    (cells,) = (mesh for mesh in figure.axes[0].collections if mesh.get_gid() == "cells")
+    low, high = cells.get_clim()
+    assert high - low == cells.get_cmap().N, "each count has a shade of its own"
 
 
 def test_cells_of_a_geometric_axis_stay_on_it():

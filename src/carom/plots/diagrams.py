@@ -132,7 +132,11 @@ def bifurcation_diagram(diagram: Diagram, proof: Proof | None = None) -> Figure:
     present = _mark_present(diagram, (upper, lower, below), unit)
     below.set_xlim(diagram.interval[0] / unit, diagram.interval[1] / unit)
     lower.set_ylim(-0.25, max(0.6, max(_top(branch) for branch in diagram.equilibria)))
-    upper.set_ylim(*_limits(diagram))
+    lowest, highest = _limits(diagram)
+    upper.set_ylim(lowest, highest or 1.0)
+    if not highest:
+        words = "no possible orbit found along this range"
+        upper.text(0.5, 0.5, words, transform=upper.transAxes, ha="center", va="center", gid="no orbit")
     marked = _mark_points(diagram, (upper, lower, below), unit)
     figure.align_ylabels([upper, lower])
     figure.legend(handles=[*_diagram_key(diagram, marked), *present], loc="outside lower center", ncols=4)
@@ -281,13 +285,13 @@ def _mark(axes: Axes, look: Look, x: float, y: float, admissible: bool) -> None:
 
 
 def _limits(diagram: Diagram) -> tuple[float, float]:
-    """Return the range of all admissible values, with a margin for virtual ones."""
+    """Return the range of all admissible values, with a margin for virtual ones; its end is 0 if there are none."""
     speeds = [branch.radial_speed[branch.admissible] for branch in diagram.orbits]
     speeds += [branch.radial_speeds[branch.admissible].ravel() for branch in diagram.several]
     speeds += [sample.radial_speeds for sample in diagram.attractors]
     shown = np.concatenate([*speeds, [0.0]])
-    high = float(shown.max()) or 1.0
-    return -0.12 * high, 1.1 * high
+    high = float(shown.max())
+    return -0.12 * (high or 1.0), 1.1 * high
 
 
 def _diagram_key(diagram: Diagram, marked: list[Look]) -> list[Line2D]:

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.collections import QuadMesh
@@ -59,6 +60,8 @@ _SHARES = MappingProxyType(
 """Numbers shown in percent, and their words if the stored words refer to another variable."""
 _SHADES = "cividis"
 """Colour map that can be read by colour-blind readers and in greyscale (Nuñez, Anderton, Renslow 2018)."""
+_MOST_STEPS = 9
+"""Largest count up to which each number has a shade of its own."""
 _INK = "#8c8c8c"
 """Colour of the hatching and edges of cells without a value."""
 _PLAIN, _PLAIN_RATIO = (1e-3, 1e5), 300.0
@@ -213,7 +216,10 @@ def _shades(
     elif values.name in _SHARES:
         look = {"vmin": 0.0, "vmax": 1.0}
     elif _counts(values):
-        look = {"vmin": 0.0, "vmax": max(float(shown.filled(0.0).max()), 1.0)}
+        most = max(int(shown.filled(0.0).max()), 1)
+        look = {"vmin": 0.0, "vmax": most}
+        if most <= _MOST_STEPS:
+            look = {"cmap": colormaps[_SHADES].resampled(most + 1), "vmin": -0.5, "vmax": most + 0.5}
     mesh = shaded_cells(axes, edges, shown, **look)
     handles = [
         Patch(facecolor=colour, edgecolor=_INK, lw=0.4, label=word.replace("_", " "))

@@ -165,11 +165,11 @@ def _impulses(axes: Axes, trajectory: Trajectory, scales: Scales | None) -> None
     heights = log.normal_impulse * (scales.impulse if scales else 1.0)
     look = LOOKS["stable"]
     beside.vlines(log.time, 0.0, heights, color=look.colour, lw=0.5)
-    beside.plot(log.time, heights, "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
+    beside.plot(log.time, heights, "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
     # Leave room above for the words that say that there is no force.
     beside.set_ylim(0.0, None if trajectory.lasting_contacts else 1.25 * heights.max())
     beside.set_ylabel("impulse (N s)" if scales else r"impulse ($m c_r \Omega$)")
-    axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse of an impact (right axis)")
+    axes.plot([], [], "o", ms=1.8, color=look.colour, label="normal impulse (right axis)")
 
 
 @styled

@@ -94,10 +94,8 @@ def _history(parts: dict[str, Any]) -> Any:
         line_color=LOOKS["path"].colour,
         name="path",
     )
-    struck = _source(parts, "struck", "t", "r")
-    plot.scatter(
-        "t", "r", source=struck, marker="inverted_triangle", size=6, color=LOOKS["unstable"].colour, name="struck"
-    )
+    struck = _source(parts, "struck", "t", "r", "colour", "marker")
+    plot.scatter("t", "r", source=struck, marker="marker", size=6, color="colour", name="struck")
     parts["now"] = _moving_line(line_color=LOOKS["virtual"].colour, line_dash="dashed")
     plot.add_layout(parts["now"])
     return plot

@@ -30,6 +30,12 @@ carom.begin_plots = (parts, plots) => {
   theme();
   carom.parts.push(theme);
 
+  // The same marks as in carom's figures: by the direction of whirl, told apart without colour.
+  const marks = (forward) => ({
+    colour: forward.map((one) => (one ? carom.looks.forward : carom.looks.backward)),
+    marker: forward.map((one) => (one ? "triangle" : "inverted_triangle")),
+  });
+
   const section = (now) => {
     const message = flight.message, count = message.impact_times.filter((time) => time <= now).length;
     if (count === flight.count) return;
@@ -38,8 +44,7 @@ carom.begin_plots = (parts, plots) => {
     parts.section.data = {
       angle: first(message.impact_angles).map((angle) => 180 * angle / Math.PI),
       speed: first(message.impact_speeds).map((speed) => message.speed * speed),
-      colour: forward.map((one) => (one ? carom.looks.forward : carom.looks.backward)),
-      marker: forward.map((one) => (one ? "triangle" : "inverted_triangle")),
+      ...marks(forward),
     };
   };
 
@@ -49,7 +54,10 @@ carom.begin_plots = (parts, plots) => {
       flight.count = -1;
       const { times, x, y } = message, end = message.time * times[times.length - 1];
       parts.history.data = { t: Array.from(times, (time) => message.time * time), r: Array.from(x, (part, place) => Math.hypot(part, y[place])) };
-      parts.struck.data = { t: Array.from(message.impact_times, (time) => message.time * time), r: Array.from(message.impact_times, () => 1.03) };
+      parts.struck.data = {
+        t: Array.from(message.impact_times, (time) => message.time * time), r: Array.from(message.impact_times, () => 1.03),
+        ...marks(Array.from(message.forward)),
+      };
       parts.history_x.setv({ start: 0, end });
       plots.history.below[0].axis_label = `time (${message.time_unit})`;
       plots.section.left[0].axis_label = `radial speed (${message.speed_unit})`;
