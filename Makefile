@@ -60,6 +60,7 @@ bench: $(TEST) ## time carom beside its peers
 
 docs: $(DOCS) ## build the documentation; its examples are executed
 	rm -rf docs/reference/generated docs/gallery
+	$(BIN)/python tools/kernels
 	$(BIN)/sphinx-build -E -W --keep-going -j auto docs build/docs $(ARGS)
 	@echo "Documentation: $(CURDIR)/build/docs/index.html"
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 from numba.core import config
 
@@ -21,31 +22,10 @@ COMPILED = not config.DISABLE_JIT
 DEEP = COMPILED and os.environ.get("CAROM_DEEP", "") not in ("", "0")
 
 
-_FLIGHT = """
-import numpy as np
-import carom
-rotor = carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0)
-carom.simulate(rotor, carom.kick(0.3), 20.0, settle=True)
-carom.settle(rotor, np.array([0.1 + 0j]), np.array([0.5 + 0j]))
-"""
-_SHOCK = """
-import carom
-rotor = carom.parameters.Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0)
-carom.map_basins(rotor, carom.Grid(carom.BaseShock(1.0, 0.7), (2, 2)))
-"""
-
-
 def compile_kernels() -> None:
-    """Compile what most tests call, unless there are kernels already: half of it each in two processes.
-
-    The kernels of a rotor and those of one that is shaken have nothing in common.
-    """
-    directory = cache_directory()
-    if COMPILED and directory is not None and not any(directory.rglob("*.nbi")):
-        started = [subprocess.Popen([sys.executable, "-c", program]) for program in (_FLIGHT, _SHOCK)]
-        codes = [process.wait() for process in started]
-        if any(codes):
-            raise RuntimeError("kernels could not be compiled beforehand; the reason stands above")
+    """Compile what most tests call, unless it is in the cache already."""
+    if COMPILED and cache_directory() is not None:
+        subprocess.run([sys.executable, Path(__file__).parents[1] / "tools" / "kernels"], check=True)
 
 
 def sized(compiled: int, interpreted: int, deep: int | None = None) -> int:
