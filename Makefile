@@ -9,8 +9,8 @@ DOCS := .venv/docs.stamp
 # More arguments for pytest, as in: make test ARGS="-k grazing"
 ARGS :=
 
-# All tests of a file run in one worker, which computes what they share once.
-PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8 --dist loadfile
+# All tests of a file run in one worker, which computes what they share once. Files begin in the order of tests/conftest.py.
+PYTEST := $(BIN)/pytest --numprocesses auto --maxprocesses 8 --dist loadfile --no-loadscope-reorder
 
 # Tests start many processes: each would compile every module it imports anew.
 unexport PYTHONDONTWRITEBYTECODE

@@ -12,6 +12,7 @@ for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 import pkgutil  # noqa: E402
+from pathlib import Path  # noqa: E402
 
 import pytest  # noqa: E402
 from compilation import COMPILED, DEEP, compile_kernels, sized  # noqa: E402
@@ -46,11 +47,25 @@ def corner():
     return carom.map_regions(PAPER, plane, grid=sized(8, 6))
 
 
+SLOWEST = (
+    "studies/test_assembly.py",
+    "sweeps/test_running.py",
+    "bifurcations/test_rubbing.py",
+    "explorer/test_browser.py",
+    "cli/test_basins.py",
+    "disturbances/test_blade_loss.py",
+    "attractors/test_characters.py",
+)
+"""Files that take longest: if one began last, a worker would have nothing to do until it ends."""
+
+
 def pytest_collection_modifyitems(config, items):
-    """Leave out the deep tests unless they are asked for."""
+    """Put the slowest files first, and leave out the deep tests unless they are asked for."""
+    slowest = [Path(__file__).parent / name for name in SLOWEST]
+    items.sort(key=lambda item: slowest.index(item.path) if item.path in slowest else len(slowest))
     if not DEEP:
-        left_out = [item for item in items if item.get_closest_marker("deep")]
-        config.hook.pytest_deselected(items=left_out)
+        left_out = {item for item in items if item.get_closest_marker("deep")}
+        config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]
 
 
