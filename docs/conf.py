@@ -11,11 +11,14 @@ from pathlib import Path
 
 from docutils import nodes
 from sphinx.util.nodes import make_refnode
+from sphinx.util.parallel import make_chunks
 
 # Cells run in processes of their own, each in the folder of its page; what they share is in _cells.
 _CELLS = str(Path(__file__).parent / "_cells")
-os.environ["PYTHONPATH"] = _CELLS
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [_CELLS, os.environ.get("PYTHONPATH")]))
 sys.path.insert(0, _CELLS)
+
+from sidebar import share_trees  # noqa: E402
 
 project = "carom"
 author = "The carom developers"
@@ -59,6 +62,42 @@ nb_execution_timeout = 300
 nb_output_stderr = "error"
 nb_merge_streams = True
 nb_render_markdown_format = "myst"
+
+# ------------------------------------------------------------------------------------------------ order of the pages
+
+_SECONDS = {
+    "tutorial": 30,
+    "theorems": 20,
+    "misprints": 12,
+    "reference/json": 7,
+    "paper": 6,
+    "python-tour": 6,
+    "theory/attractors": 5,
+    "howto/choose-gains": 5,
+    "reference/command-line": 4,
+    "sweeps": 4,
+    "theory/regions": 4,
+}
+"""Processor time of the slowest pages.  Another page with cells takes about 3 s, most of it to start its process."""
+
+
+def _spread_work(app, env, docnames) -> None:  # type: ignore[no-untyped-def]
+    """Order the pages so that those that take long are shared evenly by the chunks in which Sphinx has pages read.
+
+    In alphabetic order the last chunk holds nearly all of them, and one process reads it while the others wait.
+    """
+    sizes = [len(chunk) for chunk in make_chunks(docnames, app.parallel)]
+    chunks: list[list[str]] = [[] for _ in sizes]
+    seconds = {name: _SECONDS.get(name, 3 if _has_cells(env.doc2path(name)) else 0.05) for name in docnames}
+    for name in sorted(docnames, key=lambda name: -seconds[name]):
+        free = (place for place, chunk in enumerate(chunks) if len(chunk) < sizes[place])
+        chunks[min(free, key=lambda place: sum(seconds[other] for other in chunks[place]))].append(name)
+    docnames[:] = [name for chunk in chunks for name in chunk]
+
+
+def _has_cells(path: Path) -> bool:
+    return "{code-cell}" in Path(path).read_text(encoding="utf-8")
+
 
 # ------------------------------------------------------------------------------------------------ gallery
 
@@ -212,3 +251,5 @@ def setup(app) -> None:  # type: ignore[no-untyped-def]
     """Register what this file adds."""
     app.connect("autodoc-process-docstring", _keep_formulas, priority=100)
     app.connect("missing-reference", _resolve)
+    app.connect("env-before-read-docs", _spread_work)
+    share_trees(app)
