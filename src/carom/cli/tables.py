@@ -235,9 +235,9 @@ def _thresholds(study: Study) -> Table:
 
 def _events(say: Wording, motion: Trajectory) -> Table:
     """Return the table of impacts and lasting contacts in order of time; the middle of a long log is left out."""
-    numbers = ("time", "angle", "speed towards wall", "normal impulse", "friction impulse")
+    numbers = ("time", "angle", "speed towards wall", "normal impulse", "friction impulse", "slip")
     headings = ("time", "contact", "angle", "speed towards wall", "whirl", "normal impulse", "friction impulse", "slip")
-    table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl", "slip"))
+    table = plain_table("Contacts", *headings, right=numbers, no_wrap=(*numbers, "whirl"))
     rows = _event_rows(say, motion)
     hidden = len(rows) - FIRST_EVENTS - LAST_EVENTS
     if hidden > 1:
