@@ -72,7 +72,6 @@ CALLS = {
     ),
     "bifurcations.motions_at": cm.bifurcations.motions_at,
     "bifurcations.orbit_windows": lambda m: cm.bifurcations.orbit_windows(m, "damping", [3600.0, 3700.0]),
-    "bifurcations.rubbing_orbits": lambda m: cm.bifurcations.rubbing_orbits(m, longest=10.0, samples=2),
     "bifurcations.sample_attractors": lambda m: cm.bifurcations.sample_attractors(
         m, "gamma", (0.4, 0.5), FEW, values=1
     ),
@@ -103,6 +102,7 @@ CALLS = {
     "orbits.impact_map": lambda m: cm.orbits.impact_map(m, cm.orbits.Section(0.3, 0.7, -1.0)),
     "orbits.orbits_within_reach": cm.orbits.orbits_within_reach,
     "orbits.period_condition": lambda m: cm.orbits.period_condition(m, np.array([1.0, 2.0])),
+    "orbits.rubbing_orbits": lambda m: cm.orbits.rubbing_orbits(m, longest=10.0, samples=2),
     "orbits.stroboscopic_map": lambda m: cm.orbits.stroboscopic_map(m, START, 1.0),
     "studies.safety.try_disturbances": lambda m: try_disturbances(m, DisturbanceSet(3)),
     "studies.safety.least_safe_damping": lambda m: least_safe_damping(m, count=2, highest=0.7),

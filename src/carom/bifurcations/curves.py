@@ -22,10 +22,8 @@ from carom.bifurcations.conditions import (
 )
 from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
-from carom.bifurcations.onsets import ONSETS, follow_onset
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.rubbing import RubbingPoint
 from carom.closed_forms.thresholds import happens_to_rubs
 from carom.continuation import Branch, Steps, Watch, continue_branch, refined_points
 from carom.orbits.names import CountedName, OrbitName, combined
@@ -172,7 +170,11 @@ _SUBJECTS = {
 
 def can_be_followed(point: Bifurcation) -> bool:
     """Whether :func:`continue_curve` knows equations for a bifurcation."""
-    return point.kind in ONSETS if isinstance(point, RubbingPoint) else point.kind in KINDS
+    if point.shot is None:
+        return point.kind in KINDS
+    from carom.bifurcations.word_equations import TESTS as OF_WORDS  # that module needs this one
+
+    return point.kind in OF_WORDS
 
 
 def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None = None) -> Curve:
@@ -181,8 +183,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     The unknowns are the first parameter and, for an orbit, its period and radial speed.  The equations are those of the
     orbit (source paper (4.3), (4.4)) and the test function of the bifurcation.  Grazing has the time at which the
     radius is largest as a further unknown, and the equations ``Re(Ū U̇) = 0`` and ``|U| = 1``, which stay regular on its
-    virtual side.  All derivatives are exact (:mod:`carom.bifurcations.derivatives`).  Only bouncing with rub, whose onsets
-    have no equations of their own (:mod:`carom.bifurcations.onsets`), is followed with central differences.
+    virtual side.  All derivatives are exact (:mod:`carom.bifurcations.derivatives`).
 
     A special point of an orbit of any word, of any linear rotor, has the unknowns of multiple shooting
     (:mod:`carom.bifurcations.word_curves`).
@@ -190,8 +191,8 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     Parameters
     ----------
     bifurcation : Bifurcation
-        A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of :data:`KINDS`, or for
-        bouncing with rub ``"contact-onset"`` or ``"permanent-contact"``.
+        A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of :data:`KINDS`; for an orbit
+        with lasting contact also ``"permanent-contact"`` or ``"cone-limit"``.
 
     Raises
     ------
@@ -226,8 +227,6 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     lows, highs = np.transpose([plane.first_range, plane.second_range])
     if not ((lows <= start) & (start <= highs)).all():
         raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
-    if isinstance(bifurcation, RubbingPoint):
-        return _onset_curve(bifurcation, plane)
     if kind not in KINDS:
         raise InputError("kind", kind, f"one of: {', '.join(KINDS)}")
     definition, guess = KINDS[kind], [bifurcation.period, bifurcation.radial_speed]
@@ -270,12 +269,6 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         equations, branch, jacobian=jacobian, scales=scales, widths=shown, bend=BEND, steps=steps or STEPS
     )
     return _curve(kind, plane, branch, rows, numbers)
-
-
-def _onset_curve(point: RubbingPoint, plane: Plane) -> Curve:
-    rows, stops = follow_onset(point, plane)
-    absent, admissible = np.full(len(rows), np.nan), np.ones(len(rows), bool)
-    return Curve(point.kind, plane, rows[:, :2], rows[:, 2], absent, admissible, (), (), stops)
 
 
 def _orbit(kind: str, unknowns: np.ndarray) -> tuple[float, float]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 import numpy as np
@@ -13,9 +12,8 @@ from carom.attractors import DisturbanceSet
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact
 from carom.bifurcations.conditions import corrected
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.rubbing import RubbingBranch, RubbingOrbit, continue_rubbing, rubbing_orbits
 from carom.bifurcations.samples import AttractorSample, sample_attractors
-from carom.bifurcations.several import several_impacts
+from carom.bifurcations.several import lies_on, several_impacts
 from carom.bifurcations.steady import (
     EquilibriumBranch,
     RollingBranch,
@@ -23,9 +21,12 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
+from carom.bifurcations.words import continue_word, renamed
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
+from carom.orbits.names import RubbingName
 from carom.orbits.orbit import Orbit
+from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
@@ -36,8 +37,6 @@ SAMPLES = 13
 """Number of values of the parameter at which all orbits are searched."""
 SAME = 1e-6
 """Distance in period and radial speed below which an orbit lies on a known branch."""
-SAME_ANGLE = 0.02
-"""The same for motions with lasting contact: difference of the angles in rad, and relative one of the periods."""
 FOLLOWING_SHARE = 0.2
 """Fraction of the progress for following branches, if attractors are searched too."""
 SINGLE_SHARE = 0.2
@@ -61,7 +60,7 @@ class Diagram(Result):
     orbits : tuple of OrbitBranch
     several : tuple of OrbitBranch
         Orbits with several impacts a period that a search and period doublings lead to; empty unless asked for.
-    rubbing : tuple of RubbingBranch
+    rubbing : tuple of OrbitBranch
         Periodic motions with a stretch of lasting contact; empty unless asked for.
     points : tuple of Bifurcation
         In ascending order of the parameter.
@@ -82,7 +81,7 @@ class Diagram(Result):
     rolling: RollingBranch
     orbits: tuple[OrbitBranch, ...]
     several: tuple[OrbitBranch, ...]
-    rubbing: tuple[RubbingBranch, ...]
+    rubbing: tuple[OrbitBranch, ...]
     points: tuple[Bifurcation, ...]
     attractors: tuple[AttractorSample, ...] = ()
     disturbances: DisturbanceSet | None = None
@@ -226,7 +225,7 @@ class _Followed(NamedTuple):
 
     orbits: tuple[OrbitBranch, ...]
     several: tuple[OrbitBranch, ...]
-    rubbing: tuple[RubbingBranch, ...]
+    rubbing: tuple[OrbitBranch, ...]
     points: tuple[Bifurcation, ...]
 
 
@@ -234,7 +233,7 @@ def _follow(
     parameters: Parameters, along: Axis, limits: tuple[float, float], chosen: _Chosen, tell: Reporter
 ) -> _Followed:
     branches: list[OrbitBranch] = []
-    rubbing: list[RubbingBranch] = []
+    rubbing: list[OrbitBranch] = []
     single = tell.part(0.0, 1.0 if chosen.impacts == 1 else SINGLE_SHARE)
     for done, value in enumerate(np.linspace(*limits, SAMPLES).tolist()):
         here = parameters.replace(**{along.name: value})
@@ -243,8 +242,9 @@ def _follow(
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
                 branches.append(continue_single_impact(orbit, along.name, limits))
         for motion in rubbing_orbits(here) if chosen.lasting else ():
-            if not any(_rubs_alike(motion, value, branch) for branch in rubbing):
-                rubbing.append(continue_rubbing(motion, along.name, limits))
+            if not any(lies_on(motion, value, branch) for branch in rubbing):
+                branch = continue_word(motion, along.name, limits, virtual=chosen.virtual)
+                rubbing.append(renamed(branch, RubbingName(motion.impacts, len(rubbing) + 1)))
         single((done + 1) / SAMPLES)
     several: tuple[OrbitBranch, ...] = ()
     if chosen.impacts > 1:
@@ -256,8 +256,7 @@ def _follow(
     ]
     # A branch ends by halving its period in a doubling of another: one point.
     points += [point for branch in several for point in branch.special if point.kind != "period-halving"]
-    for number, each in enumerate(rubbing, start=1):
-        points += [replace(point, name=f"rubbing {number}") for point in each.special]
+    points += [point for branch in rubbing for point in branch.special]
     return _Followed(tuple(branches), several, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
 
 
@@ -285,16 +284,4 @@ def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
         found = corrected(numbers, float(branch.period[end]), float(branch.radial_speed[end]))
         if max(abs(found[0] - orbit.period), abs(found[1] - orbit.radial_speed)) < SAME * (1.0 + orbit.period):
             return True
-    return False
-
-
-def _rubs_alike(motion: RubbingOrbit, value: float, branch: RubbingBranch) -> bool:
-    """Whether a branch passes through a motion with lasting contact."""
-    for i in _steps_at(branch.values, value) if branch.whirl == motion.whirl else ():
-        width = branch.values[i + 1] - branch.values[i]
-        share = (value - branch.values[i]) / width if width else 0.0
-        angle = branch.angle[i] + share * (branch.angle[i + 1] - branch.angle[i])
-        period = branch.period[i] + share * (branch.period[i + 1] - branch.period[i])
-        if abs(math.remainder(angle - motion.angle, math.tau)) < SAME_ANGLE:
-            return bool(abs(period / motion.period - 1.0) < SAME_ANGLE)
     return False

@@ -11,6 +11,7 @@ from carom.bifurcations.regions import RegionMap
 from carom.models.axes import Axis
 from carom.motions.settling import PATIENCE
 from carom.orbits.orbit import Orbit
+from carom.orbits.rubbing import lift_off_of
 from carom.parameters import Parameters
 from carom.results import fields_of
 
@@ -28,7 +29,7 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
         "points": [
             fields_of(point, "kind", branch="name")
             | fields_of(point, "parameter", "value", "period", "radial_speed", "admissible", "detail")
-            | _word(point.orbit if point.motion == "orbit" else None)
+            | _word(point.orbit if point.motion in ("orbit", "rubbing") else None)
             for point in diagram.points
         ],
         "branches": [
@@ -45,12 +46,7 @@ def diagram_document(parameters: Parameters, diagram: Diagram) -> dict[str, Any]
             for branch in diagram.equilibria
         ],
         "rolling": fields_of(diagram.rolling, "values", "largest_force", "holds"),
-        "rubbing": [
-            {"whirl": "forward" if branch.whirl > 0 else "backward"}
-            | fields_of(branch, "values", "period", "impacts", "contact_time", lift_off_angle="angle")
-            | fields_of(branch, "landing_force", "multiplier", "stable", ends="stops")
-            for branch in diagram.rubbing
-        ],
+        "rubbing": [_rubbing(branch) for branch in diagram.rubbing],
         "attractors": [
             fields_of(
                 sample, "value", "name", "outcome", "whirl", "count", "share", "radial_speeds", known_starts="known"
@@ -103,8 +99,23 @@ def regions_document(parameters: Parameters, found: RegionMap) -> dict[str, Any]
     }
 
 
+def _rubbing(branch: OrbitBranch) -> dict[str, Any]:
+    """A branch of motions with lasting contact, and the lift-off of each."""
+    lifts = [lift_off_of(orbit) for orbit in branch.orbits]
+    columns = {"impacts": "impacts", "contact_time": "contact_time", "lift_off_angle": "angle"}
+    return (
+        {"whirl": "forward" if lifts[0].whirl > 0 else "backward"}
+        | fields_of(branch, "values", "period")
+        | {key: [getattr(lift, name) for lift in lifts] for key, name in columns.items()}
+        | {"landing_force": [lift.landing_force for lift in lifts]}
+        | {"multiplier": [float(orbit.multipliers.values[0].real) for orbit in branch.orbits]}
+        | fields_of(branch, "admissible", "stable", ends="stops")
+        | _word(branch)
+    )
+
+
 def _word(orbit: Orbit | OrbitBranch | None) -> dict[str, Any]:
-    """Word and number of impacts of an orbit; ``None`` for other motions."""
+    """Word and number of impacts of an orbit, without those of a chatter; ``None`` for other motions."""
     return {"word": str(orbit.word) if orbit else None, "impacts": orbit.impacts if orbit else None}
 
 

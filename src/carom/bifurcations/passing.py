@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.bifurcations.curves import KINDS, Curve
 from carom.bifurcations.points import Bifurcation
+from carom.orbits.names import CountedName
 
 CLOSE = 5e-4
 """Distance from a curve, in widths of the plane, within which a point lies on it: ten times that from its chords."""
@@ -30,7 +31,7 @@ def _lies_on(curve: Curve, place: Sequence[float], period: float, speed: float) 
     share = np.clip(((here - points[:-1]) * ahead).sum(axis=1) / np.maximum((ahead**2).sum(axis=1), 1e-300), 0.0, 1.0)
     distance = np.linalg.norm(points[:-1] + share[:, None] * ahead - here, axis=1)
     # Onsets of lasting contact are not refined: a curve deviates from a chord by less than an eighth of its length.
-    near = np.flatnonzero(distance <= (CLOSE if curve.kind in KINDS else 0.125 * np.linalg.norm(ahead, axis=1)))
+    near = np.flatnonzero(distance <= (CLOSE if _is_refined(curve) else 0.125 * np.linalg.norm(ahead, axis=1)))
     for i in near:
         weights = np.array([1.0 - share[i], share[i]])
         # Equilibria have neither period nor radial speed, bouncing with rub has no radial speed.
@@ -38,6 +39,11 @@ def _lies_on(curve: Curve, place: Sequence[float], period: float, speed: float) 
         if not (other or abs(weights @ curve.radial_speeds[i : i + 2] - speed) >= SAME_SPEED):
             return True
     return False
+
+
+def _is_refined(curve: Curve) -> bool:
+    """Whether a curve has so many points that it lies close to its chords."""
+    return curve.kind in KINDS and not any(isinstance(name, CountedName) for name in curve.orbits)
 
 
 def with_curve(curves: Sequence[Curve], new: Curve) -> list[Curve]:

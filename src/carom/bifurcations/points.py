@@ -38,7 +38,8 @@ class Bifurcation(Result):
         ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the period), or
         ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).  Of steady motions:
         ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at
-        every angle).  Of bouncing with rub also ``"permanent-contact"`` (the rotor no longer lifts off).
+        every angle).  Of bouncing with rub also ``"permanent-contact"`` (the rotor no longer lifts off: the least
+        normal force of sliding that never leaves the wall vanishes).
     numbers : Numbers or None
         Parameters there; with negative ``mu`` if the closed form gives it for orbits with backward slip.  ``None`` for other rotors
         than the planar one.
@@ -92,6 +93,8 @@ class Bifurcation(Result):
     @property
     def motion(self) -> MotionKind:
         """Kind of the motion: an orbit, a steady motion, or bouncing with rub."""
+        if self.shot is not None and not self.shot.word.flies:
+            return "rubbing"
         return _STEADY.get(self.kind, "orbit")
 
     @cached_property

@@ -16,7 +16,6 @@ from carom.bifurcations.motions import Motions, motions_at
 from carom.bifurcations.passing import passes, with_curve
 from carom.bifurcations.planes import Plane
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.rubbing import RubbingPoint
 from carom.bifurcations.survey import Survey
 from carom.models import Axis, Jeffcott, Subject, jeffcott_of
 from carom.orbits.names import OrbitName, combined
@@ -224,7 +223,7 @@ def _through_points(
     plane: Plane, points: Sequence[Bifurcation], virtual: bool, curves: list[Curve], lost: list[str]
 ) -> list[Curve]:
     """Add to the known curves those through special points; failures are appended to ``lost``."""
-    for point in sorted(points, key=lambda point: isinstance(point, RubbingPoint)):
+    for point in sorted(points, key=lambda point: point.shot is not None):
         wanted = can_be_followed(point) and (virtual or point.admissible)
         if wanted and not any(passes(curve, point) for curve in curves):
             try:

@@ -15,6 +15,7 @@ from carom.motions.starts import State
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit
 from carom.orbits.search import orbits_of_several_impacts, random_start
+from carom.orbits.shooting import Start, pack_free
 from carom.outcome import CaromError
 from carom.progress import Reporter
 
@@ -102,9 +103,9 @@ def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
         return False
     for start in branch.starts_at(value):
         for k in turns:
-            nodes, durations = np.roll(orbit.nodes, -k, axis=0), np.roll(orbit.durations, -k)
-            apart = max(np.abs(nodes - start.nodes).max(), np.abs(durations - start.durations).max())
-            if apart < SAME * (1.0 + float(np.abs(nodes).max())):
+            turned = Start(np.roll(orbit.nodes, -k, axis=0), np.roll(orbit.durations, -k))
+            apart = np.abs(pack_free(branch.word, turned) - pack_free(branch.word, start)).max()
+            if apart < SAME * (1.0 + float(np.abs(turned.nodes).max())):
                 return True
     return False
 

@@ -13,12 +13,11 @@ import numpy as np
 from carom.bifurcations.curves import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_equations import REMEMBERED, SHORTEST, TESTS, FamilyPoint
+from carom.bifurcations.word_equations import REMEMBERED, TESTS, FamilyPoint, point_at
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Model
 from carom.models.axes import axis
-from carom.orbits.shooting import links_of, pack, unpack
-from carom.orbits.word import Kind
+from carom.orbits.shooting import pack_free
 from carom.outcome import InputError
 
 STEPS = Steps(first=0.01, largest=0.08, sharpest_turn=0.25, most_points=400, tolerance=1e-10, iterations=12)
@@ -57,10 +56,8 @@ class _CurveEquations:
         """The orbit at nodes, durations and both parameters."""
         key = x.tobytes()
         if key not in self.known:
-            rotor, start = self.rotor_at((float(x[-2]), float(x[-1]))), unpack(x[:-2], len(self.word))
-            short = (start.durations[self.word.kinds != Kind.LAND] < SHORTEST).any()
-            at = None if rotor is None or short else FamilyPoint(rotor, self.word, links_of(rotor, self.word, start))
-            self.known[key] = at if at is not None and np.isfinite(at.links.size) else None
+            rotor = self.rotor_at((float(x[-2]), float(x[-1])))
+            self.known[key] = None if rotor is None else point_at(rotor, self.word, x[:-2])
             if len(self.known) > REMEMBERED:
                 self.known.popitem(last=False)
         return self.known[key]
@@ -68,7 +65,9 @@ class _CurveEquations:
     def left_sides(self, x: np.ndarray) -> np.ndarray:
         """Equations of the orbit, then that of the special point."""
         at = self.point(x)
-        return np.full(len(x) - 1, np.nan) if at is None else np.append(at.links.residual, self.weight * self.test(at))
+        return (
+            np.full(len(x) - 1, np.nan) if at is None else np.append(at.links.reduced[0], self.weight * self.test(at))
+        )
 
     def test(self, at: FamilyPoint) -> float:
         """Function that vanishes at the special point."""
@@ -80,7 +79,7 @@ class _CurveEquations:
         if at is None:
             return np.full((len(x) - 1, len(x)), np.nan)
         whole = np.empty((len(x) - 1, len(x)))
-        whole[:-1, :-2] = at.links.jacobian
+        whole[:-1, :-2] = at.links.reduced[1]
         for k, size in enumerate(self.sizes):
             change = np.zeros(len(x))
             change[k] = DIFFERENCE * size
@@ -114,7 +113,7 @@ def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None 
     lows, highs = np.transpose([plane.first_range, plane.second_range])
     if not ((lows <= start) & (start <= highs)).all():
         raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
-    unknowns = pack(special.orbit.links.start)
+    unknowns = pack_free(special.orbit.word, special.orbit.links.start)
     sizes = np.concatenate([np.ones(len(unknowns)), np.maximum(np.abs(start), 0.1 * (highs - lows))])
     equations = _CurveEquations(special, plane, sizes)
     equations.weigh(np.concatenate([unknowns, start]))
@@ -182,7 +181,8 @@ def _curve(special: Bifurcation, plane: Plane, equations: _CurveEquations, branc
 
 
 def _period_and_speed(at: FamilyPoint) -> tuple[float, float]:
-    """Period, and radial speed at the first node."""
+    """Period, and radial speed at the first impact; ``nan`` if it begins with a lift-off."""
     system, start = at.rotor.system, at.links.start
     position, velocity = system.at_planes(system.amplitudes_of(start.nodes[:1]), at.word.planes[:1])
-    return float(start.durations.sum()), float((position.conj() * velocity).real[0])
+    speed = float((position.conj() * velocity).real[0]) if at.word[0].kind.is_impact else np.nan
+    return float(start.durations.sum()), speed

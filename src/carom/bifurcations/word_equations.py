@@ -10,10 +10,11 @@ from functools import cached_property
 import numpy as np
 
 from carom.continuation import Watch
+from carom.core.segments import LEAST_PUSH
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.orbit import Margins, margins_of, on_section
-from carom.orbits.shooting import Links, closed_flights, links_of, pack, unpack
+from carom.orbits.shooting import Links, closed_flights, links_of, pack, unpack, unpack_free
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 
@@ -28,6 +29,9 @@ ASIDE = 0.02
 CORRECTIONS = 20
 FAR = "far from a motion"
 """Where a branch ends that is not followed among virtual orbits."""
+LYING, BRIEF = "flights vanish", 0.03
+"""Where a branch ends because flights between lasting contacts vanish, and their duration there, in ``1/Ω``: their height falls
+with the fourth power of it, so that there is nothing to be computed beyond."""
 FAR_OUT, FAR_IN = -0.3, -0.1
 """Margins of the radius and of the radial speed at an impact beyond which an orbit is far from being a motion."""
 
@@ -44,6 +48,17 @@ class FamilyPoint:
     def margins(self) -> Margins:
         """Distances from a change of the word."""
         return margins_of(self.links, self.rotor, self.word)
+
+    @property
+    def onset(self) -> float:
+        """Least distance of a chatter from the onset of lasting contact, proportional to that of the parameter; or infinite."""
+        return float(self.links.landings.min())
+
+    @property
+    def least_push(self) -> float:
+        """Least normal force of sliding that goes on where it is least; infinite for words without."""
+        goes_on = self.word.conditions[np.arange(len(self.word)) - 1] == LEAST_PUSH
+        return self.margins.normal_force if goes_on.any() else np.inf
 
     @cached_property
     def multipliers(self) -> np.ndarray:
@@ -66,6 +81,16 @@ class FamilyPoint:
         return float(sums[np.argmin(np.abs(products - 1.0))].real)
 
 
+def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | None:
+    """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
+    start, chatters = unpack_free(word, unknowns), word.kinds == Kind.LAND
+    # The contact after a chatter may vanish: lasting contact begins there.
+    if (start.durations[~(chatters | np.roll(chatters, 1))] < SHORTEST).any():
+        return None
+    links = links_of(rotor, word, start)
+    return FamilyPoint(rotor, word, links) if np.isfinite(links.size) else None
+
+
 TESTS: dict[str, Callable[[FamilyPoint], float]] = {
     "fold": lambda point: float(np.prod(1.0 - point.multipliers).real),
     "period-doubling": lambda point: float(np.prod(1.0 + point.multipliers).real),
@@ -74,7 +99,8 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
     "grazing": lambda point: min(point.margins.radius, 1.0),
     "vanishing-impact": lambda point: point.margins.approach,
     "slip-stop": lambda point: point.margins.slip,
-    "contact-onset": lambda point: point.margins.normal_force,
+    "contact-onset": lambda point: point.onset,
+    "permanent-contact": lambda point: point.least_push,
     "cone-limit": lambda point: point.margins.cone,
 }
 """Functions that vanish at special points; not finite where they are not defined."""
@@ -110,23 +136,27 @@ class Family:
         return self.points[key]
 
     def _evaluated(self, u: np.ndarray, p: float) -> FamilyPoint | None:
-        start, rotor = unpack(u, len(self.word)), self.rotor_at(p)
-        if rotor is None or (start.durations[self.word.kinds != Kind.LAND] < SHORTEST).any():
-            return None
-        links = links_of(rotor, self.word, start)
-        return FamilyPoint(rotor, self.word, links) if np.isfinite(links.size) else None
+        rotor = self.rotor_at(p)
+        return None if rotor is None else point_at(rotor, self.word, u)
+
+    def whole(self, u: np.ndarray, p: float) -> np.ndarray:
+        """All nodes and durations, in the order of :func:`~carom.orbits.shooting.pack`, from the unknowns."""
+        if self.word.flies:
+            return u
+        point = self.point(u, p)
+        return np.full_like(pack(unpack_free(self.word, u)), np.nan) if point is None else pack(point.links.start)
 
     def residual(self, u: np.ndarray, p: float) -> np.ndarray:
         """Left sides of the equations; ``nan`` where they are not defined."""
         point = self.point(u, p)
-        return np.full(len(u), np.nan) if point is None else point.links.residual
+        return np.full(len(u), np.nan) if point is None else point.links.reduced[0]
 
     def jacobian(self, u: np.ndarray, p: float) -> np.ndarray:
         """Their derivatives by the unknowns, which are exact, and by the parameter."""
         point = self.point(u, p)
         if point is None:
             return np.full((len(u), len(u) + 1), np.nan)
-        return np.column_stack([point.links.jacobian, self._by_parameter(point, p)])
+        return np.column_stack([point.links.reduced[1], self._by_parameter(point, p)])
 
     def solved(self, u: np.ndarray, p: float) -> np.ndarray | None:
         """Orbit next to a point at the same parameter; ``None`` where the iteration fails, or the word has lasting contact."""
@@ -139,13 +169,14 @@ class Family:
     def _by_parameter(self, point: FamilyPoint, p: float) -> np.ndarray:
         """Derivative of the equations by the parameter, by a difference to a side where the rotor exists."""
         step = DIFFERENCE * self.size
+        here = point.links.reduced[0]
         rotor = self.rotor_at(p + step)
         if rotor is None:
             step = -step
             rotor = self.rotor_at(p + step)
         if rotor is None:
-            return np.full(len(point.links.residual), np.nan)
-        slope: np.ndarray = (links_of(rotor, self.word, point.links.start).residual - point.links.residual) / step
+            return np.full(len(here), np.nan)
+        slope: np.ndarray = (links_of(rotor, self.word, point.links.start).reduced[0] - here) / step
         return slope
 
     def beside(self, doubled: np.ndarray, p: float, tangent: np.ndarray) -> tuple[np.ndarray, float]:
@@ -176,11 +207,14 @@ class Family:
                 found = np.nan if point is None else TESTS[kind](point)
                 return found if np.isfinite(found) else np.nan
 
-            return Watch(kind, value)
+            return Watch(kind, value, ends_branch=kind == "contact-onset")
 
         watched = [watch(kind) for kind in TESTS if kind != "fold"]  # the continuation finds folds itself
         if not virtual:
             watched.append(Watch(FAR, self._nearness, ends_branch=True))
+        lifts = self.word.kinds == Kind.LIFT
+        if lifts.any():
+            watched.append(Watch(LYING, lambda u, _: unpack_free(self.word, u).durations[lifts].min() - BRIEF, True))
         m = len(self.word)
         if m % 2 == 0 and (m // 2) % self.word.least == 0:
             first = np.subtract(*np.split(start, 2))

@@ -6,6 +6,7 @@ passes through grazing and goes on with orbits that are not motions of the machi
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -15,22 +16,25 @@ import numpy as np
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact, passing
 from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_equations import FAR, Family
+from carom.bifurcations.word_equations import FAR, LYING, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
 from carom.models import Jeffcott, Model
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
-from carom.orbits.orbit import Orbit
-from carom.orbits.shooting import Links, Start, links_of, pack, unpack
-from carom.orbits.word import Word
+from carom.orbits.orbit import Orbit, orbit_near
+from carom.orbits.shooting import Links, Start, converged, links_of, pack_free, unpack
+from carom.orbits.word import Kind, Word
 from carom.outcome import InputError
 from carom.parameters import Numbers
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
-BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "cone-limit")
+BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "permanent-contact", "cone-limit")
 """Special points at which the word of a motion changes."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
+PERMANENT = "permanent-contact"
+NEARBY = 0.02
+"""Range in which permanent contact is searched beyond the last orbit whose flight is followed, in sizes of the parameter."""
 BEYOND = 0.2
 """Half of the range, relative to the parameter, in which a branch is followed that is switched to without a range."""
 
@@ -77,12 +81,11 @@ class WordOrbits:
 
     def starts_at(self, value: float) -> list[Start]:
         """Nodes and durations of the orbits at a value of the parameter, one for each time the branch passes there."""
-        family = Family(self.rotor, self.axis, self.word, (float(self.values.min()), float(self.values.max())))
         found = []
         for i, share in passing(self.values, value):
             guess = (1.0 - share) * self.unknowns[i] + share * self.unknowns[i + 1]
-            solved = family.solved(guess, value)
-            found.append(unpack(guess if solved is None else solved, len(self.word)))
+            links = converged(self.axis.move(self.rotor, value), self.word, unpack(guess, len(self.word)))
+            found.append(unpack(guess, len(self.word)) if links is None else links.start)
         return found
 
     @property
@@ -163,7 +166,7 @@ def continue_word(
     """:func:`continue_orbit` by multiple shooting, for an orbit of any word; on request not far among virtual orbits."""
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
-    start = pack(Start(orbit.nodes, orbit.durations))
+    start = pack_free(orbit.word, Start(orbit.nodes, orbit.durations))
     family = Family(orbit.rotor, along, orbit.word, limits)
     return _follow(family, start, present, steps, orbit.name, virtual=virtual)
 
@@ -204,15 +207,15 @@ def switched(
     present, limits = interval_around(along, value, ends)
     if kind == "period-doubling":
         family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
-        doubled = np.tile(pack(orbit.links.start), 2)
-        unknowns, present = family.beside(doubled, present, _alternating(orbit.links))
+        doubled = np.tile(pack_free(orbit.word, orbit.links.start), 2)
+        unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
     else:
         word, start = neighbour(kind, orbit)
-        family, unknowns = Family(orbit.rotor, along, word, limits), pack(start)
+        family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 
 
-def _alternating(links: Links) -> np.ndarray:
+def _alternating(word: Word, links: Links) -> np.ndarray:
     """Change of all unknowns of twice the period that turns into its opposite after one period, of norm one."""
     values, vectors = np.linalg.eig(links.monodromy)
     change = vectors[:, np.argmin(np.abs(values + 1.0))].real
@@ -221,7 +224,7 @@ def _alternating(links: Links) -> np.ndarray:
         delay = -(slope[-1, :-1] @ change) / slope[-1, -1]
         rows.append([*change, delay])
         change = passage @ change
-    once = np.ravel(rows)
+    once = pack_free(word, unpack(np.ravel(rows), len(word)))
     both = np.concatenate([once, -once])
     whole: np.ndarray = both / np.linalg.norm(both)
     return whole
@@ -249,19 +252,31 @@ def _follow(
         scales=np.append(np.ones(len(start)), family.size),
     )
     passed = branch.of_kind("period-halving"), branch.of_kind("vanishing-impact")
+    whole = [family.whole(u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
     special = tuple(
         _special_point(
             point.kind,
             family.along,
             point.parameter,
-            _orbit_at(family.along.move(family.rotor, point.parameter), family.word, point.unknowns, name),
+            _orbit_at(
+                family.along.move(family.rotor, point.parameter),
+                family.word,
+                family.whole(point.unknowns, point.parameter),
+                name,
+            ),
             point.place,
         )
         for point in branch.special
         if _is_special(family, point, *passed)
     )
+    stops = list(branch.stops)
+    for end, place in ((0, 0.0), (-1, len(branch) - 1.0)):
+        point = _permanent_contact(family, whole[end], branch.parameters[end], place) if stops[end] == LYING else None
+        if point is not None:
+            special, stops[end] = (*special, point), point.kind
+    special = tuple(sorted(special, key=lambda point: point.place))
     at = family.along, name, family.word, family.rotor, branch.parameters
-    return OrbitBranch(*at, WordOrbits(*at, branch.unknowns), special, branch.stops)
+    return OrbitBranch(*at, WordOrbits(*at, np.array(whole)), special, (stops[0], stops[1]))
 
 
 def _special_point(kind: str, along: Axis, value: float, orbit: Orbit, place: float) -> Bifurcation:
@@ -270,7 +285,7 @@ def _special_point(kind: str, along: Axis, value: float, orbit: Orbit, place: fl
         kind,
         Numbers.of(orbit.rotor.parameters) if isinstance(orbit.rotor, Jeffcott) else None,
         orbit.period,
-        orbit.radial_speed,
+        orbit.radial_speed if orbit.word[0].kind.is_impact else math.nan,
         orbit.name,
         along.name,
         value,
@@ -278,6 +293,25 @@ def _special_point(kind: str, along: Axis, value: float, orbit: Orbit, place: fl
         place=place,
         shot=orbit,
     )
+
+
+def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place: float) -> Bifurcation | None:
+    """Where the only flight of a period vanishes: sliding that never leaves the wall, whose least normal force vanishes."""
+    word, start = family.word, unpack(unknowns, len(family.word))
+    stays = [segment for segment in word if segment.kind.lasts]
+    if len(word) != 3 or len(stays) != 1 or stays[0].kind is Kind.ROLL:
+        return None
+    lift = start.nodes[word.kinds == Kind.LIFT]
+    alone = orbit_near(
+        family.along.move(family.rotor, value), Word((stays[0],)), Start(lift, start.durations.sum()[None])
+    )
+    if alone is None:
+        return None
+    reach = NEARBY * family.size
+    limits = max(family.limits[0], value - reach), min(family.limits[1], value + reach)
+    found = [point for point in continue_word(alone, family.along.name, limits).special if point.kind == PERMANENT]
+    nearest = min(found, key=lambda point: abs(point.value - value), default=None)
+    return None if nearest is None else replace(nearest, place=place)
 
 
 def _is_special(
@@ -291,7 +325,9 @@ def _is_special(
     """
     if point.kind == "period-halving":
         return True
-    if point.kind in ("branch point", FAR) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
+    if point.kind in ("branch point", FAR, LYING) or any(
+        abs(point.place - halving.place) < 1e-3 for halving in halvings
+    ):
         return False
     if point.kind == "grazing" and any(_meet(point, other) for other in vanishing):
         return False

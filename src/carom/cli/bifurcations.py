@@ -237,6 +237,7 @@ def _shown(varied: Axis, value: float) -> str:
 def _print_diagram(diagram: Diagram, present: float) -> None:
     from carom.cli.fitting import fitted, plain_table
     from carom.cli.region_tables import named
+    from carom.orbits import lift_off_of
 
     screen = console()
     ends = " to ".join(_shown(diagram.axis, value) for value in diagram.interval)
@@ -262,10 +263,9 @@ def _print_diagram(diagram: Diagram, present: float) -> None:
     if diagram.several:
         screen.print("Orbits with several impacts were searched at 9 values, which does not prove that these are all.")
     for number, motion in enumerate(diagram.rubbing, start=1):
-        whirl = "forward" if motion.whirl > 0 else "backward"
-        screen.print(
-            f"Bouncing with rub {number} ({whirl} whirl at the lift-off): ends {motion.stops[0]}, {motion.stops[1]}"
-        )
+        whirl = "forward" if lift_off_of(motion.orbits[0]).whirl > 0 else "backward"
+        ends = f"ends {motion.stops[0]}, {motion.stops[1]}"
+        screen.print(f"Bouncing with rub {number} ({motion.word}, {whirl} whirl at the lift-off): {ends}")
     if diagram.attractors:
         _print_attractors(diagram)
 

@@ -32,6 +32,7 @@ __all__ = [
     "IMPACT_FORWARD",
     "IMPACT_STOPPED",
     "LAND",
+    "LEAST_PUSH",
     "LIFT",
     "MEETS_WALL",
     "NO_CONDITION",
@@ -47,8 +48,9 @@ __all__ = [
 
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
 """Kinds of segments; the first four are flights."""
-NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD = range(6)
-"""Conditions at the end; the last two are the limits of the friction cone beyond which forward or backward slip begins."""
+NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD, LEAST_PUSH = range(7)
+"""Conditions at the end: two are the limits of the friction cone beyond which forward or backward slip begins; at the last one
+the normal force is least, and the same sliding goes on."""
 
 
 @kernel
@@ -120,9 +122,12 @@ def follow_contact(rotor, basis, to_modes, rest, kinds, planes, ends, nodes, dur
         contact[planes[i]] = FORWARD_SLIP if kinds[i] == SLIDE_FORWARD else BACKWARD_SLIP
         if rolls:
             contact[planes[i]] = ROLLING
-        _slide(rotor, contact, planes[i], durations[i], moved[2 * modes], directions, rate, rub)
-        _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
         normal = slopes[i, 2 * modes]
+        change = _slide(rotor, contact, planes[i], durations[i], moved[2 * modes], directions, rate, normal, rub)
+        _hand_over(basis, rest, moved, rate, arrivals[i], slopes[i])
+        if ends[i] == LEAST_PUSH:
+            values[i] = change
+            continue
         values[i] = _condition(rotor, planes[i], ends[i], moved[2 * modes], directions, rate, normal)
 
 
@@ -222,8 +227,12 @@ def _flight_rate(rotor, state, rate):
 
 
 @kernel
-def _slide(rotor, contact, plane, duration, state, directions, rate, rub):
-    """Lasting contact at one plane for a given duration, in place; ``rate`` receives ``ċ`` at the end."""
+def _slide(rotor, contact, plane, duration, state, directions, rate, falls, rub):
+    """Lasting contact at one plane for a given duration, in place; ``rate`` receives ``ċ`` at the end.
+
+    Returns the rate of the normal force at the end; ``falls`` receives its derivatives by the directions and by the duration, which
+    mean nothing for rolling.
+    """
     modes, elapsed = state.shape[0], 0.0
     series = np.empty((ORDER + 1, modes), np.complex128)
     moved = np.empty((4, ORDER + 1), np.complex128)
@@ -249,6 +258,13 @@ def _slide(rotor, contact, plane, duration, state, directions, rate, rub):
     rub_series(rotor, contact, state, rub)
     for k in range(modes):
         rate[k] = rub.series[1, k]
+    for row in range(directions.shape[0]):
+        for k in range(modes):
+            series[0, k] = directions[row, k]
+        _varied_series(rotor, contact[plane], plane, rub, series, moved, push)
+        falls[row] = push[1]
+    falls[directions.shape[0]] = 2.0 * rub.push[plane, 2]
+    return rub.push[plane, 1]
 
 
 @part

@@ -8,6 +8,8 @@
 ``single_impact``   all orbits with one impact a period
 ``search``          orbits with any number of impacts, from simulated starts
 ``recognising``     the orbit that a simulated motion repeats
+``rubbing``         periodic motions with lasting contact, from one lift-off to the next
+``landings``        how far a chatter is from the onset of lasting contact
 ``exponents``       Lyapunov exponents of motions and of orbits
 ``names``           names of orbits
 ``maps``            impact map and stroboscopic map, with their derivatives
@@ -19,6 +21,7 @@ from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_
 from carom.orbits.maps import ImpactMap, Section, StroboscopicMap, impact_map, stroboscopic_map
 from carom.orbits.orbit import Margins, Orbit, orbit_near
 from carom.orbits.recognising import orbit_of_motion
+from carom.orbits.rubbing import LiftOff, lift_off_of, rubbing_orbits
 from carom.orbits.search import FoundOrbits
 from carom.orbits.single_impact import OrbitSet, find_orbits, orbits_within_reach, period_condition
 from carom.orbits.stability import Multipliers, multipliers
@@ -28,6 +31,7 @@ __all__ = [
     "FoundOrbits",
     "ImpactMap",
     "Kind",
+    "LiftOff",
     "LyapunovExponents",
     "Margins",
     "Multipliers",
@@ -39,6 +43,7 @@ __all__ = [
     "Word",
     "find_orbits",
     "impact_map",
+    "lift_off_of",
     "lyapunov_exponents",
     "multipliers",
     "orbit_exponents",
@@ -46,5 +51,6 @@ __all__ = [
     "orbit_of_motion",
     "orbits_within_reach",
     "period_condition",
+    "rubbing_orbits",
     "stroboscopic_map",
 ]

@@ -20,6 +20,8 @@ ARRIVAL_TOLERANCE = 1e-7
 """Relative difference below which the certified next event and the end of a segment count as the same event."""
 MOST_STEPS = 256
 """Steps of lasting contact in one segment."""
+INSTANT = 1e-9
+"""Time within which a rotor that has just lost its normal force may still be in contact, in ``1/Ω``."""
 SLIPS = {Kind.IMPACT_FORWARD: 1, Kind.IMPACT_BACKWARD: -1, Kind.IMPACT_STOPPED: 0}
 """Direction of the slip after an impact."""
 
@@ -150,11 +152,15 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     log, amplitudes = EventLog.empty(1, len(node), planes), node.copy()
     time, first = 0.0, segment.kind.is_impact
     before = contact.copy()
+    stays = segment == target
     for _ in range(MOST_STEPS):
         if segment.kind is Kind.LAND:
             return ""  # :func:`~carom.orbits.shooting.links_of` follows a chatter by simulation in any case
-        outcome, elapsed, _ = follow(rotor, amplitudes, 2.0 * duration + 1.0, contact, log, recollection)
+        horizon = duration - time if stays else 2.0 * duration + 1.0
+        outcome, elapsed, _ = follow(rotor, amplitudes, horizon, contact, log, recollection)
         time += elapsed
+        if segment.kind is Kind.LIFT and time <= INSTANT:
+            continue  # by rounding the rotor may stay on the wall for an instant before it lifts off
         changes = (np.maximum(contact, 0) != np.maximum(before, 0)).any() or segment.kind.flies
         if outcome is not Outcome.EVENT_LIMIT or (changes and not first):
             break

@@ -86,3 +86,11 @@ class CountedName(str):
 
     def __getnewargs__(self) -> tuple[int, int]:  # type: ignore[override]  # for copies and pickles
         return self.impacts, self.number
+
+
+class RubbingName(CountedName):
+    """Name of an orbit with lasting contact among those of its search, such as ``"rubbing 1"``."""
+
+    def __new__(cls, impacts: int, number: int) -> RubbingName:
+        """Make the text from the parts."""
+        return str.__new__(cls, f"rubbing {number}")

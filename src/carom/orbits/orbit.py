@@ -27,6 +27,7 @@ ALIKE = 1e-8
 
 SHORTEST = 1e-9
 """Least duration of a segment other than a chatter, in ``1/Ω``."""
+INTERRUPTED = "its chatter would not be complete before the normal force vanishes"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -44,7 +45,8 @@ class Margins(Result):
         still take away.  In ``c_r Ω``; infinite without impacts or friction.
     normal_force, cone : float
         Least normal force, and least distance of friction from its limit while rolling, at the beginning of lasting contact;
-        in ``m c_r Ω²``, infinite without it.
+        in ``m c_r Ω²``, infinite without it.  Where the chatter before is interrupted, the signed
+        distance from the onset of lasting contact stands for the normal force.
     """
 
     radius: float
@@ -108,7 +110,8 @@ class Orbit(Result):
     def from_links(cls, rotor: Model, word: Word, links: Links, name: OrbitName | CountedName) -> Orbit:
         """Orbit that multiple shooting has found, with its multipliers and its admissibility checked."""
         start = links.start
-        return cls(rotor, name, word, *start, multipliers_of(links), why_virtual(rotor, word, start))
+        reason = INTERRUPTED if (links.landings < 0.0).any() else why_virtual(rotor, word, start)
+        return cls(rotor, name, word, *start, multipliers_of(links), reason)
 
     @property
     def period(self) -> float:
@@ -264,6 +267,7 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
             tops = [highest_point(arrays, p, after, float(links.start.durations[i]))[0] for p in range(len(contacts))]
             heights += [top for top in tops if not np.isnan(top)]
     rests = np.array([segment.kind.lasts for segment in word])
+    push = np.where(np.roll(links.landings, 1) < 0.0, np.roll(links.landings, 1), push)
     return Margins(
         radius=-max(heights, default=-np.inf),
         approach=float(radial[~rests & (word.kinds != Kind.LIFT)].min(initial=np.inf)),

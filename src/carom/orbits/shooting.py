@@ -3,6 +3,12 @@
 The unknowns are the nodes, that is the coordinates and rates at the beginning of each segment, and the durations.  The equations: each
 segment ends at the next node, and fulfils the condition at its end.  As the durations are unknowns, no time of impact has
 to be solved for.  So nothing is singular where an impact grazes, and a branch of orbits passes through it.
+
+A chatter is followed by simulation, and the contact after it begins where it lands: that node and the duration of the
+chatter are no unknowns (:func:`free_entries`).  Both depend on the number of bounces that the simulation makes before it completes the chatter,
+by as little as the last bounces last, and at the onset of lasting contact (:mod:`carom.orbits.landings`) they have no derivative.  The end of the
+contact depends on neither.  A chatter that is interrupted just before it is complete is completed at its last bounce but one, so that the
+equations hold beyond the onset too.
 """
 
 from __future__ import annotations
@@ -17,14 +23,20 @@ import numpy as np
 from carom.core.closure import close_flights
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace
+from carom.core.rub import wall_push
 from carom.core.segments import carry_through_chatter, follow_contact, follow_flights
 from carom.models import Model
 from carom.motions.trajectories import EventLog, follow
+from carom.orbits.landings import NO_RETURN, distance_from_onset
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Outcome, Phase
 
 MOST_BOUNCES = 4096
 """Bounces of the longest chatter."""
+LONGEST = 1e3
+"""Longest chatter, in ``1/Ω``: a guess from which the rotor does not come back to the wall has to end too."""
+SLOW = 1e-5
+"""Speed of a bounce, in ``c_r Ω``, below which a flight without return at once interrupts a chatter."""
 ITERATIONS = 25
 TOLERANCE = 1e-13
 """Residual at which Newton's method stops, relative to one plus the size of the nodes."""
@@ -52,6 +64,7 @@ class Links:
     Attributes
     ----------
     start : Start
+        After a chatter, the node at which it lands.
     arrivals : ndarray of complex, shape (m, N)
         Coordinates and rates at the end of each segment.
     values : ndarray, shape (m,)
@@ -59,12 +72,16 @@ class Links:
     slopes : ndarray, shape (m, 2N + 1, 2N + 1)
         Derivative of real and imaginary parts of the arrival, then of the condition, by those of the node, then by the
         duration.
+    landings : ndarray, shape (m,)
+        Of each chatter its signed distance from the onset of lasting contact (:func:`~carom.orbits.landings.distance_from_onset`), below
+        zero if it is interrupted; infinite for other segments.
     """
 
     start: Start
     arrivals: np.ndarray
     values: np.ndarray
     slopes: np.ndarray
+    landings: np.ndarray
 
     @cached_property
     def residual(self) -> np.ndarray:
@@ -87,6 +104,22 @@ class Links:
         whole[places, :, places, :] = self.slopes
         whole[places[:, None], states, np.roll(places, -1)[:, None], states] -= 1.0
         return whole.reshape(m * n, m * n)
+
+    @property
+    def reduced(self) -> tuple[np.ndarray, np.ndarray]:
+        """Residual and its derivative by the free unknowns alone, on which the others depend."""
+        lands = ~np.isposinf(self.landings)
+        if not lands.any():
+            return self.residual, self.jacobian
+        width = self.slopes.shape[1]
+        free, rows = free_entries(lands, width), np.repeat(~lands, width)
+        whole = self.jacobian
+        # The later a chatter lands, the shorter is the contact after it.
+        ends = width * np.flatnonzero(lands) + width - 1
+        whole[:, ends] -= whole[:, (ends + width) % len(free)]
+        # The rows of a chatter say how its landing follows from its first impact.
+        follows = np.linalg.solve(whole[np.ix_(~rows, ~free)], whole[np.ix_(~rows, free)])
+        return self.residual[rows], whole[np.ix_(rows, free)] - whole[np.ix_(rows, ~free)] @ follows
 
     @property
     def passages(self) -> np.ndarray:
@@ -113,6 +146,7 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
     rotor : Model
     word : Word
     start : Start
+        What follows from a chatter is not read: where it lands, and how long it takes of the time up to the end of the contact after it.
 
     Returns
     -------
@@ -126,12 +160,18 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
     follow_flights(
         arrays, *coordinates, word.kinds, word.planes, word.targets, nodes, durations, arrivals, values, slopes
     )
+    landings = np.full(m, np.inf)
     if not word.flies:
+        nodes, durations = nodes.copy(), durations.copy()
+        for i in np.flatnonzero(word.kinds == Kind.LAND).tolist():
+            time, landings[i] = _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], slopes[i])
+            values[i] = 0.0 if np.isfinite(time) else np.nan
+            if np.isfinite(time):
+                after = (i + 1) % m
+                nodes[after], durations[after], durations[i] = arrivals[i], durations[after] + durations[i] - time, time
         at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(modes, len(arrays.rows))
         follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
-        for i in np.flatnonzero(word.kinds == Kind.LAND):
-            values[i] = durations[i] - _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], slopes[i])
-    return Links(start, arrivals, values, slopes)
+    return Links(Start(nodes, durations), arrivals, values, slopes, landings)
 
 
 def _room(m: int, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -155,27 +195,70 @@ def closed_flights(rotor: Model, word: Word, start: Start) -> Start | None:
     )
 
 
-def _land(rotor: Model, following: Segment, node: np.ndarray, arrival: np.ndarray, slopes: np.ndarray) -> float:
-    """Follow a chatter and write its end and derivatives; return its duration, ``nan`` if it does not end as it should."""
-    system, modes = rotor.system, len(arrival)
+def _land(
+    rotor: Model, following: Segment, node: np.ndarray, arrival: np.ndarray, slopes: np.ndarray
+) -> tuple[float, float]:
+    """Follow a chatter and write its end and derivatives; return its duration and its distance from the onset.
+
+    The duration is ``nan`` if it does not end as it should.
+    """
+    system, modes, plane = rotor.system, len(arrival), following.plane
     basis, to_modes, rest = system.coordinates
     contact = np.full(len(system.arrays.rows), -1)
-    contact[following.plane] = Phase.FLIGHT
+    contact[plane] = Phase.FLIGHT
     log = EventLog.empty(MOST_BOUNCES, modes, len(contact))
-    landing, slopes[:] = to_modes @ (node - rest), 0.0
-    outcome, time, count = follow(rotor, landing, np.inf, contact, log, memory(modes, stop_at_landing=True))
-    if outcome is not Outcome.CHATTER or not count or (log.planes[:count] != following.plane).any():
+    landing, changes = _on_wall(rotor, plane, to_modes @ (node - rest), np.concatenate([to_modes.T, 1j * to_modes.T]))
+    slopes[:] = 0.0
+    outcome, time, count = follow(rotor, landing, LONGEST, contact, log, memory(modes, stop_at_landing=True))
+    bounces = log.first(count)
+    last = _interruption(rotor, plane, bounces)
+    if last is not None:
+        bounces = bounces.first(last + 1)
+        landing, time, outcome = bounces.after[last].copy(), float(bounces.times[last]), Outcome.CHATTER
+    if outcome is not Outcome.CHATTER or not count or (bounces.planes != plane).any():
         arrival[:] = node
-        return float("nan")
-    slip, bounces = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: -1}.get(following.kind, 0), log.first(count)
-    changes, delays = np.concatenate([to_modes.T, 1j * to_modes.T]), np.empty(2 * modes)
-    at = following.plane, bounces.before, np.diff(bounces.times), landing, slip
+        return float("nan"), float("nan")
+    distance = _distance(rotor, plane, bounces.after[-1])
+    slip = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: -1}.get(following.kind, 0)
+    delays = np.empty(2 * modes)
+    at = plane, bounces.before, np.diff(bounces.times), landing, slip
     carry_through_chatter(system.arrays, *at, changes, delays)
     arrival[:] = basis @ landing + rest
     moved = basis @ changes.T
     slopes[:modes, :-1], slopes[modes:-1, :-1] = moved.real, moved.imag
     slopes[-1, :-1], slopes[-1, -1] = -delays, 1.0
-    return time
+    return time, distance
+
+
+def _on_wall(rotor: Model, plane: int, amplitudes: np.ndarray, changes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes with a plane moved onto its wall, and what small changes (k, N) of them become."""
+    arrays = rotor.system.arrays
+    row, lever = arrays.rows[plane], arrays.rows[plane].conj() / arrays.weights[plane]
+    position = amplitudes @ row + arrays.offsets[plane]
+    normal, moved = position / abs(position), changes @ row
+    along = 1j * normal * (np.conj(normal) * moved).imag / abs(position)
+    return amplitudes + lever * (normal - position), changes + np.outer(along - moved, lever)
+
+
+def _distance(rotor: Model, plane: int, bounce: np.ndarray) -> float:
+    """Distance from the onset of lasting contact of a chatter with a state at the beginning of one of its last bounces."""
+    position, velocity = rotor.system.at_plane(bounce, plane)
+    push, rate = wall_push(rotor.system.arrays, plane, bounce)
+    speed = -float((np.conj(position) * velocity).real)
+    # Where the force has vanished already, the bounce is one from which the rotor does not return.
+    ratio = -rate * speed / push**2 if push > 0.0 else NO_RETURN
+    return distance_from_onset(rotor.system.contacts[plane].restitution, push, ratio)
+
+
+def _interruption(rotor: Model, plane: int, bounces: EventLog) -> int | None:
+    """Last bounce but one of a chatter that is interrupted just before it is complete."""
+    position, velocity = rotor.system.at_planes(bounces.after, np.full(len(bounces.times), plane))
+    speeds = -(position.conj() * velocity).real
+    for k in np.flatnonzero((speeds < SLOW) & (bounces.planes == plane)).tolist():
+        push, rate = wall_push(rotor.system.arrays, plane, bounces.after[k])
+        if push <= 0.0 or -rate * speeds[k] > NO_RETURN * push * push:
+            return max(k - 1, 0)
+    return None
 
 
 def pack(start: Start) -> np.ndarray:
@@ -188,6 +271,42 @@ def unpack(unknowns: np.ndarray, segments: int) -> Start:
     rows = unknowns.reshape(segments, -1)
     modes = rows.shape[1] // 2
     return Start(rows[:, :modes] + 1j * rows[:, modes:-1], rows[:, -1].copy())
+
+
+def free_entries(lands: np.ndarray, width: int) -> np.ndarray:
+    """Which entries of :func:`pack` are unknowns, bool: not the node at which a chatter lands, nor its duration.
+
+    The duration of the contact after it then stands for that of both.
+
+    Parameters
+    ----------
+    lands : ndarray of bool, shape (m,)
+        Which segments are chatters.
+    width : int
+        Entries of a segment.
+    """
+    kept = np.ones((len(lands), width), bool)
+    kept[lands, -1] = False
+    kept[np.roll(lands, 1), :-1] = False
+    return kept.ravel()
+
+
+def pack_free(word: Word, start: Start) -> np.ndarray:
+    """The unknowns among the entries of :func:`pack`."""
+    lands = word.kinds == Kind.LAND
+    durations = start.durations + np.roll(np.where(lands, start.durations, 0.0), 1)
+    whole = pack(Start(start.nodes, durations))
+    free: np.ndarray = whole[free_entries(lands, len(whole) // len(word))]
+    return free
+
+
+def unpack_free(word: Word, unknowns: np.ndarray) -> Start:
+    """Nodes and durations from the unknowns of :func:`pack_free`; zero where they follow from a chatter."""
+    lands = word.kinds == Kind.LAND
+    width = len(unknowns) // (len(word) - int(lands.sum()))
+    whole = np.zeros(len(word) * width)
+    whole[free_entries(lands, width)] = unknowns
+    return unpack(whole, len(word))
 
 
 def converged(rotor: Model, word: Word, start: Start, known: Sequence[np.ndarray] = ()) -> Links | None:

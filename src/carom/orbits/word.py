@@ -92,7 +92,8 @@ class Word(Sequence[Segment]):
 
     ``impact+``, ``impact-`` and ``impact0`` are one impact with forward slip, with backward slip, or one that stops the
     slip, and the flight after it.  ``land`` is a chatter, from its first impact to lasting contact.  ``slide+``,
-    ``slide-`` and ``roll`` are lasting contact at one plane while no other touches, and ``lift`` is the flight after it.
+    ``slide-`` and ``roll`` are lasting contact at one plane while no other touches, and ``lift`` is the flight after it.  Sliding that
+    is followed by the same sliding ends where the normal force is least: ``slide-`` alone never leaves the wall.
 
     Attributes
     ----------
@@ -185,6 +186,8 @@ def _condition(segment: Segment, following: Segment) -> int:
         return segments.MEETS_WALL
     if segment.plane == following.plane and kind is Kind.LAND and after.lasts:
         return segments.NO_CONDITION
+    if segment == following and kind.lasts and kind is not Kind.ROLL:
+        return segments.LEAST_PUSH
     if segment.plane == following.plane and kind.lasts and kind is not after and not touches:
         if after is Kind.LIFT:
             return segments.NO_PUSH

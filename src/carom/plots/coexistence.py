@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -100,11 +101,8 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
         "rolling backward whirl": (_on_grid(diagram.rolling.values, diagram.rolling.holds, marks), []),
         "bouncing": _on_orbits(diagram.branches),
     }
-    for motion in diagram.rubbing:
-        stable, unstable = found.setdefault("bouncing with rub", ([], []))
-        for i in range(len(motion) - 1):
-            group = stable if motion.stable[i] and motion.stable[i + 1] else unstable
-            group.append(_interval(motion.values[i], motion.values[i + 1]))
+    if diagram.rubbing:
+        found["bouncing with rub"] = _on_orbits(diagram.rubbing)
     return found
 
 
@@ -125,7 +123,7 @@ def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[
     return steps
 
 
-def _on_orbits(branches: list[OrbitBranch]) -> tuple[list[Interval], list[Interval]]:
+def _on_orbits(branches: Sequence[OrbitBranch]) -> tuple[list[Interval], list[Interval]]:
     """Return the intervals of branches with stable and with unstable orbits; each has the look of its orbit."""
     stable: list[Interval] = []
     unstable: list[Interval] = []
