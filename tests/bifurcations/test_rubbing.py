@@ -12,6 +12,7 @@ from scipy.optimize import minimize_scalar
 from carom import find_orbits, simulate
 from carom.bifurcations import Bifurcation, OrbitBranch, Plane, continue_curve, continue_orbit, find_bifurcations
 from carom.models import Jeffcott
+from carom.motions import State
 from carom.orbits import lift_off_of, rubbing_orbits
 from carom.orbits.rubbing import lift_off_state
 from carom.outcome import InputError, Phase
@@ -170,6 +171,31 @@ def test_contact_becomes_permanent_where_a_steady_whirl_is_only_just_pressed_on(
     point = special(chatter, "permanent-contact")
     assert str(point.orbit.word) == "slide+"
     assert least_force_of_steady_whirl(point.value - 1e-9) < 0.0 < least_force_of_steady_whirl(point.value + 1e-9)
+
+
+@pytest.mark.jit_only
+def test_beyond_permanent_contact_the_whirl_does_not_leave_the_wall(chatter):
+    point = special(chatter, "permanent-contact")
+    branch = point.switch((0.23, 0.26))
+    assert str(branch.word) == "slide+"
+    above, below = branch.values > point.value + 1e-9, branch.values < point.value - 1e-9
+    assert branch.admissible[above].all()
+    assert not branch.admissible[below].any()
+    assert above.any()
+    assert below.any()
+    # It repels: one period of a simulation from the orbit itself stays on the wall, and comes back.
+    for shift, stays in ((1e-4, True), (-1e-4, False)):
+        (start,) = branch.points.starts_at(point.value + shift)
+        rotor = Jeffcott(CHATTERING.replace(gamma=point.value + shift))
+        position, velocity = start.nodes[0]
+        position /= abs(position)
+        turning = (np.conj(position) * velocity).imag
+        motion = simulate(rotor, State(position, 1j * turning * position), start.durations[0])
+        flying = motion.segment_phases[:, 0] == Phase.FLIGHT
+        aloft = float(np.diff(np.append(motion.segment_starts, motion.time))[flying].sum())
+        assert (aloft == 0.0) if stays else (aloft > 0.01)
+        if stays:
+            assert abs(motion.final.position - position) < 1e-9
 
 
 @pytest.mark.jit_only

@@ -177,7 +177,8 @@ def switched(
     """Branch that crosses or continues another at a special point.
 
     At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and where friction
-    begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the other slip.  Which of
+    begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the other slip.  Where contact becomes
+    permanent, it is that of the sliding that never leaves the wall.  Which of
     its orbits are motions, and on which side, :func:`~carom.bifurcations.examine_border` tells.
 
     Parameters
@@ -199,8 +200,8 @@ def switched(
     CaromError
         No orbit is found next to it.
     """
-    if kind not in ("period-doubling", *NEIGHBOURS):
-        raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(NEIGHBOURS)}")
+    if kind not in ("period-doubling", PERMANENT, *NEIGHBOURS):
+        raise InputError("special point", kind, f"a period doubling, {PERMANENT}, or one of: {', '.join(NEIGHBOURS)}")
     along = axis(orbit.rotor, parameter)
     value = along.value(orbit.rotor)
     ends = (value - BEYOND * abs(value), value + BEYOND * abs(value)) if interval is None else interval
@@ -210,7 +211,8 @@ def switched(
         doubled = np.tile(pack_free(orbit.word, orbit.links.start), 2)
         unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
     else:
-        word, start = neighbour(kind, orbit)
+        alone = orbit.word, Start(orbit.nodes, orbit.durations)
+        word, start = alone if kind == PERMANENT else neighbour(kind, orbit)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 
