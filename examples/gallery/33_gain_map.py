@@ -3,7 +3,7 @@
 ===============================
 
 The share of kicks that comes back, over stiffness (P gain) and damping (D gain).  The arrow is the least change found that brings back
-99 %.
+98 %.
 """
 
 import carom as cm
@@ -14,5 +14,6 @@ sample = cm.disturbances.Sample(kicks, 200, seed=1)
 ranges = (("5e5 N/m", "2e6 N/m"), ("700 N s/m", "5000 N s/m"))
 gains = cm.map_gains(machine, sample, ranges=ranges, shape=(10, 10))
 change = cm.basins.least_gain_change(gains, 0.98)
-print(change.values, change.share.words)
+stiffness, damping = change.values
+print(f"{stiffness:,.0f} N/m and {damping:,.0f} N s/m: {change.share.words}")
 figure = gains.plot(change)
