@@ -9,19 +9,28 @@ from typing import ClassVar
 import numpy as np
 
 from carom.models import Model
+from carom.motions.ensembles import settle
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.names import CountedName
 from carom.orbits.orbit import Orbit, OrbitSequence, orbit_of_links, same_orbit
-from carom.orbits.recognising import segments_of
+from carom.orbits.recognising import orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, converged, pack
 from carom.orbits.word import Word
-from carom.outcome import InputError
+from carom.outcome import InputError, Outcome
 from carom.progress import Reporter
 from carom.results import Result, in_a_line
 
 STARTS = 100
 """Default number of starts."""
+SETTLED = 200
+"""Motions for each start that are followed in an ensemble until they settle, for orbits that attract few starts."""
+SLOWER = 50
+"""The same number is divided by this for rotors whose motions are not followed side by side."""
+GIVEN_UP = 1000
+"""Impacts after which such a motion is given up."""
+ENDS = 200
+"""Most ends of such motions, different ones, that are closed to orbits."""
 FOLLOWED = 300
 """Impacts of each simulated motion."""
 LONGEST = 1000.0
@@ -30,6 +39,8 @@ GUESSES = 4
 """Stretches of each motion that Newton's method begins from: those that come back closest to where they began."""
 FASTEST = 1.5
 """Velocities of the starts, in ``c_r Ω``, are up to this."""
+KIND = 3
+"""Decimals to which the states of ends must agree to count as one."""
 NEAR = 1e-4
 """Relative distance from a known orbit below which a stretch is not tried."""
 SAME = 1e-7
@@ -50,8 +61,10 @@ class FoundOrbits(Result, OrbitSequence):
         Admissible ones, stable or not, the shortest period first.
     virtual : int
         Number of solutions that are not motions of the machine.
+    settled : int
+        Number of motions that were followed until they settled; the orbits on which these end come first.
     starts : int
-        Number of motions that were simulated.
+        Number of further motions that were simulated.
     guesses : int
         Number of stretches of them from which Newton's method was begun.
     repeats : int
@@ -68,6 +81,7 @@ class FoundOrbits(Result, OrbitSequence):
     impacts: int
     members: tuple[Orbit, ...]
     virtual: int
+    settled: int
     starts: int
     guesses: int
     repeats: int
@@ -85,17 +99,20 @@ class FoundOrbits(Result, OrbitSequence):
     @property
     def argument(self) -> str:
         """How much was searched, in one sentence."""
+        newest = (
+            f"the last new orbit came from start {self.last_new}" if self.last_new else "none led to a further orbit"
+        )
         return (
-            f"Found by a search, which proves nothing: {self.starts} simulated starts gave {self.guesses} guesses for Newton's method, "
-            f"of which {self.repeats} led to known orbits and {self.failures} to none; the last new orbit came from start "
-            f"{self.last_new}; {self.virtual} solutions found are not motions."
+            f"Found by a search, which proves nothing: {self.settled} motions were followed until they settled; {self.starts} "
+            f"simulated starts gave {self.guesses} guesses for Newton's method, of which {self.repeats} led to known orbits "
+            f"and {self.failures} to none; {newest}; {self.virtual} solutions found are not motions."
         )
 
 
 def search_orbits(rotor: Model, impacts: int, starts: int, seed: int, tell: Reporter) -> FoundOrbits:
     """Search orbits with a number of impacts a period.
 
-    From each start a motion is simulated.  Stretches of so many impacts that nearly come back to where they began are
+    Motions of an ensemble are followed until they settle; the orbits on which they end are closed.  Then, from each start a motion is simulated.  Stretches of so many impacts that nearly come back to where they began are
     corrected by Newton's method.  Known solutions are deflated, so that the iteration leads to others.
 
     Raises
@@ -107,6 +124,8 @@ def search_orbits(rotor: Model, impacts: int, starts: int, seed: int, tell: Repo
         if number < 1:
             raise InputError(name, number, "a whole number of at least 1")
     search = _Search(rotor, impacts)
+    settled = starts * SETTLED // (1 if rotor.system.is_planar else SLOWER)
+    search.settle(settled, np.random.default_rng([seed, 1]))
     random = np.random.default_rng(seed)
     for start in range(1, starts + 1):
         search.look_through(start, _followed(rotor, random_start(rotor, random)))
@@ -117,7 +136,16 @@ def search_orbits(rotor: Model, impacts: int, starts: int, seed: int, tell: Repo
     )
     virtual = len(search.found) - len(members)
     return FoundOrbits(
-        rotor, impacts, members, virtual, starts, search.guesses, search.repeats, search.failures, search.last_new
+        rotor,
+        impacts,
+        members,
+        virtual,
+        settled,
+        starts,
+        search.guesses,
+        search.repeats,
+        search.failures,
+        search.last_new,
     )
 
 
@@ -137,22 +165,28 @@ def _followed(rotor: Model, start: State) -> Trajectory:
 
 def random_start(rotor: Model, random: np.random.Generator) -> State:
     """State with random coordinates inside all walls, and random velocities."""
+    positions, velocities = random_starts(rotor, random, 1)
+    return State.of(positions[0], velocities[0])
+
+
+def random_starts(rotor: Model, random: np.random.Generator, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Random positions inside all walls and random velocities, complex, shape (count,) or, for n > 1 coordinates, (count, n)."""
     system = rotor.system
-    n = len(system.rest)
-    directions = random.normal(size=(2, n, 2)) @ [1.0, 1j]
-    share, speed = np.sqrt(random.uniform()), FASTEST * np.sqrt(random.uniform())
-    arrays = system.arrays
+    arrays, n = system.arrays, len(system.rest)
+    directions = random.normal(size=(count, 2, n, 2)) @ [1.0, 1j]
+    shares, speeds = np.sqrt(random.uniform(size=count)), FASTEST * np.sqrt(random.uniform(size=count))
 
-    def reach(size: float) -> float:
-        states = np.concatenate([size * directions[0], np.zeros(n)])[None]
-        amplitudes = system.amplitudes_of(states)[0]
-        return float(np.abs(arrays.rows @ amplitudes + arrays.offsets).max())
+    def reach(sizes: np.ndarray) -> np.ndarray:
+        states = np.concatenate([sizes[:, None] * directions[:, 0], np.zeros((count, n))], axis=1)
+        radii: np.ndarray = np.abs(system.amplitudes_of(states) @ arrays.rows.T + arrays.offsets).max(axis=1)
+        return radii
 
-    size = share / reach(1.0)
-    while reach(size) > 1.0:
-        size *= 0.5
-    velocity = speed * directions[1] / np.abs(directions[1]).max()
-    return State.of(size * directions[0], velocity) if n > 1 else State(size * directions[0][0], velocity[0])
+    sizes = shares / reach(np.ones(count))
+    while (far := reach(sizes) > 1.0).any():
+        sizes = np.where(far, 0.5 * sizes, sizes)
+    positions = sizes[:, None] * directions[:, 0]
+    velocities = (speeds / np.abs(directions[:, 1]).max(axis=1))[:, None] * directions[:, 1]
+    return (positions, velocities) if n > 1 else (positions[:, 0], velocities[:, 0])
 
 
 def _is_among(unknowns: np.ndarray, known: Sequence[np.ndarray], within: float) -> bool:
@@ -168,6 +202,22 @@ class _Search:
         self.found: list[Orbit] = []
         self.known: dict[Word, list[np.ndarray]] = {}
         self.guesses = self.repeats = self.failures = self.last_new = 0
+
+    def settle(self, count: int, random: np.random.Generator) -> None:
+        """Close the orbits on which motions from random starts end."""
+        ends = settle(self.rotor, *random_starts(self.rotor, random, count), patience=GIVEN_UP, max_events=GIVEN_UP)
+        ends = ends[(ends.outcomes == Outcome.BOUNCING) & (ends.multiplicities == self.impacts)]
+        if not len(ends.times):
+            return
+        states = np.stack([ends.positions, ends.velocities], axis=1).reshape(len(ends.times), -1)
+        _, different = np.unique(states.round(KIND), axis=0, return_index=True)
+        for place in different[:ENDS]:
+            start = State.of(ends.positions[place], ends.velocities[place])
+            orbit = orbit_of_motion(simulate(self.rotor, start, settle=True))
+            if orbit is None or orbit.impacts != self.impacts or any(same_orbit(orbit, other) for other in self.found):
+                continue
+            self.found.append(orbit)
+            self._remember(orbit.word, Start(orbit.nodes, orbit.durations))
 
     def look_through(self, start: int, motion: Trajectory) -> None:
         """Correct the stretches of the motion from a start that come back closest."""

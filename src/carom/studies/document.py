@@ -56,7 +56,7 @@ def orbits_document(
 
 def found_orbits_document(parameters: Parameters, found: FoundOrbits) -> dict[str, Any]:
     """Return the document of a search for orbits with a number of impacts."""
-    searched = fields_of(found, "starts", "guesses", "repeats", "failures", "last_new", "virtual")
+    searched = fields_of(found, "settled", "starts", "guesses", "repeats", "failures", "last_new", "virtual")
     return {
         "parameters": parameters.as_dict(),
         "impacts": found.impacts,
