@@ -171,8 +171,8 @@ def test_figures_of_one_column(read):
     upper, lower = (axes.get_position() for axes in narrow.axes[:2])
     assert upper.y0 > lower.y1
     assert narrow.get_suptitle().split("\n") == [
-        "a machine: damping 1,400 N s/m,",
-        "stiffness 980,000 N/m, speed 1,759 rpm",
+        "a machine: damping 1,400 N s/m, stiffness 980,000 N/m,",
+        "speed 1,759 rpm",
         "a motion",
     ]
     narrow.canvas.draw()
