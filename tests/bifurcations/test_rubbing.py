@@ -199,6 +199,30 @@ def test_beyond_permanent_contact_the_whirl_does_not_leave_the_wall(chatter):
 
 
 @pytest.mark.jit_only
+def test_beyond_the_onset_the_chatter_becomes_many_impacts(chatter):
+    point = special(chatter, "contact-onset")
+    branch = point.switch((point.value * (1.0 - 2e-5), point.value * (1.0 + 2e-5)))
+    assert branch.word.flies
+    assert branch.impacts > 10
+    real = branch.admissible
+    assert real.any()
+    assert branch.values[real].max() < point.value
+    for orbit in [each for each, there in zip(branch.orbits, real, strict=True) if there][:: sized(9, 9, 3)]:
+        # The same motion goes on: its period is continuous.
+        assert orbit.period == pytest.approx(point.period, abs=1e-3)
+        # It is what the simulation does: so many impacts a period, without lasting contact.
+        motion = simulate(orbit.rotor, orbit.departure, 1.0001 * orbit.period)
+        assert (motion.segment_phases == Phase.FLIGHT).all()
+        assert int(motion.is_impact.sum()) == branch.impacts
+    # The multiplier passes through that of the onset; where an impact vanishes it grows without bound.
+    leaders = branch.multipliers[real, 0].real
+    onset = point.orbit.multipliers.values[0].real
+    assert leaders.min() < onset < leaders.max()
+    assert leaders.min() == pytest.approx(onset, rel=0.05)
+    assert [each.kind for each in branch.special] == ["vanishing-impact", "period-doubling"]
+
+
+@pytest.mark.jit_only
 def test_contact_shrinks_towards_the_onset(chatter):
     lifts = [lift_off_of(orbit) for orbit in chatter.orbits]
     assert lifts[0].contact_time < 1e-5 < 0.01 < lifts[len(chatter) // 2].contact_time

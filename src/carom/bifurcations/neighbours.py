@@ -7,9 +7,13 @@ from collections.abc import Callable
 import numpy as np
 
 from carom.core.margins import highest_point
+from carom.models import Model
+from carom.motions.starts import State
+from carom.motions.trajectories import simulate
 from carom.orbits.admissibility import SLIPS, departure
 from carom.orbits.orbit import Orbit
-from carom.orbits.shooting import Start
+from carom.orbits.recognising import segments_of
+from carom.orbits.shooting import Links, Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import InputError
 
@@ -32,6 +36,41 @@ def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
     if kind not in NEIGHBOURS:
         raise InputError("border", kind, f"one of {', '.join(NEIGHBOURS)}: no orbit is constructed beyond others")
     return NEIGHBOURS[kind](orbit)
+
+
+def interrupted(rotor: Model, word: Word, links: Links) -> tuple[Word, Start] | None:
+    """The impacts that a chatter becomes beyond the onset of lasting contact, read from a simulated period.
+
+    How many they are grows with the logarithm of the distance from the onset.
+
+    Parameters
+    ----------
+    rotor : Model
+        Beyond the onset.
+    word : Word
+        A lift-off, a chatter, and lasting contact.
+    links : Links
+        Its segments there, with the interrupted chatter.
+
+    Returns
+    -------
+    tuple or None
+        ``None`` for another word, or if the simulated motion does anything but strike.
+    """
+    lifts = np.flatnonzero(word.kinds == Kind.LIFT)
+    if len(word) != 3 or len(lifts) != 1:
+        return None
+    nodes, durations = links.start
+    flight, period = float(durations[lifts[0]]), float(durations.sum())
+    position, velocity = rotor.system.state(rotor.system.amplitudes_of(nodes[lifts])[0])
+    start = State.of(position / abs(position), velocity)
+    motion = simulate(rotor, start, period + 1.5 * flight)
+    times = motion.segment_starts[1:]
+    first = int(np.searchsorted(times, 0.5 * flight))
+    last = int(np.searchsorted(times, 0.5 * flight + period))
+    if last >= len(times) or not motion.is_impact[first : last + 1].all():
+        return None
+    return segments_of(motion, first, last)
 
 
 def _with_impact(orbit: Orbit) -> tuple[Word, Start]:

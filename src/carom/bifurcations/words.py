@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact, passing
-from carom.bifurcations.neighbours import NEIGHBOURS, neighbour
+from carom.bifurcations.neighbours import NEIGHBOURS, interrupted, neighbour
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.word_equations import FAR, LYING, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
@@ -24,7 +24,7 @@ from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Links, Start, converged, links_of, pack_free, unpack
 from carom.orbits.word import Kind, Word
-from carom.outcome import InputError
+from carom.outcome import CaromError, InputError
 from carom.parameters import Numbers
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
@@ -32,7 +32,9 @@ BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "permane
 """Special points at which the word of a motion changes."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
-PERMANENT = "permanent-contact"
+ONSET, PERMANENT = "contact-onset", "permanent-contact"
+BESIDE_ONSET = 1e-5
+"""Distance from the onset of lasting contact, relative to the parameter, at which the impacts of an interrupted chatter are counted."""
 NEARBY = 0.02
 """Range in which permanent contact is searched beyond the last orbit whose flight is followed, in sizes of the parameter."""
 BEYOND = 0.2
@@ -178,7 +180,8 @@ def switched(
 
     At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and where friction
     begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the other slip.  Where contact becomes
-    permanent, it is that of the sliding that never leaves the wall.  Which of
+    permanent, it is that of the sliding that never leaves the wall.  At the onset of lasting contact it is that of the many impacts which the
+    interrupted chatter has at a small distance; the closer, the more they are.  Which of
     its orbits are motions, and on which side, :func:`~carom.bifurcations.examine_border` tells.
 
     Parameters
@@ -200,8 +203,9 @@ def switched(
     CaromError
         No orbit is found next to it.
     """
-    if kind not in ("period-doubling", PERMANENT, *NEIGHBOURS):
-        raise InputError("special point", kind, f"a period doubling, {PERMANENT}, or one of: {', '.join(NEIGHBOURS)}")
+    known = (ONSET, PERMANENT, *NEIGHBOURS)
+    if kind not in ("period-doubling", *known):
+        raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(known)}")
     along = axis(orbit.rotor, parameter)
     value = along.value(orbit.rotor)
     ends = (value - BEYOND * abs(value), value + BEYOND * abs(value)) if interval is None else interval
@@ -210,11 +214,30 @@ def switched(
         family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
         doubled = np.tile(pack_free(orbit.word, orbit.links.start), 2)
         unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
+    elif kind == ONSET:
+        word, start, present = _beyond_onset(orbit, along, limits)
+        family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
         alone = orbit.word, Start(orbit.nodes, orbit.durations)
         word, start = alone if kind == PERMANENT else neighbour(kind, orbit)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
+
+
+def _beyond_onset(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Word, Start, float]:
+    """Orbit of impacts beyond the onset of lasting contact, and the parameter there."""
+    value = along.value(orbit.rotor)
+    for side in (-1, 1):
+        there = value + side * BESIDE_ONSET * abs(value)
+        if not limits[0] <= there <= limits[1]:
+            continue
+        rotor = along.move(orbit.rotor, there)
+        links = converged(rotor, orbit.word, Start(orbit.nodes, orbit.durations))
+        read = interrupted(rotor, orbit.word, links) if links is not None and (links.landings < 0.0).any() else None
+        found = orbit_near(rotor, *read) if read is not None else None
+        if found is not None:
+            return found.word, Start(found.nodes, found.durations), there
+    raise CaromError("no orbit of impacts was found beyond the onset of lasting contact")
 
 
 def _alternating(word: Word, links: Links) -> np.ndarray:
