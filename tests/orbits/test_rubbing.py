@@ -9,6 +9,8 @@ from carom import find_orbits, simulate
 from carom.models import Jeffcott
 from carom.orbits import lift_off_of, rubbing_orbits
 from carom.orbits.rubbing import lift_off_state
+from carom.orbits.shooting import Start, links_of, pack_free, unpack_free
+from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, Phase
 from tests.bifurcations.test_rubbing import CHATTERING
 from tests.machines import PAPER
@@ -43,3 +45,28 @@ def test_what_is_told_of_a_lift_off_is_what_the_simulation_does():
     assert abs(state.velocity - motion.start.velocity) < 1e-9
     with pytest.raises(CaromError, match="never lifts off"):
         lift_off_of(find_orbits(PAPER)["B1,d"])
+
+
+@pytest.mark.jit_only
+def test_derivatives_are_those_of_differences():
+    """Of the equations from a lift-off to the next, and of those of sliding that never leaves the wall, away from an orbit."""
+    (orbit,) = rubbing_orbits(CHATTERING)
+    step = 1e-6
+    alone = Word.of(Kind.SLIDE_FORWARD)
+    starts = {
+        orbit.word: Start(orbit.nodes, orbit.durations),
+        alone: Start(orbit.nodes[orbit.word.kinds == Kind.LIFT], np.array([3.0])),
+    }
+    for word, start in starts.items():
+        unknowns = pack_free(word, start)
+        unknowns += 1e-3 * np.sin(np.arange(len(unknowns)))
+
+        def left_sides(at: np.ndarray, word: Word = word) -> tuple[np.ndarray, np.ndarray]:
+            return links_of(orbit.rotor, word, unpack_free(word, at)).reduced
+
+        changes = step * np.eye(len(unknowns))
+        expected = np.array(
+            [(left_sides(unknowns + c)[0] - left_sides(unknowns - c)[0]) / (2.0 * step) for c in changes]
+        )
+        # Third derivatives of about 1e2 times the square of the step, and rounding of 1e-14 over the step.
+        assert np.abs(left_sides(unknowns)[1] - expected.T).max() < 1e-7

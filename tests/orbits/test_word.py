@@ -26,6 +26,8 @@ def test_each_condition_follows_from_the_next_segment():
     word = Word.of(Kind.ROLL, Kind.SLIDE_BACKWARD, Kind.SLIDE_FORWARD)
     assert word.conditions.tolist() == [segments.CONE_BACKWARD, segments.NO_SLIP, segments.NO_SLIP]
     assert Word.of(Kind.SLIDE_FORWARD, Kind.ROLL).conditions.tolist() == [segments.NO_SLIP, segments.CONE_FORWARD]
+    # Sliding that never leaves the wall.
+    assert Word.of(Kind.SLIDE_FORWARD).conditions.tolist() == [segments.LEAST_PUSH]
 
 
 def test_an_impact_is_awaited_at_its_own_plane():
@@ -34,7 +36,7 @@ def test_an_impact_is_awaited_at_its_own_plane():
 
 
 @pytest.mark.parametrize(
-    "kinds", [(), (Kind.SLIDE_FORWARD,), (Kind.LIFT,), (Kind.IMPACT_FORWARD, Kind.ROLL), (Kind.LAND, Kind.LIFT)]
+    "kinds", [(), (Kind.ROLL,), (Kind.LIFT,), (Kind.IMPACT_FORWARD, Kind.ROLL), (Kind.LAND, Kind.LIFT)]
 )
 def test_impossible_words_are_refused(kinds):
     with pytest.raises(InputError, match="word"):
