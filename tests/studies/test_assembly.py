@@ -310,7 +310,7 @@ def test_the_machine_is_shown_with_what_it_was_given_by():
 
     rows = {row.words: (row.value, row.given) for row in machine_rows(case)}
 
-    assert rows["eccentricity of the unbalance"] == ("0.002 mm", "unbalance = 100 g mm, mass = 50 kg")
+    assert rows["eccentricity of the unbalance"] == ("2 µm", "unbalance = 100 g mm, mass = 50 kg")
     assert rows["damping of the levitation"] == ("921 N s/m", "gamma = 0.1")
     assert rows["rotor mass"] == ("50 kg", "50 kg")
     assert rows["number of equal bearings"] == ("1", "not given")
