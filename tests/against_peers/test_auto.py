@@ -52,9 +52,8 @@ def test_branch_of_two_impacts_has_the_folds_and_period_doublings_of_auto(tmp_pa
     rows = zip(start.nodes, start.durations, strict=True)
     unknowns = [float(x) for (u, v), time in rows for x in (u.real, u.imag, v.real, v.imag, time)]
     theirs = special_points(PAPER.replace(gamma=0.083), unknowns, (0.078, 0.09), tmp_path)
-    # Its branch turns where the period is halved, which is a fold of the algebraic equations.
+    # Its branch turns where the period is halved: a fold of the algebraic equations, which it reports or not by rounding.
     folds = [value for value in theirs["fold"] if abs(value - doubling.value) > 1e-6]
-    assert len(folds) == len(theirs["fold"]) - 1
     for kind, values in (("fold", folds), ("period-doubling", theirs["period-doubling"])):
         ours = sorted(special.value for special in doubled.special if special.kind == kind)
         assert len(ours) == 2
