@@ -83,9 +83,9 @@ class FamilyPoint:
 
 def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | None:
     """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
-    start, chatters = unpack_free(word, unknowns), word.kinds == Kind.LAND
+    start = unpack_free(word, unknowns)
     # The contact after a chatter may vanish: lasting contact begins there.
-    if (start.durations[~(chatters | np.roll(chatters, 1))] < SHORTEST).any():
+    if (start.durations[~(word.lands | word.landed)] < SHORTEST).any():
         return None
     links = links_of(rotor, word, start)
     return FamilyPoint(rotor, word, links) if np.isfinite(links.size) else None
@@ -104,6 +104,8 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
     "cone-limit": lambda point: point.margins.cone,
 }
 """Functions that vanish at special points; not finite where they are not defined."""
+OF_CONTACT = ("contact-onset", "permanent-contact", "cone-limit")
+"""Those of words with lasting contact alone."""
 
 
 class Family:
@@ -209,7 +211,9 @@ class Family:
 
             return Watch(kind, value, ends_branch=kind == "contact-onset")
 
-        watched = [watch(kind) for kind in TESTS if kind != "fold"]  # the continuation finds folds itself
+        # The continuation finds folds itself.
+        left_out = {"fold", *(OF_CONTACT if self.word.flies else ())}
+        watched = [watch(kind) for kind in TESTS if kind not in left_out]
         if not virtual:
             watched.append(Watch(FAR, self._nearness, ends_branch=True))
         lifts = self.word.kinds == Kind.LIFT

@@ -267,7 +267,9 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
             tops = [highest_point(arrays, p, after, float(links.start.durations[i]))[0] for p in range(len(contacts))]
             heights += [top for top in tops if not np.isnan(top)]
     rests = np.array([segment.kind.lasts for segment in word])
-    push = np.where(np.roll(links.landings, 1) < 0.0, np.roll(links.landings, 1), push)
+    if word.lands.any():
+        begins = np.roll(links.landings, 1)
+        push = np.where(begins < 0.0, begins, push)
     return Margins(
         radius=-max(heights, default=-np.inf),
         approach=float(radial[~rests & (word.kinds != Kind.LIFT)].min(initial=np.inf)),

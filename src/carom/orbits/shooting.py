@@ -102,7 +102,7 @@ class Links:
         whole = np.zeros((m, n, m, n))
         places, states = np.arange(m), np.arange(n - 1)
         whole[places, :, places, :] = self.slopes
-        whole[places[:, None], states, np.roll(places, -1)[:, None], states] -= 1.0
+        whole[places[:, None], states, (places[:, None] + 1) % m, states] -= 1.0
         return whole.reshape(m * n, m * n)
 
     @property
@@ -163,7 +163,7 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
     landings = np.full(m, np.inf)
     if not word.flies:
         nodes, durations = nodes.copy(), durations.copy()
-        for i in np.flatnonzero(word.kinds == Kind.LAND).tolist():
+        for i in np.flatnonzero(word.lands).tolist():
             time, landings[i] = _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], slopes[i])
             values[i] = 0.0 if np.isfinite(time) else np.nan
             if np.isfinite(time):
@@ -293,19 +293,21 @@ def free_entries(lands: np.ndarray, width: int) -> np.ndarray:
 
 def pack_free(word: Word, start: Start) -> np.ndarray:
     """The unknowns among the entries of :func:`pack`."""
-    lands = word.kinds == Kind.LAND
-    durations = start.durations + np.roll(np.where(lands, start.durations, 0.0), 1)
+    if word.flies:
+        return pack(start)
+    durations = start.durations + np.roll(np.where(word.lands, start.durations, 0.0), 1)
     whole = pack(Start(start.nodes, durations))
-    free: np.ndarray = whole[free_entries(lands, len(whole) // len(word))]
+    free: np.ndarray = whole[free_entries(word.lands, len(whole) // len(word))]
     return free
 
 
 def unpack_free(word: Word, unknowns: np.ndarray) -> Start:
     """Nodes and durations from the unknowns of :func:`pack_free`; zero where they follow from a chatter."""
-    lands = word.kinds == Kind.LAND
-    width = len(unknowns) // (len(word) - int(lands.sum()))
+    if word.flies:
+        return unpack(unknowns, len(word))
+    width = len(unknowns) // (len(word) - int(word.lands.sum()))
     whole = np.zeros(len(word) * width)
-    whole[free_entries(lands, width)] = unknowns
+    whole[free_entries(word.lands, width)] = unknowns
     return unpack(whole, len(word))
 
 

@@ -159,6 +159,17 @@ class Word(Sequence[Segment]):
         return np.fromiter((segment.kind for segment in self), np.int64, len(self))
 
     @cached_property
+    def lands(self) -> np.ndarray:
+        """Which segments are chatters, bool, shape (m,)."""
+        chatters: np.ndarray = self.kinds == Kind.LAND
+        return chatters
+
+    @cached_property
+    def landed(self) -> np.ndarray:
+        """Which segments follow a chatter, bool, shape (m,)."""
+        return np.roll(self.lands, 1)
+
+    @cached_property
     def planes(self) -> np.ndarray:
         """Contact planes, shape (m,)."""
         return np.fromiter((segment.plane for segment in self), np.int64, len(self))
