@@ -190,3 +190,48 @@ def test_the_doubled_branch_of_three_impacts_is_found():
     assert branch.word.impacts == 6
     assert "period-halving" in branch.stops
     assert len(doubled().word) == 2
+
+
+# ------------------------------------------------------------------------------------------- grazing of strong losses
+
+INELASTIC = PAPER.replace(omega=0.2813, rho=0.2732, mu=0.0773, d=0.0854, radius_ratio=4.16)
+"""It loses nearly all speed at an impact, and its orbits of one impact graze without a jump."""
+
+
+@cache
+def grazing_of(gamma: float, along: str, low: float, high: float) -> Bifurcation:
+    (orbit,) = [each for each in find_orbits(INELASTIC.replace(gamma=gamma)) if each.admissible and each.stable]
+    (point,) = [
+        each for each in continue_orbit(orbit, along, (low, high)).special if each.kind == "grazing" and each.admissible
+    ]
+    return point
+
+
+@cache
+def band() -> Border:
+    return examine_border(grazing_of(0.0652, "gamma", 0.06, 0.07))
+
+
+def test_a_band_of_chaos_begins_at_a_grazing():
+    found = band()
+    assert found.verdict == "chaotic band"
+    assert "a band of chaos that begins there" in found.words
+    # The size of the band is the square root of the distance, which falls by a quarter.
+    sizes = np.array(found.departures)
+    assert sizes[1:] / sizes[:-1] == pytest.approx(0.5, abs=0.02)
+    assert all(value > 3.0 * error > 0.0 for value, error in found.exponents)
+
+
+def test_fresh_motions_in_the_band_stay_irregular_and_part_from_each_other():
+    """Other distances than those of the examination; how motions part is seen without any derivative."""
+    point, side, rng = band().point, -band().inside, np.random.default_rng(5)
+    for distance in (1e-7, 6e-7, 1.7e-6):
+        rotor = Jeffcott(INELASTIC.replace(gamma=point.value + side * distance))
+        before, push, speeds = point.orbit.departure, 1.0 + 1e-6 * rng.uniform(), []
+        for pushed in (push, push * (1.0 + 1e-10)):
+            motion = simulate(rotor, State(before.position, before.velocity * pushed), settle=True, patience=4000)
+            assert (motion.outcome, motion.multiplicity) == (Outcome.BOUNCING, 0)
+            speeds.append(motion.contacts.radial_speed[:4000])
+        size = np.ptp(speeds[0][2000:])
+        assert np.abs(speeds[0] - speeds[1])[:3].max() < 1e-6 * size
+        assert np.abs(speeds[0] - speeds[1])[2000:].max() > 0.1 * size

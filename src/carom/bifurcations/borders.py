@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -13,10 +13,11 @@ from carom.models import Model
 from carom.models.axes import axis
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
+from carom.orbits.exponents import CONFIDENT, lyapunov_exponents
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
 from carom.orbits.word import Word
-from carom.outcome import Outcome
+from carom.outcome import CaromError, Outcome
 from carom.results import Result
 
 STEPS = (4e-5, 1e-5, 2.5e-6)
@@ -34,7 +35,10 @@ STAYS = 0.85
 LARGEST_STEP, LEAST_JUMP = 0.3, 0.01
 """Distance above which even a shrinking one is not called small, and below which one that stays is not called a jump."""
 
-Verdict = Literal["continuous", "jump", "undecided", "unstable"]
+MEASURED = 4000
+"""Impacts over which the exponent of an irregular motion is measured."""
+
+Verdict = Literal["continuous", "chaotic band", "jump", "undecided", "unstable"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,6 +63,8 @@ class Border(Result):
     departures : tuple of float
         How far from the orbit on the border the impacts of motions are that were started beside it at these distances outside;
         infinite for motions that no longer bounce.  Empty if the orbit is unstable or has no outside.
+    exponents : tuple of (float, float)
+        Largest Lyapunov exponent across each of these motions that is irregular, and its standard error; ``nan`` for the others.
     """
 
     point: Bifurcation
@@ -67,6 +73,7 @@ class Border(Result):
     neighbours: tuple[Orbit | None, Orbit | None]
     distances: tuple[float, ...]
     departures: tuple[float, ...]
+    exponents: tuple[tuple[float, float], ...]
 
     @property
     def beyond(self) -> Orbit | None:
@@ -82,7 +89,8 @@ class Border(Result):
     def verdict(self) -> Verdict:
         """What simulated motions did when the orbit ceased to be a motion.
 
-        ``"continuous"``: they stay near, the nearer the smaller the distance; ``"jump"``: they go away at all distances;
+        ``"continuous"``: they stay near, the nearer the smaller the distance; ``"chaotic band"``: they do so and are irregular at all
+        distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances;
         ``"unstable"``: the orbit is unstable on its own side, so that no motion can be followed from it.
         """
         if not self.departures:
@@ -92,7 +100,8 @@ class Border(Result):
             return "jump" if not np.isfinite(self.departures).any() else "undecided"
         ratios = [b / a for a, b in zip(self.departures, nearer, strict=False) if a > 0.0]
         if far < LARGEST_STEP and ratios and max(ratios) < SHRINKS:
-            return "continuous"
+            chaotic = all(value > CONFIDENT * error for value, error in self.exponents)
+            return "chaotic band" if chaotic else "continuous"
         return "jump" if min(self.departures) > LEAST_JUMP and min(ratios) > STAYS else "undecided"
 
     @property
@@ -110,6 +119,8 @@ class Border(Result):
                 told += f", and one ({_stability(self.alongside)}) on the same side: both end there"
         seen = {
             "continuous": "Simulated motions beyond it stay near, the nearer the closer to it: a continuous transition.",
+            "chaotic band": "Simulated motions beyond it stay near, the nearer the closer to it, and are irregular with a positive "
+            "exponent: a band of chaos that begins there.",
             "jump": "Simulated motions beyond it go away from it at all three distances: a jump.",
             "unstable": "The orbit is unstable, so no motion was followed across.",
             "undecided": "Simulated motions beyond it do not decide between a continuous transition and a jump.",
@@ -122,6 +133,10 @@ class Border(Result):
             ("found", self.words),
             ("distances", ", ".join(f"{each:.3g}" for each in self.distances)),
             ("departures", ", ".join(f"{each:.3g}" for each in self.departures) or "none followed"),
+            (
+                "exponents",
+                ", ".join(f"{value:.3g} ± {error:.1g}" for value, error in self.exponents) or "none measured",
+            ),
         ]
 
 
@@ -159,24 +174,38 @@ def examine_border(point: Bifurcation) -> Border:
     neighbours = near(-1, distances[-1], word, start), near(1, distances[-1], word, start)
     sides = [side for side, found in own.items() if found is not None]
     inside = sides[0] if len(sides) == 1 else 0
-    departures: tuple[float, ...] = ()
+    followed: tuple[_Followed, ...] = ()
     held = own.get(inside)
     if held is not None and held.stable:
         contacts = np.concatenate([orbit.nodes, start.nodes])
-        departures = tuple(_departure(orbit, contacts, at(-inside, distance)) for distance in distances)
-    return Border(point, inside, word, neighbours, distances, departures)
+        followed = tuple(_follow(orbit, contacts, at(-inside, distance)) for distance in distances)
+    departures, exponents = tuple(each.departure for each in followed), tuple(each.exponent for each in followed)
+    return Border(point, inside, word, neighbours, distances, departures, exponents)
 
 
-def _departure(orbit: Orbit, contacts: np.ndarray, rotor: Model) -> float:
-    """Largest distance of the last impacts of a motion from the contacts of the orbit beside which it starts."""
+class _Followed(NamedTuple):
+    """A motion that starts beside an orbit: where its last impacts are, and how fast motions beside it part."""
+
+    departure: float
+    exponent: tuple[float, float] = (np.nan, np.nan)
+
+
+def _follow(orbit: Orbit, contacts: np.ndarray, rotor: Model) -> _Followed:
+    """Largest distance of the last impacts of a motion from the contacts of the orbit beside which it starts, and its exponent."""
     before = orbit.departure
     start = State(before.position, before.velocity * (1.0 + BESIDE))
     motion: Trajectory = simulate(rotor, start, settle=True, patience=PATIENCE)
     if motion.outcome not in (Outcome.BOUNCING, Outcome.MIXED):
-        return np.inf
+        return _Followed(np.inf)
     states = motion.rotor.system.states_of(motion.arrivals[motion.is_impact][-LATEST:])
     apart: np.ndarray = np.abs(states[:, None] - contacts).max(axis=2).min(axis=1)
-    return float(apart.max())
+    departure = float(apart.max())
+    if motion.multiplicity or departure > LARGEST_STEP:
+        return _Followed(departure)
+    try:
+        return _Followed(departure, lyapunov_exponents(rotor, motion.final, MEASURED).across)
+    except CaromError:  # its segments cannot be repeated to eight digits, or it stops hitting the wall
+        return _Followed(departure)
 
 
 def _stability(orbit: Orbit) -> str:
