@@ -35,12 +35,13 @@ def number(value: object, digits: int = 10) -> str:
 
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[object]], digits: int = 10) -> Markdown:
-    """A Markdown table.  Vertical bars in the entries are escaped."""
-    lines = ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings)]
-    for row in rows:
-        entries = (number(entry, digits).replace("|", "\\|").replace("\n", " ") for entry in row)
-        lines.append("| " + " | ".join(entries) + " |")
-    return Markdown("\n".join(lines))
+    """A Markdown table.  Vertical bars in headings and entries are escaped."""
+
+    def line(entries: Iterable[str]) -> str:
+        return "| " + " | ".join(entry.replace("|", "\\|").replace("\n", " ") for entry in entries) + " |"
+
+    told = (line(number(entry, digits) for entry in row) for row in rows)
+    return Markdown("\n".join([line(headings), "|" + "---|" * len(headings), *told]))
 
 
 def checks(rows: Iterable[tuple[str, float, float]]) -> Markdown:
