@@ -1,5 +1,6 @@
 """``carom explore`` on the command line; the page itself is tested in ``tests/explorer``."""
 
+import asyncio
 import signal
 import subprocess
 import sys
@@ -41,3 +42,10 @@ def test_the_address_is_the_first_line_and_an_interrupt_ends_it():
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=120)
     assert (process.returncode, out, err) == (130, "", "carom: interrupted\n")
+
+
+def test_a_refused_port_leaves_no_event_loop_open(carom):
+    pytest.importorskip("bokeh", reason="needs the extra carom[explore]")
+    assert carom("explore", "--no-browser", "--port", "70000")[0] == 2
+    with pytest.raises(RuntimeError, match="no current event loop"):
+        asyncio.get_event_loop()

@@ -144,12 +144,17 @@ def serve(origin: Origin, port: int = PORT, *, browser: bool = True, tell: Calla
     tell : callable
         Receives the address, once it is served.
     """
-    asyncio.set_event_loop(asyncio.new_event_loop())
-    explorer = Explorer(origin, port)
-    tell(explorer.address)
-    if browser:
-        webbrowser.open(explorer.address)
-    explorer.run()
+    loop = asyncio.new_event_loop()
+    asyncio.set_event_loop(loop)
+    try:
+        explorer = Explorer(origin, port)
+        tell(explorer.address)
+        if browser:
+            webbrowser.open(explorer.address)
+        explorer.run()
+    finally:
+        asyncio.set_event_loop(None)
+        loop.close()
 
 
 def _bind(port: int) -> socket.socket:
