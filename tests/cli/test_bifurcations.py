@@ -34,8 +34,8 @@ def test_table_and_files(capsys, tmp_path):
     shown = capsys.readouterr().out
     assert "non-smooth Hopf" in shown
     assert "rpm" in shown
-    names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {f"bifurcations-speed.{ending}" for ending in ("svg", "png", "json")}
+    names = {str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*.*")}
+    assert names == {"bifurcations-speed.json", *(f"figures/bifurcations-speed.{ending}" for ending in ("svg", "png"))}
     document = json.loads((tmp_path / "out" / "bifurcations-speed.json").read_text())
     assert (document["parameter"], document["unit"]) == ("speed", "rad/s")
     assert document["interval"] == pytest.approx([104.71975512, 314.15926536])
@@ -120,7 +120,7 @@ def test_plane_as_tables_around_the_machine(capsys, tmp_path):
     shown = capsys.readouterr().out
     assert "Curves" in shown
     assert "Regions" in shown
-    assert (tmp_path / "regions-speed-damping.png").stat().st_size > 10_000
+    assert (tmp_path / "figures" / "regions-speed-damping.png").stat().st_size > 10_000
 
 
 @pytest.mark.jit_only
@@ -162,7 +162,7 @@ def test_planes_that_cannot_be_used(capsys, words):
 def test_certificate_is_checked_and_shown_in_the_figure(capsys, tmp_path):
     prove = ["prove", PAPER, "--along", "gamma", "--from", "0.1", "--to", "0.1001", "--out", str(tmp_path)]
     assert main(prove) == 0
-    certificate, figure = tmp_path / "proof.json", tmp_path / "bifurcations-gamma.svg"
+    certificate, figure = tmp_path / "proof.json", tmp_path / "figures" / "bifurcations-gamma.svg"
     words = ["bifurcations", PAPER, "--along", "gamma", "--from", "0.09", "--to", "0.11", "--proof", str(certificate)]
     assert main(words) == 2
     assert "allowed only with --out" in capsys.readouterr().err

@@ -33,11 +33,11 @@ COMMANDS = {
     "response": (("response", MACHINE), {"figures/response"}),
     "bifurcations": (
         ("bifurcations", MACHINE, "--along", "speed", "--from", "1700 rpm", "--to", "1800 rpm"),
-        {"bifurcations-speed"},
+        {"figures/bifurcations-speed"},
     ),
     "regions": (
         ("regions", MACHINE, "--plane", "gamma,omega", "--x", "0.14,0.16", "--y", "0.75,0.77", "--grid", "3"),
-        {"regions-gamma-omega"},
+        {"figures/regions-gamma-omega"},
     ),
 }
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from carom.cli.output import filled, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
@@ -45,19 +46,14 @@ def attractors(
         characters = [character_of(case, entry) for entry in found]
         document = attractors_document(case.parameters, found, characters, exponents) if as_json or out else {}
         if out is not None:
-            from carom.files import filled_at_once, write_json
-            from carom.plots import heading, save
-            from carom.studies.wording import machine_heading
-
-            with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
-                save(found.plot(), directory / "figures" / "attractors")
-                write_json(directory / "attractors.json", document)
+            with filled(out, case) as output:
+                output.figure("attractors", found.plot())
+                output.document("attractors", document)
     if as_json:
         print_document(document)
     else:
         _print(case, found, characters, exponents)
-    if out is not None:
-        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+    say_where(out)
 
 
 def _print(case: Case, found: AttractorSet, characters: list[Character], exponents: bool) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carom.cli import basin_options as options
+from carom.cli.output import filled, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
@@ -77,17 +78,13 @@ def basins(
         document = basin_document(basin, smallest, harmless, found, change, **share_wanted)
         if out is not None:
             tell(0.97, "drawing")
-            from carom.files import filled_at_once, write_json
-            from carom.plots import heading, save
-            from carom.studies.wording import machine_heading
-
-            with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
-                save(basin.plot(smallest), directory / "figures" / "basins")
-                basin.save(directory / "basins.nc")
+            with filled(out, case) as output:
+                output.figure("basins", basin.plot(smallest))
+                basin.save(output.directory / "basins.nc")
                 if found is not None:
-                    save(found.plot(change), directory / "figures" / "gain-map")
-                    found.save(directory / "gains.nc")
-                write_json(directory / "basins.json", document)
+                    output.figure("gain-map", found.plot(change))
+                    found.save(output.directory / "gains.nc")
+                output.document("basins", document)
     if as_json:
         print_document(document)
     else:
@@ -96,8 +93,7 @@ def basins(
         print_basin(console(), basin, smallest, harmless)
         if found is not None and asked is not None:
             print_gains(console(), found, change, asked.wanted)
-    if out is not None:
-        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+    say_where(out)
 
 
 def _map(

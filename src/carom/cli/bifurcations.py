@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from carom.cli.output import filled, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from matplotlib.figure import Figure
-
     from carom.bifurcations import Diagram
     from carom.models import Axis
-    from carom.parameters import Case, Parameters
+    from carom.parameters import Parameters
     from carom.proofs import Proof
 
 Out = Annotated[
@@ -121,11 +117,14 @@ def bifurcations(
         )
     document = diagram_document(parameters, diagram)
     if out is not None:
-        _write(Path(out), f"bifurcations-{varied.name}", lambda: diagram.plot(proof=proven), document, case)
+        with filled(out, case) as output:
+            output.figure(f"bifurcations-{varied.name}", diagram.plot(proof=proven))
+            output.document(f"bifurcations-{varied.name}", document)
     if as_json:
         print_document(document)
     else:
         _print_diagram(diagram, parameters.value(varied.name))
+    say_where(out)
 
 
 def regions(
@@ -181,13 +180,16 @@ def regions(
         )
     document = regions_document(parameters, found)
     if out is not None:
-        _write(Path(out), f"regions-{axes[0].name}-{axes[1].name}", lambda: found.plot(proof=proven), document, case)
+        with filled(out, case) as output:
+            output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven))
+            output.document(f"regions-{axes[0].name}-{axes[1].name}", document)
     if as_json:
         print_document(document)
     else:
         from carom.cli.region_tables import print_map
 
         print_map(console(), found)
+    say_where(out)
 
 
 def _checked(proof: str | None, out: str | None) -> Proof | None:
@@ -211,18 +213,6 @@ def _range(parameters: Parameters, varied: Axis, option: str, given: str | None)
     if not present > 0.0:
         raise InputError(option, None, f"needed here, as {varied.name} = {present:g} gives no range around it")
     return NEAR[0] * present, min(NEAR[1] * present, varied.field.highest)
-
-
-def _write(directory: Path, stem: str, draw: Callable[[], Figure], document: dict[str, Any], case: Case) -> None:
-    from carom.files import write_json
-    from carom.plots import heading, save
-    from carom.studies.wording import machine_heading
-
-    with heading(machine_heading(case)):
-        written = save(draw(), directory / stem)
-    target = directory / f"{stem}.json"
-    write_json(target, document)
-    console(errors=True).print(f"Written: {', '.join(str(path) for path in (*written, target))}", soft_wrap=True)
 
 
 _SUBJECTS = {"contact-free": "levitation", "rub": "synchronous rub", "rolling": "rolling backward whirl"}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from carom.cli.output import filled, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
 
@@ -58,21 +59,16 @@ def response(
         document = found.to_dict() if as_json or out is not None else {}
         if out is not None:
             tell(0.4, "drawing")
-            from carom.files import filled_at_once, write_json
-            from carom.plots import heading, save
-            from carom.studies.wording import machine_heading
-
-            with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
+            with filled(out, case) as output:
                 figure = found.plot()
                 tell(0.7, "writing")
-                save(figure, directory / "figures" / "response")
-                write_json(directory / "response.json", document)
+                output.figure("response", figure)
+                output.document("response", document)
     if as_json:
         print_document(document)
     else:
         _print(found, out)
-    if out is not None:
-        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+    say_where(out)
 
 
 def _read(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from carom.cli.output import filled, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
 
@@ -93,8 +94,7 @@ def simulate(
         from carom.cli.tables import print_motion
 
         print_motion(console(), case, motion)
-    if out is not None:
-        console(errors=True).print(f"Written to {out}", soft_wrap=True)
+    say_where(out)
 
 
 def _write(out: str, case: Case, motion: Trajectory, tell: Reporter, *, decaying: bool) -> None:
@@ -103,20 +103,18 @@ def _write(out: str, case: Case, motion: Trajectory, tell: Reporter, *, decaying
     The figures of a motion that is followed until it is proven to return to levitation show it ``decaying`` further.
     """
     from carom import plots
-    from carom.files import filled_at_once, write_json
     from carom.motions.ledger import energy_ledger
     from carom.studies import trajectory_document
-    from carom.studies.wording import machine_heading
 
-    with filled_at_once(out, "--out") as directory, plots.heading(machine_heading(case)):
+    with filled(out, case) as output:
         tell(0.0)
         shown, title = _shown(motion) if decaying else (motion, None)
-        plots.save(plots.motion(shown, title=title), directory / "figures" / "motion")
+        output.figure("motion", plots.motion(shown, title=title))
         tell(0.5)
         touched = len(shown.contacts) or shown.lasting_contacts
         over_time = plots.touchdown(shown, energy_ledger(shown)) if touched else plots.radius(shown, case.zones)
-        plots.save(over_time, directory / "figures" / ("touchdown" if touched else "radius"))
-        write_json(directory / "simulation.json", trajectory_document(motion, case.limits))
+        output.figure("touchdown" if touched else "radius", over_time)
+        output.document("simulation", trajectory_document(motion, case.limits))
 
 
 def _shown(motion: Trajectory) -> tuple[Trajectory, str | None]:
