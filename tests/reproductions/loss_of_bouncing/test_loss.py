@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -61,6 +62,15 @@ def test_figure_and_files(tmp_path):
     titles = [axes.get_title(loc="left") for axes in figure.axes]
     assert [title.split("(")[1][0] for title in titles] == list("abcde")
     assert all(axes.get_ylabel() for axes in figure.axes)
+
+
+def test_motions_that_take_long_to_become_periodic_have_no_half_life():
+    """Beside the period doubling some of the motions have settled on two impacts a period, others not yet."""
+    sample = sample_bouncing(Jeffcott(machine_at(0.08338)), motions=20, impacts=20_000)
+    assert sample.lifetimes.survival.half_life is not None
+    drawn = loss_of_bouncing.loss_figure(replace(few(), close=(sample,))).axes[3]
+    assert "half-life" in drawn.get_title(loc="left")
+    assert not drawn.lines
 
 
 @pytest.mark.deep

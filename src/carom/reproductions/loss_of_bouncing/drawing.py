@@ -141,8 +141,8 @@ def _lives(axes: Axes, samples: tuple[BouncingSample, ...]) -> None:
 
 
 def _left(sample: BouncingSample) -> bool:
-    """Whether motions stopped bouncing, and did not only become periodic."""
-    return any(end in OUTCOMES and end != "bouncing" for end in sample.lifetimes.destinations)
+    """Whether motions stopped bouncing; some that only become periodic, or take long to, have no half-life."""
+    return not _GONE.isdisjoint(sample.lifetimes.destinations)
 
 
 def _destinations(axes: Axes, samples: tuple[BouncingSample, ...]) -> list[Patch]:
@@ -174,6 +174,9 @@ _ENDS = {
     "backward-whirl": "sliding backward whirl",
     "rolling": "rolling backward whirl",
 }
+
+
+_GONE = _ENDS.keys() - {"bouncing", "irregular"}
 
 
 def _share(sample: BouncingSample, key: str) -> float:
