@@ -11,6 +11,7 @@ from scipy.optimize import minimize_scalar
 
 from carom import find_orbits, simulate
 from carom.bifurcations import Bifurcation, OrbitBranch, Plane, continue_curve, continue_orbit, find_bifurcations
+from carom.bifurcations.neighbours import neighbour
 from carom.models import Jeffcott
 from carom.motions import State
 from carom.orbits import lift_off_of, rubbing_orbits
@@ -124,6 +125,7 @@ def test_motion_with_lasting_contact_repeats_in_simulation():
 def test_lasting_contact_begins_where_the_chatter_is_only_just_complete(chatter):
     """Within 1e-7 the fixed point of the simulated map from lift-off to lift-off ceases to be."""
     assert chatter.stops == ("contact-onset", "permanent-contact")
+    assert "none finite" in repr(chatter)  # it has no radial speeds of impacts
     point = special(chatter, "contact-onset")
     assert point.admissible
     # To the accuracy of a search with simulations of the map from lift-off to lift-off.
@@ -219,7 +221,14 @@ def test_beyond_the_onset_the_chatter_becomes_many_impacts(chatter):
     onset = point.orbit.multipliers.values[0].real
     assert leaders.min() < onset < leaders.max()
     assert leaders.min() == pytest.approx(onset, rel=0.05)
-    assert [each.kind for each in branch.special] == ["vanishing-impact", "period-doubling"]
+    kinds = {each.kind: each for each in branch.special}
+    assert list(kinds) == ["vanishing-impact", "period-doubling", "grazing"]
+    # Those beside the doubling are motions: impacts of 1e-7 arrive at a time that rounding shifts by 1e-9.
+    assert all(each.admissible for each in branch.special)
+    assert real[(kinds["vanishing-impact"].value < branch.values) & (branch.values < kinds["grazing"].value)].all()
+    # The next impact appears where the last flight touches the wall 1e-3 after its beginning.
+    assert branch.values[real].max() < kinds["grazing"].value < point.value
+    assert len(neighbour("grazing", kinds["grazing"].orbit)[0]) == branch.impacts + 1
 
 
 @pytest.mark.jit_only

@@ -154,8 +154,8 @@ class OrbitBranch(Result):
 
     @property
     def radial_speed(self) -> np.ndarray:
-        """``ṙ`` just before the first impact in ``c_r Ω``, shape (m,)."""
-        first: np.ndarray = self.radial_speeds[:, 0]
+        """``ṙ`` just before the first impact in ``c_r Ω``, shape (m,); ``nan`` without impacts."""
+        first: np.ndarray = self.radial_speeds[:, 0] if self.impacts else np.full(len(self), np.nan)
         return first
 
     @property

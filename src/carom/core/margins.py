@@ -14,6 +14,12 @@ __all__ = ["highest_point", "local_motion"]
 
 SAMPLES, PER_RADIAN = 32, 10.0
 """Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
+FINE = 10
+"""Further samples in the first and in the last of these steps, each half as far from the wall in time as the one before.
+
+A flight that leaves a wall to which it is pressed, while this force falls linearly, has its minimum at a third of the time
+of the maximum with which it touches the wall again.
+"""
 HALVINGS = 50
 
 
@@ -37,7 +43,7 @@ def local_motion(rotor, planes, states):
 def highest_point(rotor, plane, start, duration):
     """Largest ``|y|² − 1`` of the local maxima inside a flight, by samples, and its time; ``nan`` if there is none.
 
-    A flight from rest on the wall begins at such a maximum, which is left out with the first sample.
+    A flight from rest on the wall begins at such a maximum, which is left out as it lies before the first sample.
     """
     starts, increments = start.reshape(1, -1), np.empty((1, start.shape[0]), np.complex128)
     fastest = 0.0
@@ -45,12 +51,13 @@ def highest_point(rotor, plane, start, duration):
         fastest = max(fastest, math.sqrt(squared_modulus(rotor.exponents[k])))
     count = SAMPLES + int(PER_RADIAN * fastest * duration)
     height, top = np.nan, np.nan
-    _, before = _radial(rotor, plane, starts, duration / count, increments)
-    for i in range(2, count + 1):
-        late = duration * i / count
+    reached = _sample(0, count, duration)
+    _, before = _radial(rotor, plane, starts, reached, increments)
+    for i in range(1, count + 2 * FINE):
+        early, late = reached, _sample(i, count, duration)
+        reached = late
         _, after = _radial(rotor, plane, starts, late, increments)
         if before > 0.0 and after < 0.0:
-            early = duration * (i - 1) / count
             for _ in range(HALVINGS):
                 middle = 0.5 * (early + late)
                 _, slope = _radial(rotor, plane, starts, middle, increments)
@@ -63,6 +70,17 @@ def highest_point(rotor, plane, start, duration):
                 height, top = excess, early
         before = after
     return height, top
+
+
+@part
+def _sample(i, count, duration):
+    """Time of a sample of a flight: of ``count`` steps, the first and the last of which are refined towards its ends."""
+    step, refined = duration / count, i - FINE - count + 2
+    if i < FINE:
+        return step * 0.5 ** (FINE - i)
+    if refined < 1:
+        return step * (i - FINE + 1)
+    return duration - step * 0.5**refined if refined <= FINE else duration
 
 
 @part
