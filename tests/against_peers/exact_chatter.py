@@ -52,8 +52,8 @@ class Rebound:
 class ExactRotor:
     """The planar rotor with its parameters as exact numbers."""
 
-    def __init__(self, parameters: Parameters) -> None:
-        for name, value in parameters.as_dict().items():
+    def __init__(self, parameters: Parameters, **exact: mp.mpf) -> None:
+        for name, value in {**parameters.as_dict(), **exact}.items():
             setattr(self, name, mp.mpf(value))
         split = mp.sqrt(mp.mpc(self.gamma**2 - 4 * self.omega**2))
         self.exponents = [(-self.gamma - 2j + sign * split) / 2 for sign in (1, -1)]
@@ -71,12 +71,11 @@ class ExactRotor:
         pull = force.imag + 2 * (1 + local.imag) * local.real
         return Rebound(time, mp.arg(position), local.imag, -local.real, height, push, pull, slip)
 
-    def bounce(self, position: mp.mpc, velocity: mp.mpc) -> tuple[mp.mpf, mp.mpc, mp.mpc]:
-        """Duration of a flight from the wall to the wall, and the state after the impact."""
+    def bounce(self, position: mp.mpc, velocity: mp.mpc, about: float | None = None) -> tuple[mp.mpf, mp.mpc, mp.mpc]:
+        """Duration of a flight from the wall to the wall, by default a low one, and the state after the impact."""
         upper, lower = self.exponents
         share = (velocity - lower * (position - self.rest)) / (upper - lower)
-        rebound = self.rebound(mp.mpf(0), position, velocity)
-        time, step = 2 * rebound.speed / rebound.push, mp.inf
+        time, step = mp.mpf(about) if about else self._low_flight(position, velocity), mp.inf
         while abs(step) > CONVERGED * time:
             first = share * mp.exp(upper * time)
             second = (position - self.rest - share) * mp.exp(lower * time)
@@ -85,6 +84,11 @@ class ExactRotor:
             step = -mean * time / (2 * (mp.conj(place) * speed).real - mean)
             time += step
         return time, place / abs(place), self.strike(place / abs(place), speed)
+
+    def _low_flight(self, position: mp.mpc, velocity: mp.mpc) -> mp.mpf:
+        """Duration of a low flight, which the normal force turns back."""
+        rebound = self.rebound(mp.mpf(0), position, velocity)
+        return 2 * rebound.speed / rebound.push
 
     def strike(self, position: mp.mpc, velocity: mp.mpc) -> mp.mpc:
         """Velocity after an impact."""
