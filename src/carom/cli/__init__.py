@@ -1,12 +1,13 @@
 """The command line.
 
-A module for each command (``study``, ``simulate``, ``orbits``, ``response``, ``bifurcations`` with ``regions``, ``basins``, ``sweep``,
-``paper``, ``explore``), and what they share:
+A module for each command (``study``, ``simulate``, ``orbits``, ``attractors``, ``prove``, ``response``, ``bifurcations`` with
+``regions``, ``basins``, ``sweep``, ``paper``, ``explore``), and what they share:
 
 =================  ==========================================================
 ``app``            all commands, and how errors are reported
 ``terminal``       output, progress and options that commands share
 ``screen``         output to the terminal, with control characters escaped
+``output``         the directory of ``--out``
 ``fitting``        tables that fit into a narrow terminal
 ``tables``         tables of ``study``, ``simulate`` and ``orbits``
 ``basin_options``  options of ``basins``

@@ -41,10 +41,12 @@ Cells = Annotated[
     str | None, typer.Option(metavar="NxM", help="Cells of size and direction, or of x and y; N for releases.")
 ]
 Starts = Annotated[int | None, typer.Option(metavar="N", help="Instead of a grid: a seeded sample of this size.")]
-Seed = Annotated[int | None, typer.Option(metavar="S", help="Of the sample, by default 0.")]
+Seed = Annotated[int | None, typer.Option(metavar="S", help="Seed of the sample, by default 0.")]
 Fastest = Annotated[str | None, typer.Option(metavar="SPEED", help="Largest kick or start speed, such as '50 mm/s'.")]
 Peak = Annotated[str | None, typer.Option(metavar="ACC", help="Largest peak of a shock, such as '20 g'.")]
-Duration = Annotated[str | None, typer.Option(metavar="TIME", help="Duration of its half-sine pulse, such as '5 ms'.")]
+Duration = Annotated[
+    str | None, typer.Option(metavar="TIME", help="Duration of a shock, a half-sine pulse, such as '5 ms'.")
+]
 Before = Annotated[
     str | None, typer.Option(metavar="LENGTH", help="Largest eccentricity before an unbalance step, such as '0.1 mm'.")
 ]
@@ -56,7 +58,7 @@ After = Annotated[
 ]
 Release = Annotated[
     str | None,
-    typer.Option(metavar="MOTION", help="Of a release from the wall: fixed (the default), rotating or rolling."),
+    typer.Option(metavar="MOTION", help="Motion at a release from the wall: fixed (the default), rotating or rolling."),
 ]
 GainsWanted = Annotated[
     str | None, typer.Option(metavar="NxM", help="Map the share that comes back over two parameters.")
@@ -66,12 +68,13 @@ Plane = Annotated[
     typer.Option(metavar="NAME,NAME", help="The two parameters, by default stiffness,damping (P and D gain)."),
 ]
 FirstRange = Annotated[
-    str | None, typer.Option("--x", metavar="A,B", help="Range of the first, by default half to twice.")
+    str | None,
+    typer.Option("--x", metavar="A,B", help="Range of the first parameter, by default half to twice its value."),
 ]
-SecondRange = Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second.")]
+SecondRange = Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second parameter.")]
 Wanted = Annotated[
     float | None,
-    typer.Option(metavar="SHARE", help="Share that must come back, for the least change; by default 0.99."),
+    typer.Option(metavar="SHARE", help="Share that must come back after the least change; by default 0.99."),
 ]
 Threads = Annotated[
     int | None, typer.Option(metavar="N", min=1, help="Cores to use; the result does not depend on it.")

@@ -47,8 +47,8 @@ def print_basin(screen: Console, basin: Basin, smallest: SmallestLoss | None, ha
         )
     screen.print(table)
     screen.print(
-        "Known after: time from the start until it was known where the motion ends, proven or by the criterion of that outcome; "
-        "it need not be there yet. The median of the starts that end so."
+        "Known after: time from the start until it was known where the motion ends, by a proof or by the criterion of that outcome; "
+        "the motion need not have arrived there. The table shows the median of the starts with this end."
     )
     screen.print(f"Back to levitation: {basin.share_recovered.words}.")
     if basin.irregular:
@@ -159,7 +159,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
         where = _where(basin, smallest)
         lines.append(f"Smallest {noun} found that does not come back: {shown(smallest.size)}, {where}{ending}.")
     if smallest.all_back is None:
-        lines.append("It is lost already without any speed.")
+        lines.append("Disturbances of size zero are already lost.")
     elif smallest.fresh:
         said = (
             "lies between these two sizes"
@@ -173,7 +173,9 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
             f"tell, the smallest that is lost {said}."
         )
     elif smallest.size is not None:
-        lines.append(f"Below it fresh trials went on finding losses ({smallest.tried} trials): it is not the smallest.")
+        lines.append(
+            f"Fresh trials kept finding smaller ones ({smallest.tried} trials in all): it is not the smallest."
+        )
     if smallest.harmless > 0.0:
         proven = "provably never bring the rotor to the wall, in any direction"
         lines.append(f"Only those up to {shown(smallest.harmless)} {proven}.")
@@ -207,7 +209,7 @@ def _blade_losses(basin: Basin, smallest: SmallestLoss) -> list[str]:
         )
     if smallest.all_back is None and smallest.size is not None:
         lines.append(
-            "A change of the phase alone is lost already: search with --disturbance unbalance for the smallest change."
+            "A change of the phase alone is already lost: search with --disturbance unbalance for the smallest change."
         )
     elif smallest.all_back is not None and smallest.fresh:
         lines.append(

@@ -67,8 +67,10 @@ def bifurcations(
     along: Annotated[
         str, typer.Option(metavar="NAME", help="Parameter to vary, such as gamma, speed, damping or stiffness.")
     ],
-    start: Annotated[str, typer.Option("--from", metavar="A", help="Its first value, dimensionless or with a unit.")],
-    end: Annotated[str, typer.Option("--to", metavar="B", help="Its last value.")],
+    start: Annotated[
+        str, typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit.")
+    ],
+    end: Annotated[str, typer.Option("--to", metavar="B", help="Last value of the parameter.")],
     settings: Settings = None,
     impacts: Impacts = 1,
     virtual: Virtual = False,
@@ -81,9 +83,10 @@ def bifurcations(
 ) -> None:
     """Find the bifurcations along one parameter.
 
-    Follows all equilibria and all orbits with one impact a period, with --impacts N also orbits with more that a search finds; lists folds, period doublings, Neimark-Sacker
-    points, grazing, boundary equilibria, non-smooth Hopf points, folds of rubs and the limit of rolling.  Along the
-    speed it is a run-up diagram: damping and stiffness stay fixed, their dimensionless values change with the speed.
+    Follows all equilibria and all orbits with one impact a period; with --impacts N also the orbits of up to N impacts that a
+    search finds. Lists folds, period doublings, Neimark-Sacker points, grazing, boundary equilibria, non-smooth Hopf
+    points, folds of rubs and the limit of rolling. Along the speed it is a run-up diagram: damping and stiffness stay
+    fixed, their dimensionless values change with the speed.
     """
     with progress("loading") as tell:
         from carom.bifurcations import find_bifurcations
@@ -133,9 +136,10 @@ def regions(
         str, typer.Option(metavar="NAME,NAME", help="The two parameters, such as gamma,omega or speed,damping.")
     ] = "gamma,omega",
     x: Annotated[
-        str | None, typer.Option("--x", metavar="A,B", help="Range of the first, by default around it.")
+        str | None,
+        typer.Option("--x", metavar="A,B", help="Range of the first parameter, by default around its value."),
     ] = None,
-    y: Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second.")] = None,
+    y: Annotated[str | None, typer.Option("--y", metavar="C,D", help="Range of the second parameter.")] = None,
     settings: Settings = None,
     grid: Annotated[
         int,

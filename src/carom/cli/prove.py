@@ -34,9 +34,10 @@ def prove(
         typer.Option(metavar="NAME", help="Prove points and orbits along a parameter instead, --from A --to B."),
     ] = None,
     start: Annotated[
-        str | None, typer.Option("--from", metavar="A", help="Its first value, perhaps with a unit.")
+        str | None,
+        typer.Option("--from", metavar="A", help="First value of the parameter, dimensionless or with a unit."),
     ] = None,
-    stop: Annotated[str | None, typer.Option("--to", metavar="B", help="Its last value.")] = None,
+    stop: Annotated[str | None, typer.Option("--to", metavar="B", help="Last value of the parameter.")] = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help=f"Write the certificate, {CERTIFICATE}, to this directory.")
     ] = None,

@@ -105,9 +105,7 @@ def _print_recommendation(console: Console, study: Study) -> None:
 
 def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ...], orbits: OrbitSet) -> None:
     """Print equilibria and orbits, in units of the equations and in SI units."""
-    parameters = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
-    console.print(Text(f"{case.name}: {parameters}"))
-    console.print()
+    _print_parameters(console, case)
     rows = simple_motion_rows(equilibria, orbits, Wording(case.parameters.scales), most_virtual=40)
     motions = _motions(rows, "Equilibria and orbits with one impact a period", console.width)
     console.print(fitted(console, motions))
@@ -119,9 +117,7 @@ def print_orbits(console: Console, case: Case, equilibria: tuple[Equilibrium, ..
 
 def print_found_orbits(console: Console, case: Case, found: FoundOrbits) -> None:
     """Print the orbits with a number of impacts that a search has found."""
-    parameters = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
-    console.print(Text(f"{case.name}: {parameters}"))
-    console.print()
+    _print_parameters(console, case)
     if len(found):
         title = f"Orbits with {counted(found.impacts, 'impact')} a period"
         motions = plain_table(title, "orbit", "period", "state", "segments", no_wrap=("orbit", "period"))
@@ -135,6 +131,13 @@ def print_found_orbits(console: Console, case: Case, found: FoundOrbits) -> None
     _print_numbers(console, list(found))
     console.print()
     console.print(found.argument)
+
+
+def _print_parameters(console: Console, case: Case) -> None:
+    """Print the name and the dimensionless parameters of a machine."""
+    parameters = ", ".join(f"{row.symbol} = {row.value}" for row in dimensionless_rows(case))
+    console.print(Text(f"{case.name}: {parameters}"))
+    console.print()
 
 
 def _print_numbers(console: Console, shown: Sequence[Orbit]) -> None:

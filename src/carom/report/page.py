@@ -77,13 +77,7 @@ def write_report(study: Study, directory: str, *, png: bool = False, progress: S
 
 
 def report_page(study: Study, figures: list[InlineFigure]) -> str:
-    """Return the page as text.
-
-    Returns
-    -------
-    str
-        Self-contained HTML.
-    """
+    """Return the page as self-contained HTML."""
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     environment.filters["formulas"] = _with_subscripts
     template = environment.from_string(files("carom.report").joinpath("report.html.jinja").read_text(encoding="utf-8"))
@@ -97,7 +91,10 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         motions=motion_rows(study),
         left_out=sum(not orbit.admissible for orbit in study.orbits),
         ranges=range_rows(study),
-        own=[(study.wording.gain_name(gain), _own(study, gain)) for gain in study.gains],
+        own=[
+            (study.wording.gain_name(gain), study.wording.gain(gain, study.case.parameters.value(gain)))
+            for gain in study.gains
+        ],
         thresholds=rows,
         in_si=study.wording.scales is not None,
         searched=[entry for entry in study.ranges if entry.motion == "single-impact"],
@@ -106,10 +103,6 @@ def report_page(study: Study, figures: list[InlineFigure]) -> str:
         not_covered=NOT_COVERED,
         versions=_versions(),
     )
-
-
-def _own(study: Study, gain: str) -> str:
-    return study.wording.gain(gain, getattr(study.case.parameters, gain))  # type: ignore[arg-type]
 
 
 def _versions() -> str:

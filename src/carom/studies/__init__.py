@@ -1,26 +1,32 @@
 """Study a machine: from its parameters to a verdict.
 
-==================  ==================================================================================
-``assembly``        :func:`study` and the frozen :class:`Study`
-``ranges``          for which damping and stiffness equilibria exist, in closed form
-``orbit_ranges``    for which damping and stiffness single-impact orbits are possible, by search
-``alone``           for which damping and stiffness levitation is the only motion found
-``advice``          the least change of either that leaves only levitation, checked by simulation
-``load_checks``     loads of touchdowns against stated limits
-``endings``         where simulated disturbances ended
-``verdict``         the results in words
-``findings``        the paragraphs of the verdict
-``proven``          what a proof has decided, in words
-``response``        :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
-``response_words``  what it says about the machine, in sentences
-``standards``       limits of vibration: API 617, ISO 14839-2
-``recommendation``  the least change, its margin and its evidence
-``one_page``        the recommendation as lines of text
-``remedies``        which changes would help, in words
-``wording``         numbers with units
-``summaries``       the tables of a study, as text
-``document``        results as JSON; those of a response over speed in ``response_document``, of attractors in ``attractors_document``
-==================  ==================================================================================
+Read them in this order.
+
+=======================  ========================================================================================
+``assembly``             :func:`study` and the frozen :class:`Study`
+``ranges``               for which damping and stiffness equilibria exist, in closed form
+``orbit_ranges``         for which damping and stiffness single-impact orbits are possible, by search
+``alone``                for which damping and stiffness levitation is the only motion found
+``safety``               the least damping above which no contact motion is found
+``advice``               the least change of either gain that leaves only levitation, checked by simulation
+``load_checks``          loads of touchdowns against stated limits
+``actuator``             what motions ask of the magnetic bearings, against the limits of these
+``endings``              where simulated disturbances ended
+``verdict``              the results in words
+``findings``             the paragraphs of the verdict
+``remedies``             where levitation is the only motion found, in words
+``proven``               what a proof has decided, in words
+``recommendation``       the least change, its margin and its evidence
+``one_page``             the recommendation as lines of text
+``summaries``            the tables of a study, as text
+``wording``              numbers with units
+``document``             results as JSON
+``attractors_document``  attractors as JSON
+``response``             :func:`unbalance_response`: amplitude, phase and contact over the speed of the shaft
+``response_words``       what it says about the machine, in sentences
+``response_document``    the response as JSON
+``standards``            limits of vibration: API 617, ISO 14839-2
+=======================  ========================================================================================
 """
 
 from carom.studies.advice import Advice

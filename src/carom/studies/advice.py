@@ -12,6 +12,7 @@ from carom.closed_forms.thresholds import Gain
 from carom.disturbances import FASTEST
 from carom.models import Jeffcott
 from carom.parameters import Parameters
+from carom.parameters.numbers import CONVERSIONS
 from carom.studies.alone import LevitationAlone
 from carom.studies.ranges import MotionRange, Span
 from carom.studies.safety import try_disturbances
@@ -69,7 +70,7 @@ def advise(
     The ranges of the contact-free motion and of orbits say where to search if no value leaves only levitation.  No
     ``γ`` up to ``lost_up_to``, at which a disturbance is known to be lost, is advised as leaving only levitation.
     """
-    if any(_own(parameters, found.gain) in span for found in alone for span in found.calm):
+    if any(parameters.value(found.gain) in span for found in alone for span in found.calm):
         return ()
     found = [_advise_only_levitation(parameters, entry, lost_up_to) for entry in alone]
     if not any(found):
@@ -77,15 +78,6 @@ def advise(
         found = [_advise_wanted_share(parameters, gain, span) for gain, span in searched.items() if span is not None]
     advised = [advice for advice in found if advice is not None]
     return tuple(sorted(advised, key=lambda advice: abs(math.log(advice.change))))
-
-
-def _own(parameters: Parameters, gain: Gain) -> float:
-    return float(getattr(parameters, gain))
-
-
-def _power(gain: Gain) -> int:
-    """Return the exponent of the gain: damping is proportional to ``γ``, stiffness to ``ω²``."""
-    return 1 if gain == "gamma" else 2
 
 
 def _advise_only_levitation(parameters: Parameters, found: LevitationAlone, lost_up_to: float) -> Advice | None:
@@ -107,7 +99,7 @@ def _advise_only_levitation(parameters: Parameters, found: LevitationAlone, lost
 
 def _values_in_calm_ranges(parameters: Parameters, found: LevitationAlone) -> Iterator[tuple[float, float]]:
     """Yield values inside the calm ranges with their margins, nearest range first."""
-    own, power = _own(parameters, found.gain), _power(found.gain)
+    own, power = parameters.value(found.gain), CONVERSIONS[found.gain].power
 
     def ends(span: Span) -> tuple[float, float]:
         low, high = span.low.value, span.high.value
@@ -126,8 +118,8 @@ def _values_in_calm_ranges(parameters: Parameters, found: LevitationAlone) -> It
 
 
 def _checked(parameters: Parameters, gain: Gain, value: float, margin: float) -> Advice:
-    own = _own(parameters, gain)
-    change = (value / own) ** _power(gain) if own > 0 else math.inf
+    own = parameters.value(gain)
+    change = (value / own) ** CONVERSIONS[gain].power if own > 0 else math.inf
     check = try_disturbances(Jeffcott(parameters.replace(**{gain: value})), DisturbanceSet(CHECKED, SEED))
     returned = Share.of(CHECKED - check.lost, CHECKED, drawn=True)
     return Advice(gain, value, change, margin > 0.0, margin, returned)
@@ -135,7 +127,7 @@ def _checked(parameters: Parameters, gain: Gain, value: float, margin: float) ->
 
 def _advise_wanted_share(parameters: Parameters, gain: Gain, searched: Span) -> Advice | None:
     """Advise the nearest value tried in the searched range at which the wanted share comes back."""
-    own, low, high = _own(parameters, gain), searched.low.value, searched.high.value
+    own, low, high = parameters.value(gain), searched.low.value, searched.high.value
     steps = int(math.log(high / low) / math.log(STEP)) + 1
     begin = min(max(own, low), high)
     values = [begin * STEP**step for step in range(-steps, steps + 1) if low <= begin * STEP**step <= high]

@@ -1,8 +1,11 @@
-"""All results for one machine at one speed."""
+"""The study of one machine at one speed.
+
+:func:`study` calls the parts one after another and keeps their results in a :class:`Study`.  The verdict and the recommendation
+follow from these results when they are asked for.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, get_args
@@ -34,8 +37,6 @@ from carom.studies.wording import Wording
 
 if TYPE_CHECKING:
     from carom.proofs import Proof
-
-Progress = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -201,7 +202,7 @@ def study(
     (True, ['B1,d'])
     """
     case = case_of(machine)
-    _check_kept(case, disturbances)
+    _refuse_another_machine(case, disturbances)
     tell = Reporter.of(progress, "study")
     parameters = case.parameters
     proof = None
@@ -229,8 +230,8 @@ def study(
     return Study(case, rotor, steady, orbits, ranges, boundaries, alone, advice, found, safe, fresh, loads, proof)
 
 
-def _check_kept(case: Case, disturbances: Plan | Disturbance | None) -> None:
-    """Refuse disturbances after which the machine is another one."""
+def _refuse_another_machine(case: Case, disturbances: Plan | Disturbance | None) -> None:
+    """Refuse disturbances that change the machine."""
     if disturbances is None:
         return
     model = disturbances if isinstance(disturbances, Disturbance) else disturbances.model

@@ -57,7 +57,7 @@ def _loss_of_levitation(study: Study) -> list[str]:
     say = study.wording
     places: dict[str, list[str]] = {}
     for boundary in study.boundaries:
-        own = getattr(study.case.parameters, boundary.gain)
+        own = study.case.parameters.value(boundary.gain)
         if (boundary.value < own) != (boundary.levitates == "above"):
             continue  # beyond the range in which this machine levitates
         moves = "falls" if boundary.levitates == "above" else "rises"
@@ -67,7 +67,7 @@ def _loss_of_levitation(study: Study) -> list[str]:
 
 
 _LOSS = {
-    "persistence": "it goes over into a synchronous rub that begins without force",
+    "persistence": "it turns into a synchronous rub whose force grows from zero",
     "non-smooth fold": "it meets an unstable synchronous rub and both vanish, so that the rotor must go somewhere else",
     "degenerate": "it ends on the wall",
 }
@@ -284,7 +284,7 @@ def _remedies(study: Study) -> str:
 
 def _remedies_along(study: Study, gain: Gain) -> list[str]:
     say = study.wording
-    name, own = say.gain_name(gain), say.gain(gain, getattr(study.case.parameters, gain))
+    name, own = say.gain_name(gain), say.gain(gain, study.case.parameters.value(gain))
     parts = []
     for motion, words in _POSSIBLE.items():
         entry = study.range_of(motion, gain)

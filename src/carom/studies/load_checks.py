@@ -13,9 +13,6 @@ from carom.parameters import LIMIT_FIELDS, LoadLimits
 from carom.results import fields_of
 from carom.studies.wording import number
 
-ENDLESS = ("heat", "impacts")
-"""Loads that have no end in a motion that goes on in contact."""
-
 
 @dataclass(frozen=True)
 class LoadCheck:
@@ -30,8 +27,7 @@ class LoadCheck:
     endless : bool
         Whether the load goes on growing, because the motion has settled in contact.
     after : float
-        Seconds from then on after which the growing load reaches its limit; 0 where it exceeds it already, infinite if it does not
-        grow.
+        Seconds after the end was known until the growing load reaches its limit: 0 if it has, infinite if it does not grow.
     """
 
     name: str

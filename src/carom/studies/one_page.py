@@ -37,7 +37,7 @@ _BOUNDS: dict[Bound, str] = {"at least": "at least ", "at most": "at most ", "ab
 
 @dataclass(frozen=True)
 class Line:
-    """A line of the page; a detail belongs to the line above it that is none."""
+    """A line of the page.  A detail belongs to the last line above it that is not a detail."""
 
     label: str
     text: str
@@ -45,7 +45,7 @@ class Line:
 
 
 def recommendation_lines(study: Study) -> list[Line]:
-    """Return the lines of the page: the machine, what it does now, the changes, and what the words rest on."""
+    """Return the lines of the page: the machine, what it does now, the changes, and the evidence."""
     lines = [Line("Machine", _machine(study)), Line("Now", _now(study))]
     recommended = study.recommendation
     lost = study.verdict.level != "all-tried-came-back"
@@ -141,7 +141,7 @@ def _margin(study: Study, gain: Gain, margin: Margin | None, far: Edge | None) -
 
 def _own_margin(study: Study, gain: Gain, margin: Margin) -> str:
     say = study.wording
-    own, end = _own(study, gain), margin.edge.value
+    own, end = study.case.parameters.value(gain), margin.edge.value
     side = "above" if own > end else "below"
     name, present = say.gain_name(gain), say.gain(gain, own)
     share = f"{number(100.0 * margin.share, 2)} % {side} {say.gain(gain, end)}"
@@ -194,7 +194,10 @@ def recommendation_document(study: Study) -> dict[str, Any]:
         "kind": recommended.kind,
         "changes": [_change_document(study, change) for change in recommended.changes],
         "margins": [
-            {**_in_both(study, gain, present=_own(study, gain)), **_margin_document(study, gain, margin)}
+            {
+                **_in_both(study, gain, present=study.case.parameters.value(gain)),
+                **_margin_document(study, gain, margin),
+            }
             for gain, margin in recommended.margins
         ],
         "fastest": sample.fastest,
@@ -246,7 +249,3 @@ def _in_both(study: Study, gain: Gain, **values: float) -> dict[str, Any]:
         document["quantity"] = say.gain_name(gain)
         document |= {f"{name}_si": say.gain_in_si(gain, value) for name, value in values.items()}
     return document
-
-
-def _own(study: Study, gain: Gain) -> float:
-    return float(getattr(study.case.parameters, gain))

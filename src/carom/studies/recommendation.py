@@ -1,7 +1,7 @@
 """What a study recommends: the least change of one gain, its margin, and how sure each number is.
 
-A change is checked by a sample of disturbances, so that nothing here is proven.  Where a number comes from is said by
-its *evidence*: a closed form, a search with a complete list of orbits at each value, or a sample of disturbances.
+A change is checked by a sample of disturbances, so nothing here is proven.  The *evidence* of a number says where it comes
+from: a closed form, a search with a complete list of orbits at each value, or a sample of disturbances.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Literal
 from carom.closed_forms.thresholds import Gain
 from carom.closed_forms.whirl import Runaway, rolling, runaway_speed
 from carom.models import Jeffcott
+from carom.parameters.numbers import CONVERSIONS
 from carom.studies.advice import Advice
 from carom.studies.ranges import Edge, Span
 
@@ -121,7 +122,8 @@ def recommend(study: Study) -> Recommendation:
         (entry.gain, margin)
         for entry in study.alone
         for span in entry.calm
-        if (own := _own(study, entry.gain)) in span and (margin := _nearest(entry.gain, own, span))
+        if (present := study.case.parameters.value(entry.gain)) in span
+        and (margin := _nearest(entry.gain, present, span))
     ]
     return Recommendation("no-change-needed", (), tuple(margins))
 
@@ -133,13 +135,9 @@ def evidence_of(edge: Edge) -> Evidence:
     return "closed form" if edge.kind in _CLOSED_FORMS else "searched"
 
 
-def _own(study: Study, gain: Gain) -> float:
-    return float(getattr(study.case.parameters, gain))
-
-
 def _distance(gain: Gain, value: float, end: float) -> float:
     """Return the distance of two values relative to the damping or stiffness at the end."""
-    return abs((value / end) ** (1 if gain == "gamma" else 2) - 1.0)
+    return abs((value / end) ** CONVERSIONS[gain].power - 1.0)
 
 
 def _happens(edge: Edge) -> bool:
@@ -153,8 +151,8 @@ def _nearest(gain: Gain, value: float, span: Span) -> Margin | None:
 
 
 def _change(study: Study, advice: Advice) -> Change:
-    gain, value, own = advice.gain, advice.value, _own(study, advice.gain)
-    rotor = Jeffcott(study.case.parameters.replace(**{gain: value}))
+    gain, value, parameters = advice.gain, advice.value, study.case.parameters
+    rotor, present = Jeffcott(parameters.replace(**{gain: value})), parameters.value(gain)
     radius = abs(rotor.equilibrium)
     calm = next((span for span in _calm(study, gain) if value in span), None) if advice.alone else None
     margin: Margin | None = None
@@ -162,7 +160,7 @@ def _change(study: Study, advice: Advice) -> Change:
     bound: Bound = "about"
     tried: tuple[Tried, ...] = ()
     if calm is not None:
-        upward = own < value
+        upward = present < value
         near, end = (calm.low, calm.high) if upward else (calm.high, calm.low)
         margin, far = Margin(_best_known(study, gain, near), advice.margin), end if _happens(end) else None
         tried = _tried(study, gain, value, end.value)
@@ -170,7 +168,7 @@ def _change(study: Study, advice: Advice) -> Change:
             bound = "at least" if upward else "at most"
     zone = study.case.zones.zone(min(radius, 1.0))
     whirl = runaway_speed(rotor) if rolling(rotor).holds else None
-    return Change(advice, own, bound, margin, far, tried, radius, zone, whirl)
+    return Change(advice, present, bound, margin, far, tried, radius, zone, whirl)
 
 
 def _best_known(study: Study, gain: Gain, edge: Edge) -> Edge:

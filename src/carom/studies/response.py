@@ -17,10 +17,8 @@ from carom.models.axes import Ends, read_interval
 from carom.outcome import InputError
 from carom.parameters import Case, Scales
 from carom.results import Result, in_a_line
-from carom.studies.standards import FULL_SPEED, LARGEST, Side, required_margin, vibration_limit
+from carom.studies.standards import FULL_SPEED, LARGEST, RPM, Side, required_margin, vibration_limit
 
-RPM = math.pi / 30.0
-"""One revolution per minute in rad/s."""
 SPEEDS = 801
 """Number of speeds of the curves."""
 AROUND = (0.25, 1.5)

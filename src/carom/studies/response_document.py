@@ -8,13 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom.results import fields_of
-from carom.studies.standards import ASSUMPTIONS, vibration_limit
+from carom.studies.standards import ASSUMPTIONS, RPM, vibration_limit
 
 if TYPE_CHECKING:
     from carom.studies.response import Stretch, UnbalanceResponse
-
-RPM = np.pi / 30.0
-"""One revolution per minute in rad/s."""
 
 
 def response_document(response: UnbalanceResponse) -> dict[str, Any]:

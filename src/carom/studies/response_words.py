@@ -6,14 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.studies.standards import CRITICALLY_DAMPED, vibration_limit
+from carom.studies.standards import CRITICALLY_DAMPED, RPM, vibration_limit
 from carom.studies.wording import listed, number
 
 if TYPE_CHECKING:
     from carom.studies.response import Stretch, UnbalanceResponse
-
-RPM = np.pi / 30.0
-"""One revolution per minute in rad/s."""
 
 
 def rpm(speed: float) -> str:

@@ -58,7 +58,7 @@ def test_words_name_the_disturbances_their_speed_and_the_confidence():
     words = safe(DampingLimit(SYNCHRONOUS_RUB, 0.36, 0.6, "simulation")).words
 
     assert words == (
-        "The last motion to go is the synchronous rub, at 3,408 N s/m. None of 5,000 fresh disturbances (kicks of the "
+        "The last motion to vanish as the damping grows is the synchronous rub, at 3,408 N s/m. None of 5,000 fresh disturbances (kicks of the "
         "levitating rotor and starts within the clearance, of up to 258 mm/s) was lost at any of 3 values of damping from "
         "5,526 N s/m to 18,420 N s/m: with 95 % confidence fewer than 1 in 640 are lost at any of these. Of 1,250 of up to "
         "516 mm/s, 7 were lost at 5,526 N s/m."

@@ -130,7 +130,7 @@ class SafeDamping(Result):
 
     @property
     def words(self) -> str:
-        """The last motion to go, the disturbances tried above it, and the confidence."""
+        """The last motion to vanish as the damping grows, the disturbances tried above it, and the confidence."""
         say = Wording(self.parameters.scales)
         name, checks = say.gain_name("gamma"), self.checks
         if not checks:
@@ -149,14 +149,14 @@ class SafeDamping(Result):
     def _limit_words(self, say: Wording) -> str:
         """Say above which damping disturbances came back, and which motion vanished last.
 
-        Of a simulated limit only the known digits are written.
+        A simulated limit is written with its known digits only.
         """
         limit = self.within_reach
         if limit is None:
             return ""
         last = f"the {limit.motion}" if limit.motion.outcome is Outcome.FORWARD_RUB else limit.motion.words
         if limit.evidence != "simulation":
-            return f"The last motion to go is {last}, at {say.gain('gamma', limit.above)}."
+            return f"The last motion to vanish as the damping grows is {last}, at {say.gain('gamma', limit.above)}."
         factor = say.scales.damping if say.scales else 1.0
         above = _rounded_up(limit.above * factor, limit.digits) / factor
         return (
