@@ -15,6 +15,7 @@ from carom.models import Jeffcott
 from carom.motions.starts import State
 from carom.orbits.maps import Section, impact_map
 from carom.outcome import InputError
+from carom.parameters import Parameters
 
 
 @pytest.fixture(scope="module")
@@ -233,3 +234,20 @@ def test_steps_that_grow_with_the_radial_speed_miss_no_bifurcation(monkeypatch):
     assert points >= sized(10, 0, 200)
     assert missed == 0
     assert saved > 0 or points == 0
+
+
+def test_a_correction_that_leads_far_away_is_a_step_too_long():
+    """On the way the damping becomes so negative that a flight grows beyond all numbers."""
+    machine = Parameters(
+        gamma=0.11302957641682167,
+        omega=0.143937084810717,
+        rho=0.30304522696354413,
+        phi=-2.7709998705001544,
+        mu=0.11895243360274448,
+        d=0.1810090732337133,
+        radius_ratio=50.168766826571535,
+    )
+    branch = continue_orbit(find_orbits(machine)["B1,d"], "gamma", (0.0452, 0.3391))
+    assert branch.stops == ("parameter limit", "parameter limit")
+    points = zip(branch.closed.numbers, branch.period, branch.radial_speed, strict=True)
+    assert np.abs([conditions.conditions_at(*point)[:2] for point in points]).max() < 1e-10

@@ -298,13 +298,18 @@ def orbit_jacobian(
     Returns
     -------
     ndarray, shape (number of equations, number of unknowns)
-        By the period, the radial speed, the time if given, and each parameter; ``nan`` without a positive period.
+        By the period, the radial speed, the time if given, and each parameter; ``nan`` without a positive period, and where a flight
+        grows beyond all numbers.
     """
     timed = time is not None
+    undefined = np.full((2 + len(tests) + 2 * timed, 2 + timed + len(values)), np.nan)
     if not period > 0.0:
-        return np.full((2 + len(tests) + 2 * timed, 2 + timed + len(values)), np.nan)
-    at = OrbitValues(numbers_at(*values), period, speed)
-    flight = None if time is None else at.flight_of(time)
+        return undefined
+    try:
+        at = OrbitValues(numbers_at(*values), period, speed)
+        flight = None if time is None else at.flight_of(time)
+    except OverflowError:
+        return undefined
     directions = [(Direction(period=1.0), 0.0), (Direction(speed=1.0), 0.0), *([(Direction(), 1.0)] * timed)]
     directions += [(Direction(*column), 0.0) for column in _columns(lambda *moved: numbers_at(*moved)[:7], values)]
     columns = []
