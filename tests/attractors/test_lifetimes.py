@@ -69,6 +69,8 @@ def test_ends_that_all_come_at_one_age_have_no_half_life():
     assert found.verdict == "transient"
     assert found.half_life is None
     assert "so there is no half-life; half of them lasted longer than 1,990 impacts" in found.words
+    # Motions that approach an orbit slowly are all found to be periodic at the end.
+    assert lived(np.full(30, 19_999.0), end="2-impact bouncing").half_life is None
 
 
 def test_motions_followed_for_less_than_some_half_lives_are_undecided():

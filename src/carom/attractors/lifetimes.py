@@ -113,19 +113,28 @@ class Lifetimes(Result):
     def evenness(self) -> float:
         """Probability that a constant rate divides the deaths between early and late ages at least as unevenly.
 
-        The ages are divided where half of the deaths have occurred.  A small value says that the fit does not hold: for
-        example, some of the motions are on an attractor and others on a transient.
+        The ages are divided once where half of the deaths have occurred, and once where half of the time has been spent; the smaller
+        probability counts twice.  A small value says that the fit does not hold: for example, some of the motions are on an
+        attractor and others on a transient, or all approach an attractor at the same pace.
         """
         late = np.sort(self.impacts[self.ended & (self.impacts > self.forgotten)])
         if len(late) < 2:
             return 1.0
-        middle = float(late[(len(late) - 1) // 2])
-        early, total = self._after(self.forgotten, middle)[0], self._after(self.forgotten, self.followed)[0]
-        died, share = len(late), early / total
-        # The number of early deaths is given, that of late ones is not: it is compared with its binomial distribution.
-        before = int((late <= middle).sum())
-        ways = np.array([_chance(died, k, share) for k in range(died + 1)])
-        return float(min(1.0, ways[ways <= ways[before] * (1.0 + 1e-9)].sum()))
+        ages = np.unique(np.clip(self.impacts, self.forgotten, self.followed))
+        spent = [self._after(self.forgotten, age)[0] for age in ages.tolist()]
+        half = float(np.interp(0.5 * spent[-1], [0, *spent], [self.forgotten, *ages]))
+        divisions = float(late[(len(late) - 1) // 2]), half
+        return min(1.0, 2.0 * min(self._chance_of_division(late, age) for age in divisions))
+
+    def _chance_of_division(self, deaths: np.ndarray, age: float) -> float:
+        """Probability that a constant rate divides the deaths at an age at least as unevenly.
+
+        The number of deaths is given: that of early ones has a binomial distribution.
+        """
+        share = self._after(self.forgotten, age)[0] / self._after(self.forgotten, self.followed)[0]
+        ways = np.array([_chance(len(deaths), k, share) for k in range(len(deaths) + 1)])
+        found = ways[int((deaths <= age).sum())]
+        return float(ways[ways <= found * (1.0 + 1e-9)].sum())
 
     @property
     def too_many_left(self) -> bool:

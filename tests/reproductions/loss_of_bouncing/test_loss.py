@@ -65,7 +65,7 @@ def test_figure_and_files(tmp_path):
 
 
 def test_motions_that_take_long_to_become_periodic_have_no_half_life():
-    """Beside the period doubling some of the motions have settled on two impacts a period, others not yet."""
+    """Beside the period doubling motions settle on two impacts a period slowly, all at about the same age."""
     sample = sample_bouncing(Jeffcott(machine_at(0.08338)), motions=20, impacts=20_000)
     assert sample.lifetimes.survival.half_life is not None
     drawn = loss_of_bouncing.loss_figure(replace(few(), close=(sample,))).axes[3]

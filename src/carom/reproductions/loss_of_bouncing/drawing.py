@@ -127,22 +127,17 @@ def _kind(sample: BouncingSample) -> str:
 
 def _lives(axes: Axes, samples: tuple[BouncingSample, ...]) -> None:
     for sample in samples:
-        survival = sample.lifetimes.survival
-        if survival.half_life is not None and _left(sample):
+        survival, half_life = sample.lifetimes.survival, sample.lifetimes.half_life
+        if half_life is not None:
             low, high = survival.interval
             axes.plot([sample.gamma] * 2, [low, high], color=PALE, lw=0.6)
-            axes.plot([sample.gamma], [survival.half_life], ls="none", marker="x", ms=2.8, mew=0.7, color=INK)
+            axes.plot([sample.gamma], [half_life], ls="none", marker="x", ms=2.8, mew=0.7, color=INK)
         elif survival.half_life is None and survival.motions:
             axes.plot(
                 [sample.gamma], [survival.interval[0]], ls="none", marker="^", ms=3.0, mfc="none", mec=INK, mew=0.5
             )
     axes.set_yscale("log")
     axes.set_ylabel("impacts")
-
-
-def _left(sample: BouncingSample) -> bool:
-    """Whether motions stopped bouncing; some that only become periodic, or take long to, have no half-life."""
-    return not _GONE.isdisjoint(sample.lifetimes.destinations)
 
 
 def _destinations(axes: Axes, samples: tuple[BouncingSample, ...]) -> list[Patch]:
@@ -174,9 +169,6 @@ _ENDS = {
     "backward-whirl": "sliding backward whirl",
     "rolling": "rolling backward whirl",
 }
-
-
-_GONE = _ENDS.keys() - {"bouncing", "irregular"}
 
 
 def _share(sample: BouncingSample, key: str) -> float:
