@@ -104,6 +104,17 @@ def _disturbed(state: State) -> State:
     return State(state.position, state.velocity * 1.0001)
 
 
+def test_a_backward_whirl_that_slides_and_rolls_is_an_orbit():
+    """Where it rolls, nothing is left of a disturbance but a delay."""
+    machine = PAPER.replace(gamma=0.31, omega=0.21, rho=1.17, mu=0.11, d=0.57, radius_ratio=3.64)
+    _, whirl = characters(machine, count=200)["sliding backward whirl"]
+    assert sorted(str(whirl.orbit.word).split()) == ["roll", "slide+"]
+    assert whirl.orbit.admissible
+    assert whirl.rates.tolist() == [0.0, -np.inf, -np.inf, -np.inf]
+    _, rolling = characters(PAPER.replace(gamma=0.0815))["rolling backward whirl"]
+    assert rolling.rates.tolist() == [0.0, -np.inf, -np.inf, -np.inf]
+
+
 def test_motions_given_up_are_undecided():
     entry = next(iter(find_attractors(CHAOTIC, count=4, patience=2000)))
     given_up = replace(entry, name=replace(entry.name, outcome=Outcome.GRAZING))

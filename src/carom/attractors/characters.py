@@ -14,13 +14,14 @@ from carom.closed_forms.equilibria import find_equilibria
 from carom.models import Model, Subject, model_of
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory, simulate
-from carom.orbits.exponents import LyapunovExponents, lyapunov_exponents, orbit_exponents
+from carom.orbits.exponents import LOST, LyapunovExponents, lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.recognising import with_impacts
+from carom.orbits.word import Kind
 from carom.outcome import CaromError, Outcome
 from carom.results import Result
 
-Kind = Literal["equilibrium", "rub", "periodic", "torus", "chaotic", "undecided"]
+CharacterKind = Literal["equilibrium", "rub", "periodic", "torus", "chaotic", "undecided"]
 Lasting = Literal["attractor", "not seen to end", "transient", "undecided"]
 
 MEASURED = 20_000
@@ -47,11 +48,11 @@ class Character(Result):
         Whether motions stay on it.  Irregular bouncing is never called an attractor: if it was not seen to end,
         ``survival`` says how long it lasts at least.
     orbit : Orbit or None
-        Where it is periodic: closed by Newton's method, so that its number of impacts is exact.
+        Where it is periodic, also a whirl that slides: closed by Newton's method, so that its number of impacts is exact.
     exponents : LyapunovExponents or None
-        Of a periodic orbit from its multipliers, of irregular bouncing as measured on one motion.
+        Of a periodic orbit from its multipliers, of rolling, of irregular bouncing as measured on one motion.
     rates : ndarray or None
-        Lyapunov exponents in ``Ω``, the largest first, where they are known: those of ``exponents``, or those of the
+        Lyapunov exponents in ``Ω``, the largest first, where they are known: those of ``exponents``, those of the
         linearised motion next to levitation and a synchronous rub.
     rotation : Rotation or None
         Regularity of bouncing that does not repeat; its rotation number if it is a torus.
@@ -61,7 +62,7 @@ class Character(Result):
 
     shown: ClassVar[tuple[str, ...]] = ("kind", "lasting", "words", "rates")
 
-    kind: Kind
+    kind: CharacterKind
     words: str
     lasting: Lasting
     orbit: Orbit | None = None
@@ -93,8 +94,26 @@ def character_of(machine: Subject, attractor: Attractor, impacts: int = MEASURED
     if outcome in REPEATING:
         return _bouncing(rotor, attractor, impacts)
     if outcome.settled:
-        return Character("rub", attractor.words, "attractor", rates=_rub_rates(rotor, attractor))
+        return _rubbing(rotor, attractor)
     return Character("undecided", f"The motions were given up: {outcome.meaning}", "undecided")
+
+
+def _rubbing(rotor: Model, attractor: Attractor) -> Character:
+    """Character of a motion that stays in contact."""
+    exponents = orbit_exponents(attractor.orbit) if attractor.orbit is not None else None
+    if attractor.name.outcome is Outcome.ROLLING:
+        exponents = _rolling_exponents(rotor, attractor)
+    rates = _rub_rates(rotor, attractor) if exponents is None else exponents.values
+    return Character("rub", attractor.words, "attractor", attractor.orbit, exponents, rates)
+
+
+def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents | None:
+    """Exponents of rolling that leaves nothing of a disturbance but a delay, as that of the planar rotor does."""
+    directions = 2 * len(rotor.system.exponents) - 1
+    if directions > LOST[Kind.ROLL] or attractor.period is None:
+        return None
+    values = np.array([0.0, *[-np.inf] * directions])
+    return LyapunovExponents(values, np.zeros(len(values)), 0.0, -np.inf, 0, 0, attractor.period)
 
 
 def _rub_rates(rotor: Model, attractor: Attractor) -> np.ndarray | None:
@@ -129,7 +148,7 @@ def _irregular(
     """Character of bouncing that has not repeated, from what was measured."""
     value, error = exponents.across
     told = f"largest exponent {value:.3g} Omega, standard error {error:.2g}, from {exponents.impacts:,} impacts"
-    kind: Kind = "undecided"
+    kind: CharacterKind = "undecided"
     words = f"It has not repeated, and its averages do not tell what it is: {told}."
     if exponents.positive and not rotation.regular:
         kind, words = "chaotic", f"Nearby motions separate: {told}."

@@ -50,7 +50,7 @@ class Attractor(Result):
     survival : Survival or None
         How long it lasts, if it is irregular bouncing.
     orbit : Orbit or None
-        The orbit of periodic bouncing; ``None`` for other motions, and where Newton's method closes none.
+        The orbit of periodic bouncing or of a whirl that slides; ``None`` for other motions, and where Newton's method closes none.
     """
 
     name: MotionName

@@ -15,7 +15,7 @@ from carom.models import Jeffcott
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit, same_orbit
-from carom.orbits.recognising import first_of_period, orbit_of_motion
+from carom.orbits.recognising import first_of_period, orbit_of_motion, orbit_of_whirl
 from carom.outcome import Outcome, Phase
 from carom.results import Result
 
@@ -38,7 +38,7 @@ class SettledMotion(Result):
     multiplicity: int = 0
     """Impacts per period; 0 without a period or impacts."""
     orbit: Orbit | None = None
-    """The orbit of periodic bouncing; ``None`` for other motions, and where Newton's method closes none."""
+    """The orbit of periodic bouncing or of a whirl that slides; ``None`` for other motions, and where Newton's method closes none."""
     period: float | None = None
     """In ``1/Ω``; ``None`` if it is at rest, does not repeat or has not settled."""
     synchronous: bool = False
@@ -48,19 +48,22 @@ class SettledMotion(Result):
 def settled_motion(motion: Trajectory) -> SettledMotion:
     """Determine from the end of a motion what it repeats.
 
-    Periodic bouncing is closed to its orbit (:func:`~carom.orbits.recognising.orbit_of_motion`).  Motions that approach one orbit
+    Periodic bouncing and whirls that slide are closed to their orbits (:mod:`carom.orbits.recognising`).  Motions that approach one orbit
     then have the same one, however far from it they were when found to be periodic.
     """
     outcome, motion = motion.outcome, seen_in_contact(motion)
     if outcome is Outcome.ROLLING:
-        turn = 2.0 * math.pi / float(motion.rotor.system.arrays.drive[motion.plane])
-        return SettledMotion(motion, outcome, period=turn)
+        return SettledMotion(
+            motion, outcome, period=2.0 * math.pi / float(motion.rotor.system.arrays.drive[motion.plane])
+        )
     if outcome not in REPEATING:
         resting = outcome is Outcome.LEVITATED or (
             outcome is Outcome.FORWARD_RUB and np.abs(motion.final.velocity).max() < SAME
         )
         whirling = outcome is Outcome.BACKWARD_WHIRL or (outcome is Outcome.FORWARD_RUB and not resting)
-        return SettledMotion(motion, outcome, period=_turn_time(motion) if whirling else None, synchronous=resting)
+        turn = _turn_time(motion) if whirling else None
+        orbit = orbit_of_whirl(motion, turn) if turn is not None else None
+        return SettledMotion(motion, outcome, 0, orbit, orbit.period if orbit is not None else turn, resting)
     count = motion.multiplicity
     if count == 0:
         return SettledMotion(motion, outcome)

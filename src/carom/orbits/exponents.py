@@ -83,10 +83,9 @@ class LyapunovExponents(Result):
         return float(self.values[largest]), float(self.errors[largest])
 
     @property
-    def per_impact(self) -> np.ndarray:
-        """The exponents per impact instead of per time."""
-        rates: np.ndarray = self.values * (self.time / self.impacts)
-        return rates
+    def per_impact(self) -> np.ndarray | None:
+        """The exponents per impact instead of per time; ``None`` for a whirl without impacts."""
+        return self.values * (self.time / self.impacts) if self.impacts else None
 
     @property
     def lost(self) -> int:

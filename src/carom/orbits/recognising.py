@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from carom.core.advance import SHORTEST_LAP
+from carom.models import Model
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
@@ -18,6 +19,8 @@ MORE = 1.1
 """Periods that are simulated to find a whole one between two lift-offs."""
 SAME_TIME = 1e-3
 """Relative difference of the time between two lift-offs and the period, if they are the same lift-off."""
+SAMPLES = 200
+"""Times in a turn at which the normal force is compared to find where it is least."""
 AROUND = 1e-3
 """Distance, relative to one plus the size of the nodes, within which the orbit of a settled motion is searched for."""
 
@@ -79,13 +82,61 @@ def _between_lift_offs(motion: Trajectory, period: float) -> Orbit | None:
     flying = motion.segment_phases == Phase.FLIGHT
     events = np.arange(len(motion.event_planes))
     lifts = np.flatnonzero(~flying[events, motion.event_planes] & flying[events + 1, motion.event_planes])
-    times = motion.segment_starts[1:][lifts]
-    if not len(lifts):
+    return _between(motion, lifts, period)
+
+
+def orbit_of_whirl(motion: Trajectory, period: float) -> Orbit | None:
+    """Close the orbit of a whirl that stays in contact with the wall and slides, at least for a part of each turn.
+
+    Parameters
+    ----------
+    motion : Trajectory
+        Settled to such a whirl.
+    period : float
+        Time of a turn along the wall in the co-rotating frame, in ``1/Ω``.
+
+    Returns
+    -------
+    Orbit or None
+        ``None`` if two planes touch, or if Newton's method closes none next to the motion.
+    """
+    planes = np.flatnonzero(motion.segment_phases[-1] != Phase.FLIGHT)
+    if len(planes) != 1:
         return None
+    turns = simulate(motion.rotor, motion.final, (1.0 + MORE) * period).seen_at(int(planes[0]))
+    # At the start it is put to rest on the wall.
+    changes = np.flatnonzero(
+        (np.diff(turns.segment_phases, axis=0) != 0).any(axis=1) & (turns.segment_starts[1:] > 0.0)
+    )
+    if len(changes):
+        return _between(turns, changes, period)
+    kind = Kind.of_phase(int(turns.segment_phases[-1, turns.plane]))
+    if kind is Kind.ROLL:
+        return None
+    least = simulate(motion.rotor, motion.final, _time_of_least_force(turns, period)).final
+    node = np.append(least.position, least.velocity)
+    return _near(motion.rotor, Word((Segment(kind, turns.plane),)), Start(node[None], np.array([period])))
+
+
+def _time_of_least_force(turns: Trajectory, period: float) -> float:
+    """Time in the second of two turns at which the normal force is least, by a parabola through three samples."""
+    step = period / SAMPLES
+    forces = turns.forces(period + step * np.arange(SAMPLES))[0]
+    least = int(np.argmin(forces))
+    before, here, after = (float(forces[(least + shift) % SAMPLES]) for shift in (-1, 0, 1))
+    bend = before - 2.0 * here + after
+    return period + step * (least + (0.5 * (before - after) / bend if bend > 0.0 else 0.0))
+
+
+def _between(motion: Trajectory, events: np.ndarray, period: float) -> Orbit | None:
+    """Orbit from the first of some events to the one a period later."""
+    if not len(events):
+        return None
+    times = motion.segment_starts[1:][events]
     last = int(np.argmin(np.abs(times - times[0] - period)))
     if abs(times[last] - times[0] - period) > SAME_TIME * period:
         return None
-    return _closed(motion, int(lifts[0]), int(lifts[last]))
+    return _closed(motion, int(events[0]), int(events[last]))
 
 
 def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
@@ -94,7 +145,12 @@ def _closed(motion: Trajectory, first: int, last: int) -> Orbit | None:
         word, start = segments_of(motion, first, last)
     except InputError:  # an impact at one plane while another stays in contact has no word
         return None
-    orbit, begun = orbit_near(motion.rotor, word, start), start.nodes[0]
+    return _near(motion.rotor, word, start)
+
+
+def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
+    """Orbit next to a start, if it is the one that the motion has settled on."""
+    orbit, begun = orbit_near(rotor, word, start), start.nodes[0]
     if orbit is None or np.abs(orbit.nodes - begun).max(axis=1).min() > AROUND * (1.0 + np.abs(begun).max()):
         return None
     return orbit

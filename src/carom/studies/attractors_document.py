@@ -45,7 +45,7 @@ def _attractor(entry: Attractor, total: int, character: Character, exponents: bo
         "kind": character.kind,
         "words": character.words,
         "word": str(orbit.word) if orbit else None,
-        "impacts": orbit.impacts if orbit else entry.name.multiplicity or None,
+        "impacts": (orbit.impacts if orbit else entry.name.multiplicity) or None,
         "period": orbit.period if orbit else entry.period,
         "share": [entry.share, *(wilson_interval(entry.count, total) if total else (0.0, 1.0))],
         "count": entry.count,
@@ -62,7 +62,8 @@ def _exponents(character: Character) -> dict[str, Any] | None:
     found = character.exponents
     if found is not None:
         lists = {"per_time": found.values, "per_impact": found.per_impact, "error": found.errors}
-        return {name: values.tolist() for name, values in lists.items()} | {"lost": found.lost}
+        told = {name: values if values is None else values.tolist() for name, values in lists.items()}
+        return told | {"lost": found.lost}
     if character.rates is None:
         return None
     return {"per_time": character.rates.tolist(), "per_impact": None, "error": [0.0] * len(character.rates)}

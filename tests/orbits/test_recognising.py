@@ -1,0 +1,61 @@
+"""The orbit of a whirl that stays in contact: that of the same word which Newton's method finds from a guess of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carom.models import Jeffcott
+from carom.motions import State, simulate
+from carom.orbits.exponents import orbit_exponents
+from carom.orbits.orbit import orbit_near
+from carom.orbits.recognising import orbit_of_whirl
+from carom.orbits.shooting import Start
+from carom.orbits.word import Kind, Word
+from tests.orbits.test_orbit import CHATTERING
+
+pytestmark = pytest.mark.jit_only
+ROTOR = Jeffcott(CHATTERING.replace(gamma=0.25))
+
+
+@pytest.fixture(scope="module")
+def whirl():
+    """The backward whirl that slides all the way round; it repels."""
+    p = ROTOR.parameters
+    # Where friction and damping balance on average: μ(W² − ω²) + γW = 0.
+    speed = -(p.gamma + np.sqrt(p.gamma**2 + 4.0 * p.mu**2 * p.omega**2)) / (2.0 * p.mu) - 1.0
+    node = np.exp(2j) * np.array([[1.0, 1j * speed]])
+    return orbit_near(ROTOR, Word.of(Kind.SLIDE_FORWARD), Start(node, np.array([2.0 * np.pi / abs(speed)])))
+
+
+def beside(whirl, change=0.0):
+    position, velocity = whirl.nodes[0]
+    position /= abs(position)
+    turning = (np.conj(position) * velocity).imag
+    return State(position, 1j * turning * (1.0 + change) * position)
+
+
+def test_a_whirl_that_slides_all_the_way_round(whirl):
+    assert whirl.admissible
+    for begun in (0.2, 1.1, 1.9):
+        motion = simulate(ROTOR, beside(whirl), begun * whirl.period)
+        found = orbit_of_whirl(motion, whirl.period * (1.0 + 1e-6))
+        assert str(found.word) == "slide+"
+        assert found.period == pytest.approx(whirl.period, rel=1e-11)
+
+
+def test_its_exponent_is_the_rate_at_which_simulated_motions_part(whirl):
+    """The difference of two motions is a delay and a part that grows at this rate."""
+    times = whirl.period * np.array([1.0, 2.0, 3.0])
+    plain, other = (
+        simulate(ROTOR, beside(whirl, change), 3.1 * whirl.period).at_plane(times)[0] for change in (0.0, 1e-7)
+    )
+    first, second = np.diff(other - plain)
+    rate = np.log(abs(second / first)) / whirl.period
+    assert rate == pytest.approx(orbit_exponents(whirl).values[0], rel=1e-5)
+    assert orbit_exponents(whirl).values.tolist()[1:] == [0.0, -np.inf, -np.inf]
+
+
+def test_rolling_alone_has_no_such_orbit():
+    motion = simulate(Jeffcott(CHATTERING), State(1.0, -80j), settle=True)
+    assert orbit_of_whirl(motion, 0.108) is None
