@@ -14,6 +14,8 @@ from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.ir_utils import build_definitions, find_const, get_definition, guard
 from numba.core.untyped_passes import InlineInlinables, RewriteSemanticConstants
 
+from carom.core.signatures import RecallingContext
+
 __all__ = ["ShapedCompiler"]
 
 
@@ -68,6 +70,7 @@ class ShapedCompiler(Compiler):  # type: ignore[misc]
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""
+        self.state.typingctx = RecallingContext(self.state.typingctx, self.state.flags)
         (pipeline,) = super().define_pipelines()
         for step in RewriteSemanticConstants, InlineInlinables:
             pipeline.add_pass_after(RecordShapes, step)
