@@ -56,7 +56,7 @@ CALLS = {
         m, next(iter(cm.find_attractors(m, FEW, known=False)))
     ),
     "attractors.find_attractors": lambda m: cm.find_attractors(m, FEW, known=False),
-    "attractors.follow_out": lambda m: cm.attractors.follow_out(m, settled(m), impacts=100),
+    "attractors.follow_until_settled": lambda m: cm.attractors.follow_until_settled(m, settled(m), impacts=100),
     "attractors.known_starts": lambda m: cm.attractors.known_starts(m, []),
     "attractors.locate_crisis": lambda m: told(
         lambda: cm.attractors.locate_crisis(m, "gamma", 0.4, 0.41, count=4, impacts=50)
@@ -118,7 +118,7 @@ GENERAL = {
     "orbits.lyapunov_exponents",
     "attractors.find_attractors",
     "bifurcations.sample_attractors",
-    "attractors.follow_out",
+    "attractors.follow_until_settled",
     "basins.map_basins",
     "basins.map_gains",
     "closed_forms.find_equilibria",

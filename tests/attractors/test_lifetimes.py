@@ -13,12 +13,12 @@ from tests.compilation import sized
 from tests.machines import PAPER
 
 
-def lived(lives, followed=20_000, forgotten=100, end="rolling") -> Lifetimes:
+def lived(lives, followed=20_000, discarded=100, end="rolling") -> Lifetimes:
     """Lifetimes of motions that die after these numbers of impacts, unless they are followed for fewer."""
     lives = np.sort(lives)
     ended = lives < followed
     ends = tuple(end if one else "irregular" for one in ended.tolist())
-    return Lifetimes(PAPER, np.minimum(lives, followed).astype(int), ended, ends, followed, forgotten)
+    return Lifetimes(PAPER, np.minimum(lives, followed).astype(int), ended, ends, followed, discarded)
 
 
 def exponential(seed, half_life, count=300):
@@ -41,7 +41,7 @@ def test_the_interval_holds_the_half_life_as_often_as_it_says(half_life):
 
 
 def test_shares_left_are_those_of_the_law():
-    found = lived(exponential(0, 2000.0, 20_000), forgotten=0)
+    found = lived(exponential(0, 2000.0, 20_000), discarded=0)
     ages = np.array([0, 500, 2000, 8000])
     np.testing.assert_allclose(found.share(ages), 0.5 ** (ages / 2000.0), atol=0.015)
 
@@ -115,16 +115,16 @@ def test_bouncing_of_the_machine_of_the_paper_dies_the_faster_the_lower_its_damp
 
 
 @pytest.mark.jit_only
-def test_the_forgotten_impacts_do_not_change_the_half_life():
+def test_the_discarded_impacts_do_not_change_the_half_life():
     """The law has no memory: the tail of 300 lives, from any age on, tells the same."""
     rotor = PAPER.replace(gamma=0.079)
-    found = [measure_lifetimes(rotor, count=1000, forgotten=forgotten).survival for forgotten in (400, 800)]
+    found = [measure_lifetimes(rotor, count=1000, discarded=discarded).survival for discarded in (400, 800)]
     assert found[0].interval[0] < found[1].interval[1]
     assert found[1].interval[0] < found[0].interval[1]
 
 
 def test_limits_that_make_no_sense_are_refused():
-    with pytest.raises(InputError, match="forgotten"):
-        measure_lifetimes(PAPER, impacts=100, forgotten=100)
+    with pytest.raises(InputError, match="discarded"):
+        measure_lifetimes(PAPER, impacts=100, discarded=100)
     with pytest.raises(InputError, match="impacts"):
         measure_lifetimes(PAPER, impacts=1)

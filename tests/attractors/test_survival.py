@@ -9,7 +9,14 @@ import pytest
 from machines import PAPER
 
 from carom.attractors import survival as module
-from carom.attractors.survival import LOOK, Survival, document_of, follow_out, measure_survival, still_irregular
+from carom.attractors.survival import (
+    LOOK,
+    Survival,
+    document_of,
+    follow_until_settled,
+    measure_survival,
+    still_irregular,
+)
 from carom.models import Jeffcott
 from carom.motions.ensembles import Endings, settle
 from carom.outcome import Outcome
@@ -116,7 +123,7 @@ def test_motions_of_an_ensemble_are_followed_to_where_they_end():
     early = settle(rotor, points[0], 0.5 * points[1], patience=1500)
     going = still_irregular(early)
     assert going.sum() > 20
-    late, found = follow_out(rotor, early, impacts=20_000)
+    late, found = follow_until_settled(rotor, early, impacts=20_000)
     assert not still_irregular(late).any()
     assert found is not None
     assert found.transient
@@ -125,4 +132,4 @@ def test_motions_of_an_ensemble_are_followed_to_where_they_end():
     # Half of those that last longer than the patience have gone after the half-life.
     lives = late.impacts[going] - early.impacts[going]
     assert 0.2 < (lives > found.half_life).mean() < 0.85
-    assert follow_out(rotor, late, impacts=20_000) == (late, None)
+    assert follow_until_settled(rotor, late, impacts=20_000) == (late, None)

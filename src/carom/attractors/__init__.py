@@ -22,7 +22,7 @@ from carom.attractors.lifetimes import Lifetimes, measure_lifetimes
 from carom.attractors.names import MotionName
 from carom.attractors.search import AttractorSet, find_attractors
 from carom.attractors.starts import DisturbanceSet, Start, known_starts
-from carom.attractors.survival import Survival, document_of, follow_out
+from carom.attractors.survival import Survival, document_of, follow_until_settled
 
 __all__ = [
     "Attractor",
@@ -38,7 +38,7 @@ __all__ = [
     "character_of",
     "document_of",
     "find_attractors",
-    "follow_out",
+    "follow_until_settled",
     "known_starts",
     "locate_crisis",
     "measure_lifetimes",

@@ -117,7 +117,7 @@ def _rolling_exponents(rotor: Model, attractor: Attractor) -> LyapunovExponents 
 
 
 def _rub_rates(rotor: Model, attractor: Attractor) -> np.ndarray | None:
-    """Exponents at a synchronous rub: those of sliding next to it; the directions off the wall have none."""
+    """Exponents of sliding next to a synchronous rub; the directions off the wall have no exponents."""
     if attractor.name.drifting or attractor.name.outcome is not Outcome.FORWARD_RUB:
         return None
     for rub in find_equilibria(rotor)[1:]:

@@ -17,7 +17,7 @@ STEPS = 12
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Crisis(Result):
-    """Interval of a parameter at one end of which irregular bouncing ends, while at the other no end of it was seen.
+    """Interval of a parameter: at one end irregular bouncing was seen to end, at the other it was not.
 
     Attributes
     ----------
@@ -84,7 +84,7 @@ def locate_crisis(
     starts : DisturbanceSet, optional
         By default the standard set of :func:`measure_lifetimes`.
     **limits
-        ``impacts``, ``forgotten``, ``count``, ``seed`` and ``threads`` of :func:`measure_lifetimes`.
+        ``impacts``, ``discarded``, ``count``, ``seed`` and ``threads`` of :func:`measure_lifetimes`.
 
     Raises
     ------
@@ -114,6 +114,6 @@ def locate_crisis(
 
 
 def _ends(found: Lifetimes) -> bool:
-    """Whether some motion stopped bouncing after the forgotten impacts."""
-    late = (found.impacts > found.forgotten) & found.ended
+    """Whether some motion stopped bouncing after the discarded impacts."""
+    late = (found.impacts > found.discarded) & found.ended
     return any("bouncing" not in end for end, one in zip(found.ends, late, strict=True) if one)

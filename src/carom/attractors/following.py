@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.attractors.names import MotionName
 from carom.attractors.starts import Start
-from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_out, still_irregular
+from carom.attractors.survival import MOTIONS, Survival, follow_further, follow_until_settled, still_irregular
 from carom.disturbances import Starts
 from carom.disturbances.following import follow
 from carom.models import Model
@@ -29,8 +29,8 @@ Less than for basins: single motions are simulated once more where their impulse
 """
 
 SLOWER = 10
-"""Divisor of this cost, of the irregular motions followed and of the events after which a motion is given up, for rotors whose
-motions are followed one after another."""
+"""For rotors whose motions are followed one after another: divisor of this cost, of the number of irregular motions followed, and
+of the number of events after which a motion is given up."""
 
 
 @dataclass(frozen=True)
@@ -79,11 +79,11 @@ class Ending:
 def follow_in_stages(
     rotor: Model, starts: Starts, patience: int, threads: int | None, tell: Reporter, less: int = 1
 ) -> tuple[Endings, np.ndarray, Survival | None]:
-    """Follow all starts, one-dimensional: first each for a short time, then longer those that are still irregular.
+    """Follow all starts, one-dimensional: first each for a short time, then for longer those that are still irregular.
 
     The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they
-    leave it, unless that takes too long; ``less`` divides the effort for it.  Return the endings, which motions were irregular after 1000 impacts, and how
-    long irregular motion lasts (``None`` if there was none).
+    leave it, unless that takes too long; ``less`` divides the effort for it.  Return the endings, which motions were
+    irregular after 1000 impacts, and how long irregular motion lasts (``None`` if there was none).
     """
     seen = min(FIRST_PATIENCE, patience)
     bounded: dict[str, Any] = {"max_events": MOST_EVENTS // less} if less > 1 else {}
@@ -97,6 +97,6 @@ def follow_in_stages(
         seen += span
         tell(0.8 + 0.1 * min(seen / patience, 1.0))
     effort: dict[str, int] = {"affordable": AFFORDABLE // less, "motions": MOTIONS // less}
-    endings, survival = follow_out(rotor, endings, impacts=patience, threads=threads, were=first, **effort)
+    endings, survival = follow_until_settled(rotor, endings, impacts=patience, threads=threads, earlier=first, **effort)
     tell(1.0)
     return endings, lasted, survival

@@ -24,8 +24,8 @@ from carom.results import Result
 Verdict = Literal["too few", "periodic", "not seen to end", "undecided", "transient"]
 
 COUNT = 200
-FORGOTTEN = 100
-"""Impacts at the beginning that are left out: until then the motions forget where they began.
+DISCARDED = 100
+"""Impacts at the beginning that are discarded: until then the motions depend on their starts.
 
 Added to these is the length of a chatter, whose bounces are counted too: about ``CHATTER/|ln d|``.
 """
@@ -52,20 +52,20 @@ class Lifetimes(Result):
         ``"time-reached"`` or ``"event-limit"`` if it was given up.
     followed : int
         Largest number of impacts for which a motion was followed.
-    forgotten : int
-        Impacts at the beginning that the statistics leave out.
+    discarded : int
+        Impacts at the beginning that the statistics discard.
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "clopper1934")
 
-    shown: ClassVar[tuple[str, ...]] = ("rotor", "destinations", "followed", "forgotten", "verdict", "words")
+    shown: ClassVar[tuple[str, ...]] = ("rotor", "destinations", "followed", "discarded", "verdict", "words")
 
     rotor: Model
     impacts: np.ndarray
     ended: np.ndarray
     ends: tuple[str, ...]
     followed: int
-    forgotten: int
+    discarded: int
 
     def __len__(self) -> int:
         return len(self.impacts)
@@ -88,9 +88,9 @@ class Lifetimes(Result):
 
     @cached_property
     def survival(self) -> Survival:
-        """Exponential fit beyond the forgotten impacts: half-life in impacts, with an interval of 95 %."""
-        exposure, died = self._after(self.forgotten, self.followed)
-        among = int((self.impacts > self.forgotten).sum())
+        """Exponential fit after the discarded impacts: half-life in impacts, with an interval of 95 %."""
+        exposure, died = self._after(self.discarded, self.followed)
+        among = int((self.impacts > self.discarded).sum())
         return Survival.of(among, self.followed, died, exposure, died, span=1)
 
     def _after(self, begin: float, end: float) -> tuple[int, int]:
@@ -101,7 +101,7 @@ class Lifetimes(Result):
 
     @property
     def half_life(self) -> float | None:
-        """In impacts; ``None`` if no motion ended beyond the forgotten impacts, or if they did not at a constant rate."""
+        """In impacts; ``None`` if no motion ended after the discarded impacts, or if they did not at a constant rate."""
         return self.survival.half_life if self.constant_rate else None
 
     @property
@@ -117,12 +117,12 @@ class Lifetimes(Result):
         probability counts twice.  A small value says that the fit does not hold: for example, some of the motions are on an
         attractor and others on a transient, or all approach an attractor at the same pace.
         """
-        late = np.sort(self.impacts[self.ended & (self.impacts > self.forgotten)])
+        late = np.sort(self.impacts[self.ended & (self.impacts > self.discarded)])
         if len(late) < 2:
             return 1.0
-        ages = np.unique(np.clip(self.impacts, self.forgotten, self.followed))
-        spent = [self._after(self.forgotten, age)[0] for age in ages.tolist()]
-        half = float(np.interp(0.5 * spent[-1], [0, *spent], [self.forgotten, *ages]))
+        ages = np.unique(np.clip(self.impacts, self.discarded, self.followed))
+        spent = [self._after(self.discarded, age)[0] for age in ages.tolist()]
+        half = float(np.interp(0.5 * spent[-1], [0, *spent], [self.discarded, *ages]))
         divisions = float(late[(len(late) - 1) // 2]), half
         return min(1.0, 2.0 * min(self._chance_of_division(late, age) for age in divisions))
 
@@ -131,7 +131,7 @@ class Lifetimes(Result):
 
         The number of deaths is given: that of early ones has a binomial distribution.
         """
-        share = self._after(self.forgotten, age)[0] / self._after(self.forgotten, self.followed)[0]
+        share = self._after(self.discarded, age)[0] / self._after(self.discarded, self.followed)[0]
         ways = np.array([_chance(len(deaths), k, share) for k in range(len(deaths) + 1)])
         found = ways[int((deaths <= age).sum())]
         return float(ways[ways <= found * (1.0 + 1e-9)].sum())
@@ -140,18 +140,18 @@ class Lifetimes(Result):
     def too_many_left(self) -> bool:
         """Whether more motions are left at the end than the fit explains: some may be on an attractor."""
         left = sum(end == "irregular" for end in self.ends)
-        return left > self.survival.most_left(self.followed - self.forgotten)
+        return left > self.survival.most_left(self.followed - self.discarded)
 
     @property
     def verdict(self) -> Verdict:
         """What the statistics say of irregular bouncing.
 
-        ``"too few"``: fewer than ten motions were irregular for longer than the forgotten impacts, and some ended.  ``"periodic"``: all that
-        were became periodic.  ``"not seen to end"``: none ended; this is no proof that none does.  ``"transient"``: all ended, or
-        they were followed for more than five half-lives and ended at a constant rate.  ``"undecided"``: transient or
-        attractor.
+        Only motions that were irregular for longer than the discarded impacts count.  ``"too few"``: fewer than ten, and
+        some ended.  ``"periodic"``: all became periodic.  ``"not seen to end"``: none ended; this is no proof that none
+        does.  ``"transient"``: all ended, or they were followed for more than five half-lives and ended at a constant
+        rate.  ``"undecided"``: transient or attractor.
         """
-        among = self.impacts > self.forgotten
+        among = self.impacts > self.discarded
         if among.any() and not (self.ended & among).any():
             return "not seen to end"
         if np.count_nonzero(among) < FEWEST:
@@ -159,7 +159,7 @@ class Lifetimes(Result):
         if self.ended[among].all():
             bouncing = all("bouncing" in end for end, one in zip(self.ends, among, strict=True) if one)
             return "periodic" if bouncing else "transient"
-        long_enough = self.followed - self.forgotten >= ENOUGH * (self.half_life or math.inf)
+        long_enough = self.followed - self.discarded >= ENOUGH * (self.half_life or math.inf)
         return "transient" if long_enough else "undecided"
 
     @property
@@ -169,7 +169,7 @@ class Lifetimes(Result):
         low, high = (_impacts(bound) for bound in survival.interval)
         if verdict == "too few":
             return (
-                f"{survival.motions or 'None'} of {len(self)} motions bounced irregularly for more than {self.forgotten} impacts: "
+                f"{survival.motions or 'None'} of {len(self)} motions bounced irregularly for more than {self.discarded} impacts: "
                 "too few to tell how long such motion lasts."
             )
         told = f"{survival.died} of {survival.motions} motions ended within {self.followed:,} impacts"
@@ -177,7 +177,7 @@ class Lifetimes(Result):
             return f"{told}: not seen to end. If it is a transient, its half-life is above {low} impacts (95 %)."
         fitted = f"half-life {_impacts(survival.half_life)} impacts ({low} to {high}, 95 %)"
         if not self.constant_rate:
-            middle = np.median(self.impacts[self.impacts > self.forgotten])
+            middle = np.median(self.impacts[self.impacts > self.discarded])
             fitted = f"not at a constant rate, so there is no half-life; half of them lasted longer than {_impacts(float(middle))} impacts"
         names = {"undecided": "transient or attractor, undecided", "transient": "a transient"}
         return f"{told}: {names.get(verdict, 'a transient to periodic bouncing')}; {fitted}."
@@ -196,7 +196,7 @@ def measure_lifetimes(
     starts: DisturbanceSet | Plan | Sequence[State | Kick] | None = None,
     *,
     impacts: int = PATIENCE,
-    forgotten: int | None = None,
+    discarded: int | None = None,
     count: int = COUNT,
     seed: int = 0,
     threads: int | None = None,
@@ -210,8 +210,8 @@ def measure_lifetimes(
         By default the standard set of disturbances.  To measure how long one irregular motion lasts, give starts on it.
     impacts : int
         Impacts for which each motion is followed.
-    forgotten : int, optional
-        Impacts at the beginning to leave out; by default 100 and those of a chatter.
+    discarded : int, optional
+        Impacts at the beginning to discard; by default 100 and those of a chatter.
     count, seed : int
         Size and seed of the standard set.
     threads : int, optional
@@ -230,11 +230,11 @@ def measure_lifetimes(
     """
     rotor = model_of(machine)
     check_whole("impacts", impacts, 2)
-    if forgotten is None:
-        forgotten = min(_forgotten(rotor), impacts // 2)
-    check_whole("forgotten", forgotten, 0)
-    if forgotten >= impacts:
-        raise InputError("forgotten", forgotten, f"less than the impacts followed, {impacts}")
+    if discarded is None:
+        discarded = min(_discarded(rotor), impacts // 2)
+    check_whole("discarded", discarded, 0)
+    if discarded >= impacts:
+        raise InputError("discarded", discarded, f"less than the impacts followed, {impacts}")
     _, whole = disturbances_of(rotor, DisturbanceSet(count, seed) if starts is None else starts)
     ends = settle(rotor, whole.positions, whole.velocities, patience=impacts, threads=threads)
     ends = ends.reshaped(ends.outcomes.size)
@@ -242,14 +242,14 @@ def measure_lifetimes(
     ended = ~still_irregular(ends) & (ends.outcomes >= Outcome.LEVITATED)
     named = [_label(*each) for each in zip(ends.outcomes.tolist(), ends.multiplicities.tolist(), strict=True)]
     labels = tuple(named[place] for place in order.tolist())
-    return Lifetimes(rotor, ends.impacts[order], ended[order], labels, impacts, forgotten)
+    return Lifetimes(rotor, ends.impacts[order], ended[order], labels, impacts, discarded)
 
 
-def _forgotten(rotor: Model) -> int:
-    """Impacts until the motions have forgotten where they began, and one that ends then has completed its chatter."""
+def _discarded(rotor: Model) -> int:
+    """Impacts after which the motions no longer depend on their starts, plus those of a chatter, which a motion may still complete."""
     restitution = rotor.system.arrays.restitution
     lossy = restitution[(restitution > 0.0) & (restitution < 1.0)]
-    return FORGOTTEN + int((CHATTER / -np.log(lossy)).max(initial=0.0))
+    return DISCARDED + int((CHATTER / -np.log(lossy)).max(initial=0.0))
 
 
 def _label(outcome: int, multiplicity: int) -> str:

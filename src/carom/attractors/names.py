@@ -61,7 +61,7 @@ class MotionName(str):
 
     @property
     def words(self) -> str:
-        """The name where nothing around it says what it names: ``"bouncing on B1,d"``; of other motions the name."""
+        """The name for use without context: ``"bouncing on B1,d"`` for an orbit; for other motions the name itself."""
         return f"bouncing on {self}" if self.orbit else str(self)
 
     @property

@@ -88,7 +88,7 @@ def _apart(rotor: Model, endings: Endings, chosen: np.ndarray, name: MotionName)
 
 
 def _goes_over_to_rub(rotor: Model, endings: Endings) -> np.ndarray:
-    """Which motions in forward rub are at the synchronous rub, or are proven to go over to it."""
+    """Which motions in forward rub are at the synchronous rub, or are proven to converge to it."""
     axes = tuple(range(endings.outcomes.ndim, endings.velocities.ndim))
     still: np.ndarray = np.abs(endings.velocities).max(axis=axes, initial=0.0) < AT_REST
     around = known_of(rotor).around

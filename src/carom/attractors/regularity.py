@@ -29,10 +29,10 @@ class Rotation:
     digits : float
         Digits to which weighted averages over the first and the second half agree.
     loops : int
-        Number of closed curves that the impacts visit in turn; each is met every so many impacts.
+        Number of closed curves that the impacts visit in turn.
     number : float
-        Main frequency on one of the curves, in turns per return to it, between 0 and 1/2: the rotation number of a torus, up
-        to its sign and a whole multiple.
+        Main frequency on one of the curves, in turns per return to it, between 0 and 1/2: the rotation number of a torus
+        without its sign and its whole part.
     nearest : Fraction
         The fraction nearest to it with a denominator up to 64.
     """
@@ -69,7 +69,7 @@ def rotation_of(states: np.ndarray) -> Rotation:
     weights = _weights(half)
     apart = np.abs(weights @ values[:half] - weights @ values[half : 2 * half]).max()
     digits = float(-np.log10(max(apart, 1e-16)))
-    # Curves that are visited in turn give a line at a fraction: the rotation is that of every return to one of them.
+    # Curves visited in turn give a spectral line at a fraction; the rotation number is measured over returns to one of them.
     whole = _main_frequency(states)
     line = Fraction(whole).limit_denominator(DENOMINATOR)
     loops = line.denominator if abs(whole - float(line)) < LOCKED else 1

@@ -37,7 +37,7 @@ class AttractorSet(Result):
     Attributes
     ----------
     rotor : Model
-        The machine that the motions are of: after the disturbance, if that changes it.
+        The machine of the motions: that after the disturbance, if the disturbance changes it.
     members : tuple of Attractor
         Sorted by the number of disturbances, the largest first; motions given up come last.
     endings : tuple of Ending
@@ -136,7 +136,7 @@ class AttractorSet(Result):
         known = len(self.endings) - len(self.disturbances)
         general = "" if isinstance(self.rotor, Jeffcott) else f" {RECOGNISED}"
         return (
-            f"{self.words()}, and {known} starts next to motions known in closed form, which count for no share, were "
+            f"{self.words()}, and {known} starts next to motions known in closed form, which are left out of the shares, were "
             "simulated to where they settle. This is evidence, not proof: an attractor that none of them reaches is not listed."
             f"{general}"
         )

@@ -33,7 +33,7 @@ class SettledMotion(Result):
     """A motion at its end, and what it repeats there."""
 
     motion: Trajectory
-    """Seen at the plane that touches."""
+    """As seen at the plane that touches."""
     outcome: Outcome
     multiplicity: int = 0
     """Impacts per period; 0 without a period or impacts."""

@@ -58,12 +58,12 @@ class Start:
 
     @property
     def speed(self) -> float:
-        """Speed in the co-rotating frame in ``c_r Ω``, of several coordinates the largest; for the planar rotor's kick its size."""
+        """Speed in the co-rotating frame in ``c_r Ω``: the largest of several coordinates; for a kick of the planar rotor its size."""
         return float(np.max(np.abs(self.state.velocity)))
 
     @property
     def angle(self) -> float:
-        """Direction of the velocity in rad, of several coordinates that of the fastest."""
+        """Direction of the velocity in rad: that of the fastest of several coordinates."""
         return cmath.phase(max(np.atleast_1d(self.state.velocity).tolist(), key=abs))
 
 
@@ -156,7 +156,7 @@ def starts_at(rotor: Model, states: Sequence[State]) -> Starts:
 
 
 def disturbances_of(rotor: Model, tried: DisturbanceSet | Plan | Sequence[State | Kick]) -> tuple[list[Start], Starts]:
-    """Those of the disturbances that are possible, as single starts and as arrays; a plan without any is refused."""
+    """The possible ones of the disturbances, as single starts and as arrays; a plan without any is refused."""
     if isinstance(tried, Sequence):
         states = [start.state(rotor) if isinstance(start, Kick) else start for start in tried]
         whole = starts_at(rotor, states)
@@ -184,9 +184,9 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
     Returns
     -------
     tuple of Start
-        On both sides of every admissible orbit and synchronous rub, stable or not; with friction, in rolling, for several
-        planes at each where the others stay inside; and, of the planar rotor, in backward whirl just beyond the certain
-        runaway speed, if sliding reaches it.
+        Two next to every admissible orbit and synchronous rub, stable or not, one on each side.  With friction: one in
+        rolling at each plane that can roll while the others stay inside.  For the planar rotor, if sliding can reach it:
+        one in backward whirl just above the speed from which it is certain to run away.
     """
     rotor, starts = model_of(machine), []
     for orbit in orbits:
@@ -215,7 +215,7 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
 
 
 def _whirling(rotor: Model, plane: int, speed: float, words: str) -> Start:
-    """Start in backward whirl at a speed in the co-rotating frame, displaced as an impulse at a plane would until it touches."""
+    """Start in backward whirl at a speed in the co-rotating frame, displaced in the shape of an impulse at a plane until it touches."""
     shape = rotor.system.rates @ rotor.system.arrays.columns[:, plane]
     shape = shape / (rotor.system.planes[plane] @ shape)
     velocity = shape * complex(0.0, -speed)

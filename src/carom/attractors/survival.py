@@ -18,7 +18,7 @@ MOTIONS = 200
 LOOK = 1000
 """Impacts between two looks, at which the motions that have left are counted.
 
-The first look is not counted: until then the motions forget where they began.
+The first look is not counted: until then the motions depend on their starts.
 """
 APART = 1e-6
 """Relative change of velocity that makes several motions of one: irregular motions diverge within a look."""
@@ -62,7 +62,7 @@ class Survival:
     def of(cls, motions: int, impacts: int, died: int, looks: int, left: int, span: int = LOOK) -> Survival:
         """Estimate from the number of looks at motions that had not left before, and how many of these had then left.
 
-        A motion that has forgotten where it began leaves between two looks, ``span`` impacts apart, with a probability
+        A motion that no longer depends on its start leaves between two looks, ``span`` impacts apart, with a probability
         ``h`` that does not depend on its age.  The interval of ``h`` is that of Clopper and Pearson (1934); the half-life
         is ``−span ln 2/ln(1 − h)``.
         """
@@ -149,8 +149,8 @@ def measure_survival(
 ) -> Survival:
     """Follow irregular motions for a number of impacts further, and count those that leave.
 
-    The states, shape (M,), are those just before an impact, co-rotating frame.  Of more than ``motions`` a random
-    part is taken; fewer are extended to that number by small changes of their velocity.
+    The states, shape (M,), are those just before an impact, co-rotating frame.  If there are more than ``motions``, a random
+    part is followed; if fewer, copies with slightly changed velocities are added.
     """
     random = np.random.default_rng(SEED)
     places = np.resize(random.permutation(len(positions)), motions)
@@ -182,13 +182,13 @@ def follow_further(rotor: Model, endings: Endings, chosen: np.ndarray, **limits:
     return Endings(**whole)
 
 
-def follow_out(
+def follow_until_settled(
     machine: Subject,
     endings: Endings,
     *,
     impacts: int,
     threads: int | None = None,
-    were: Endings | None = None,
+    earlier: Endings | None = None,
     affordable: int = AFFORDABLE,
     motions: int = MOTIONS,
 ) -> tuple[Endings, Survival | None]:
@@ -200,8 +200,8 @@ def follow_out(
         Number of impacts for which irregular motions are followed to measure how long they last.
     threads : int, optional
         By default the number of available cores; the result does not depend on it.
-    were : Endings, optional
-        The same motions at an earlier time, from which the survival is measured if none is irregular any more.
+    earlier : Endings, optional
+        The same motions at an earlier time, from which the survival is measured if none is irregular now.
     affordable : int
         Largest cost of following all irregular motions for one half-life, in impacts.
     motions : int
@@ -215,7 +215,7 @@ def follow_out(
         ``None`` if none of the motions is irregular.
     """
     rotor, irregular = model_of(machine), still_irregular(endings)
-    met, at = (irregular, endings) if irregular.any() or were is None else (still_irregular(were), were)
+    met, at = (irregular, endings) if irregular.any() or earlier is None else (still_irregular(earlier), earlier)
     if not met.any():
         return endings, None
     states = at.positions[met], at.velocities[met]

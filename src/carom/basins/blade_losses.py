@@ -27,14 +27,10 @@ DRAWN = 300
 def smallest_blade_loss(
     rotor: Jeffcott, model: BladeLoss, *, threads: int | None = None, tell: Reporter | None = None
 ) -> SmallestLoss:
-    """Search the smallest unbalance, from the present one up to that of the model, that is lost at some phase.
+    """Search for the smallest unbalance, from the present one up to that of the model, that is lost at some phase.
 
-    ``size`` is the eccentricity after the loss, ``angle`` its phase relative to the unbalance before.
-
-    Raises
-    ------
-    InputError
-        The unbalance of the model is not larger than the present one.
+    ``size`` is the eccentricity after the loss, ``angle`` its phase relative to the unbalance before.  A model whose
+    unbalance is not larger than the present one is refused.
     """
     search = _Search(rotor, model, threads)
     present, largest = rotor.parameters.rho, model.eccentricity_after

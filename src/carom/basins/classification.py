@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.attractors import MotionName, document_of, follow_out
+from carom.attractors import MotionName, document_of, follow_until_settled
 from carom.attractors.naming import name_motions
 from carom.basins.dataset import Mapped, dataset_of, provenance
 from carom.basins.shares import Share
@@ -25,10 +25,10 @@ from carom.parameters import Scales
 from carom.progress import ShowProgress, shows_progress
 
 CRITERIA = (
-    "levitated: the moduli of the modes leave no later flight room to reach the wall (proof). "
-    "forward_rub: slides in a neighbourhood of the synchronous rub where all sliding goes over to that rub (proof), or "
+    "levitated: by the moduli of the modes no later flight can reach the wall (proof). "
+    "forward_rub: slides in a neighbourhood of the synchronous rub where all sliding converges to that rub (proof), or "
     "within 1e-9 of the rub, or forward by the next criterion. "
-    "rolling: whirls backward faster than the speed from which it surely goes over to rolling (proof), or by the next "
+    "rolling: whirls backward faster than the speed from which it is certain to run away to rolling (proof), or by the next "
     "criterion. backward_whirl: after a turn along the wall without flight the state has changed by less than 1e-9. "
     "bouncing, mixed: the state at an impact recurs to within 1e-9 twice in a row (multiplicity: impacts a period, if an "
     "orbit closes there), or has not recurred in {patience} impacts (multiplicity 0: irregular; where such motion was seen "
@@ -86,7 +86,7 @@ class Basin(Mapped):
 
     @property
     def touched(self) -> np.ndarray:
-        """Starts after which, or at which, the rotor met the wall."""
+        """Which starts led the rotor to the wall, or began there."""
         return self.dataset["touched"].values > 0
 
     @property
@@ -96,7 +96,7 @@ class Basin(Mapped):
 
     @property
     def irregular(self) -> dict[str, Any] | None:
-        """How long irregular bouncing lasts, as in JSON; ``None`` if none of the starts led to any."""
+        """How long irregular bouncing lasts, as plain data; ``None`` if no start led to it."""
         return json.loads(self.dataset.attrs["irregular"])
 
     @property
@@ -204,7 +204,7 @@ def map_basins(
     endings = follow(
         after, starts, until=until, patience=patience, max_events=max_events, threads=threads, progress=progress
     )
-    endings, survival = follow_out(after, endings, impacts=patience, threads=threads)
+    endings, survival = follow_until_settled(after, endings, impacts=patience, threads=threads)
     motions, names = name_motions(after, endings)
     attributes = {
         **(source or {}),

@@ -36,7 +36,7 @@ def plan_of(document: Mapping[str, Any]) -> Plan:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Mapped(Result):
-    """What becomes of disturbances, as a dataset whose attributes hold what is needed to repeat the computation."""
+    """Base of basins and gain maps: a dataset whose attributes hold what is needed to repeat the computation."""
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "brent1980", "wilson1927")
 
@@ -56,7 +56,7 @@ class Mapped(Result):
 
     @cached_property
     def plan(self) -> Plan:
-        """Disturbances that were tried, of this machine; with known scales they are the same in SI units for others."""
+        """Disturbances that were tried, in units of this machine; with known scales they keep their size in SI units for others."""
         return plan_of(json.loads(self.dataset.attrs["disturbances"]))
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -65,13 +65,7 @@ class Mapped(Result):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:
-        """Read a netCDF file written by :meth:`save`.
-
-        Raises
-        ------
-        InputError
-            The file cannot be read, or holds other results.
-        """
+        """Read a netCDF file written by :meth:`save`; refuse one that cannot be read or holds other results."""
         return cls(load(path, cls.needed))
 
 

@@ -57,7 +57,8 @@ class SmallestLoss:
         ``"kick"``, ``"shock"``, ``"step"`` of the unbalance, ``"blade_loss"``, ``"release"``, or that of another model.
     size : float or None
         Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
-        eccentricity in ``c_r`` (for the loss of a blade: eccentricity after it), speed along the wall in ``c_r Ω`` (fixed frame), or first coordinate of another model.  ``None`` where none was found.
+        eccentricity in ``c_r`` (for the loss of a blade: eccentricity after it), speed along the wall in ``c_r Ω`` (fixed
+        frame), or first coordinate of another model.  ``None`` where none was found.
     angle : float or None
         Its direction in rad.  For a kick or shock as in :mod:`carom.disturbances`; for a step the direction from the
         eccentricity after the step to the one before it, relative to the one after; for the loss of a blade the phase of the
@@ -142,7 +143,7 @@ def smallest_loss(
     threads: int | None = None,
     progress: ShowProgress = None,
 ) -> SmallestLoss:
-    """Search the smallest disturbance of a kind that does not return to levitation, finer than any grid.
+    """Search for the smallest disturbance of a kind that does not return to levitation, finer than any grid.
 
     All directions are scanned at increasing sizes between the proven harmless one and the largest.  In every direction
     the first size that is lost is refined by bisection.  Then directions ever closer to the best one are scanned and
@@ -154,10 +155,10 @@ def smallest_loss(
     ----------
     machine : Machine, Case, Parameters or model
     model : Disturbance
-        A kick, a shock, a step of the unbalance, the loss of a blade, a release from contact, or another model whose coordinates are a size
-        from 0 and a direction over a full turn, up to its own largest size (for a step the
-        largest change to the eccentricity of the machine; for a release whirl forward and backward from rest up to
-        2 ``c_r Ω``).
+        A kick, a shock, a step of the unbalance, the loss of a blade, a release from contact, or another model whose
+        coordinates are a size from 0 and a direction over a full turn.  Sizes are searched up to the largest of the
+        model (for a step up to the largest change to the eccentricity of the machine; for a release in whirl forward and
+        backward, from rest up to 2 ``c_r Ω``).
     directions, sizes : int
         Numbers of directions and sizes in the scan.
 
@@ -194,13 +195,13 @@ def smallest_loss(
     if family.harmless >= family.largest:
         return search.result(family.largest, 0)
     if family.harmless == 0.0:
-        search.look(_all_round(family, directions), np.zeros(1))
+        search.scan(_all_round(family, directions), np.zeros(1))
         if search.best is not None:
             return search.result(None, 0)
     levels = family.harmless + (family.largest - family.harmless) * np.arange(sizes + 1) / sizes
     tell = Reporter.of(progress, "looking for the smallest that is lost")
-    search.look(_all_round(family, directions), levels)
-    search.close_in(TURN / directions)
+    search.scan(_all_round(family, directions), levels)
+    search.refine(TURN / directions)
     for number in range(MOST_CHECKS):
         tell(0.5 + 0.5 * number / MOST_CHECKS)
         below = family.largest if search.best is None else search.best[0]
@@ -211,7 +212,7 @@ def smallest_loss(
         if search.best is before:
             tell(1.0)
             return search.result(below, fresh)
-        search.close_in(TURN / directions)
+        search.refine(TURN / directions)
     return search.result(family.harmless or None, 0)
 
 
@@ -286,7 +287,7 @@ class _Search:
             tried=self.tried,
         )
 
-    def look(self, angles: np.ndarray, levels: np.ndarray) -> None:
+    def scan(self, angles: np.ndarray, levels: np.ndarray) -> None:
         """Scan directions at increasing sizes, the first of which is known to recover; bisect at the first lost one.
 
         A single size is only tried, not bisected.
@@ -308,13 +309,13 @@ class _Search:
         if self.best is None or high[place] < self.best[1]:
             self.best = float(low[place]), float(high[place]), float(angles[place]), Outcome(int(ends[place]))
 
-    def close_in(self, apart: float) -> None:
+    def refine(self, apart: float) -> None:
         """Scan directions to both sides of the best one, with ever smaller spacing."""
         while self.best is not None and apart > self.tolerance:
             apart /= NARROWED
             _, size, angle, _ = self.best
             beside = angle + apart * np.delete(np.arange(-BESIDE, BESIDE + 1), BESIDE)
-            self.look(beside, np.linspace(self.family.harmless, size, BELOW + 1))
+            self.scan(beside, np.linspace(self.family.harmless, size, BELOW + 1))
 
     def draw(self, below: float, seed: int) -> int:
         """Try fresh starts up to a size, and all directions at it; bisect the lost ones; return how many were tried."""
@@ -326,7 +327,7 @@ class _Search:
         _, gone = self._follow(sizes, angles)
         for place in np.flatnonzero(gone)[sizes[gone].argsort()]:
             if self.best is None or sizes[place] < self.best[1]:
-                self.look(angles[place : place + 1], np.linspace(family.harmless, sizes[place], BELOW + 1))
+                self.scan(angles[place : place + 1], np.linspace(family.harmless, sizes[place], BELOW + 1))
         return len(sizes)
 
     def _follow(self, sizes: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -48,12 +48,12 @@ class Share:
         return f"{share} ({count} cells of a grid, each represented by its middle: no sampling error)"
 
 
-def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
-    """Interval of a probability from ``count`` successes in ``total`` trials (Wilson, J. Am. Stat. Assoc. 22, 1927).
+def wilson_interval(count: int, total: int) -> tuple[float, float]:
+    """Interval of 95 % of a probability from ``count`` successes in ``total`` trials (Wilson, J. Am. Stat. Assoc. 22, 1927).
 
     It contains the probabilities ``p`` with ``|count/total − p| ≤ z√(p(1 − p)/total)``.
     """
-    z = NormalDist().inv_cdf(0.5 + confidence / 2.0)
+    z = NormalDist().inv_cdf(0.5 + CONFIDENCE / 2.0)
     share, weight = count / total, z * z / total
     middle = share + weight / 2.0
     half = z * math.sqrt(share * (1.0 - share) / total + weight / (4.0 * total))
@@ -62,7 +62,7 @@ def wilson_interval(count: int, total: int, confidence: float = CONFIDENCE) -> t
     return low, high
 
 
-def starts_enough(wanted: float, confidence: float = CONFIDENCE) -> int | None:
+def starts_enough(wanted: float) -> int | None:
     """Smallest sample which, if all its starts come back, shows that the share is at least the wanted one.
 
     For ``n`` of ``n`` Wilson's interval begins at ``n/(n + z²)``.  ``None`` for a share of one, which no sample can
@@ -70,8 +70,8 @@ def starts_enough(wanted: float, confidence: float = CONFIDENCE) -> int | None:
     """
     if wanted >= 1.0:
         return None
-    square = NormalDist().inv_cdf(0.5 + confidence / 2.0) ** 2
+    square = NormalDist().inv_cdf(0.5 + CONFIDENCE / 2.0) ** 2
     count = max(1, math.floor(square * wanted / (1.0 - wanted)))
-    while wilson_interval(count, count, confidence)[0] < wanted:
+    while wilson_interval(count, count)[0] < wanted:
         count += 1
     return count

@@ -31,7 +31,7 @@ from carom.core.planar_proofs import rub_potentials
 from carom.models import Jeffcott, Subject, jeffcott_of
 
 INTERVALS = 4000
-"""Ten times as many would raise the level by two or three thousandths at nearly ten times the cost."""
+"""With ten times as many the level would be two or three thousandths higher, at nearly ten times the cost."""
 GIVEN_UP = 1e-9
 """Relative safety margin of a threshold for rounding errors."""
 ROUNDING = 64 * np.finfo(float).eps
@@ -40,7 +40,7 @@ ROUNDING = 64 * np.finfo(float).eps
 
 @dataclass(frozen=True)
 class RubNeighbourhood:
-    """Set of sliding states from which the rotor is proven to go over to the synchronous rub.
+    """Set of sliding states that are proven to converge to the synchronous rub.
 
     Attributes
     ----------

@@ -134,7 +134,7 @@ class EquilibriumSet(Result):
             found += ", those at two planes the real roots of a polynomial of degree eight"
         if not self.complete:
             found += "; rubs at more planes were searched by Newton's method from many starts, so there may be others"
-        return f"{found}. Rubs that are possible at every angle, as those of a balanced rotor, are not listed."
+        return f"{found}. Rubs that are possible at every angle, such as those of a balanced rotor, are not listed."
 
 
 def find_equilibria(machine: Subject) -> EquilibriumSet:
@@ -149,8 +149,8 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     ``ρ sin x + μρ cos x = −γ − μ(1 − ω²)``, ``N = ρ cos x + 1 − ω²`` with ``x = θ − φ``: none or two.
 
     For a balanced rotor (``ρ = 0``) no rub is listed, because no angle is distinguished: if ``γ + μ(1 − ω²) = 0``, as
-    without damping and friction, the planar rotor may rub at every angle, otherwise at none.  Nor are rubs at two planes
-    that always touch together, whose forces statics does not tell apart.
+    without damping and friction, the planar rotor may rub at every angle, otherwise at none.  Rubs at two planes that
+    always touch together are not listed either: statics does not determine their separate forces.
 
     See Also
     --------

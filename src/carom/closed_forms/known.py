@@ -1,6 +1,6 @@
 """What is known exactly about where motions of a model end: asked for here, so that general code need not ask which it is.
 
-Of a model for which nothing is registered nothing is known, and motions are followed until they have settled.
+Nothing is known of a model that is not registered; its motions are followed until they have settled.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Known:
     around: RubNeighbourhood | None = None
     """A neighbourhood of that rub which sliding never leaves."""
     runaway: float = np.inf
-    """Speed of backward whirl beyond which sliding certainly goes over to lasting rolling; infinite if there is none."""
+    """Speed of backward whirl beyond which sliding is certain to run away to lasting rolling; infinite if there is none."""
     rolling_force: float = 0.0
     """Largest normal force over a turn of rolling; 0 where that is not known."""
 

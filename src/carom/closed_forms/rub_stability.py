@@ -23,19 +23,10 @@ def rub_attracts(system: System, amplitudes: np.ndarray, contact: np.ndarray) ->
 
 
 def sliding_rates(system: System, amplitudes: np.ndarray, contact: np.ndarray) -> np.ndarray:
-    """Exponents of the sliding motions next to a synchronous rub.
+    """Exponents, in ``Ω``, of the sliding motions next to a synchronous rub; shape (2N − 2C,) for ``C`` planes in contact.
 
-    Parameters
-    ----------
-    amplitudes : ndarray of complex, shape (N,)
-        The rub: at rest in the co-rotating frame.
-    contact : ndarray of int, shape (P,)
-        State of contact of each plane: ``FORWARD_SLIP`` where it rubs.
-
-    Returns
-    -------
-    ndarray of complex, shape (2N − 2C,)
-        In ``Ω``, for ``C`` planes in contact.
+    The amplitudes (N,) are those of the rub, at rest in the co-rotating frame.  The state of contact (P,) is
+    ``FORWARD_SLIP`` at each plane that rubs.
     """
     arrays = system.arrays
     rubs = np.flatnonzero(contact == Phase.FORWARD_SLIP)

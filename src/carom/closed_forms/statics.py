@@ -27,7 +27,7 @@ from carom.models import System
 COUNTED = 2
 """Most planes in contact for which all rubs are found."""
 NEARLY_REAL = 0.1
-"""Imaginary part, relative to the modulus, up to which a root is a start of Newton's method: coarse, as it decides nothing."""
+"""Imaginary part, relative to the modulus, up to which a root starts Newton's method; coarse, as Newton's method decides."""
 STEPS, CONVERGED, SAME = 60, 1e-11, 1e-7
 FARTHEST = 1e6
 """Force, per stiffness of the plane, beyond which Newton's method has diverged."""
@@ -39,7 +39,7 @@ STARTS = 200
 def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.ndarray]]:
     """Planes in contact, normal forces and displacements there of rubs at rest, wherever the other planes are.
 
-    Rubs that are no isolated points, as those of a balanced rotor, are left out.
+    Rubs that are not isolated, such as those of a balanced rotor, are left out.
     """
     receptance = -system.arrays.rows @ np.linalg.solve(system.generator, system.arrays.columns)
     lever = receptance * (1.0 + 1j * system.arrays.friction)

@@ -110,7 +110,7 @@ def boundary_balance(at: Values) -> float:
 
 
 def boundary_kind(at: Values) -> BoundaryKind:
-    """Whether levitation on the wall goes over into a stable rub (persistence) or vanishes with an unstable one."""
+    """Whether levitation that reaches the wall turns into a stable rub (persistence) or vanishes with an unstable one."""
     balance = boundary_balance(at)
     if abs(balance) <= DEGENERATE:
         return "degenerate"
@@ -208,10 +208,7 @@ def _rub_ranges(at: Values, gain: Gain) -> Ranges:
 def sustaining_speed(at: Values, pull: float = 0.0) -> float:
     """Larger root ``w`` of ``μ(w² − ω²) − γw = pull``, above which sliding feeds backward whirl; infinite without friction.
 
-    Parameters
-    ----------
-    pull : float
-        :func:`largest_pull` for the speed that suffices at every angle; zero for the average over a turn.
+    With :func:`largest_pull` it suffices at every angle; with zero on average over a turn.
     """
     gamma, mu = at.gamma, at.mu
     if mu == 0.0:
@@ -268,24 +265,10 @@ def _rolling_ranges(at: Values, gain: Gain) -> Ranges:
 
 
 def ranges_of(motion: Steady, at: Values, gain: Gain) -> Ranges:
-    """Values of one gain for which a steady motion exists, the other parameters unchanged.
+    """Values from zero on of one gain for which a steady motion exists, the other parameters unchanged; in ascending order.
 
-    Parameters
-    ----------
-    motion : {"contact-free", "rub", "rolling"}
-        Levitation inside the wall, a synchronous rub that is pressed on the wall, rolling that holds at every angle.
-    gain : {"gamma", "omega"}
-        The gain that is varied, from zero on.
-
-    Returns
-    -------
-    tuple of pairs of End
-        Disjoint, in ascending order.
-
-    Raises
-    ------
-    InputError
-        There is no such gain.
+    The motion is levitation inside the wall, a synchronous rub that is pressed on the wall, or rolling that holds at every
+    angle.
     """
     if gain not in get_args(Gain):
         raise InputError("gain", gain, "one of: gamma, omega")
@@ -308,7 +291,7 @@ def harmless_kick(machine: Subject) -> float:
 
     See Also
     --------
-    carom.basins.smallest_loss : search the smallest kick that is lost
+    carom.basins.smallest_loss : search for the smallest kick that is lost
 
     Examples
     --------

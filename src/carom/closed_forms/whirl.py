@@ -84,7 +84,7 @@ class Runaway:
 
     @property
     def reaches_rolling(self) -> bool:
-        """Whether there are sliding speeds below rolling from which the rotor surely goes over to rolling."""
+        """Whether there are sliding speeds below that of rolling from which the rotor is certain to run away to rolling."""
         return self.certain < self.rolling_speed
 
 
@@ -159,7 +159,7 @@ def rolling(machine: Subject) -> Rolling:
 
     See Also
     --------
-    carom.closed_forms.runaway_speed : from where a sliding rotor goes over to it
+    carom.closed_forms.runaway_speed : speed from which a sliding rotor runs away to it
 
     Examples
     --------

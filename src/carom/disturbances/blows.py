@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -139,11 +138,6 @@ class BaseShock(Disturbance):
         """Peak acceleration and direction."""
         peak = Coordinate("peak_acceleration", "peak acceleration of the base", 0.0, self.peak, "acceleration")
         return peak, angle_coordinate("direction", "direction of the shock")
-
-    @property
-    def velocity_change(self) -> float:
-        """Change of the housing's velocity over the largest pulse, ``2âT/π``, in ``c_r Ω``."""
-        return 2.0 * self.peak * self.duration / math.pi
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """State at the end of the pulse."""

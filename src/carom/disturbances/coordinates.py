@@ -127,20 +127,8 @@ class Starts(NamedTuple):
 def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:
     """Starts of a rotor that is displaced and moves as a whole.
 
-    Parameters
-    ----------
-    rotor : Model
-    positions : ndarray of complex
-        Displacement of the contact plane that moves farthest, in its clearance.
-    velocities : ndarray of complex
-        As those of kicks, in ``c_r Ω``.
-    exists : ndarray of bool
-        Where it is false there is no start.
-
-    Raises
-    ------
-    InputError
-        The translation of the rotor moves no contact plane.
+    Positions are the displacement of the contact plane that moves farthest, in its clearance; velocities, in ``c_r Ω``, are
+    those of kicks.  There is no start where ``exists`` is false.  A rotor whose translation moves no contact plane is refused.
     """
     system, whole = rotor.system, Starts.of(positions, velocities, exists)
     if system.is_planar and system.translation is None:

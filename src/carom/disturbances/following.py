@@ -19,10 +19,11 @@ NO_START = -1
 def follow(
     machine: Model | Sequence[Model], starts: Starts, *, which: np.ndarray | None = None, **limits: Any
 ) -> Endings:
-    """Follow all starts that exist and are decided, of one machine, or of several (``which`` for each start).
+    """Follow all starts that exist and are decided.
 
-    Limits and endings are those of :func:`~carom.motions.ensembles.settle`, of the shape of the starts.  Outcomes are
-    ``NO_START`` where there is no start, and ``GRAZING`` where it is undecided; all other numbers are zero there.
+    With several machines ``which`` has the index of the machine of each start.  Limits and endings are those of
+    :func:`~carom.motions.ensembles.settle`; endings have the shape of the starts.  The outcome is ``NO_START`` where there
+    is no start, and ``GRAZING`` where it is undecided; all other numbers are zero there.
     """
     chosen = starts.exists & ~starts.undecided
     machines = None if which is None else which[chosen]
@@ -37,7 +38,7 @@ def follow(
 
 
 def follow_machines(machines: Iterable[tuple[Model, Starts]], chunk: int, **limits: Any) -> Iterator[Endings]:
-    """Follow the disturbances of one machine after another; yield the endings of each, as of :func:`follow`.
+    """Follow the disturbances of one machine after another; yield the endings of each, as :func:`follow` returns them.
 
     About ``chunk`` starts are followed together and held in memory.
     """
@@ -60,7 +61,7 @@ def _together(machines: list[tuple[Model, Starts]], limits: dict[str, Any]) -> I
 
 
 def require_start(rotor: Model, starts: Starts) -> None:
-    """Refuse disturbances of which none is possible."""
+    """Refuse a set of disturbances if none is possible."""
     if not starts.exists.any():
         raise InputError(
             "disturbance",

@@ -75,7 +75,7 @@ class Disturbance:
         raise NotImplementedError
 
     def machine_after(self, rotor: Model) -> Model:
-        """Return the machine that the motion is of, from its start on: by default the one that is disturbed."""
+        """Return the machine after the disturbance, by default the same one."""
         return rotor
 
     @classmethod
@@ -86,7 +86,8 @@ class Disturbance:
         ----------
         machine : Machine, Case, Parameters or model
         *sizes : float or str
-            Of the fields with a unit, in their order (``measured_in``): text with a unit, or numbers in the units of the equations.
+            Sizes of the fields with a unit, in the order of ``measured_in``: text with a unit, or numbers in the units of
+            the equations.
 
         Raises
         ------
@@ -161,7 +162,7 @@ def _plain(name: str, value: object) -> object:
         return [_plain(name, part) for part in value]
     if value is None or isinstance(value, bool | int | float | str):
         return value
-    raise InputError(name, shown(value), "a number, a text, or a tuple of these, so that results can say what was done")
+    raise InputError(name, shown(value), "a number, a text, or a tuple of these, so that results can record it")
 
 
 def _whole(field: dataclasses.Field[Any], value: Any) -> Any:

@@ -44,9 +44,8 @@ LEAST_DISTANCE = 1e-6
 def shaken(rotor: Model, duration: float) -> tuple[System, np.ndarray]:
     """The system with two more modes, the exponentials of a half-sine pulse of this duration in ``1/Ω``.
 
-    Also the share of each free mode in their motion, shape (N, 2).
-
-    Undamped levitation in resonance with the pulse is refused.
+    Return also the share of each free mode in their motion, shape (N, 2).  Undamped levitation in resonance with the pulse
+    is refused.
     """
     system, frequency = rotor.system, math.pi / duration
     arrays, free = system.arrays, system.exponents
@@ -76,7 +75,7 @@ def states_after_shocks(
     Peak accelerations of the housing are in ``c_r Ω²``, directions in rad, the duration in ``1/Ω``.  Return positions
     (on the wall where the rotor is in contact then) and velocities in the co-rotating frame, for ``n > 1`` coordinates
     with a last axis of that length; whether the wall was
-    grazed so nearly that double precision cannot decide, and whether it was met during the pulse.
+    grazed so nearly that double precision cannot decide, and whether it was reached during the pulse.
     """
     system, shares = shaken(rotor, duration)
     arrays, table = system.arrays, system.table

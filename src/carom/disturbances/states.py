@@ -32,8 +32,9 @@ Release = Literal["fixed", "rotating", "rolling"]
 class UnbalanceStep(Disturbance):
     """The unbalance jumps to that of the machine, for example by a lost blade or a shifted sleeve.
 
-    Before the step the rotor whirls without contact with another eccentricity and phase, of all its masses along the
-    translation.  Its position and velocity at the step are the start of the motion with the present unbalance.
+    Before the step the rotor whirls without contact with another eccentricity and phase; all its masses are off centre by
+    this eccentricity, along the translation.  Its position and velocity at the step are the start of the motion with the
+    present unbalance.
 
     Attributes
     ----------

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 
-def as_json(document: dict[str, Any], indent: int | None = 2) -> str:
+def as_json(document: dict[str, Any]) -> str:
     """Return a document as the text of one JSON object; characters that are not printable are escaped."""
-    text = json.dumps(_plain(document), indent=indent, ensure_ascii=False, allow_nan=False)
+    text = json.dumps(_plain(document), indent=2, ensure_ascii=False, allow_nan=False)
     if text.replace("\n", "").isprintable():
         return text
     return "".join(sign if sign.isprintable() or sign == "\n" else json.dumps(sign)[1:-1] for sign in text)

@@ -75,13 +75,7 @@ def axis(machine: Subject, name: str) -> Axis:
 
 
 def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:
-    """Read a range of a parameter.
-
-    Raises
-    ------
-    InputError
-        No such parameter, a value that it cannot have, or a range that is empty.
-    """
+    """Read a range of a parameter; refuse an unknown parameter, a value that it cannot have, and an empty range."""
     field = field_to_vary(parameter) if isinstance(parameter, str) else parameter.field
     low, high = (read_quantity(field, end) for end in given)
     if not low < high:
@@ -90,13 +84,7 @@ def read_interval(parameter: str | Axis, given: Ends) -> tuple[float, float]:
 
 
 def interval_around(along: Axis, value: float, given: Ends) -> tuple[float, tuple[float, float]]:
-    """Present value of a parameter, and a range that must hold it, by rounding at least.
-
-    Raises
-    ------
-    InputError
-        The range cannot be read or does not hold the value.
-    """
+    """Present value of a parameter, and a range that must contain it up to rounding."""
     low, high = read_interval(along, given)
     nearest = min(max(value, low), high)
     if not abs(value - nearest) <= 1e-12 * max(abs(low), abs(high)):

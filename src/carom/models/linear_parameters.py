@@ -6,9 +6,9 @@ frame (:meth:`~carom.models.LinearRotor.in_fixed_frame`),
     γ = ⟨D⟩/⟨M⟩,      ω² = ⟨K⟩/⟨M⟩,      ρ e^{iφ} = tᴴF/⟨M⟩,
 
 which for one coordinate are the numbers of the planar rotor.  Another value of ``γ``, ``ω`` or ``ρ`` multiplies all of
-``D``, ``K`` or ``F`` by one factor; ``φ`` turns ``F``.  The friction ``μ``, the restitution ``d`` and the radius ratio, the
-drive less one, are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` moves ``D``
-with ``1/Ω`` and ``K`` with ``1/Ω²``; masses, gyroscopic matrix and unbalance, which both grow alike, stay.
+``D``, ``K`` or ``F`` by one factor; ``φ`` turns ``F``.  The friction ``μ``, the restitution ``d`` and the radius ratio (the
+drive minus one) are set at all planes, or at one of several by ``mu_1``, ``mu_2`` and so on.  The speed ``Ω`` changes ``D``
+with ``1/Ω`` and ``K`` with ``1/Ω²``; masses, gyroscopic matrix and unbalance do not change in these units.
 """
 
 from __future__ import annotations
@@ -52,13 +52,7 @@ def _planes(rotor: LinearRotor) -> dict[str, tuple[str, int]]:
 
 
 def value_of(rotor: LinearRotor, name: str) -> float:
-    """Present value of a parameter.
-
-    Raises
-    ------
-    InputError
-        No such name, or planes with different values.
-    """
+    """Present value of a parameter; refuse an unknown name, and one whose values differ between planes."""
     if name not in fields(rotor):
         raise no_such_parameter(name, "wanted", fields(rotor), rotor.scales is not None)
     if name == "speed" and rotor.scales is not None:
@@ -89,12 +83,9 @@ def _whole(rotor: LinearRotor, matrix: np.ndarray) -> float:
 
 
 def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
-    """Attributes that another value of a parameter changes; a physical one is in SI units, or text with a unit.
+    """Attributes that change with another value of a parameter; a physical one is in SI units, or text with a unit.
 
-    Raises
-    ------
-    InputError
-        The value is out of range, or there is nothing to multiply: no damping, stiffness or unbalance.
+    A value out of range is refused, and a rotor without the damping, stiffness or unbalance that would be multiplied.
     """
     known = fields(rotor)
     if name not in known:
@@ -120,7 +111,7 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
         }
     present = value_of(rotor, own)
     if not present:
-        raise InputError(name, shown(value), f"cannot be set: the rotor has none, {name} = 0, that could be multiplied")
+        raise InputError(name, shown(value), f"cannot be set: {name} = 0 now, and only another value can be multiplied")
     factor = value / present
     if own == "rho":
         return {"forcing": rotor.forcing * factor}

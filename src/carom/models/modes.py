@@ -44,23 +44,12 @@ class Modes(NamedTuple):
 
 
 def modes_of(matrix: np.ndarray, mass: np.ndarray | None = None) -> Modes:
-    """Modes of ``ẋ = A x``.
+    """Modes of ``ẋ = A x``; for a rotor, with its mass matrix ``M``, ``A = [[0, 1], [−M⁻¹K, −M⁻¹D]]``.
 
     Two modes with nearly parallel eigenvectors, such as those of a critically damped oscillator, span a plane in which
     ``A`` is upper triangular, ``[[λ, t], [0, μ]]`` (Schur).  Its first vector is the driven mode, the second one over
     ``t`` the driving mode.  Where more modes nearly coincide, those of a rotor whose coordinates can be separated are
-    still known: of each coordinate two, a pair.
-
-    Parameters
-    ----------
-    matrix : ndarray of complex, shape (N, N)
-    mass : ndarray of complex, shape (n, n), optional
-        Mass matrix ``M`` of a rotor, with ``A = [[0, 1], [−M⁻¹K, −M⁻¹D]]``.
-
-    Raises
-    ------
-    InputError
-        More than two modes nearly coincide, and they do not belong to separate coordinates.
+    still known: each coordinate has a pair.  Otherwise the system is refused.
     """
     found = [_by_eigenvectors(matrix)]
     if mass is not None and found[0].error(matrix) > EXACT:
@@ -98,8 +87,8 @@ def _by_coordinates(matrix: np.ndarray, mass: np.ndarray, weight: float) -> Mode
     """Modes of coordinates in which ``M``, ``D`` and ``K`` are diagonal, if there are any.
 
     With ``M = L Lᴴ`` they are orthogonal eigenvectors that the Hermitian and anti-Hermitian parts of ``L⁻¹ K L⁻ᴴ`` and
-    ``L⁻¹ D L⁻ᴴ`` have in common, and so those of a sum of these with any weights.  Each coordinate, ``ü + d u̇ + k u = 0``, has the driven amplitude ``u`` and the driving one ``u̇ − λ₊u``, however close
-    ``λ₊`` and ``λ₋`` are.
+    ``L⁻¹ D L⁻ᴴ`` have in common, and so those of a sum of these with any weights.  Each coordinate, ``ü + d u̇ + k u = 0``,
+    has the driven amplitude ``u`` and the driving one ``u̇ − λ₊u``, however close ``λ₊`` and ``λ₋`` are.
     """
     n = len(mass)
     try:

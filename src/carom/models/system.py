@@ -161,7 +161,7 @@ class System(Result):
         return np.broadcast_to(self.rest, velocities.shape), velocities
 
     def push_of(self, velocities: np.ndarray) -> np.ndarray:
-        """Velocities (...) as a whole of rates (..., n) of the coordinates that :meth:`kicked` has given."""
+        """Velocities (...) of the rotor as a whole from the rates (..., n) of the coordinates: the inverse of :meth:`kicked`."""
         if self.translation is None:
             return velocities
         moves = self.translation if len(self.rest) > 1 else self.translation[0]
@@ -203,7 +203,7 @@ class System(Result):
         )
 
     def at_planes(self, amplitudes: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement of a contact plane of its own and its rate for each of the mode amplitudes (m, N), shape (m,)."""
+        """Displacement and its rate, shape (m,), for each of the mode amplitudes (m, N) at its own contact plane."""
         position = np.einsum("mk,mk->m", amplitudes, self.arrays.rows[planes]) + self.arrays.offsets[planes]
         return position, np.einsum("mk,mk->m", amplitudes, self.arrays.rate_rows[planes])
 

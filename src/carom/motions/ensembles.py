@@ -109,7 +109,7 @@ def settle(
     """Follow many starts, each as :func:`~carom.motions.trajectories.simulate` would, and keep how they end.
 
     A motion ends early when its outcome is proven: when it slides into an absorbing neighbourhood of the synchronous
-    rub (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirls backward fast enough to go over to rolling
+    rub (:func:`~carom.closed_forms.absorbing.rub_neighbourhood`), or whirls backward fast enough to run away to rolling
     (:func:`~carom.closed_forms.whirl.runaway_speed`).  ``simulate`` follows it until it has reached the rub or rolls.
 
     The result does not depend on the number of threads, to the last bit: motions do not influence each other.  Those of
@@ -273,7 +273,7 @@ class _Part(NamedTuple):
 def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator[int]:
     """Follow all parts, in this thread if one suffices; yield now and then the number of motions followed since.
 
-    Whoever stops asking, or is interrupted, ends the work: no thread takes up another motion.
+    When the caller stops iterating or is interrupted, no thread takes up another motion.
     """
     if min(threads, len(parts)) == 1:
         yield from (_settle_part(part, limits) for part in parts)

@@ -104,13 +104,7 @@ def kick(speed: float | str, angle: float | str = 0.0) -> Kick:
 
 
 def time_until(until: object, scales: Scales | None) -> float:
-    """Time to follow a motion, in ``1/Ω``, from a number or text with a unit.
-
-    Raises
-    ------
-    InputError
-        It is no time above 0, or has a unit and the scales are not known.
-    """
+    """Time to follow a motion, in ``1/Ω``, from a number or text with a unit; refuse what is no time above 0."""
     given: Any = own_size("until", until, "time", scales) if isinstance(until, str) else until
     try:
         time = float(given)
@@ -146,7 +140,7 @@ def amplitudes_of(rotor: Model, state: State) -> tuple[np.ndarray, np.ndarray]:
     amplitudes = system.amplitudes(state.position, state.velocity)
     contact = np.full(len(system.arrays.rows), AWAY)
     for plane in range(len(contact)):
-        # The planar rotor is at its own position, free of the rounding of the amplitudes.
+        # The given position of the planar rotor is used, free of the rounding of the amplitudes.
         radius = abs(state.position if system.is_planar else system.at_plane(amplitudes, plane)[0])
         if radius > 1.0 + WALL_TOLERANCE:
             where = "" if len(contact) == 1 else f" at plane {plane}"

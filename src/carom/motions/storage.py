@@ -24,17 +24,10 @@ SEGMENTS = ("segment_starts", "segment_phases", "event_planes", *COMPLEX)
 
 
 def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> xarray.Dataset:
-    """Course of a motion: position, velocity, phase and contact forces at chosen times.
+    """Course of a motion: position, velocity, phase and contact forces at given times.
 
-    Parameters
-    ----------
-    times : array_like, shape (n,), optional
-        In ``1/Ω``; by default those of :meth:`Trajectory.sample`.
-
-    Returns
-    -------
-    xarray.Dataset
-        In SI units where the scales are known, in the co-rotating frame; of several contact planes, the first.
+    Times are in ``1/Ω``, by default those of :meth:`Trajectory.sample`.  The dataset is in SI units where the scales are known,
+    in the co-rotating frame, and describes the first contact plane.
     """
     times = motion.sample() if times is None else np.asarray(times, float)
     scales = motion.rotor.scales
@@ -53,7 +46,7 @@ def trajectory_dataset(motion: Trajectory, times: np.ndarray | None = None) -> x
 
 
 def save_trajectory(motion: Trajectory, path: str | os.PathLike[str]) -> None:
-    """Write a motion as netCDF, whole or not at all, so that :func:`load_trajectory` gives the same motion."""
+    """Write a motion as netCDF, completely or not at all, so that :func:`load_trajectory` gives the same motion."""
     import xarray
 
     columns: dict[str, Any] = {

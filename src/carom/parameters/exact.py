@@ -50,25 +50,11 @@ class ExactNumber:
 
 
 def read_exact(field: Field, text: str) -> ExactNumber:
-    """Read a number without rounding.
+    """Read a number without rounding, in the SI unit of a field.
 
-    Parameters
-    ----------
-    field : Field
-        What is read: its unit and its range.
-    text : str
-        A decimal number or a fraction, perhaps with a unit (``"0.76"``, ``"3/7"``, ``"1759 rpm"``), ``"double 0.1"`` for
-        the double next to a decimal number, or ``"[0.1, 0.2]"`` for an interval of such numbers.
-
-    Returns
-    -------
-    ExactNumber
-        In the SI unit of `field`.
-
-    Raises
-    ------
-    InputError
-        It is none of these, out of range, or its unit is no rational multiple of the SI unit or of π times it.
+    The text is a decimal number or a fraction, perhaps with a unit (``"0.76"``, ``"3/7"``, ``"1759 rpm"``), ``"double 0.1"`` for
+    the double next to a decimal number, or ``"[0.1, 0.2]"`` for an interval of such numbers.  Anything else is refused, also a
+    value out of range, and a unit that is no rational multiple of the SI unit or of π times it.
     """
     text = text.strip()
     if len(text) > _LONGEST:

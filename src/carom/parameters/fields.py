@@ -99,24 +99,9 @@ class Field:
         return InputError(self.name, shown(given), f"{self.allowed}; {reason}" if reason else self.allowed)
 
     def check(self, number: float, given: object) -> float:
-        """Return `number` if it is finite and in range.
+        """Return a number in the field's SI unit if it is finite and in range, a negative zero as zero; otherwise raise an error.
 
-        Parameters
-        ----------
-        number : float
-            Value in the field's SI unit.
-        given : object
-            What the user wrote, for the message.
-
-        Returns
-        -------
-        float
-            The same number; a negative zero becomes zero.
-
-        Raises
-        ------
-        InputError
-            If the number is NaN, infinite or out of range.
+        ``given`` is what the user wrote, for the message.
         """
         if not math.isfinite(number):
             raise self.error(given, "this is not a finite number")
@@ -257,23 +242,8 @@ _SYNONYMS = {
 def unknown_name(name: str, given: object, known: Mapping[str, object], where: str, listed: bool = True) -> InputError:
     """Error for a name that does not exist, with the nearest name that does.
 
-    Parameters
-    ----------
-    name : str
-        The name the user wrote.
-    given : object
-        The value that came with it.
-    known : mapping
-        The names allowed there; the symbol or the partner (``gamma`` for ``damping``) of a name is recognised too.
-    where : str
-        Where the name stood, for example ``"[machine]"``.
-    listed : bool
-        List the names allowed there.
-
-    Returns
-    -------
-    InputError
-        To be raised by the caller.
+    ``where`` says where the name stood, for example ``"[machine]"``.  Of the known names, those allowed there, the symbol or the
+    partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds all of them to the message.
     """
     best = nearest_name(name, known)
     advice = [f"did you mean {best}?"] if best else []
@@ -291,18 +261,8 @@ def name_errors(
     """Errors for all names of a table that are unknown or missing.
 
     If an unknown name seems to be a misspelt missing one, only the unknown name is reported.  The first error about an
-    unknown name lists those that are allowed.
-
-    Parameters
-    ----------
-    table : mapping
-        What the user wrote.
-    fields : mapping
-        What may stand there.
-    where : str
-        Name of the table, for example ``"[machine]"``.
-    ways : mapping, optional
-        The numbers that must be given, each with the names that give it; by default each of `fields` by its own name.
+    unknown name lists those that are allowed.  ``ways`` has the numbers that must be given, each with the names that give it;
+    by default each of ``fields`` by its own name.
     """
     ways = {name: (name,) for name in fields} if ways is None else ways
     unknown = [name for name in table if name not in fields]

@@ -54,23 +54,9 @@ class Zones:
         return ("A", "B", "C", "D")
 
     def zone(self, radius: float) -> str:
-        """Return the zone of an amplitude.
+        """Return the zone of an amplitude: the largest distance of the rotor centre from the bearing centre, in clearances.
 
-        Parameters
-        ----------
-        radius : float
-            Largest distance of the rotor centre from the centre of the bearing, in units of the clearance. A radius
-            equal to a limit belongs to the zone below it.
-
-        Returns
-        -------
-        str
-            One of `labels`.
-
-        Raises
-        ------
-        InputError
-            If the radius is negative or not a number.
+        A radius equal to a limit belongs to the zone below it.  A negative radius, or one that is not a number, is refused.
         """
         if not radius >= 0:
             raise InputError("radius", shown(radius), "must be >= 0, in units of the clearance")

@@ -85,24 +85,9 @@ def read_quantity(field: Field, given: object) -> float:
 
 
 def read_decimal(field: Field, given: object) -> Decimal:
-    """Read a number like :func:`read_quantity`, but without rounding it to a double.
+    """Read a number like :func:`read_quantity`, but to 40 digits instead of rounded to a double.
 
-    Parameters
-    ----------
-    field : Field
-        What is read: its unit and its range.
-    given : object
-        A real number, which stands for its shortest decimal, or text.
-
-    Returns
-    -------
-    Decimal
-        In the SI unit of `field`, to 40 digits.
-
-    Raises
-    ------
-    InputError
-        As for :func:`read_quantity`.
+    A number that is not text stands for its shortest decimal.
     """
     number = read_quantity(field, given)
     return Decimal(_from_text(field, given)) if isinstance(given, str) and number else Decimal(repr(number))

@@ -47,20 +47,11 @@ class Resolved:
 
 
 def resolve(entries: Mapping[str, Any], base: Resolved | None = None) -> Resolved:
-    """Numbers of a machine from entries.
+    """Numbers of a machine from entries; all errors of names and numbers are reported at once, or else all errors of formulas.
 
-    Parameters
-    ----------
-    entries : mapping
-        Values by name.  Those of magnetic bearings may be None, which is as if they were left out.
-    base : Resolved, optional
-        The machine to change: what is not set keeps its value in SI units.  Only then may dimensionless numbers be
-        among the entries.  A field that follows from a gain, a factor or a rated speed follows again if one of them is set.
-
-    Raises
-    ------
-    InputError
-        All errors of names and numbers at once, or else all errors of formulas.
+    An entry of the magnetic bearings that is None counts as left out.  With a ``base``, the machine to change, what is not set
+    keeps its value in SI units, and dimensionless numbers may be among the entries.  A field that follows from a gain, a factor
+    or a rated speed follows again if one of them is set.
     """
     entries = {name: value for name, value in entries.items() if value is not None or name not in BEARING_FIELDS}
     problems = Problems()

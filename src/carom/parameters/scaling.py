@@ -230,7 +230,7 @@ class Parameters:
 
     @classmethod
     def from_attributes(cls, attributes: Mapping[str, str]) -> Parameters:
-        """Read the attributes of a dataset that :meth:`attributes` has given.
+        """Parameters from the attributes of a dataset that :meth:`attributes` has given.
 
         Raises
         ------

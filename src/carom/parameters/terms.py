@@ -210,7 +210,7 @@ WAYS: Mapping[str, tuple[str, ...]] = {
 
 
 def set_by(name: str) -> str:
-    """Field of the machine that an entry or a dimensionless number sets; helpers set none but themselves."""
+    """Field of the machine that an entry or a dimensionless number sets; a helper sets only itself."""
     return TERMS[name].sets if name in TERMS else PHYSICAL_PARTNER.get(name, name)
 
 
@@ -261,18 +261,9 @@ def conflicts(entries: Mapping[str, Any]) -> list[InputError]:
 
 
 def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
-    """Check that names can be set, and that no two set the same thing.
+    """Check that names can be set, and that no two set the same thing, such as ``damping`` and ``gamma``.
 
-    Parameters
-    ----------
-    changes : iterable or mapping
-        The names; the values of a mapping appear in the message.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, or if, for example, both ``damping`` and ``gamma`` are there.  It reports all errors at
-        once.
+    All errors are reported at once; with a mapping they show the values.
     """
     values = changes if isinstance(changes, Mapping) else dict.fromkeys(changes)
     problems = Problems()

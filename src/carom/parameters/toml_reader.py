@@ -43,25 +43,10 @@ class MachineTables:
 
 
 def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> MachineTables:
-    """Read the tables of a machine file.
+    """Read the tables of a machine file: ``[machine]`` or ``[dimensionless]``, and perhaps ``[zones]`` and ``[limits]``.
 
-    Parameters
-    ----------
-    path : path
-        A TOML file with either a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]`` and ``[limits]``.
-    problems : Problems
-        Collects the errors of other entries in the file.
-
-    Returns
-    -------
-    MachineTables
-        The entries, not yet checked.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not TOML, or does not hold exactly one of the two tables; in the last case it
-        includes all of `problems`.
+    The entries are not checked.  Errors of other entries are added to ``problems``; if the file does not hold exactly one of the
+    first two tables, all of them are raised.
     """
     name, content = read_toml(path, _WHAT, _REMEDY)
     for key, value in content.items():
@@ -81,25 +66,10 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
 
 
 def read_toml(path: str | os.PathLike[str], what: str, remedy: str) -> tuple[str, dict[str, Any]]:
-    """Read a TOML file.
+    """Read a TOML file; return its path as text, and its content.
 
-    Parameters
-    ----------
-    what : str
-        What the file is called in errors, such as ``"machine file"``.
-    remedy : str
-        What it must hold, for the errors about a file that is empty or far too long.
-
-    Returns
-    -------
-    name : str
-        The path as text.
-    content : dict
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not TOML.
+    Errors call the file ``what``, such as ``"machine file"``.  For a file that is empty or far too long they say what it must hold,
+    ``remedy``.
     """
     name = _path_text(path, what)
     return name, _parse(name, _read(name, what, remedy), what, remedy)

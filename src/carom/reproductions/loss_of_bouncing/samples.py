@@ -20,8 +20,8 @@ BESIDE = 1e-3
 """Relative change of the velocity at the starts beside the orbit."""
 SHOWN = 150
 """Impacts of irregular bouncing that are kept."""
-FORGOTTEN = 100
-"""Impacts left out at the beginning: until then a motion forgets where it began."""
+DISCARDED = 100
+"""Impacts discarded at the beginning: until then a motion depends on its start."""
 MEASURED, SHORTEST = 4000, 600
 """Impacts over which exponents are measured, and the fewest of a motion that ends."""
 SEED = 1
@@ -74,7 +74,7 @@ def sample_bouncing(rotor: Jeffcott, *, motions: int, impacts: int) -> BouncingS
         Impacts for which each is followed.
     """
     starts = _beside(find_orbits(rotor)["B1,d"], motions)
-    lifetimes = measure_lifetimes(rotor, starts, impacts=impacts, forgotten=FORGOTTEN)
+    lifetimes = measure_lifetimes(rotor, starts, impacts=impacts, discarded=DISCARDED)
     motion, start = _longest(rotor, starts, impacts)
     speeds = motion.contacts.radial_speed
     ended = motion.outcome not in (Outcome.BOUNCING, Outcome.MIXED)
@@ -83,7 +83,7 @@ def sample_bouncing(rotor: Jeffcott, *, motions: int, impacts: int) -> BouncingS
         speeds, exponent = orbit.impact_speeds, orbit_exponents(orbit).across
     else:
         # Before a motion ends in lasting contact, its last impacts are those of a chatter.
-        speeds = speeds[FORGOTTEN : len(speeds) // 2] if ended else speeds
+        speeds = speeds[DISCARDED : len(speeds) // 2] if ended else speeds
         exponent = _measured(rotor, start, min(MEASURED, len(motion.contacts) // 2))
     return BouncingSample(rotor.parameters.gamma, speeds[-SHOWN:], orbit, ended, *exponent, lifetimes)
 
@@ -108,6 +108,6 @@ def _measured(rotor: Jeffcott, start: State, impacts: int) -> tuple[float, float
     if impacts < SHORTEST:
         return np.nan, np.nan
     try:
-        return lyapunov_exponents(rotor, start, impacts, transient=FORGOTTEN).across
+        return lyapunov_exponents(rotor, start, impacts, transient=DISCARDED).across
     except CaromError:
         return np.nan, np.nan
