@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import carom
-from carom.explorer.computing.flights import fly
+from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import largest_kick, map_kicks, rest_of
 from carom.explorer.computing.motions import table_of
 from carom.models import Jeffcott
@@ -95,14 +95,14 @@ def test_first_paint(benchmark, browser, address):
     pages.pop().close()
 
 
-@pytest.mark.parametrize("what", ["picture of 60 x 60 kicks", "flight", "table of orbits"])
+@pytest.mark.parametrize("what", ["picture of 60 x 60 kicks", "motion", "table of orbits"])
 def test_server(benchmark, what):
-    """What the server computes for a step, each time for another machine; the goal of flight and table is 30 ms together."""
+    """What the server computes for a step, each time for another machine; the goal of motion and table is 30 ms together."""
     case = carom.load(MACHINE)
     largest, number = largest_kick(case.parameters.scales), itertools.count(1500)
     work = {
         "picture of 60 x 60 kicks": lambda rotor: map_kicks(rotor, 60, largest),
-        "flight": lambda rotor: fly(rotor, rest_of(rotor), 0.6, 0.2),
+        "motion": lambda rotor: follow_kick(rotor, rest_of(rotor), 0.6, 0.2),
         "table of orbits": table_of,
     }[what]
 

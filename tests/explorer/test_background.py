@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 
-from carom.explorer.background import Desk, Request
+from carom.explorer.background import Job, Worker
 from carom.progress import Progress
 
 SOON = 30.0
@@ -19,8 +19,8 @@ class Work:
         self.begun, self.go, self.ended = threading.Event(), threading.Event(), threading.Event()
 
     @property
-    def request(self) -> Request:
-        return Request(self.run, self.done)
+    def request(self) -> Job:
+        return Job(self.run, self.done)
 
     def run(self, tell):
         self.begun.set()
@@ -35,99 +35,99 @@ class Work:
 
 def test_of_each_kind_only_the_newest_that_waits_is_done_and_the_most_urgent_first():
     told: list[str] = []
-    desk = Desk(("urgent", "later"))
+    worker = Worker(("urgent", "later"))
     first, old, new, urgent = (Work(name, told) for name in ("first", "old", "new", "urgent"))
-    desk.ask("later", first.request)
+    worker.submit("later", first.request)
     assert first.begun.wait(SOON)
     for kind, work in (("later", old), ("later", new), ("urgent", urgent)):
-        desk.ask(kind, work.request)
+        worker.submit(kind, work.request)
         work.go.set()
     first.go.set()
     assert new.ended.wait(SOON)
-    desk.close()
-    assert desk.join(SOON)
+    worker.close()
+    assert worker.join(SOON)
     assert told == ["first", "urgent", "new"]
     assert not old.begun.is_set()
 
 
 def test_what_pauses_lets_newer_and_more_urgent_work_go_first():
     told: list[str] = []
-    desk = Desk(("urgent", "later"))
+    worker = Worker(("urgent", "later"))
     old, new, urgent, soon = (Work(name, told) for name in ("old", "new", "urgent", "soon"))
     for work in (old, new, urgent, soon):
         work.go.set()
     # It would begin after the test: what ends its pause is always one of the requests that follow.
-    desk.ask("later", Request(old.run, old.done, pause=2 * SOON))
-    desk.ask("urgent", urgent.request)
+    worker.submit("later", Job(old.run, old.done, pause=2 * SOON))
+    worker.submit("urgent", urgent.request)
     assert urgent.ended.wait(SOON)
-    desk.ask("later", Request(new.run, new.done, pause=2 * SOON))
-    desk.ask("later", Request(soon.run, soon.done, pause=0.01))
+    worker.submit("later", Job(new.run, new.done, pause=2 * SOON))
+    worker.submit("later", Job(soon.run, soon.done, pause=0.01))
     assert soon.ended.wait(SOON)
-    desk.close()
-    assert desk.join(SOON)
+    worker.close()
+    assert worker.join(SOON)
     assert told == ["urgent", "soon"]
 
 
 def test_a_pause_ends_when_its_work_is_dropped_or_the_desk_closed():
     told: list[str] = []
-    desk = Desk(("one",))
+    worker = Worker(("one",))
     dropped, kept, last = (Work(name, told) for name in ("dropped", "kept", "last"))
     for work in (dropped, kept, last):
         work.go.set()
-    desk.ask("one", Request(dropped.run, dropped.done, pause=2 * SOON))
-    desk.drop()
-    desk.ask("one", kept.request)
+    worker.submit("one", Job(dropped.run, dropped.done, pause=2 * SOON))
+    worker.drop()
+    worker.submit("one", kept.request)
     assert kept.ended.wait(SOON)
-    desk.ask("one", Request(last.run, last.done, pause=2 * SOON))
-    desk.close()
-    assert desk.join(SOON)
+    worker.submit("one", Job(last.run, last.done, pause=2 * SOON))
+    worker.close()
+    assert worker.join(SOON)
     assert told == ["kept"]
 
 
 def test_what_is_dropped_ends_at_its_next_report_and_says_nothing():
     told: list[str] = []
-    desk = Desk(("one",))
+    worker = Worker(("one",))
     dropped, next_one = Work("dropped", told), Work("next", told)
-    desk.ask("one", dropped.request)
+    worker.submit("one", dropped.request)
     assert dropped.begun.wait(SOON)
-    desk.drop()
-    desk.ask("one", next_one.request)
+    worker.drop()
+    worker.submit("one", next_one.request)
     dropped.go.set()
     next_one.go.set()
     assert next_one.ended.wait(SOON)
-    desk.close()
+    worker.close()
     assert told == ["next"]
 
 
 def test_errors_are_handed_over_and_do_not_end_the_desk():
     told: list[object] = []
-    desk, ended = Desk(("one",)), threading.Event()
+    worker, ended = Worker(("one",)), threading.Event()
 
     def fail(tell):
         raise ValueError("no")
 
-    desk.ask("one", Request(fail, lambda result: (told.append(result), ended.set())))
+    worker.submit("one", Job(fail, lambda result: (told.append(result), ended.set())))
     assert ended.wait(SOON)
     assert isinstance(told[0], ValueError)
     after = Work("after", told)
     after.go.set()
-    desk.ask("one", after.request)
+    worker.submit("one", after.request)
     assert after.ended.wait(SOON)
-    desk.close()
+    worker.close()
 
 
 def test_progress_is_told_with_its_kind():
     told: list[object] = []
-    desk = Desk(("one",), lambda kind, progress: told.append((kind, progress)))
+    worker = Worker(("one",), lambda kind, progress: told.append((kind, progress)))
     work = Work("work", [])
     work.go.set()
-    desk.ask("one", work.request)
+    worker.submit("one", work.request)
     assert work.ended.wait(SOON)
-    desk.close()
+    worker.close()
     assert told == [("one", Progress(0.5, "half"))]
 
 
 def test_a_desk_without_work_closes():
-    desk = Desk(("one",))
-    desk.close()
-    assert desk.join(SOON)
+    worker = Worker(("one",))
+    worker.close()
+    assert worker.join(SOON)

@@ -195,7 +195,7 @@ def test_what_waits_while_a_slider_is_held_is_pale_until_it_is_known(page):
         page, "[...document.querySelectorAll('#motions tbody td:first-child')].map((cell) => cell.textContent)"
     )
     assert names == [row.name for row in table_of(rotor).rows]
-    # The line of the time shown is at the end: the figure is that of the flight, whose instants are in milliseconds.
+    # The line of the time shown is at the end: the figure is that of the motion, whose instants are in milliseconds.
     assert said(page, "carom.begun.parts.now.location") == said(page, "carom.begun.parts.history.data.t.at(-1)")
 
 
@@ -204,16 +204,16 @@ def test_pointing_and_clicking_fly_the_kick(page):
     page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.3 * box["height"])
     # Pointing has a kick flown before the click chooses it: the last answer is that of the click.
     page.wait_for_function(
-        "() => ['radial', 'tangential'].every((part) => carom.flight.message.kick[part] === carom.basin.kick[part])"
+        "() => ['radial', 'tangential'].every((part) => carom.motion.message.kick[part] === carom.basin.kick[part])"
     )
     chosen = said(page, "carom.basin.kick")
     assert chosen["radial"] > 0.4
     assert chosen["tangential"] > 0.2
-    first = said(page, "document.getElementById('flight-words').textContent")
+    first = said(page, "document.getElementById('motion-words').textContent")
     page.mouse.move(box["x"] + 0.2 * box["width"], box["y"] + 0.8 * box["height"])
-    page.wait_for_function("() => carom.flight.message.kick.radial < 0")
-    assert said(page, "document.getElementById('flight-words').textContent") != first
-    page.wait_for_function("() => carom.flight.now > 0")
+    page.wait_for_function("() => carom.motion.message.kick.radial < 0")
+    assert said(page, "document.getElementById('motion-words').textContent") != first
+    page.wait_for_function("() => carom.motion.now > 0")
     answered(page, "exports", 0)
 
 
@@ -221,7 +221,7 @@ def test_arrow_keys_move_the_kick(page):
     before = said(page, "carom.basin.kick.radial")
     page.locator("#basin").focus()
     page.keyboard.press("ArrowRight")
-    page.wait_for_function("before => carom.flight.message.kick.radial > before", arg=before)
+    page.wait_for_function("before => carom.motion.message.kick.radial > before", arg=before)
 
 
 @pytest.mark.parametrize(
@@ -294,7 +294,7 @@ def test_nothing_is_wider_than_the_screen(page, width):
 def test_motion_can_be_left_out(page):
     page.emulate_media(reduced_motion="reduce")
     page.locator("#replay").click()
-    assert said(page, "carom.flight.now === carom.flight.message.times.at(-1)")
+    assert said(page, "carom.motion.now === carom.motion.message.times.at(-1)")
     page.emulate_media(reduced_motion="no-preference")
 
 

@@ -2,9 +2,9 @@
 
 ==============  ====================================================================================
 ``computing``   what the page shows, as plain values and arrays
-``background``  work beside the page, of which only the newest counts
+``background``  jobs in a thread beside the page
 ``page``        the page: shared objects, figures, template and scripts, and the session behind them
-``server``      address, port and who is let in
+``server``      address, port, and which requests are refused
 ``example``     the machine that is shown if no file is given
 ==============  ====================================================================================
 

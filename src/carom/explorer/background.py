@@ -1,4 +1,4 @@
-"""Work beside the page: of each kind only the newest request counts, older ones are dropped or interrupted."""
+"""Jobs in a thread beside the page: the newest of a kind replaces older ones, which are dropped or interrupted."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ class SupersededError(Exception):
 
 
 @dataclass(frozen=True)
-class Request:
-    """A piece of work.
+class Job:
+    """A job for a :class:`Worker`.
 
     Attributes
     ----------
     work : callable
-        Called in the thread of the desk with a callable that takes :class:`~carom.progress.Progress`; it raises
+        Called in the thread of the worker with a callable that takes :class:`~carom.progress.Progress`; it raises
         :class:`SupersededError` where the work is no longer wanted.
     done : callable
         Receives the result, or the exception, in that thread; nothing if the work was interrupted.
     pause : float
-        Seconds for which the desk waits for a newer or more urgent request before it begins with this one.
+        Seconds for which the worker waits for a newer or more urgent job before it begins with this one.
     """
 
     work: Callable[[Callable[[Progress], None]], Any]
@@ -35,32 +35,32 @@ class Request:
     pause: float = 0.0
 
 
-class Desk:
-    """A thread that does one request after another, of each kind only the newest.
+class Worker:
+    """A thread that does one job after another; of each kind only the newest.
 
     Parameters
     ----------
     kinds : sequence of str
-        Kinds of requests, the most urgent first.
+        Kinds of jobs, the most urgent first.
     tell : callable
-        Receives kind and progress of the work being done, in the thread of the desk.
+        Receives kind and progress of the work being done, in the thread of the worker.
     """
 
     def __init__(
         self, kinds: Sequence[str], tell: Callable[[str, Progress], None] = lambda kind, progress: None
     ) -> None:
         self._kinds, self._tell = tuple(kinds), tell
-        self._waiting: dict[str, Request] = {}
+        self._waiting: dict[str, Job] = {}
         self._changed = threading.Condition()
         self._stale = threading.Event()
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="carom explore", daemon=True)
         self._thread.start()
 
-    def ask(self, kind: str, request: Request) -> None:
-        """Have a request done after the more urgent ones; it replaces a waiting one of its kind."""
+    def submit(self, kind: str, job: Job) -> None:
+        """Queue a job behind the more urgent ones; it replaces a waiting one of its kind."""
         with self._changed:
-            self._waiting[kind] = request
+            self._waiting[kind] = job
             self._changed.notify()
 
     def drop(self) -> None:
@@ -77,32 +77,32 @@ class Desk:
         self.drop()
 
     def join(self, seconds: float | None = None) -> bool:
-        """Wait for the end of the thread; whether it has ended."""
+        """Wait for the end of the thread; return whether it has ended."""
         self._thread.join(seconds)
         return not self._thread.is_alive()
 
-    def _next(self) -> tuple[str, Request] | None:
+    def _next(self) -> tuple[str, Job] | None:
         with self._changed:
             while True:
                 self._changed.wait_for(lambda: self._waiting or self._closed)
                 if self._closed:
                     return None
-                kind, request = self._most_urgent()
-                if not self._changed.wait_for(partial(self._is_overtaken, request), request.pause):
+                kind, job = self._most_urgent()
+                if not self._changed.wait_for(partial(self._is_overtaken, job), job.pause):
                     self._stale.clear()
                     del self._waiting[kind]
-                    return kind, request
+                    return kind, job
 
-    def _most_urgent(self) -> tuple[str, Request]:
+    def _most_urgent(self) -> tuple[str, Job]:
         kind = next(kind for kind in self._kinds if kind in self._waiting)
         return kind, self._waiting[kind]
 
-    def _is_overtaken(self, request: Request) -> bool:
-        return self._closed or not self._waiting or self._most_urgent()[1] is not request
+    def _is_overtaken(self, job: Job) -> bool:
+        return self._closed or not self._waiting or self._most_urgent()[1] is not job
 
     def _run(self) -> None:
         while (found := self._next()) is not None:
-            kind, request = found
+            kind, job = found
 
             def tell(progress: Progress, kind: str = kind) -> None:
                 if self._stale.is_set():
@@ -110,10 +110,10 @@ class Desk:
                 self._tell(kind, progress)
 
             try:
-                result = request.work(tell)
+                result = job.work(tell)
             except SupersededError:
                 continue
-            except Exception as problem:  # noqa: BLE001  (told to whoever asked)
+            except Exception as problem:  # noqa: BLE001  (handed to the caller)
                 result = problem
             if not self._stale.is_set():
-                request.done(result)
+                job.done(result)

@@ -1,4 +1,4 @@
-"""The server: one address on this machine, and nobody else's pages."""
+"""The server: one address on this machine, which refuses requests of foreign pages."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.web import ErrorHandler, RequestHandler
 
 from carom.explorer.computing.exports import Origin
-from carom.explorer.computing.flights import fly
+from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import largest_kick, map_kicks
 from carom.explorer.computing.motions import table_of
 from carom.explorer.page.document import fill
@@ -36,7 +36,7 @@ NAMES = (HERE, "localhost")
 """Names under which a browser on this machine asks for the page."""
 PORT = 5006
 LEFT, WATCH = 10_000, 500
-"""Milliseconds after which a page that was closed is forgotten, and between two looks whether one was."""
+"""Milliseconds after which the session of a closed page ends, and between two checks for closed pages."""
 
 
 class _Alive(RequestHandler):
@@ -51,7 +51,7 @@ class _Alive(RequestHandler):
 
 
 class _Tornado(BokehTornado):
-    """Refuses requests that were not sent to this machine by name: a foreign page cannot have its own name lead here."""
+    """Refuses requests under a name other than those of this machine: a foreign page could let its own name resolve to it."""
 
     def __init__(self, applications: Any, hosts: list[str], **options: Any) -> None:
         self._hosts = frozenset(hosts)
@@ -179,7 +179,7 @@ def _compile(origin: Origin, ready: threading.Event) -> None:
         largest = largest_kick(rotor.scales)
         table_of(rotor)
         found = map_kicks(rotor, 17, largest)
-        fly(rotor, found.rest, 0.3, 0.1)
+        follow_kick(rotor, found.rest, 0.3, 0.1)
     except CaromError:
         pass  # the page says what is wrong with this machine
     finally:

@@ -42,14 +42,14 @@ def rendered(document):
 
 def test_it_holds_the_figures_and_what_browser_and_server_share(filled):
     assert [root.name for root in filled.roots] == ["history", "section", "diagram"]
-    assert {model.name for model in filled.select({"name": "wishes"})} == {"wishes"}
+    assert {model.name for model in filled.select({"name": "requests"})} == {"requests"}
     assert {model.name for model in filled.select({"name": "answers"})} == {"answers"}
     filled.validate()
 
 
 def test_only_wishes_come_back_from_the_browser(filled):
     back = {type(model).__name__ for model in filled.models if model.syncable}
-    assert back == {"Wishes", "Answers"}
+    assert back == {"Requests", "Answers"}
 
 
 def test_the_page_has_a_slider_and_a_box_for_every_control(filled):

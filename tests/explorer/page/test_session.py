@@ -1,4 +1,4 @@
-"""Wishes of a page and the answers to them, without a browser."""
+"""Requests of a page and the answers to them, without a browser."""
 
 from __future__ import annotations
 
@@ -54,20 +54,20 @@ def page(monkeypatch):
     opened.session.close()
 
 
-def wish(number, held=False, along="", **settings):
+def request(number, held=False, along="", **settings):
     return {"number": number, "settings": settings, "held": held, "along": along}
 
 
 @pytest.mark.jit_only
 def test_a_machine_is_answered_with_everything(page):
-    page.session.show(wish(1, damping="2500 N s/m"))
+    page.session.show(request(1, damping="2500 N s/m"))
     page.until("state", lambda state: state["kind"] == "idle")
     answers = {}
     for name, value in page.seen:
         answers.setdefault(name, []).append(value)
     assert [basin["size"] for basin in answers["basin"]] == [8, 10]
     assert {name for name, values in answers.items() if values[-1] and values[-1].get("number") == 1} >= {
-        "basin", "flight", "table", "loss", "hardest", "diagram", "verdict",
+        "basin", "motion", "table", "loss", "hardest", "diagram", "verdict",
     }  # fmt: skip
     assert answers["verdict"][-1]["text"] == "It may not."
     assert answers["diagram"][-1]["name"] == "damping"
@@ -76,35 +76,35 @@ def test_a_machine_is_answered_with_everything(page):
 
 
 def test_while_a_slider_is_held_only_what_is_quick_is_done(page):
-    page.session.show(wish(1, held=True, damping="2500"))
+    page.session.show(request(1, held=True, damping="2500"))
     basin = page.numbered("basin", 1)
     assert basin["size"] <= 8
     page.numbered("table", 1)
-    assert {name for name, _ in page.seen} == {"problem", "flight", "table", "basin"}
+    assert {name for name, _ in page.seen} == {"problem", "motion", "table", "basin"}
 
 
 def test_while_a_slider_moves_on_only_the_picture_is_computed(page, monkeypatch):
     monkeypatch.setattr(sessions, "PAUSE", 2 * SOON)
     for number, damping in enumerate(("2000", "2500"), start=1):
-        page.session.show(wish(number, held=True, damping=damping))
+        page.session.show(request(number, held=True, damping=damping))
         page.numbered("basin", number)
-    page.session.show(wish(3, damping="3000"))
+    page.session.show(request(3, damping="3000"))
     page.numbered("table", 3)
-    assert [value["number"] for name, value in page.seen if name in ("flight", "table")] == [3, 3]
+    assert [value["number"] for name, value in page.seen if name in ("motion", "table")] == [3, 3]
 
 
 def test_the_picture_is_as_fine_as_it_can_follow_the_hand(page):
     page.session._cost = 1.0
-    page.session.show(wish(1, held=True))
+    page.session.show(request(1, held=True))
     assert page.numbered("basin", 1)["size"] == 4
 
 
 def test_a_wrong_value_changes_nothing_and_the_page_goes_on(page):
-    page.session.show(wish(1, held=True, damping="a lot"))
+    page.session.show(request(1, held=True, damping="a lot"))
     problem = page.until("problem")
     assert problem["names"] == ["damping"]
     assert problem["text"].startswith("damping = a lot: must be a damping in N s/m")
-    page.session.show(wish(2, held=True, damping="2000"))
+    page.session.show(request(2, held=True, damping="2000"))
     assert page.until("problem") == {"number": 2, "text": "", "names": []}
     assert page.numbered("basin", 2)["levitates"]
 
@@ -114,13 +114,13 @@ def test_a_machine_whose_orbits_cannot_be_computed_is_told_as_such(page, monkeyp
         raise carom.outcome.CaromError("no orbits; change the damping")
 
     monkeypatch.setattr(sessions, "table_of", refuse)
-    page.session.show(wish(1, held=True))
+    page.session.show(request(1, held=True))
     assert page.numbered("basin", 1)["size"]
     assert page.numbered("table", 1)["refused"] == "no orbits; change the damping"
 
 
 def test_a_machine_that_cannot_levitate_is_shown(page):
-    page.session.show(wish(1, held=True, damping="300"))
+    page.session.show(request(1, held=True, damping="300"))
     basin = page.numbered("basin", 1)
     assert not basin["levitates"]
     assert basin["sentence"] == "It cannot levitate with these values. The kicks disturb the synchronous rub."
@@ -129,16 +129,16 @@ def test_a_machine_that_cannot_levitate_is_shown(page):
 
 def test_a_kick_is_followed(page):
     page.session.kick({"number": 1, "radial": 0.5, "tangential": -0.25})
-    flight = page.until("flight")
-    assert flight["kick"] == {"radial": 0.5, "tangential": -0.25}
-    assert flight["words"].startswith("A kick of 144 mm/s ends in bouncing on B1,d; hardest impulse")
+    motion = page.until("motion")
+    assert motion["kick"] == {"radial": 0.5, "tangential": -0.25}
+    assert motion["words"].startswith("A kick of 144 mm/s ends in bouncing on B1,d; hardest impulse")
 
 
 @pytest.mark.parametrize("radial", [1.5, float("nan"), float("inf")])
 def test_kicks_outside_the_picture_are_not_followed(page, radial):
     page.session.kick({"number": 1, "radial": radial, "tangential": 0.0})
     page.session.kick({"number": 2, "radial": 0.1, "tangential": 0.0})
-    assert page.until("flight")["kick"]["radial"] == 0.1
+    assert page.until("motion")["kick"]["radial"] == 0.1
 
 
 def test_a_chosen_kick_is_in_the_program_that_can_be_copied(page):
@@ -153,7 +153,7 @@ def test_a_diagram_is_kept_while_only_its_own_slider_moves(page, monkeypatch):
     for number, settings in enumerate(
         [{"damping": "2000"}, {"damping": "2500"}, {"damping": "2500", "friction": "0.2"}], start=1
     ):
-        page.session.show(wish(number, along="damping", **settings))
+        page.session.show(request(number, along="damping", **settings))
         page.numbered("diagram", number)
     assert made == ["damping", "damping"]
 
@@ -167,7 +167,7 @@ def test_what_takes_long_can_be_stopped(page, monkeypatch):
             tell(carom.progress.Progress(0.5, "still looking"))
 
     monkeypatch.setattr(sessions, "find_loss", endless)
-    page.session.show(wish(1))
+    page.session.show(request(1))
     assert begun.wait(SOON)
     assert (
         page.until("state", lambda state: state["kind"] == "working" and state["share"] == 0.5)["words"]
@@ -175,14 +175,14 @@ def test_what_takes_long_can_be_stopped(page, monkeypatch):
     )
     page.session.cancel()
     page.until("state", lambda state: state["kind"] == "cancelled")
-    page.session.show(wish(2, held=True))
+    page.session.show(request(2, held=True))
     assert page.numbered("basin", 2)
 
 
 def test_two_pages_do_not_know_of_each_other(page):
     other = Page(page.session._ready)
-    page.session.show(wish(1, held=True, damping="2500"))
-    other.session.show(wish(1, held=True, damping="3500"))
+    page.session.show(request(1, held=True, damping="2500"))
+    other.session.show(request(1, held=True, damping="3500"))
     first, second = page.numbered("basin", 1), other.numbered("basin", 1)
     other.session.close()
     assert first["share"] != second["share"]
@@ -194,5 +194,5 @@ def test_a_page_waits_for_the_kernels_and_says_so():
     waiting.session.kick({"radial": 0.1, "tangential": 0.0})
     assert waiting.until("state") == {"kind": "compiling"}
     ready.set()
-    assert waiting.until("flight")["outcome"]
+    assert waiting.until("motion")["outcome"]
     waiting.session.close()

@@ -10,7 +10,7 @@ from carom.outcome import InputError, Problems, printable, shown
 from carom.parameters import PARAMETERS, Case, read_quantity
 
 _BARE = re.compile(r"[\s\d.,'+-]*\d[\s\d.,']*(?:[eE][+-]?\d+)?\s*")
-"""A number without a unit; it is in the unit that stands beside its box."""
+"""A number without a unit, which is in the unit shown beside its box."""
 
 
 @dataclass(frozen=True)
@@ -98,16 +98,8 @@ def _control(name: str, kind: _Kind, si: float) -> Control:
 def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
     """Return the machine with other values of its controls.
 
-    Parameters
-    ----------
-    case : Case
-    settings : mapping of str to str
-        Text for each control that was changed: a number in the unit shown on the page, or with a unit of its own.
-
-    Raises
-    ------
-    InputError
-        A name is none of the controls, or a value is not allowed; all errors at once.
+    A value is text: a number in the unit shown on the page, or with a unit of its own.  Unknown names and values that are not
+    allowed are refused, all at once.
     """
     kinds = _DIMENSIONLESS if case.machine is None else _KINDS
     problems = Problems()

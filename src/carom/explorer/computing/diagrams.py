@@ -61,13 +61,7 @@ class Picture:
 
 
 def picture_along(rotor: Jeffcott, control: Control, progress: ShowProgress = None) -> Picture:
-    """Compute the diagram over the whole slider of a parameter.
-
-    Raises
-    ------
-    CaromError
-        The motions cannot be computed along it.
-    """
+    """Compute the diagram over the whole slider of a parameter."""
     unit = unit_of(control.name)
     speed, words = (1.0, "c_r Ω") if rotor.scales is None else (1e3 * rotor.scales.velocity, "mm/s")
     diagram = find_bifurcations(rotor, control.name, (unit * control.low, unit * control.high), progress=progress)

@@ -1,4 +1,4 @@
-"""What takes longer than a moment: the smallest lost kick, the hardest impulse, the verdict."""
+"""Results that take longer than a moment: the smallest lost kick, the hardest impulse, the verdict."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Hardest:
 
 
 def find_loss(rotor: Jeffcott, fastest: float, progress: ShowProgress = None) -> Loss:
-    """Search the smallest kick up to a size in ``c_r Ω`` that is lost."""
+    """Search for the smallest kick up to a size in ``c_r Ω`` that is lost."""
     say = Wording(rotor.scales)
     try:
         found = smallest_loss(rotor, VelocityKick(fastest), progress=progress)
@@ -75,11 +75,5 @@ def _hardest_of(rotor: Jeffcott, rest: Rest, speed: float, angle: float) -> floa
 
 
 def judge(case: Case, progress: ShowProgress = None) -> Verdict:
-    """Verdict of a full study.
-
-    Raises
-    ------
-    CaromError
-        The motions of the machine cannot be computed.
-    """
+    """Verdict of a full study."""
     return study(case, progress=progress).verdict

@@ -22,7 +22,7 @@ NOWHERE = 255
 
 @dataclass(frozen=True)
 class RestKick(KickPlane):
-    """A kick, as of :class:`KickPlane`, of a rotor that cannot levitate and rests on the wall instead.
+    """A kick like that of :class:`KickPlane`, of a rotor that cannot levitate and rests on the wall.
 
     Attributes
     ----------
@@ -139,15 +139,7 @@ def largest_kick(scales: Scales | None) -> float:
 
 
 def map_kicks(rotor: Jeffcott, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
-    """Follow kicks to where they end.
-
-    Parameters
-    ----------
-    cells : int
-        Number of cells along each component.
-    largest : float
-        Of :func:`largest_kick`.
-    """
+    """Follow a grid of kicks to where they end; ``largest`` is that of :func:`largest_kick`."""
     rest = rest_of(rotor)
     fastest = largest / (rotor.scales.velocity if rotor.scales else 1.0)
     basin = map_basins(rotor, Grid(rest.kicks(fastest), (cells, cells)), progress=progress)

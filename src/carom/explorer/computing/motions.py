@@ -34,13 +34,7 @@ class MotionTable:
 
 
 def table_of(rotor: Jeffcott) -> MotionTable:
-    """Compute the table.
-
-    Raises
-    ------
-    CaromError
-        The orbits cannot be computed.
-    """
+    """Compute the table."""
     orbits = orbits_within_reach(rotor)
     texts = {f"orbit {orbit.name}": _multipliers(orbit) for orbit in orbits if orbit.admissible}
     rows = simple_motion_rows(find_equilibria(rotor).members, orbits, Wording(rotor.scales))

@@ -17,7 +17,7 @@ from bokeh.models import CustomJS
 from carom.explorer.computing.exports import Origin
 from carom.explorer.page.figures import looks, make_figures
 from carom.explorer.page.messages import control_message
-from carom.explorer.page.models import Answers, Wishes
+from carom.explorer.page.models import Answers, Requests
 from carom.explorer.page.session import Session
 
 SCRIPTS = ("common.js", "controls.js", "basin.js", "clearance.js", "plots.js", "panels.js", "main.js")
@@ -25,7 +25,7 @@ SCRIPTS = ("common.js", "controls.js", "basin.js", "clearance.js", "plots.js", "
 
 def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
     """Fill a new document with the page of a machine, and return its session."""
-    wishes, answers, figures = Wishes(name="wishes"), Answers(name="answers"), make_figures()
+    requests, answers, figures = Requests(name="requests"), Answers(name="answers"), make_figures()
 
     def hand_over(name: str, value: Any) -> None:
         document.add_next_tick_callback(partial(setattr, answers, name, value))
@@ -37,11 +37,11 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         "cancel": lambda _: session.cancel(),
     }
     for name, act in asked.items():
-        wishes.on_change(name, partial(_act, act))
+        requests.on_change(name, partial(_act, act))
     for plot in figures.plots.values():
         document.add_root(plot)
     # What no plot refers to is not part of the document.
-    figures.plots["history"].tags = [wishes, answers, *figures.parts.values()]
+    figures.plots["history"].tags = [requests, answers, *figures.parts.values()]
     document.title = f"{origin.case.name} – carom explore"
     document.template = _template()
     document.template_variables.update(
@@ -52,11 +52,11 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
         looks=json.dumps(looks()),
     )
     begin = CustomJS(
-        args={"wishes": wishes, "answers": answers, "parts": figures.parts, "plots": figures.plots}, code=_BEGIN
+        args={"requests": requests, "answers": answers, "parts": figures.parts, "plots": figures.plots}, code=_BEGIN
     )
     document.js_on_event(DocumentReady, begin)
-    # Bokeh's client would connect again without forgetting the message in which the connection broke, and understand
-    # nothing after it: the page begins again instead.
+    # Bokeh's client would reconnect with half of the message in which the connection broke still in its buffer, and fail
+    # to read anything after it.  So the page is loaded again instead.
     document.config.update(reconnect_session=False, notify_connection_status=False)
     document.js_on_event(ConnectionLost, CustomJS(code=_LOST))
     document.on_session_destroyed(lambda context: session.close())
@@ -64,11 +64,11 @@ def fill(document: Document, origin: Origin, ready: threading.Event) -> Session:
 
 
 def _act(act: Callable[[Any], None], name: str, old: object, new: object) -> None:
-    """Hand a new wish on."""
+    """Pass a new request on."""
     act(new)
 
 
-_BEGIN, _LOST = "carom.begin(wishes, answers, parts, plots)", "carom.panels.lost()"
+_BEGIN, _LOST = "carom.begin(requests, answers, parts, plots)", "carom.panels.lost()"
 
 
 @cache

@@ -9,7 +9,7 @@ from typing import Any
 from carom.closed_forms import harmless_kick
 from carom.explorer.computing.controls import Control
 from carom.explorer.computing.diagrams import Picture
-from carom.explorer.computing.flights import Flight
+from carom.explorer.computing.kicked_motion import KickedMotion
 from carom.explorer.computing.kicks import KickMap
 from carom.explorer.computing.motions import MotionTable
 from carom.models import Jeffcott
@@ -84,16 +84,16 @@ def _sentence(found: KickMap) -> str:
     return f"{100.0 * found.share:.2g} % of these kicks come back to levitation."
 
 
-def flight_message(flight: Flight, rotor: Jeffcott) -> Message:
+def motion_message(motion: KickedMotion, rotor: Jeffcott) -> Message:
     """A motion, with the factors of its axes."""
     say = Wording(rotor.scales)
     return {
-        **{name: getattr(flight, name) for name in ("times", "x", "y")},
-        **{name: getattr(flight, name) for name in ("impact_times", "impact_angles", "impact_speeds", "impulses")},
-        "forward": flight.forward.astype("uint8"),
-        "spans": [asdict(span) for span in flight.spans],
-        **{name: getattr(flight, name) for name in ("whole", "outcome", "colour", "words", "hardest")},
-        "hardest_words": say.impulse(flight.hardest) if flight.hardest else "no impact",
+        **{name: getattr(motion, name) for name in ("times", "x", "y")},
+        **{name: getattr(motion, name) for name in ("impact_times", "impact_angles", "impact_speeds", "impulses")},
+        "forward": motion.forward.astype("uint8"),
+        "spans": [asdict(span) for span in motion.spans],
+        **{name: getattr(motion, name) for name in ("whole", "outcome", "colour", "words", "hardest")},
+        "hardest_words": say.impulse(motion.hardest) if motion.hardest else "no impact",
         **units_message(rotor.scales),
     }
 

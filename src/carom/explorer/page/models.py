@@ -6,8 +6,8 @@ from bokeh.core.properties import Any
 from bokeh.model import DataModel
 
 
-class Wishes(DataModel):
-    """What the page asks for; each wish is a plain dictionary that the browser replaces as a whole.
+class Requests(DataModel):
+    """What the page asks for; each request is a plain dictionary that the browser replaces as a whole.
 
     ``machine`` holds ``number``, ``settings`` (text by name), ``held`` (whether a slider is being dragged) and ``along``
     (the control moved last); ``kick`` holds ``number``, ``radial`` and ``tangential``, as shares of the largest kick.
@@ -24,7 +24,7 @@ class Answers(DataModel):
     state = Any(default=None)
     problem = Any(default="")
     basin = Any(default=None)
-    flight = Any(default=None)
+    motion = Any(default=None)
     table = Any(default=None)
     loss = Any(default=None)
     hardest = Any(default=None)

@@ -1,4 +1,4 @@
-"""One page: it takes wishes, has them done beside the page, and hands the answers back."""
+"""The session of one page: it takes requests, has the work done beside the page, and sends the answers."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from carom.explorer.background import Desk, Request
+from carom.explorer.background import Job, Worker
 from carom.explorer.computing.controls import Control, controls_of, with_settings
 from carom.explorer.computing.diagrams import picture_along
 from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
-from carom.explorer.computing.flights import fly
 from carom.explorer.computing.judgement import find_hardest, find_loss, judge
+from carom.explorer.computing.kicked_motion import follow_kick
 from carom.explorer.computing.kicks import KickMap, largest_kick, map_kicks, rest_of
 from carom.explorer.computing.motions import table_of
 from carom.explorer.page import messages
@@ -82,18 +82,18 @@ class Session:
         self._shown = _Shown(0, origin.case, {}, rotor, first, 0.31, 0.12)
         self._cost, self._reported = PATIENCE / COARSE**2, 0.0
         self._diagrams: dict[tuple[Any, ...], Any] = {}
-        self._quick = Desk(("basin", "flight", "table"))
-        self._long = Desk(tuple(_LONG), self._report)
+        self._quick = Worker(("basin", "motion", "table"))
+        self._long = Worker(tuple(_LONG), self._report)
 
     def close(self) -> None:
         """End all work of the page."""
         self._quick.close()
         self._long.close()
 
-    def show(self, wish: Mapping[str, Any]) -> None:
-        """Show another machine; see :class:`carom.explorer.page.models.Wishes`."""
-        settings = {str(name): str(text) for name, text in dict(wish.get("settings", {})).items()}
-        number, held = int(wish.get("number", 0)), bool(wish.get("held", False))
+    def show(self, request: Mapping[str, Any]) -> None:
+        """Show another machine; see :class:`carom.explorer.page.models.Requests`."""
+        settings = {str(name): str(text) for name, text in dict(request.get("settings", {})).items()}
+        number, held = int(request.get("number", 0)), bool(request.get("held", False))
         try:
             case = with_settings(self.origin.case, settings)
         except InputError as problem:
@@ -102,7 +102,7 @@ class Session:
             )
             return
         self._answer("problem", {"number": number, "text": "", "names": []})
-        along = str(wish.get("along") or self._shown.along)
+        along = str(request.get("along") or self._shown.along)
         before = self._shown
         self._shown = _Shown(
             number,
@@ -116,11 +116,11 @@ class Session:
         self._long.drop()
         self._ask(self._quick, "basin", self._coarse, "basin", None if held else self._finish)
         pause = PAUSE if held else 0.0
-        self._ask_quick("flight", self._flight, pause)
+        self._ask_quick("motion", self._motion, pause)
         self._ask_quick("table", lambda shown, tell: messages.table_message(table_of(shown.rotor)), pause)
 
     def _finish(self) -> None:
-        """Have everything computed that takes longer than a moment."""
+        """Start everything that takes longer than a moment."""
         self._answer("exports", self._exports())
         self._ask_long("fine", lambda shown, tell: self._picture(shown, FINE, tell), "basin")
         self._ask_long("loss", lambda shown, tell: vars(find_loss(shown.rotor, self._fastest(shown), tell)))
@@ -128,14 +128,14 @@ class Session:
         self._ask_long("diagram", self._diagram)
         self._ask_long("verdict", lambda shown, tell: {"text": judge(shown.case, tell).headline})
 
-    def kick(self, wish: Mapping[str, Any]) -> None:
+    def kick(self, request: Mapping[str, Any]) -> None:
         """Show the motion after another kick, whose parts are given as shares of the largest."""
-        shares = [float(wish.get(name, 0.0)) for name in ("radial", "tangential")]
+        shares = [float(request.get(name, 0.0)) for name in ("radial", "tangential")]
         if not all(-1.0 <= share <= 1.0 for share in shares):
             return
         self._shown = replace(self._shown, radial=shares[0], tangential=shares[1])
-        self._ask_quick("flight", self._flight)
-        if wish.get("chosen"):
+        self._ask_quick("motion", self._motion)
+        if request.get("chosen"):
             self._answer("exports", self._exports())
 
     def drop_work(self) -> None:
@@ -152,19 +152,21 @@ class Session:
         scales = shown.rotor.scales
         return self.largest / (scales.velocity if scales else 1.0)
 
-    def _flight(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
+    def _motion(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
         fastest = self._fastest(shown)
-        flight = fly(shown.rotor, rest_of(shown.rotor), shown.radial * fastest, shown.tangential * fastest, tell)
+        motion = follow_kick(
+            shown.rotor, rest_of(shown.rotor), shown.radial * fastest, shown.tangential * fastest, tell
+        )
         kick = {"radial": shown.radial, "tangential": shown.tangential}
-        return {**messages.flight_message(flight, shown.rotor), "kick": kick}
+        return {**messages.motion_message(motion, shown.rotor), "kick": kick}
 
     def _coarse(self, shown: _Shown, tell: Callable[[Progress], None]) -> messages.Message:
-        """Picture that is quick enough to follow the hand; as fine as that allows."""
+        """Picture that is computed fast enough to follow a dragged slider, as fine as that allows."""
         cells = int(min(COARSE, max(COARSEST, (PATIENCE / self._cost) ** 0.5)))
         began = time.perf_counter()
         message = self._picture(shown, COARSE if cells > 0.85 * COARSE else cells, tell)
         cost = (time.perf_counter() - began) / message["size"] ** 2
-        self._cost = min(cost, 0.5 * (self._cost + cost))  # one slow machine among others is soon forgotten
+        self._cost = min(cost, 0.5 * (self._cost + cost))  # a single slow machine has little effect
         return message
 
     def _picture(self, shown: _Shown, cells: int, tell: Callable[[Progress], None]) -> messages.Message:
@@ -196,14 +198,14 @@ class Session:
 
     def _ask(
         self,
-        desk: Desk,
+        worker: Worker,
         kind: str,
         work: Work,
         name: str,
         afterwards: Callable[[], None] | None = None,
         pause: float = 0.0,
     ) -> None:
-        """Have work done for the machine shown now, and its result handed over; then, if it is still shown, go on."""
+        """Have work done for the machine shown now and its result sent; then, if that is still shown, call `afterwards`."""
         shown = self._shown
 
         def run(tell: Callable[[Progress], None]) -> Any:
@@ -224,7 +226,7 @@ class Session:
             if afterwards is not None and self._shown.number == shown.number:
                 afterwards()
 
-        desk.ask(kind, Request(run, done, pause))
+        worker.submit(kind, Job(run, done, pause))
 
     def _wait_for_kernels(self) -> None:
         if not self._ready.is_set():

@@ -108,7 +108,7 @@ carom.basin = { message: null, kick: { radial: 0.31, tangential: 0.12 } };
 
   const ask = carom.throttled(45, (kick, chosen) => {
     carom.kicks = (carom.kicks || 0) + 1;
-    carom.wishes.kick = { number: carom.kicks, radial: kick.radial, tangential: kick.tangential, chosen };
+    carom.requests.kick = { number: carom.kicks, radial: kick.radial, tangential: kick.tangential, chosen };
   });
   const point = (event, chosen) => {
     if (!frame) return;

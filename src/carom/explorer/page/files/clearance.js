@@ -1,5 +1,5 @@
 // The clearance circle: the rotor flies, strikes with a flash and settles.
-carom.flight = { message: null, now: 0, frame: "rotating" };
+carom.motion = { message: null, now: 0, frame: "rotating" };
 
 (() => {
   const canvas = at("clearance"), still = window.matchMedia("(prefers-reduced-motion: reduce)");
@@ -13,13 +13,13 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
   };
   const turned = (message, place) => {
     const x = message.x[place], y = message.y[place];
-    if (carom.flight.frame === "rotating") return [x, y];
+    if (carom.motion.frame === "rotating") return [x, y];
     const t = message.times[place], c = Math.cos(t), s = Math.sin(t);
     return [x * c - y * s, x * s + y * c];
   };
 
   const draw = () => {
-    const message = carom.flight.message, [pen, side] = carom.square(canvas);
+    const message = carom.motion.message, [pen, side] = carom.square(canvas);
     const middle = side / 2, reach = side * 0.42, toX = (x) => middle + reach * x, toY = (y) => middle - reach * y;
     pen.clearRect(0, 0, side, side);
     // The bearing, and the room inside it.
@@ -29,7 +29,7 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
     pen.strokeStyle = colour("rule"); pen.lineWidth = 1; pen.beginPath();
     pen.moveTo(toX(-1), middle); pen.lineTo(toX(1), middle); pen.moveTo(middle, toY(-1)); pen.lineTo(middle, toY(1)); pen.stroke();
     if (!message || message.refused) return;
-    const { times } = message, now = carom.flight.now, last = index(times, now);
+    const { times } = message, now = carom.motion.now, last = index(times, now);
     const stroke = (from, to, ink, width, alpha) => {
       pen.strokeStyle = ink; pen.lineWidth = width; pen.globalAlpha = alpha; pen.lineJoin = "round"; pen.beginPath();
       for (let place = from; place <= to; place += 1) { const [x, y] = turned(message, place); if (place === from) pen.moveTo(toX(x), toY(y)); else pen.lineTo(toX(x), toY(y)); }
@@ -65,7 +65,7 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
       }
     });
     const basin = carom.basin.message;
-    if (basin && carom.flight.frame === "rotating") {
+    if (basin && carom.motion.frame === "rotating") {
       const [x, y] = basin.rest_position;
       pen.strokeStyle = basin.legend_rest; pen.lineWidth = 2; pen.beginPath(); pen.arc(toX(x), toY(y), 5, 0, 7); pen.stroke();
     }
@@ -75,40 +75,40 @@ carom.flight = { message: null, now: 0, frame: "rotating" };
     pen.fillStyle = colour("soft"); pen.font = "12px system-ui, sans-serif"; pen.textAlign = "right"; pen.textBaseline = "alphabetic";
     pen.fillText(`${carom.short(message.time * now, 3)} ${message.time_unit}`, side - 4, side - 5);
     pen.textAlign = "left";
-    pen.fillText(carom.flight.frame === "rotating" ? "turns with the shaft" : "as seen from outside", 4, side - 5);
+    pen.fillText(carom.motion.frame === "rotating" ? "turns with the shaft" : "as seen from outside", 4, side - 5);
   };
 
   const advance = (clock) => {
     if (carom.held) running = false; // that of an older machine
     if (!running) return;
-    const message = carom.flight.message, end = message.times[message.times.length - 1];
-    carom.flight.now = Math.min(end, end * (clock - began) / (1000 * lasts));
+    const message = carom.motion.message, end = message.times[message.times.length - 1];
+    carom.motion.now = Math.min(end, end * (clock - began) / (1000 * lasts));
     draw();
-    if (carom.plots) carom.plots.now(carom.flight.now, carom.flight.now >= end);
-    if (carom.flight.now >= end) running = false; else requestAnimationFrame(advance);
+    if (carom.plots) carom.plots.now(carom.motion.now, carom.motion.now >= end);
+    if (carom.motion.now >= end) running = false; else requestAnimationFrame(advance);
   };
-  carom.flight.play = () => {
-    const message = carom.flight.message;
+  carom.motion.play = () => {
+    const message = carom.motion.message;
     if (!message || message.refused) return;
     const end = message.times[message.times.length - 1];
     lasts = clamp(end / pace, shortest, longest);
     const slower = message.time_unit === "ms" ? (1000 * lasts) / (message.time * end) : 0;
     at("pace").textContent = slower > 1.5 ? `slowed down ${carom.short(slower, 2)} times` : "";
-    if (still.matches || carom.held) { carom.flight.now = end; running = false; draw(); if (carom.plots && !carom.held) carom.plots.now(end, true); return; }
+    if (still.matches || carom.held) { carom.motion.now = end; running = false; draw(); if (carom.plots && !carom.held) carom.plots.now(end, true); return; }
     began = performance.now();
     if (!running) { running = true; requestAnimationFrame(advance); }
   };
-  carom.flight.show = (message) => {
-    carom.flight.message = message;
-    carom.panels.shown("flight", message);
-    if (message.refused) { at("flight-words").textContent = message.refused; running = false; draw(); return; }
-    at("flight-words").textContent = message.words + (message.whole ? "" : " Its beginning is shown.");
-    if (carom.plots) carom.plots.flight(message);
-    carom.flight.play();
+  carom.motion.show = (message) => {
+    carom.motion.message = message;
+    carom.panels.shown("motion", message);
+    if (message.refused) { at("motion-words").textContent = message.refused; running = false; draw(); return; }
+    at("motion-words").textContent = message.words + (message.whole ? "" : " Its beginning is shown.");
+    if (carom.plots) carom.plots.motion(message);
+    carom.motion.play();
   };
-  at("replay").addEventListener("click", () => carom.flight.play());
+  at("replay").addEventListener("click", () => carom.motion.play());
   for (const choice of document.querySelectorAll('input[name="frame"]')) {
-    choice.addEventListener("change", () => { carom.flight.frame = choice.value; if (!running) draw(); });
+    choice.addEventListener("change", () => { carom.motion.frame = choice.value; if (!running) draw(); });
   }
   carom.parts.push(draw);
 })();

@@ -1,6 +1,6 @@
 "use strict";
 // Parts of the page share this object; nothing else is global.
-const carom = { looks: window.carom_looks, parts: [], wishes: null, begun: null };
+const carom = { looks: window.carom_looks, parts: [], requests: null, begun: null };
 const at = (id) => document.getElementById(id);
 // Colours of the page, kept until it is drawn anew: asking for one makes the browser compute all its styles.
 let colours = {};

@@ -29,7 +29,7 @@ carom.held = false;
   const send = (held) => {
     carom.number += 1;
     carom.held = held;
-    carom.wishes.machine = { number: carom.number, settings: { ...settings }, held, along: carom.moved || "" };
+    carom.requests.machine = { number: carom.number, settings: { ...settings }, held, along: carom.moved || "" };
     const words = new URLSearchParams(settings).toString();
     if (!held) history.replaceState(null, "", words ? `#${words}` : location.pathname);
   };

@@ -25,7 +25,7 @@ carom.panels = { exports: null };
       box.querySelector("span").textContent = state.kind === "cancelled" ? "Stopped. What had been found is shown." : "";
     }
   };
-  at("cancel").addEventListener("click", () => { carom.wishes.cancel = (carom.wishes.cancel || 0) + 1; });
+  at("cancel").addEventListener("click", () => { carom.requests.cancel = (carom.requests.cancel || 0) + 1; });
 
   const tile = (name, value, remark, old = false) => {
     at(name).textContent = value;
@@ -43,7 +43,7 @@ carom.panels = { exports: null };
     if (exact.loss !== message.number) tile("lost", message.lost, message.lost_remark);
     if (exact.hardest !== message.number) at("hardest").classList.add("old");
     if (exact.verdict !== message.number) at("headline").classList.add("old");
-    if (carom.held) for (const what of ["flight", "figures", "table"]) pale(what, true);
+    if (carom.held) for (const what of ["motion", "figures", "table"]) pale(what, true);
   };
   carom.panels.loss = (message) => {
     exact.loss = message.number;

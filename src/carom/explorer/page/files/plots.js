@@ -1,6 +1,6 @@
 // The figures with axes, drawn by Bokeh: the browser fills them and gives them the colours of the page.
 carom.begin_plots = (parts, plots) => {
-  const flight = { message: null, drawn: -1, count: -1 };
+  const motion = { message: null, drawn: -1, count: -1 };
   let along = null, special = null;
   // Near-black is not seen on dark paper.
   const mark = () => {
@@ -37,9 +37,9 @@ carom.begin_plots = (parts, plots) => {
   });
 
   const section = (now) => {
-    const message = flight.message, count = message.impact_times.filter((time) => time <= now).length;
-    if (count === flight.count) return;
-    flight.count = count;
+    const message = motion.message, count = message.impact_times.filter((time) => time <= now).length;
+    if (count === motion.count) return;
+    motion.count = count;
     const first = (values) => Array.from(values).slice(0, count), forward = first(message.forward);
     parts.section.data = {
       angle: first(message.impact_angles).map((angle) => 180 * angle / Math.PI),
@@ -49,9 +49,9 @@ carom.begin_plots = (parts, plots) => {
   };
 
   carom.plots = {
-    flight: carom.unhurried((message) => {
-      flight.message = message;
-      flight.count = -1;
+    motion: carom.unhurried((message) => {
+      motion.message = message;
+      motion.count = -1;
       const { times, x, y } = message, end = message.time * times[times.length - 1];
       parts.history.data = { t: Array.from(times, (time) => message.time * time), r: Array.from(x, (part, place) => Math.hypot(part, y[place])) };
       parts.struck.data = {
@@ -74,13 +74,13 @@ carom.begin_plots = (parts, plots) => {
         return [key, words];
       }));
       carom.panels.shown("figures", message);
-      carom.plots.now(carom.flight.now, true);
+      carom.plots.now(carom.motion.now, true);
     }),
     now: (time, last) => {
       const clock = performance.now();
-      if (!flight.message || (!last && clock - flight.drawn < 120)) return;
-      flight.drawn = clock;
-      parts.now.location = flight.message.time * time;
+      if (!motion.message || (!last && clock - motion.drawn < 120)) return;
+      motion.drawn = clock;
+      parts.now.location = motion.message.time * time;
       section(time);
     },
     diagram: (message) => {
@@ -106,5 +106,5 @@ carom.begin_plots = (parts, plots) => {
     },
   };
   carom.showCursor = (name, value) => { if (name === along) parts.cursor.location = value; };
-  if (carom.flight.message && !carom.flight.message.refused) carom.plots.flight(carom.flight.message);
+  if (carom.motion.message && !carom.motion.message.refused) carom.plots.motion(carom.motion.message);
 };

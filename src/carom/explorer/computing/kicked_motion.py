@@ -44,7 +44,7 @@ class Span:
 
 
 @dataclass(frozen=True, eq=False)
-class Flight:
+class KickedMotion:
     """A motion after a kick.
 
     Attributes
@@ -81,14 +81,10 @@ class Flight:
     hardest: float
 
 
-def fly(rotor: Jeffcott, rest: Rest, radial: float, tangential: float, progress: ShowProgress = None) -> Flight:
-    """Follow one kick, whose parts are in ``c_r Ω``, to where it ends.
-
-    Raises
-    ------
-    InputError
-        The kick is too large, or not finite.
-    """
+def follow_kick(
+    rotor: Jeffcott, rest: Rest, radial: float, tangential: float, progress: ShowProgress = None
+) -> KickedMotion:
+    """Follow one kick, with its parts in ``c_r Ω``, to where it ends; refuse one that is too large or not finite."""
     start = rest.kicked(radial, tangential)
     motion = simulate(rotor, start, settle=True, progress=progress)
     # A motion is settled once its end is known, which may be long before it has arrived there.
@@ -99,7 +95,7 @@ def fly(rotor: Jeffcott, rest: Rest, radial: float, tangential: float, progress:
     _, (name,) = name_motions(rotor, settle(rotor, np.array([start.position]), np.array([start.velocity])))
     look = OUTCOMES["irregular" if name.irregular else name.outcome.label]
     hardest = float(motion.contacts.normal_impulse.max(initial=0.0))
-    return Flight(
+    return KickedMotion(
         times=times.astype(np.float32),
         x=position.real.astype(np.float32),
         y=position.imag.astype(np.float32),
