@@ -5,12 +5,12 @@ import os
 
 import pytest
 
-from carom.files.directory import check_directory, filled_at_once
+from carom.files.directory import check_directory, staged_directory
 from carom.outcome import InputError
 
 
 def fill(path, files):
-    with filled_at_once(str(path), "--out") as place:
+    with staged_directory(str(path), "--out") as place:
         for name, content in files.items():
             (place / name).parent.mkdir(exist_ok=True)
             (place / name).write_text(content, encoding="utf-8")
@@ -81,7 +81,7 @@ def test_failure_changes_nothing(tmp_path, there, error):
         fill(tmp_path / "out", {"report.html": "old"})
 
     def fail():
-        with filled_at_once(str(tmp_path / "out"), "--out") as place:
+        with staged_directory(str(tmp_path / "out"), "--out") as place:
             (place / "report.html").write_text("half", encoding="utf-8")
             raise error
 
@@ -93,7 +93,7 @@ def test_failure_changes_nothing(tmp_path, there, error):
 
 
 def test_full_disk_is_an_input_error_and_changes_nothing(tmp_path):
-    with pytest.raises(InputError, match="--out"), filled_at_once(str(tmp_path / "out"), "--out"):
+    with pytest.raises(InputError, match="--out"), staged_directory(str(tmp_path / "out"), "--out"):
         raise OSError(28, "No space left on device")
 
     assert list(tmp_path.iterdir()) == []
@@ -130,7 +130,7 @@ def test_checking_leaves_no_trace(tmp_path):
 
 
 def test_directories_made_for_a_place_go_when_it_fails(tmp_path):
-    with pytest.raises(ZeroDivisionError), filled_at_once(str(tmp_path / "a" / "b" / "c"), "--out"):
+    with pytest.raises(ZeroDivisionError), staged_directory(str(tmp_path / "a" / "b" / "c"), "--out"):
         raise ZeroDivisionError
 
     assert list(tmp_path.iterdir()) == []
@@ -140,7 +140,7 @@ def test_a_place_is_filled_from_within_its_own_file_system(tmp_path):
     """What is beside it may be read-only, or another disk."""
     (tmp_path / "out").mkdir()
 
-    with filled_at_once(str(tmp_path / "out"), "--out") as place:
+    with staged_directory(str(tmp_path / "out"), "--out") as place:
         assert place.parent == tmp_path / "out"
 
 

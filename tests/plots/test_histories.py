@@ -81,7 +81,7 @@ def test_end_is_marked_unless_time_ran_out(bouncing, chattering, read):
     figure = plots.radius(chattering)
     (end,) = read.lines(figure.axes[0], "end")
     assert end.get_xdata()[0] == chattering.time
-    assert "end: chatter, goes over into lasting contact" in read.legend(figure)
+    assert "end: chatter, ends in lasting contact" in read.legend(figure)
 
 
 def test_lasting_contact_is_a_band_for_as_long_as_it_lasts(rubbing, read):

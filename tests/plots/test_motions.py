@@ -146,7 +146,7 @@ def test_fading_ends_with_the_flight_not_with_the_contact_after_it(rubbing):
 def test_words_say_how_a_motion_ended(bouncing, chattering, read):
     assert "end: time reached" in read.legend(plots.motion(bouncing))
     figure = plots.motion(chattering)
-    assert "end: chatter, goes over into lasting contact" in read.legend(figure)
+    assert "end: chatter, ends in lasting contact" in read.legend(figure)
     assert figure.get_suptitle().startswith(f"{len(chattering.contacts)} impacts in ")
     assert plots.motion(chattering, title="A shock").get_suptitle() == "A shock"
 

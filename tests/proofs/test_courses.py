@@ -58,8 +58,8 @@ def test_tests_of_orbits_agree_with_the_kernels():
             at = Doubles.of(parameters), orbit.period, orbit.radial_speed
             known, course = conditions_at(*at), Course(Return(balls(parameters), arb(at[1])), arb(at[2]))
             scale = 1.0 + np.abs(jacobian_at(*at)).max() ** 3
-            assert float(course.flip) == pytest.approx(known.period_doubling, abs=1e-9 * scale)
-            assert float(course.torus) == pytest.approx(-known.neimark_sacker, abs=1e-9 * scale)
+            assert float(course.invariants.at_minus_one) == pytest.approx(known.period_doubling, abs=1e-9 * scale)
+            assert float(course.invariants.of_pairs) == pytest.approx(-known.neimark_sacker, abs=1e-9 * scale)
             assert float(course.speed_fold) == pytest.approx(known.speed_fold, rel=1e-9, abs=1e-9)
             assert float(course.back.closing_rate) == pytest.approx(known.period_fold, rel=1e-8, abs=1e-9)
             assert float(course.slip_after) == pytest.approx(known.slip_stop, rel=1e-9, abs=1e-9)
@@ -107,7 +107,13 @@ def test_series_are_derivatives():
             def value(late, numbers=numbers, period=period):
                 moved = numbers._replace(gamma=numbers.gamma + late, d=numbers.d + late)
                 course = Course(Return(moved, period + late), arb(1) / 2 + late)
-                return [course.flip, course.torus, course.balance, course.back.closing, course.height(period / 2)[0]]
+                return [
+                    course.invariants.at_minus_one,
+                    course.invariants.of_pairs,
+                    course.balance,
+                    course.back.closing,
+                    course.height(period / 2)[0],
+                ]
 
             with terms(2):
                 series = value(arb_series([0, 1]))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.output import filled, say_where
+from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def attractors(
         characters = [character_of(case, entry) for entry in found]
         document = attractors_document(case.parameters, found, characters, exponents) if as_json or out else {}
         if out is not None:
-            with filled(out, case) as output:
+            with output_directory(out, case) as output:
                 output.figure("attractors", found.plot())
                 output.document("attractors", document)
     if as_json:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carom.cli import basin_options as options
-from carom.cli.output import filled, say_where
+from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def basins(
         document = basin_document(basin, smallest, harmless, found, change, **share_wanted)
         if out is not None:
             tell(0.97, "drawing")
-            with filled(out, case) as output:
+            with output_directory(out, case) as output:
                 output.figure("basins", basin.plot(smallest))
                 basin.save(output.directory / "basins.nc")
                 if found is not None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.output import filled, say_where
+from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError, shown
 
@@ -120,7 +120,7 @@ def bifurcations(
         )
     document = diagram_document(parameters, diagram)
     if out is not None:
-        with filled(out, case) as output:
+        with output_directory(out, case) as output:
             output.figure(f"bifurcations-{varied.name}", diagram.plot(proof=proven))
             output.document(f"bifurcations-{varied.name}", document)
     if as_json:
@@ -184,7 +184,7 @@ def regions(
         )
     document = regions_document(parameters, found)
     if out is not None:
-        with filled(out, case) as output:
+        with output_directory(out, case) as output:
             output.figure(f"regions-{axes[0].name}-{axes[1].name}", found.plot(proof=proven))
             output.document(f"regions-{axes[0].name}-{axes[1].name}", document)
     if as_json:

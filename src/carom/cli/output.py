@@ -41,13 +41,13 @@ class Output:
 
 
 @contextmanager
-def filled(out: str, case: Case) -> Iterator[Output]:
+def output_directory(out: str, case: Case) -> Iterator[Output]:
     """Fill the directory of ``--out``; figures made meanwhile show the name and the present values of the machine."""
-    from carom.files import filled_at_once
+    from carom.files import staged_directory
     from carom.plots import heading
     from carom.studies.wording import machine_heading
 
-    with filled_at_once(out, "--out") as directory, heading(machine_heading(case)):
+    with staged_directory(out, "--out") as directory, heading(machine_heading(case)):
         yield Output(directory)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.output import filled, say_where
+from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
 
@@ -59,7 +59,7 @@ def response(
         document = found.to_dict() if as_json or out is not None else {}
         if out is not None:
             tell(0.4, "drawing")
-            with filled(out, case) as output:
+            with output_directory(out, case) as output:
                 figure = found.plot()
                 tell(0.7, "writing")
                 output.figure("response", figure)

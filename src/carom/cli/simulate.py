@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from carom.cli.output import filled, say_where
+from carom.cli.output import output_directory, say_where
 from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, console, print_document, progress
 from carom.outcome import InputError
 
@@ -106,7 +106,7 @@ def _write(out: str, case: Case, motion: Trajectory, tell: Reporter, *, decaying
     from carom.motions.ledger import energy_ledger
     from carom.studies import trajectory_document
 
-    with filled(out, case) as output:
+    with output_directory(out, case) as output:
         tell(0.0)
         shown, title = _shown(motion) if decaying else (motion, None)
         output.figure("motion", plots.motion(shown, title=title))

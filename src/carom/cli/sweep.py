@@ -85,7 +85,7 @@ def sweep(
 def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     """Draw the results over the axes of the sweep, with the machine as it is marked."""
     from carom import plots
-    from carom.files import filled_at_once
+    from carom.files import staged_directory
     from carom.models import axis, model_of
     from carom.parameters import Case
     from carom.studies.wording import machine_heading
@@ -95,7 +95,7 @@ def _draw(plan: SweepPlan, tally: Tally, figures: str) -> None:
     present = {varied.name: float(axis(model, varied.name).value(model)) for varied in plan.axes}
     words = machine_heading(plan.case) if isinstance(plan.case, Case) else plan.name
     data = open_sweep(str(tally.store))
-    with filled_at_once(figures, "--figures") as directory, plots.heading(words):
+    with staged_directory(figures, "--figures") as directory, plots.heading(words):
         for name in (name for name in _DRAWN if name in data):
             plots.save(plots.sweep_map(data, name, present=present), directory / name)
 

@@ -45,7 +45,7 @@ def check_directory(path: str, option: str) -> Path:
 
 
 @contextmanager
-def filled_at_once(path: str, option: str) -> Iterator[Path]:
+def staged_directory(path: str, option: str) -> Iterator[Path]:
     """Provide an empty staging directory; when the block ends, move its files to the target directory.
 
     Files of the same name are replaced, each atomically.  Figures of an earlier study that this one does not have are

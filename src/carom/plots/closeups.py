@@ -11,6 +11,8 @@ from carom.plots.plane import Complex
 
 _SMALL = 0.15
 """Distance [c_r] within which a small path stays from its first point, and within which points join its close-up."""
+_MOST = 2
+"""Largest number of close-ups."""
 
 
 @dataclass
@@ -43,10 +45,10 @@ class Closeup:
         return complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())
 
 
-def closeups(paths: Sequence[Complex], points: Sequence[complex], most: int = 2) -> list[Closeup]:
+def closeups(paths: Sequence[Complex], points: Sequence[complex]) -> list[Closeup]:
     """Group small paths with the paths and points near them, in close-ups from left to right in the plane.
 
-    Positions are complex, in units of the clearance.  Those with the most members are kept.
+    Positions are complex, in units of the clearance.  The two with the most members are kept.
     """
     found: list[Closeup] = []
     for i, line in enumerate(paths):
@@ -63,5 +65,5 @@ def closeups(paths: Sequence[Complex], points: Sequence[complex], most: int = 2)
             if closeup.distance(point) < _SMALL:
                 closeup.places.append(np.array([point], dtype=complex))
                 break
-    kept = sorted(found, key=lambda closeup: -len(closeup.members))[:most]
+    kept = sorted(found, key=lambda closeup: -len(closeup.members))[:_MOST]
     return sorted(kept, key=lambda closeup: closeup.middle.real)

@@ -72,7 +72,7 @@ CURVES = MappingProxyType(
 
 BOUNDARIES = MappingProxyType(
     {
-        "persistence": Look("#009e73", "levitation goes over into synchronous rub", marker="p"),
+        "persistence": Look("#009e73", "levitation turns into synchronous rub", marker="p"),
         "non-smooth fold": Look("#009e73", "levitation and saddle of rub vanish", marker="8"),
     }
 )
@@ -159,7 +159,7 @@ def _mark_present(diagram: Diagram, panels: tuple[Axes, ...], unit: float) -> li
 def _proven(proof: Proof | None, diagram: Diagram) -> ProvenLine | None:
     if proof is None:
         return None
-    # Proofs need an extra, which whoever has a proof has.
+    # Imported only here: proofs need an extra, which is installed where a proof exists.
     from carom.proofs.proven_lines import proven_of_diagram
 
     return proven_of_diagram(proof, diagram)

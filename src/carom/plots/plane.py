@@ -33,6 +33,10 @@ MANY_MARKERS = 2_000
 
 Frame = Literal["rotating", "fixed"]
 
+_PIECES = 60
+"""Number of tints of a path that fades."""
+_MARGIN = 1.25
+"""Size of an enlarged square, relative to what it shows."""
 _FRAMES = {"rotating": ("co-rotating frame", "U"), "fixed": ("fixed frame", "Z")}
 
 
@@ -96,14 +100,14 @@ def _with_neighbours(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return wide
 
 
-def faded_path(axes: Axes, position: Complex, look: Look, pieces: int = 60) -> None:
+def faded_path(axes: Axes, position: Complex, look: Look) -> None:
     """Draw a path whose beginning is pale and whose end has the full colour.
 
     Opaque tints are used, because transparency would show dots where a path crosses itself.
     """
     colour = np.array(to_rgb(look.colour))
     position = position[: np.flatnonzero(~np.isnan(position)).max(initial=0) + 1]
-    ends = np.unique(np.linspace(0, len(position) - 1, pieces + 1).astype(int))
+    ends = np.unique(np.linspace(0, len(position) - 1, _PIECES + 1).astype(int))
     points = np.column_stack((position.real, position.imag))
     segments = [points[first : last + 1] for first, last in pairwise(ends)]
     strength = np.linspace(0.2, 1.0, len(segments)) ** 1.5
@@ -208,13 +212,13 @@ def point(
     )
 
 
-def magnifier(axes: Axes, shown: Complex, margin: float = 0.25, words: str = "enlarged ") -> Axes | None:
+def magnifier(axes: Axes, shown: Complex, words: str = "enlarged ") -> Axes | None:
     """Open an enlarged view of the square around `shown` in the free part of the clearance circle.
 
     Its title is how many times it is enlarged, with `words` before it.  None if `shown` is large enough to be visible.
     """
     low, high = complex(shown.real.min(), shown.imag.min()), complex(shown.real.max(), shown.imag.max())
-    middle, half = (low + high) / 2.0, max(high.real - low.real, high.imag - low.imag) / 2.0 * (1.0 + margin)
+    middle, half = (low + high) / 2.0, _MARGIN * max(high.real - low.real, high.imag - low.imag) / 2.0
     if half > 0.2 or half == 0.0:
         return None
     centre = -0.28 * middle / abs(middle)

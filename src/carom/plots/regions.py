@@ -77,7 +77,7 @@ def region_map(found: RegionMap, proof: Proof | None = None) -> Figure:
 
 def _draw_proof(axes: Axes, found: RegionMap, proof: Proof, units: np.ndarray) -> list[Line2D]:
     """Draw what is proven on the line through the present machine; return the legend entries."""
-    # Proofs need an extra, which whoever has a proof has.
+    # Imported only here: proofs need an extra, which is installed where a proof exists.
     from carom.proofs.proven_lines import proven_of_plane
 
     line = proven_of_plane(proof, found)

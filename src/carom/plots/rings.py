@@ -24,7 +24,7 @@ _RING = (0.82, 0.98)
 
 def ring(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     """Draw the places on the wall, coloured by the motion to which a release there leads."""
-    figure, axes = _paintedring(basin, motions)
+    figure, axes = _painted_ring(basin, motions)
     clearance_circle(axes, reach=1.05)
     label_frame(axes, "rotating", basin.scales)
     point(axes, complex(basin.rotor.system.arrays.offsets[0]), "contact-free", label="")
@@ -38,7 +38,7 @@ def ring(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
 
 def dial(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:
     """Draw an angle all around, coloured by the motion to which each leads."""
-    figure, axes = _paintedring(basin, motions)
+    figure, axes = _painted_ring(basin, motions)
     axes.set_aspect("equal")
     axes.set_axis_off()
     axes.set_xlim(-1.3, 1.3)
@@ -65,7 +65,7 @@ def _step_of_unbalance(basin: Basin) -> str:
     return f"eccentricity from {before} mm to {after} mm"
 
 
-def _paintedring(basin: Basin, motions: list[MotionLook]) -> tuple[Figure, Axes]:
+def _painted_ring(basin: Basin, motions: list[MotionLook]) -> tuple[Figure, Axes]:
     """A new figure with a ring of cells."""
     figure = StyledFigure(figsize=(ONE_COLUMN, 1.13 * ONE_COLUMN))
     axes = figure.subplots()

@@ -40,7 +40,7 @@ def ending(outcome: Outcome) -> str:
     """Describe how a motion ended, briefly enough for a legend."""
     if outcome.label in OUTCOMES:
         return OUTCOMES[outcome.label].words
-    return "chatter, goes over into lasting contact" if outcome is Outcome.CHATTER else outcome.label.replace("-", " ")
+    return "chatter, ends in lasting contact" if outcome is Outcome.CHATTER else outcome.label.replace("-", " ")
 
 
 def number(value: float, digits: int = 4) -> str:

@@ -131,7 +131,7 @@ def enclosures_of(**balls: Any) -> dict[str, Enclosure]:
 def enclosure_of(ball: Any) -> Enclosure:
     """Decimal enclosure of a real ball, a little wider on both sides, with the digits that it has.
 
-    The margin leaves room for a check by another version of the arithmetic.
+    The margin allows a check by another version of the arithmetic.
     """
     low, high = exact_ends(ball)
     width = high - low

@@ -83,10 +83,7 @@ class OrbitFact:
 def first_cells(block: Block) -> list[Cell]:
     """Cells that tile all periods at which ``F₁`` may have roots on a block, or on any part of it.
 
-    Raises
-    ------
-    OpenError
-        Nothing bounds these periods, or ``F₁`` may vanish next to zero.
+    Raises :class:`OpenError` if nothing bounds these periods, or if ``F₁`` may vanish next to zero.
     """
     start, end = _start(block.whole)[0], _longest(block.whole)
     if end <= start:
@@ -192,10 +189,7 @@ def remaining(block: Block, cells: Sequence[Cell]) -> list[tuple[float, float, i
 def branches_on(block: Block, cells: Sequence[Cell]) -> list[Branch]:
     """All roots of ``F₁`` in the cells, the period as a function of the parameter.
 
-    Raises
-    ------
-    OpenError
-        Their number is not decided on this block.
+    Raises :class:`OpenError` if their number is not decided on this block.
     """
     # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
     before_all = _start(block.whole)[1] < 0
@@ -222,23 +216,14 @@ def branches_on(block: Block, cells: Sequence[Cell]) -> list[Branch]:
 
 
 def orbits_on(block: Block, cells: Sequence[Cell]) -> list[OrbitFact]:
-    """All orbits on a block, with what holds for each on all of it.
-
-    Raises
-    ------
-    OpenError
-        Their number is not decided.
-    """
+    """All orbits on a block, with what holds for each on all of it; :class:`OpenError` if their number is not decided."""
     return [_fact(*found) for found in orbit_branches_on(block, cells)]
 
 
 def orbit_branches_on(block: Block, cells: Sequence[Cell]) -> Iterator[tuple[str, OrbitBranch, bool]]:
     """All orbits on a block: name, orbit as a function of the parameter, and whether ``det(1 − J)`` is positive.
 
-    Raises
-    ------
-    OpenError
-        Their number is not decided.
+    Raises :class:`OpenError` if their number is not decided.
     """
     branches = branches_on(block, cells)
     for count, branch in enumerate(branches, bool(branches) and branches[0].rising):
@@ -261,20 +246,16 @@ def _fact(name: str, orbit: OrbitBranch, positive: bool) -> OrbitFact:
 def instability_of(orbit: OrbitBranch, positive: bool) -> str | None:
     """Why an orbit is unstable; empty if it is stable, ``None`` if this is open.
 
-    Parameters
-    ----------
-    orbit : OrbitBranch
-    positive : bool
-        Whether ``det(1 − J)`` is positive.
+    ``positive`` says whether ``det(1 − J)`` is positive.
     """
     if not positive:
         return "a multiplier is above 1"
     if orbit.along(lambda course: course.crowding) < 0:
         return "two multipliers are outside the unit circle"
-    flip = orbit.along(lambda course: course.flip)
+    flip = orbit.along(lambda course: course.invariants.at_minus_one)
     if flip < 0:
         return "a multiplier is below -1"
-    torus = orbit.along(lambda course: course.torus)
+    torus = orbit.along(lambda course: course.invariants.of_pairs)
     if torus < 0:
         return "the product of two multipliers is above 1"
     if flip > 0 and torus > 0 and orbit.branch.along(lambda back: back.determinant) < 1:
@@ -303,16 +284,9 @@ def why_virtual(orbit: OrbitBranch) -> str | None:
 def inside(plain: Course, along: Along, touch: Any = None) -> bool | None:
     """Whether an orbit with ``ṙ > 0`` stays inside the wall between its impacts; ``None`` if this is open.
 
-    ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.
-
-    Parameters
-    ----------
-    plain : Course
-        Balls.
-    along : callable
-        Narrower values of functions of the orbit than those that ``plain`` has.
-    touch : arb, optional
-        Time at which it touches the wall with no radial speed, and may.
+    ``(|U|² − 1)/ṙ`` vanishes at both impacts, with the rates ``−2d`` after the first and ``2`` before the second.  The function
+    ``along`` gives narrower values of functions of the orbit than ``plain``, its balls.  At the time ``touch``, if given, it
+    is allowed to touch the wall without radial speed.
     """
 
     def narrow(time: Any, backward: bool) -> Any:

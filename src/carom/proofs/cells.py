@@ -87,16 +87,10 @@ class Analytic:
         return self._cells[low, high]
 
     def sign_next_to(self, place: Any, width: Fraction, order: int, side: int) -> int:
-        """Sign on an interval next to a zero of an order, the zero itself left out; 0 if none is shown.
+        """Sign on an interval next to a zero, the zero itself left out; 0 if none is shown.
 
-        Parameters
-        ----------
-        place : arb
-            Where the function and its derivatives below ``order`` vanish.
-        width : Fraction
-            The interval ends so far from the lower (``side`` 1) or upper end (−1) of the ball.
-        order : int
-        side : {1, -1}
+        At the zero, ``place``, the function and its derivatives below ``order`` vanish.  The interval extends by ``width`` from
+        the lower (``side`` 1) or upper end (−1) of the ball.
         """
         reach = interval(Fraction(0), width)
         about = self.series(place, ORDER)
@@ -117,21 +111,9 @@ def cells_of(
 ) -> Cells | Fraction:
     """Cells from one place to another, on each of which something is shown.
 
-    Parameters
-    ----------
-    function : Analytic
-    low, high : Fraction
-    width, least : Fraction
-        Widths to begin with, and at which a cell is left open.
-    most : int
-        Number of cells and attempts after which the search ends, before ``high``.
-    kinds : str
-        What is looked for.  Without :data:`POSITIVE` a place at which the function is positive ends the search.
-
-    Returns
-    -------
-    Cells or Fraction
-        The place at which it is positive, where this is not looked for.
+    Cells have at first the given width; one that is narrower than ``least`` is left open, and the search ends after ``most`` cells
+    and attempts.  ``kinds`` says what is looked for: without :data:`POSITIVE` a place at which the function is positive ends the
+    search, and is returned.
     """
     cuts, found, left = [low], "", low
     for _ in range(most):
@@ -156,13 +138,7 @@ def cells_of(
 
 
 def show(function: Analytic, cells: Cells) -> None:
-    """Show what is said of each cell.
-
-    Raises
-    ------
-    NotShownError
-        It is not so.
-    """
+    """Show what is said of each cell; :class:`NotShownError` if it is not so."""
     for low, high, kind in zip(cells.cuts, cells.cuts[1:], cells.kinds, strict=False):
         sign, slope, _ = (0, 0, 0) if kind == OPEN else function.on(low, high)
         told = {POSITIVE: sign > 0, NEGATIVE: sign < 0, RISING: slope > 0, FALLING: slope < 0, OPEN: True}

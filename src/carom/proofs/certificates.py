@@ -22,7 +22,7 @@ from carom.proofs.theorems import THEOREMS
 LARGEST_BYTES = 50_000_000
 _DECIMAL = re.compile(r"-?[0-9]{1,100}(?:\.[0-9]{1,100})?(?:E[+-][0-9]{1,4})?")
 _WIDEST = 64
-"""How many times wider than found here a number may be stated: another version of the arithmetic may know it a little better."""
+"""How many times wider than found here an enclosure may be stated: another version of the arithmetic may give a narrower one."""
 _KEYS = ("format", "theorem", "options", "hypotheses", "bits", "claims", "not_claimed", "evidence")
 
 
@@ -119,7 +119,7 @@ def _read(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def _each_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object of JSON; a key that is there twice would be read by a person otherwise than here."""
+    """An object of JSON; a duplicate key is refused, as a reader may take the other value."""
     found = dict(pairs)
     if len(found) != len(pairs):
         raise ValueError("a key twice")

@@ -83,15 +83,7 @@ def claim_of(
 ) -> Claim:
     """Claim that is proven, refuted or undecided where a sign is 1, −1 or 0.
 
-    Parameters
-    ----------
-    about, kind, statement : str
-    sign : {1, 0, -1}
-    reason : str
-        Told unless the claim is proven.
-    enclosures : mapping, optional
-    limited : bool
-        Whether more bits may decide it if it is undecided.
+    The reason is kept unless the claim is proven.  ``limited`` says whether more bits may decide an undecided claim.
     """
     status: Status = "proven" if sign > 0 else "refuted" if sign < 0 else "undecided"
     told = "" if sign > 0 else reason

@@ -18,6 +18,7 @@ from typing import Any
 from flint import acb, arb
 
 from carom.proofs.lines import Numbers
+from carom.proofs.rotor import Invariants
 from carom.proofs.series import I, first, hyperbolic, imaginary, real, short_return, squared
 
 _SHORT = 2.7
@@ -27,13 +28,7 @@ _SHORT = 2.7
 def period_condition(whole: Numbers, period: Any) -> Callable[[Numbers, Any], Any]:
     """A function of numbers and period that has the zeros of ``F₁`` and its signs, suited to a range of periods.
 
-    At short periods ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
-
-    Parameters
-    ----------
-    whole : Numbers
-        Balls.
-    period : arb
+    At short periods it is ``F₁`` itself, else the entire function ``|det(1 − e^{MT})|²F₁``.
     """
     apart = abs(whole.gamma * whole.gamma * 0.25 - whole.omega_squared).sqrt()
     return _short_condition if (abs(whole.gamma) * 0.5 + 1 + apart) * period < _SHORT else _entire_condition
@@ -194,12 +189,8 @@ class Course:
     def height(self, time: Any, backward: bool = False) -> tuple[Any, Any]:
         """``(|U|² − 1)/ṙ`` and half of its rate, which are regular where the orbit shrinks to a point.
 
-        Parameters
-        ----------
-        time : arb or arb_series
-            After the impact; with ``backward`` the negative time before the next one.
-        backward : bool
-            Start from the state at the next impact: exact there, as that state does not depend on the period.
+        The time is that after the impact, or with ``backward`` the negative time before the next one.  Then it starts from the
+        state at the next impact, which is exact there, as it does not depend on the period.
         """
         back = self.back
         even, odd, _ = back.flight(time)
@@ -229,22 +220,10 @@ class Course:
         return [[column[row] for column in columns] for row in range(3)]
 
     @cached_property
-    def invariants(self) -> tuple[Any, Any, Any]:
-        """Trace, sum of principal minors and determinant of the derivative of the impact map."""
+    def invariants(self) -> Invariants:
+        """Invariants of the derivative of the impact map."""
         (a, b, c), (d, e, f), (g, h, i) = self.jacobian()
-        return a + e + i, a * e - b * d + a * i - c * g + e * i - f * h, self.back.determinant
-
-    @property
-    def flip(self) -> Any:
-        """``det(J + 1)``: zero at a period doubling."""
-        trace, minors, determinant = self.invariants
-        return 1 + trace + minors + determinant
-
-    @property
-    def torus(self) -> Any:
-        """Product of ``1 − λⱼλₖ`` over the pairs of multipliers: zero at a Neimark–Sacker bifurcation."""
-        trace, minors, determinant = self.invariants
-        return 1 - minors + determinant * (trace - determinant)
+        return Invariants(a + e + i, a * e - b * d + a * i - c * g + e * i - f * h, self.back.determinant)
 
     @property
     def crowding(self) -> Any:

@@ -26,13 +26,7 @@ from carom.proofs.series import I, conjugate, imaginary, real, squared, terms
 
 
 def flip_coefficient(course: Course) -> Any:
-    """``b`` of an orbit with a multiplier ``−1``; ``q`` has the length one in ``(θ, ṙ, θ̇)``.  Not finite next to a fold.
-
-    Parameters
-    ----------
-    course : Course
-        Balls.
-    """
+    """``b`` of an orbit with a multiplier ``−1``; ``q`` has the length one in ``(θ, ṙ, θ̇)``.  Not finite next to a fold."""
     jacobian = arb_mat(course.jacobian())
     one = arb_mat(3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1])
     right, left = _kernel(jacobian + one), _kernel((jacobian + one).transpose())
@@ -50,16 +44,7 @@ def flip_coefficient(course: Course) -> Any:
 def image_of_curve(course: Course, curve: Sequence[Any]) -> list[Any]:
     """Image of a curve through an orbit under the impact map with forward slip, as power series.
 
-    Parameters
-    ----------
-    course : Course
-    curve : sequence of three arb_series
-        Deviations of ``θ``, ``ṙ`` and ``θ̇``; they begin with the first power.
-
-    Returns
-    -------
-    list of three arb_series
-        Deviations of the image.
+    The curve and its image are deviations of ``θ``, ``ṙ`` and ``θ̇``, which begin with the first power.
     """
     back, speed = course.back, course.speed
     angle, radial, angular = curve

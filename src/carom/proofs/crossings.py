@@ -31,12 +31,7 @@ _WORDS = {
 def crossing_claims(line: Line, low: Fraction, high: Fraction, ends: str) -> list[Claim]:
     """Claims about an interval on which nothing else could be shown; none where this does not help.
 
-    Parameters
-    ----------
-    line : Line
-    low, high : Fraction
-    ends : str
-        The interval in words.
+    ``ends`` is the interval in words.
     """
     block = Block(line, interval(low, low), interval(high, high))
     try:
@@ -58,7 +53,10 @@ def _of_orbit(block: Block, orbit: OrbitBranch, name: str, positive: bool, about
         raise OpenError(f"it is open whether {name} is a motion")
     found = [] if speed else [("speed", _zero(block, orbit, lambda course: course.speed))]
     settled = not positive or orbit.along(lambda course: course.crowding) < 0
-    signs = {} if settled else {"flip": lambda course: course.flip, "torus": lambda course: course.torus}
+    signs: dict[str, Callable[[Course], Any]] = {}
+    if not settled:
+        signs["flip"] = lambda course: course.invariants.at_minus_one
+        signs["torus"] = lambda course: course.invariants.of_pairs
     values = {kind: decided(orbit.along(function)) for kind, function in signs.items()}
     if -1 not in values.values():
         found += [(kind, _zero(block, orbit, signs[kind])) for kind, value in values.items() if not value]

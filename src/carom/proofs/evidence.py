@@ -45,10 +45,7 @@ class Evidence:
     def take(self, name: str, search: Callable[[], _Found]) -> _Found:
         """What is known under a name: strings, numbers, ``None``, and lists of such.
 
-        Raises
-        ------
-        NotShownError
-            It is read, and nothing is recorded under this name.
+        Raises :class:`NotShownError` if evidence is read and nothing is recorded under this name.
         """
         if self._recorded is None:
             found = search()
@@ -65,13 +62,7 @@ class Evidence:
 
 
 def rational_of(text: object) -> Fraction:
-    """Rational number of evidence, ``"3/4"``.
-
-    Raises
-    ------
-    NotShownError
-        It is not one.
-    """
+    """Rational number of evidence, such as ``"3/4"``; :class:`NotShownError` for anything else."""
     if not (isinstance(text, str) and _RATIONAL.fullmatch(text)) or text.endswith("/0"):
         raise NotShownError("the certificate has a number that is no fraction of whole numbers")
     return Fraction(text)

@@ -22,17 +22,9 @@ _SAMPLES = 16
 def stays_inside(height: Height, narrow: Height, period: Any, falls: tuple[Any, Any], touch: Any = None) -> bool | None:
     """Whether a height that vanishes at both impacts is negative in between; ``None`` if this is open.
 
-    Parameters
-    ----------
-    height : callable
-        Balls give balls.
-    narrow : callable
-        The same with narrower balls, for exact times.
-    period : arb
-    falls : pair of arb
-        Rates at which the height falls from zero at the first impact and, backward in time, at the second; not negative.
-    touch : arb, optional
-        Time at which the height vanishes with its rate, and may.
+    ``height`` gives balls for balls, ``narrow`` narrower ones for exact times.  ``falls`` are the rates, not negative, at which
+    the height falls from zero at the first impact and, backward in time, at the second.  At the time ``touch``, if given, it is
+    allowed to vanish with its rate.
     """
     half = 0.5 * float(period.mid())
     times = [half * 2 * k / _SAMPLES for k in range(1, _SAMPLES)]

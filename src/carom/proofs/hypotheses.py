@@ -1,7 +1,7 @@
 """Hypotheses of a proof: the numbers of a machine exactly as they are given, and the dimensionless ones that follow.
 
-The equations hold only ``ω²``, never ``ω``.  So all numbers of the equations are rational functions of those of a machine,
-and with them rational too, but for a power of π where an angular speed is counted in turns.
+The equations hold only ``ω²``, never ``ω``.  So all numbers of the equations are rational functions of those of a machine.
+They are rational if these are, up to a power of π where an angular speed is counted in turns.
 """
 
 from __future__ import annotations
@@ -145,8 +145,8 @@ def hypotheses_of(
     Parameters
     ----------
     machine : Machine, Case, Parameters, model, path, mapping or Hypotheses
-        Of a path the text of the file counts.  A mapping holds dimensionless numbers by name.  Of all others, and of
-        floats, the doubles count.
+        A file counts as it is written, to the last decimal.  A mapping holds dimensionless numbers by name.  All others, and
+        floats, count as doubles.
     settings : iterable of str
         Texts ``"name=value"`` that change the numbers of a file.
 

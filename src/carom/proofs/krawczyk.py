@@ -11,6 +11,8 @@ from carom.proofs.series import terms
 
 System = Callable[..., Sequence[Any]]
 """Takes as many balls or power series as it gives."""
+STEPS = 14
+"""Largest number of steps of Newton's method."""
 _WIDTHS = (8, 12, 16, 20, 26, 32, 40, 50, 64, 80, 100)
 """Widths of the boxes that are tried: these powers of 1/2, relative to the unknowns."""
 
@@ -27,10 +29,10 @@ def derivatives(system: System, box: Sequence[Any]) -> tuple[list[Any], Any]:
     return values, arb_mat([[column[row] for column in columns] for row in range(len(values))])
 
 
-def newton(system: System, guess: Sequence[Any], steps: int = 14) -> list[Any] | None:
+def newton(system: System, guess: Sequence[Any]) -> list[Any] | None:
     """Zero near a guess by Newton's method, not proven; ``None`` if the method fails."""
     place = [arb(x).mid() for x in guess]
-    for _ in range(steps):
+    for _ in range(STEPS):
         try:
             values, jacobian = derivatives(system, place)
             change = jacobian.mid().solve(arb_mat([[value.mid()] for value in values]))
@@ -45,22 +47,11 @@ def newton(system: System, guess: Sequence[Any], steps: int = 14) -> list[Any] |
 
 
 def enclosed_zero(system: System, centre: Sequence[Any], width: int | None = None) -> tuple[list[Any], int] | None:
-    """Balls that contain a zero of a system, which is the only one in a wider box; ``None`` if this is not shown.
+    """Balls that contain a zero of a system, which is the only one in a wider box, and the width of that box.
 
     The operator ``K(X) = c − Y f(c) + (1 − Y f'(X))(X − c)`` maps a box into its interior only if the box has exactly one
-    zero.  It then lies in ``K(X)``.
-
-    Parameters
-    ----------
-    system : callable
-    centre : sequence of arb
-        Exact balls next to the zero.
-    width : int, optional
-        Try only the box of this width, ``2**-width`` relative to the centre.
-
-    Returns
-    -------
-    balls, width
+    zero.  It then lies in ``K(X)``.  The centre is exact, next to the zero.  The width is ``2**-width`` relative to the centre; if
+    it is given, no other box is tried.  ``None`` if no box shows a zero.
     """
     try:
         values, jacobian = derivatives(system, centre)

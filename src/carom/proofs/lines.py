@@ -123,21 +123,10 @@ class Line:
 
 
 def line_of(hypotheses: Hypotheses, name: str, start: str, stop: str) -> Line:
-    """Machines along one parameter.
+    """Machines along one parameter, dimensionless or of the machine's table, between two ends given as text.
 
-    Parameters
-    ----------
-    hypotheses : Hypotheses
-        Its own value of the parameter does not matter.
-    name : str
-        Dimensionless, or one of the machine's table.
-    start, stop : str
-        Decimal numbers or fractions, perhaps with a unit.
-
-    Raises
-    ------
-    InputError
-        There is no such parameter, it changes nothing, or the interval is empty.
+    The hypotheses' own value of the parameter does not matter.  A parameter that is unknown or changes nothing is refused, and so
+    is an empty interval.
     """
     known = {**DIMENSIONLESS_FIELDS, **(MACHINE_FIELDS if hypotheses.table == "machine" else {})}
     if name not in known:

@@ -95,14 +95,9 @@ class Periods:
 
 
 def all_periods(rotor: Rotor, evidence: Evidence, longest: Fraction | None, most: int) -> Periods:
-    """All roots of ``F₁``, or those that could be shown.
+    """All roots of ``F₁`` with periods up to ``longest``, or those that could be shown.
 
-    Parameters
-    ----------
-    longest : Fraction, optional
-        Look only for periods up to this.
-    most : int
-        Number of cells after which the search ends.
+    The search ends after ``most`` cells.
     """
     condition = Analytic(rotor.closing_series)
     known = evidence.take("no period beyond", lambda: _text(_longest_period(rotor)))

@@ -87,8 +87,10 @@ def _of_test(words: str, test: Callable[[Course], Any]) -> Kind:
 KINDS: Mapping[str, Kind] = {
     "fold": Kind(("period", "value"), _fold, "two periods of orbits meet: F1 = 0 and dF1/dT = 0"),
     "speed-fold": Kind(("period", "value"), _speed_fold, "the two radial speeds of a period meet"),
-    "period-doubling": _of_test("an orbit has a multiplier -1", lambda course: course.flip),
-    "neimark-sacker": _of_test("the product of two multipliers of an orbit is 1", lambda course: course.torus),
+    "period-doubling": _of_test("an orbit has a multiplier -1", lambda course: course.invariants.at_minus_one),
+    "neimark-sacker": _of_test(
+        "the product of two multipliers of an orbit is 1", lambda course: course.invariants.of_pairs
+    ),
     "slip-stop": _of_test("friction just stops the slip in the impact of an orbit", lambda course: course.slip_after),
     "grazing": Kind(
         ("touch", "period", "radial_speed", "value"),
@@ -107,15 +109,9 @@ _LABEL, _MOST_POINTS = re.compile(r"B[0-9]{1,4},[abcd]|contact-free|rub"), 1000
 
 
 def point_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
-    """Claims about bifurcation points along a parameter.
+    """Claims about bifurcation points along a parameter: the options ``along``, ``from`` and ``to``, as texts.
 
-    Parameters
-    ----------
-    rotor : Rotor
-        Of the hypotheses; its own value of the parameter does not matter.
-    evidence : Evidence
-    options : mapping
-        ``along``, ``from`` and ``to`` as texts.
+    The rotor's own value of the parameter does not matter.
     """
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
     found = evidence.take("points", lambda: [_searched(line, *seed) for seed in point_seeds(line)])

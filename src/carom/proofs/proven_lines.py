@@ -66,10 +66,7 @@ class ProvenLine:
 def proven_of_diagram(proof: Proof, diagram: Diagram) -> ProvenLine:
     """What a proof shows of a diagram.
 
-    Raises
-    ------
-    InputError
-        The proof is along another parameter or of another machine, or the orbits of the diagram are not those proven.
+    A proof along another parameter or of another machine is refused, and a diagram with other orbits than those proven.
     """
     found = _proven(proof, (diagram.parameter,), lambda value: diagram.axis.move(diagram.model, value))
     for stretch in found.stretches:
@@ -80,10 +77,7 @@ def proven_of_diagram(proof: Proof, diagram: Diagram) -> ProvenLine:
 def proven_of_plane(proof: Proof, regions: RegionMap) -> ProvenLine:
     """What a proof shows of the line through the machine of a plane, along one of its two parameters.
 
-    Raises
-    ------
-    InputError
-        The proof is along another parameter or of another machine.
+    A proof along another parameter or of another machine is refused.
     """
     names = tuple(axis.name for axis in regions.axes)
     present = {name: regions.model.value(name) for name in names}

@@ -80,16 +80,10 @@ def _decimal(value: Fraction, upward: bool) -> str:
 
 
 def range_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
-    """Claims for all values of a parameter between two.
+    """Claims for all values of a parameter between two: the options ``along``, ``from`` and ``to``, as texts.
 
-    Parameters
-    ----------
-    rotor : Rotor
-        Of the hypotheses; its own value of the parameter does not matter.
-    evidence : Evidence
-    options : mapping
-        ``along``, ``from`` and ``to`` as texts; ``blocks``, their largest number, and ``narrowest``, the share of the interval
-        at which a block is left open, as a text.
+    The option ``blocks`` is the largest number of blocks, ``narrowest`` the share of the interval at which a block is left open, as
+    a text.  The rotor's own value of the parameter does not matter.
     """
     line = line_of(rotor.hypotheses, str(options["along"]), str(options["from"]), str(options["to"]))
     # Widths of the blocks, not bits, limit what is shown: more would only take longer.

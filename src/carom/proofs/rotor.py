@@ -24,23 +24,31 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
-from flint import acb, acb_series, arb, arb_series, ctx
+from flint import acb, arb, arb_series, ctx
 
 from carom.proofs.balls import ball_of, squared
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 
 _I = acb(0, 1)
+TOO_LARGE = "the product of its multipliers is 1 or more in modulus"
 
 
-@dataclass(frozen=True)
-class Invariants:
+class Invariants(NamedTuple):
     """Trace, sum of the principal minors and determinant of the derivative of the impact map on an orbit."""
 
     trace: Any
     minors: Any
     determinant: Any
+
+    @classmethod
+    def of(cls, rows: list[list[Any]], determinant: Any) -> Invariants:
+        """Invariants of a matrix of balls whose determinant is known in closed form."""
+        minors = arb(0)
+        for a, b in ((0, 1), (0, 2), (1, 2)):
+            minors += rows[a][a] * rows[b][b] - rows[a][b] * rows[b][a]
+        return cls(rows[0][0] + rows[1][1] + rows[2][2], minors, determinant)
 
     @property
     def at_one(self) -> Any:
@@ -56,6 +64,16 @@ class Invariants:
     def of_pairs(self) -> Any:
         """Product of ``1 − λⱼλₖ`` over the pairs of multipliers: zero at a Neimark–Sacker bifurcation."""
         return 1 - self.minors + self.determinant * (self.trace - self.determinant)
+
+    @property
+    def conditions(self) -> dict[str, Any]:
+        """Conditions of Schur and Cohn: the orbit is stable if all are positive, unstable for this reason if one is negative."""
+        return {
+            TOO_LARGE: 1 - self.determinant,
+            "a multiplier is above 1": self.at_one,
+            "a multiplier is below -1": self.at_minus_one,
+            "the product of two multipliers is above 1": self.of_pairs,
+        }
 
 
 @dataclass(frozen=True)
@@ -203,12 +221,6 @@ class Rotor:
         _, numerator, determinant = self.return_series(time, length)
         return real_of_product([d + self.q * n for d, n in zip(determinant, numerator, strict=True)], determinant)
 
-    def condition_series(self, time: Any, length: int) -> tuple[list[Any], list[Any]]:
-        """Taylor coefficients of ``q a₁₂`` and of ``q a₂₂`` about a time at which ``D`` is not zero."""
-        f, numerator, determinant = (acb_series(terms, length) for terms in self.return_series(time, length))
-        lever, turn = f / determinant, numerator / determinant
-        return [self.q * lever[k] for k in range(length)], [self.q * turn[k] for k in range(length)]
-
     def levers(self, period: Any) -> tuple[Any, Any]:
         """``q a₁₂`` and ``q a₂₂``."""
         f, numerator, determinant = self.return_series(period, 2)
@@ -261,12 +273,8 @@ class Rotor:
 
     def invariants(self, impact: Impact) -> Invariants:
         """Invariants of the derivative of the impact map; its determinant is ``d² e^{−2γT}``."""
-        j = self.jacobian(impact)
-        minors = arb(0)
-        for a, b in ((0, 1), (0, 2), (1, 2)):
-            minors += j[a][a] * j[b][b] - j[a][b] * j[b][a]
         determinant = squared(self.d) * (-2 * self.gamma * impact.period).exp()
-        return Invariants(j[0][0] + j[1][1] + j[2][2], minors, determinant)
+        return Invariants.of(self.jacobian(impact), determinant)
 
 
 def response_of(gamma: Any, split: Any, time: Any) -> tuple[Any, Any]:

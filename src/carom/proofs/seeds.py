@@ -1,4 +1,4 @@
-"""Seeds of proofs, in double precision: nothing rests on them but what is looked at."""
+"""Seeds of proofs, in double precision: they decide what is looked at, and no claim rests on them."""
 
 from __future__ import annotations
 
@@ -123,10 +123,7 @@ def _followed(rotor: Jeffcott, section: Section, turned: float, count: int) -> l
 def shooting_seeds(hypotheses: Hypotheses, impacts: int) -> Iterator[list[float]]:
     """Near returns of simulated motions after 2 and up to ``impacts`` impacts, the nearest of each number first.
 
-    Yields
-    ------
-    list of float
-        ``θ − arg U*``, ``ṙ``, ``θ̇`` and the time of flight after it, for each impact.
+    Each is a list of ``θ − arg U*``, ``ṙ``, ``θ̇`` and the time of the flight that follows, for each impact.
     """
     rotor = Jeffcott(doubles_of(hypotheses))
     turned = float(np.angle(rotor.equilibrium)) if rotor.equilibrium else 0.0

@@ -23,15 +23,7 @@ MOST_IMPACTS = 24
 
 
 def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
-    """Claims about periodic motions with 2 to ``impacts`` impacts a period.
-
-    Parameters
-    ----------
-    rotor : Rotor
-    evidence : Evidence
-    options : mapping
-        ``impacts``, an int.
-    """
+    """Claims about periodic motions with 2 to ``impacts`` impacts a period, an option."""
     flights = Flights(Numbers(*(getattr(rotor, name) for name in NUMBERS)))
     found = evidence.take("orbits", lambda: list(_searched(rotor, flights, int(options["impacts"]))))
     if any(len(entry["centre"]) > 4 * int(options["impacts"]) for entry in found):

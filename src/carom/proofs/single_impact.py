@@ -29,7 +29,7 @@ from carom.proofs.cells import NEGATIVE, Analytic, Cells, cells_of, power_of_two
 from carom.proofs.claims import Claim, Status, claim_of
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.periods import Periods
-from carom.proofs.rotor import Impact, Rotor, squared_modulus
+from carom.proofs.rotor import TOO_LARGE, Impact, Rotor, squared_modulus
 
 MOST_CELLS = 1000
 """Cells of one flight after which the search ends."""
@@ -217,15 +217,9 @@ def _stability_claim(rotor: Rotor, orbit: Candidate) -> Claim:
     """Claim that all multipliers lie inside the unit circle."""
     found = rotor.invariants(orbit.impact)
     conserved = rotor.hypotheses.rational("d", "gamma") == (Fraction(1), Fraction(0))
-    conditions = {
-        "the product of its multipliers is 1 or more in modulus": 1 - found.determinant,
-        "a multiplier is above 1": found.at_one,
-        "a multiplier is below -1": found.at_minus_one,
-        "the product of two multipliers is above 1": found.of_pairs,
-    }
-    signs = {words: decided(ball) for words, ball in conditions.items()}
+    signs = {words: decided(ball) for words, ball in found.conditions.items()}
     if conserved:
-        signs["the product of its multipliers is 1 or more in modulus"] = -1
+        signs[TOO_LARGE] = -1
     sign = min(signs.values())
     reasons = [words for words, value in signs.items() if value == sign]
     return claim_of(

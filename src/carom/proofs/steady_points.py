@@ -38,16 +38,9 @@ def rub_fold(line: Line, value: Any) -> tuple[Any, ...]:
 
 
 def steady_claims(line: Line, kind: str, label: str, value: Any) -> list[Claim]:
-    """Claims about transversality and about the motions on both sides.
+    """Claims about transversality and about the motions on both sides of a point of a kind.
 
-    Parameters
-    ----------
-    line : Line
-    kind : {"boundary-equilibrium", "rub-fold"}
-    label : str
-        Motion that the point belongs to.
-    value : ball
-        Encloses the point.
+    ``label`` is the motion that the point belongs to, ``value`` a ball that encloses the point.
     """
     equations = boundary if kind == "boundary-equilibrium" else rub_fold
     with terms(2):

@@ -1,4 +1,4 @@
-"""The theorems that can be proven: each a function of a rotor in balls and of evidence.
+"""The theorems that can be proven: each is a function of a rotor in ball arithmetic and of evidence.
 
 A theorem never searches outside of :meth:`~carom.proofs.evidence.Evidence.take`, and verifies all that it takes.
 """

@@ -18,6 +18,7 @@ from flint import acb, arb, arb_mat
 
 from carom.proofs.flights import stays_inside
 from carom.proofs.lines import Numbers
+from carom.proofs.rotor import Invariants
 from carom.proofs.series import I, conjugate, hyperbolic, imaginary, real, squared
 
 UNKNOWNS = ("angle", "radial_speed", "angular_speed", "duration")
@@ -144,20 +145,10 @@ class ShootingOrbit:
         return arb_mat([[column[row] for column in columns] for row in range(3)])
 
     def margins(self) -> dict[str, Any]:
-        """Conditions of Schur and Cohn: the orbit is stable if all are positive, unstable if one is negative."""
-        j = self.jacobian()
-        trace = j[0, 0] + j[1, 1] + j[2, 2]
-        minors = arb(0)
-        for a, b in ((0, 1), (0, 2), (1, 2)):
-            minors += j[a, a] * j[b, b] - j[a, b] * j[b, a]
+        """Conditions of stability (:attr:`~carom.proofs.rotor.Invariants.conditions`)."""
         n = self.flights.numbers
         determinant = n.d ** (2 * len(self.impacts)) * (-2 * n.gamma * self.period).exp()
-        return {
-            "the product of its multipliers is 1 or more": 1 - determinant,
-            "a multiplier is above 1": 1 - trace + minors - determinant,
-            "a multiplier is below -1": 1 + trace + minors + determinant,
-            "the product of two multipliers is above 1": 1 - minors + determinant * (trace - determinant),
-        }
+        return Invariants.of(self.jacobian().tolist(), determinant).conditions
 
     def repeats(self) -> bool | None:
         """Whether it may be a shorter orbit run several times; ``None`` if this is open, ``False`` if it is not."""

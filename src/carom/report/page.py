@@ -13,7 +13,7 @@ from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
 from carom import plots
-from carom.files import filled_at_once, write_json
+from carom.files import staged_directory, write_json
 from carom.files.directory import FIGURES, MANIFEST
 from carom.plots.sheet import drawing
 from carom.progress import Reporter, ShowProgress, shows_progress
@@ -62,7 +62,7 @@ def write_report(study: Study, directory: str, *, png: bool = False, progress: S
     tell = Reporter.of(progress, "drawing")
     wanted = pictures(study)
     named = plots.heading(machine_heading(study.case))
-    with filled_at_once(directory, "--out") as place, drawing(), named, plots.one_column():
+    with staged_directory(directory, "--out") as place, drawing(), named, plots.one_column():
         (place / FIGURES).mkdir()
         inline, names = [], []
         for done, picture in enumerate(wanted):

@@ -23,7 +23,7 @@ Spacing = Literal["linear", "log", "list"]
 
 @dataclass(frozen=True)
 class GridAxis:
-    """Values of one parameter; see ``between`` and ``of``.
+    """Values of one parameter, made by :meth:`between` or :meth:`of`.
 
     Attributes
     ----------

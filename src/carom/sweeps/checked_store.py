@@ -11,7 +11,7 @@ import numpy as np
 from zarr.storage import LocalStore, WrapperStore
 
 from carom.outcome import InputError
-from carom.sweeps.integrity import is_whole
+from carom.sweeps.integrity import is_intact
 from carom.sweeps.layout import ROOT
 from carom.sweeps.variables import STATUS
 
@@ -48,7 +48,7 @@ class CheckedStore(WrapperStore[LocalStore]):
             found = await self._store.get(key, prototype, byte_range)  # it may have been written since
             if found is None:
                 raise self._damage(key, "missing")
-        if place and found is not None and not is_whole(found.to_bytes(), self._sizes[name]):
+        if place and found is not None and not is_intact(found.to_bytes(), self._sizes[name]):
             raise self._damage(key, "damaged")
         return found
 

@@ -1,4 +1,4 @@
-"""One chunk of a sweep: computed from its number alone, so that its arrays are the same wherever and whenever."""
+"""One chunk of a sweep: computed from its number alone, so that its arrays are the same on every worker and in every run."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import Status
 
 _LONGEST_MESSAGE = 500
+MOST_FAILURES = 20
+"""Largest number of failed points that results list."""
 
 
 @dataclass(frozen=True)

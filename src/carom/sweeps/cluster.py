@@ -30,14 +30,10 @@ _POLL = 2.0
 def on_cluster(plan: SweepPlan, numbers: Iterator[int], client: Client) -> Generator[Chunk, None, None]:
     """Compute chunks on the workers of a cluster, and yield them in the order in which they become ready.
 
-    Of the numbers only as many are taken as the present workers can work on.  Workers may join and leave.  If a worker
-    is lost, the scheduler gives its chunks to another one.  If too many workers are lost while they compute the same
-    chunk, the scheduler gives it up, and the chunk is recorded as failed.
-
-    Raises
-    ------
-    CaromError
-        The scheduler is lost, or a worker cannot load carom or has another version of it.
+    Only as many numbers are taken as the present workers can work on.  Workers may join and leave.  If a worker is lost, the
+    scheduler gives its chunks to another one.  If too many workers are lost while they compute the same chunk, the scheduler
+    gives it up, and the chunk is recorded as failed.  A :class:`~carom.outcome.CaromError` says that the scheduler is lost, or
+    that a worker cannot load carom or has another version of it.
     """
     from distributed import CancelledError, KilledWorker
 

@@ -27,7 +27,7 @@ def seal(data: bytes) -> bytes:
     return data + crc32c(data).to_bytes(_SEAL, "little")
 
 
-def is_whole(sealed: bytes, size: int) -> bool:
+def is_intact(sealed: bytes, size: int) -> bool:
     """Whether data have the expected length and agree with the checksum at their end.
 
     The length must be checked too: eight bytes with all bits set happen to agree with the checksum at their end, and so
@@ -47,15 +47,7 @@ def record(content: Any) -> bytes:
 
 
 def read_record(file: Path) -> Any:
-    """Return the content of a record.
-
-    Raises
-    ------
-    DamagedError
-        The record does not match its checksum.
-    OSError
-        The file does not exist, or cannot be read.
-    """
+    """Return the content of a record; :class:`DamagedError` if it does not match its checksum, OSError if it cannot be read."""
     data = file.read_bytes()
     try:
         content = json.loads(data)["content"]

@@ -33,8 +33,8 @@ _ENVIRONMENT = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NU
 def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generator[Chunk, None, None]:
     """Compute chunks on threads of this process, and yield them in the order in which they become ready.
 
-    The kernels release Python's global interpreter lock; Python code runs in one thread at a time.  Of the numbers only
-    as many are taken as the workers can work on.
+    The kernels release Python's global interpreter lock; Python code runs in one thread at a time.  Only as
+    many numbers are taken as the workers can work on.
     """
     pool = ThreadPoolExecutor(workers, thread_name_prefix="carom-sweep")
     pending: set[Future[Chunk]] = set()
@@ -52,7 +52,7 @@ def on_threads(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generat
 def on_processes(plan: SweepPlan, numbers: Iterator[int], workers: int) -> Generator[Chunk, None, None]:
     """Compute chunks in worker processes, and yield them in the order in which they become ready.
 
-    Of the numbers only as many are taken as the workers can work on.  A process that ends unexpectedly (killed, out of
+    Only as many numbers are taken as the workers can work on.  A process that ends unexpectedly (killed, out of
     memory) is replaced, and its chunk is tried once more; a :class:`~carom.outcome.CaromError` if processes end before
     they begin.  loky starts them without running the calling script again, so it needs no ``if __name__ ==
     "__main__"``.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from carom.sweeps.chunk import Chunk
+from carom.sweeps.chunk import MOST_FAILURES, Chunk
 from carom.sweeps.layout import coordinates_of, description_of
 from carom.sweeps.plan import SweepPlan
 
@@ -46,10 +46,10 @@ class SweepMemory(nullcontext[None]):
         """Keep a chunk."""
         self._chunks[chunk.number] = chunk
 
-    def failures(self, most: int = 20) -> list[dict[str, Any]]:
+    def failures(self) -> list[dict[str, Any]]:
         """Return the first failed points: index in the grid, parameters and error of each."""
         found = [asdict(failure) for number in sorted(self._chunks) for failure in self._chunks[number].failures]
-        return found[:most]
+        return found[:MOST_FAILURES]
 
     def dataset(self) -> xarray.Dataset:
         """Return the results computed so far, as :func:`~carom.sweeps.open_sweep` returns those of a store."""

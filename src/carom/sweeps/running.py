@@ -52,9 +52,9 @@ class Tally:
 
     @property
     def dataset(self) -> xarray.Dataset:
-        """Results so far, as of :func:`~carom.sweeps.open_sweep`."""
+        """Results so far, as :func:`~carom.sweeps.open_sweep` returns them."""
         if self.results is None:
-            raise RuntimeError("these are no results of run_sweep")
+            raise RuntimeError("this tally was not made by run_sweep")
         return self.results.dataset()
 
     @property

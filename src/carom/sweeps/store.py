@@ -25,8 +25,8 @@ from filelock import FileLock, Timeout
 
 from carom.files import sync_directory, write_whole
 from carom.outcome import CaromWarning, InputError
-from carom.sweeps.chunk import Chunk
-from carom.sweeps.integrity import DamagedError, is_whole, read_record, record, seal, unseal
+from carom.sweeps.chunk import MOST_FAILURES, Chunk
+from carom.sweeps.integrity import DamagedError, is_intact, read_record, record, seal, unseal
 from carom.sweeps.layout import FAILURES, OPTION, PARTS, attributes_of, check_same, create, is_new
 from carom.sweeps.plan import SweepPlan
 from carom.sweeps.variables import STATUS, Status
@@ -100,7 +100,7 @@ class SweepStore:
         """Return the number of failed points of a finished chunk, or None if a file of it is damaged or missing."""
         try:
             data = [file.read_bytes() for file in self._files(number).values()]
-            if not all(map(is_whole, data, self._sizes)):
+            if not all(map(is_intact, data, self._sizes)):
                 return None
             failed = unseal(data[-1]).count(Status.FAILED)
             if failed:
@@ -143,14 +143,14 @@ class SweepStore:
         yield from (int(number) for number in np.flatnonzero(self._finished == 0))
         yield from again
 
-    def failures(self, most: int = 20) -> list[dict[str, Any]]:
+    def failures(self) -> list[dict[str, Any]]:
         """Return the first failed points: index in the grid, parameters and error of each."""
         found: list[dict[str, Any]] = []
         for number in sorted(self._failed):
             found += self._record(number)
-            if len(found) >= most:
+            if len(found) >= MOST_FAILURES:
                 break
-        return found[:most]
+        return found[:MOST_FAILURES]
 
     def dataset(self) -> xarray.Dataset:
         """Return the results stored so far; see :func:`open_sweep`."""

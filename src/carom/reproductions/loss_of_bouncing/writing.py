@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.bifurcations.documents import diagram_document
-from carom.files import filled_at_once, write_json
+from carom.files import staged_directory, write_json
 from carom.reproductions.loss_of_bouncing.drawing import loss_figure
 from carom.reproductions.loss_of_bouncing.following import LossOfBouncing
 from carom.reproductions.loss_of_bouncing.samples import BouncingSample
@@ -53,7 +53,7 @@ def write_loss(found: LossOfBouncing, directory: str) -> list[Path]:
     """
     from carom.plots import save
 
-    with filled_at_once(directory, "directory") as place:
+    with staged_directory(directory, "directory") as place:
         names = [path.name for path in save(loss_figure(found), place / "loss-of-bouncing")]
         write_json(place / "loss-of-bouncing.json", loss_document(found))
     return [Path(directory) / name for name in (*names, "loss-of-bouncing.json")]

@@ -83,24 +83,18 @@ class Birth(Result):
     orbits: tuple[Orbit, ...]
 
 
-def period_functions(dampings: tuple[float, ...] = (0.1, 0.05)) -> tuple[PeriodFunction, ...]:
+def period_functions() -> tuple[PeriodFunction, ...]:
     """Compute ``F₁`` at the dampings of figure 3a."""
     periods = np.linspace(0.02, LONGEST, 1500)
     found = []
-    for gamma in dampings:
+    for gamma in (0.1, 0.05):
         condition = PeriodCondition.planar(machine_at(gamma))
         found.append(PeriodFunction(gamma, periods, condition.value(periods), condition.roots().periods))
     return tuple(found)
 
 
 def period_pairs() -> tuple[PeriodPair, ...]:
-    """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.005`` to their folds and back.
-
-    Returns
-    -------
-    tuple of PeriodPair
-        In ascending order of their periods.
-    """
+    """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.005`` to their folds and back, in ascending order."""
     base = Numbers.of(machine_at(DAMPINGS[0]))
 
     def closing(u: np.ndarray, gamma: float) -> np.ndarray:
@@ -134,13 +128,7 @@ def period_pairs() -> tuple[PeriodPair, ...]:
 
 
 def birth() -> tuple[Birth, ...]:
-    """Compute both small orbits and the equilibrium below, at and above the non-smooth Hopf point.
-
-    Returns
-    -------
-    tuple of Birth
-        In ascending order of the damping.
-    """
+    """Compute both small orbits and the equilibrium below, at and above the non-smooth Hopf point, in this order."""
     at = hopf_side(machine_at(0.1)).gamma
     stages = []
     for side, gamma in (("below", at - AWAY), ("at", at), ("above", at + AWAY)):

@@ -70,7 +70,7 @@ def figures(results: Reproduction) -> tuple[Picture, ...]:
             "figure-4",
             "abcd",
             "Radial speed (a, b) and angular speed (c, d) just before the impact of the orbits B1,a to B1,d over the damping. "
-            f"B1,a and B1,c meet at γ = {apart:.6f}, where no machine is. (b, d) The small orbits near their birth, with "
+            f"B1,a and B1,c meet at γ = {apart:.6f}, a damping that no machine has. (b, d) The small orbits near their birth, with "
             "the local theory as straight lines.",
             results.pair,
             partial(_drawn, "figure_4", results.pair),

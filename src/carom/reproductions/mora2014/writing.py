@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carom.files import filled_at_once, write_json
+from carom.files import staged_directory, write_json
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.reproductions.mora2014.document import markdown, paper_document
 from carom.reproductions.mora2014.pictures import figures
@@ -34,7 +34,7 @@ def write_paper(found: Reproduction, directory: str, *, progress: ShowProgress =
 
     tell = Reporter.of(progress, "drawing")
     pictures = figures(found)
-    with filled_at_once(directory, "--out") as place:
+    with staged_directory(directory, "--out") as place:
         names = []
         for done, picture in enumerate(pictures):
             tell(done / len(pictures), f"drawing {picture.name.replace('-', ' ')}")
