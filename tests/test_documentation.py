@@ -164,3 +164,14 @@ def test_python_that_is_shown_is_run():
             for node in ast.walk(tree):
                 if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in names:
                     assert hasattr(names[node.value.id], node.attr)
+
+
+PACKAGES = [path.parent for path in (ROOT / "src" / "carom").rglob("__init__.py")]
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=lambda package: package.name)
+def test_a_package_with_a_table_of_its_modules_lists_all(package):
+    text = ast.get_docstring(ast.parse((package / "__init__.py").read_text(encoding="utf-8"))) or ""
+    modules = {path.stem for path in package.glob("*.py") if path.stem != "__init__"}
+    listed = {name for name in modules if f"``{name}``" in text}
+    assert listed == modules or not listed or "====" not in text

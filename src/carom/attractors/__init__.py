@@ -1,5 +1,6 @@
 """Attractors that a sample of disturbances, and starts next to the known motions, lead to.
 
+==============  =======================================================================================================
 ``starts``      the standard set of disturbances, and starts next to every motion known in closed form
 ``following``   starts followed until they settle
 ``survival``    :class:`Survival`: how long irregular motion lasts
@@ -12,6 +13,7 @@
 ``regularity``  how fast weighted averages of a sequence converge, and its rotation number
 ``characters``  :func:`character_of`: rest, rub, periodic, torus or chaotic
 ``search``      :func:`find_attractors`, :class:`AttractorSet`
+==============  =======================================================================================================
 """
 
 from carom.attractors.characters import Character, character_of

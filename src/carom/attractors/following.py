@@ -77,16 +77,16 @@ class Ending:
 
 
 def follow_in_stages(
-    rotor: Model, starts: Starts, patience: int, threads: int | None, tell: Reporter, less: int = 1
+    rotor: Model, starts: Starts, patience: int, threads: int | None, tell: Reporter, divisor: int = 1
 ) -> tuple[Endings, np.ndarray, Survival | None]:
     """Follow all starts, one-dimensional: first each for a short time, then for longer those that are still irregular.
 
     The lifetime of irregular motion is measured.  If it is transient, the irregular motions are followed until they
-    leave it, unless that takes too long; ``less`` divides the effort for it.  Return the endings, which motions were
+    leave it, unless that takes too long; ``divisor`` divides the effort for it.  Return the endings, which motions were
     irregular after 1000 impacts, and how long irregular motion lasts (``None`` if there was none).
     """
     seen = min(FIRST_PATIENCE, patience)
-    bounded: dict[str, Any] = {"max_events": MOST_EVENTS // less} if less > 1 else {}
+    bounded: dict[str, Any] = {"max_events": MOST_EVENTS // divisor} if divisor > 1 else {}
     first = follow(rotor, starts, patience=seen, threads=threads, progress=tell.part(0.0, 0.8), **bounded)
     endings, lasted = first, still_irregular(first)
     irregular = lasted
@@ -96,7 +96,7 @@ def follow_in_stages(
         irregular = still_irregular(endings)
         seen += span
         tell(0.8 + 0.1 * min(seen / patience, 1.0))
-    effort: dict[str, int] = {"affordable": AFFORDABLE // less, "motions": MOTIONS // less}
+    effort: dict[str, int] = {"affordable": AFFORDABLE // divisor, "motions": MOTIONS // divisor}
     endings, survival = follow_until_settled(rotor, endings, impacts=patience, threads=threads, earlier=first, **effort)
     tell(1.0)
     return endings, lasted, survival

@@ -58,7 +58,7 @@ def name_motions(
         if name.irregular:
             chosen &= endings.multiplicities == 0
         elif name.outcome is Outcome.FORWARD_RUB:
-            synchronous = _goes_over_to_rub(rotor, endings)
+            synchronous = _at_synchronous_rub(rotor, endings)
             note_rubs(chosen & ~synchronous, replace(name, drifting=True))
             chosen &= synchronous
         note_rubs(chosen, name)
@@ -87,7 +87,7 @@ def _apart(rotor: Model, endings: Endings, chosen: np.ndarray, name: MotionName)
         left = left[~same]
 
 
-def _goes_over_to_rub(rotor: Model, endings: Endings) -> np.ndarray:
+def _at_synchronous_rub(rotor: Model, endings: Endings) -> np.ndarray:
     """Which motions in forward rub are at the synchronous rub, or are proven to converge to it."""
     axes = tuple(range(endings.outcomes.ndim, endings.velocities.ndim))
     still: np.ndarray = np.abs(endings.velocities).max(axis=axes, initial=0.0) < AT_REST

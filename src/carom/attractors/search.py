@@ -217,8 +217,8 @@ def find_attractors(
         starts = Starts.joined([starts, starts_at(rotor, [start.state for start in nearby])])
     if not tried:
         raise InputError("count", count, "at least one start to follow")
-    less = 1 if rotor.system.is_planar else SLOWER
-    ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, tell.part(0.0, 0.9), less)
+    divisor = 1 if rotor.system.is_planar else SLOWER
+    ends, lasted, survival = follow_in_stages(rotor, starts, patience, threads, tell.part(0.0, 0.9), divisor)
     index, names = name_motions(rotor, ends, orbits)
     touched = starts.touched | (ends.impacts > 0) | (ends.outcomes > Outcome.LEVITATED)
     endings = tuple(

@@ -5,6 +5,7 @@
 ``dataset``             endings as a dataset with coordinates, units and provenance
 ``shares``              shares with their confidence intervals
 ``losses``              the smallest kicks, shocks, steps and releases that are lost
+``blade_losses``        the smallest unbalance after the loss of a blade that is not survived
 ``integrity_measures``  the largest ball of starts that all come back
 ``entropy``             basin entropy and boundary basin entropy
 ``gains``               these measures against two parameters: gain maps

@@ -10,6 +10,7 @@
 ``absorbing``       neighbourhoods of the rub that sliding never leaves
 ``periods``         periods of all orbits with one impact a period
 ``local``           cycles that shrink into a boundary equilibrium
+``known``           what general code may ask of any model
 ==================  ===================================================
 """
 

@@ -6,6 +6,7 @@
 ``storage``         motions as datasets and files
 ``ensembles``       many motions, on all cores; only their endings are kept
 ``settling``        the record by which settling is recognised
+``recurrence``      whether a motion that has recurred repeats or leaves, for rotors of several modes
 ``contacts``        load on the bearing: the log of impacts, stretches of lasting contact
 ``loads``           loads of a touchdown: forces, impulses, heat
 ``ledger``          energies of a motion

@@ -26,13 +26,15 @@ from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result
 
 MOST_EVENTS = 1_000_000
+"""Default number of impacts and steps of lasting contact after which a motion is given up."""
 PORTION = 16_384
 """Most starts of one machine in a portion of work that threads share: some milliseconds to a second of work."""
 GLANCE = 0.1
 """Seconds between two reports of progress."""
 FEW = 256
-"""Starts of a portion that justify one more thread: some for each lane."""
+"""Number of starts of a portion for which one more thread is used: some for each lane."""
 MODES = 2
+"""Modes of the rotors whose motions are followed side by side."""
 LOGGED = 256
 """Events per kernel call for motions that are followed one after another."""
 
@@ -172,6 +174,7 @@ def settle(
         check_whole("threads", threads, 1)
     for rotor in rotors if until is not None or patience == 0 else ():
         time_until(until, rotor.scales)
+    # The starts of each machine are followed together, in portions; their endings are put back into the order of the starts.
     order = slice(None) if len(rotors) == 1 else np.argsort(which, kind="stable")
     positions, velocities = (values.reshape(len(which), *coordinates)[order] for values in (positions, velocities))
     motions = _motions(positions, velocities)
@@ -216,6 +219,7 @@ class _Limits:
 
 
 def _machines(machine: Subject | Sequence[Subject], which: np.ndarray | None) -> tuple[Sequence[Model], np.ndarray]:
+    """Models of one machine or of several, and the index of the machine of each start."""
     if isinstance(machine, Subject):
         if which is not None:
             raise InputError("which", which, "left out where there is one machine")
@@ -245,6 +249,7 @@ def _check_starts(positions: np.ndarray, velocities: np.ndarray, planar: bool) -
 
 
 def _motions(positions: np.ndarray, velocities: np.ndarray) -> np.recarray:
+    """Records of motions at their starts, for the kernel to fill."""
     axes = {"position": positions.shape[1:], "velocity": positions.shape[1:]}
     kind = np.dtype([(name, MOTION[name], axes.get(name, ())) for name in MOTION.names or ()])
     motions = np.recarray(positions.shape[:1], kind)
@@ -292,6 +297,7 @@ def _settle_parts(parts: list[_Part], limits: _Limits, threads: int) -> Iterator
 
 
 def _settle_part(part: _Part, limits: _Limits) -> int:
+    """Follow motions of a part until none is left; return how many this call has followed."""
     until = longest_time(part.rotor) if limits.until is None else time_until(limits.until, part.rotor.scales)
     memory = fresh_memory(part.rotor, limits.patience, absorb=True)
     if not part.rotor.system.is_planar:

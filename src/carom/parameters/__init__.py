@@ -5,6 +5,7 @@
 ``common_units``          units of machine files as pint converts them
 ``terms``                 terms that stand for the numbers of a machine, with their formulas
 ``quantities``            text with units -> float in SI units
+``exact``                 text with units -> exact numbers, for proofs
 ``sizes``                 sizes of starts and disturbances, in units of the equations or with a unit
 ``toml_reader``           TOML file -> raw tables
 ``numbers``               :class:`Numbers`: plain dimensionless numbers, conversion from and to SI units
@@ -12,6 +13,7 @@
 ``resolution``            entries in whatever terms -> numbers of a machine
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
+``indentation``           whether a rigid wall is a valid model under a load
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
 """

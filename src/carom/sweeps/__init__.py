@@ -10,6 +10,10 @@
 ``chunk``           computes the arrays of a chunk from its number
 ``layout``          creates the store, without chunks
 ``store``           the Zarr store, :func:`open_sweep`
+``checked_store``   the same as Zarr reads it, with damage detected
+``integrity``       checksums of the files of a store
+``versions``        versions of software and kinds of processors, on which the last bits of results depend
+``memory``          results in memory instead of a store
 ``local``           chunks computed by processes and threads of this machine
 ``cluster``         chunks computed by Dask workers
 ``running``         :func:`run_sweep`
