@@ -18,7 +18,7 @@ def ahead_of(found, angles):
 
 
 def assert_slides_to_the_rub(rotor, found, start):
-    """A motion goes over to the rub without leaving the wall, by the criterion of its place and speed alone."""
+    """A motion converges to the rub without leaving the wall, by the criterion of its place and speed alone."""
     motion = simulate(rotor, start, 1e5, settle=True)
     assert motion.outcome is Outcome.FORWARD_RUB
     assert not motion.is_impact.any()

@@ -2,7 +2,7 @@
 19. Period doubling
 ===================
 
-Where a multiplier passes −1, an orbit of twice the period is born.  One call goes over to its branch.
+Where a multiplier passes −1, an orbit of twice the period is born.  One call switches to its branch.
 """
 
 import carom as cm

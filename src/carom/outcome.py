@@ -75,7 +75,7 @@ _MEANINGS = {
     ),
     Outcome.TIME_REACHED: "The motion was followed to the time asked for without settling.",
     Outcome.EVENT_LIMIT: "The motion was stopped at the largest allowed number of events; raise max_events.",
-    Outcome.CHATTER: "The impacts accumulate: the rotor goes over into lasting contact with the touchdown bearing.",
+    Outcome.CHATTER: "The impacts accumulate: lasting contact with the touchdown bearing begins.",
     Outcome.LEVITATED: "The rotor returns to levitation: no later flight can reach the wall.",
     Outcome.BOUNCING: "The rotor keeps bouncing on the touchdown bearing.",
     Outcome.MIXED: "The rotor keeps alternating between bounces and lasting contact.",

@@ -90,7 +90,7 @@ def test_pressed_to_the_wall_when_the_pulse_ends(peak, duration, direction):
 
 
 def test_a_short_shock_is_a_kick():
-    """With the velocity change 2âT/π kept, the shock goes over into a kick against its direction."""
+    """With the velocity change 2âT/π kept, the shock tends to a kick against its direction."""
     machine = PAPER.replace(rho=0.2)
     rest, change = rest_position(machine), 0.3
     apart = []

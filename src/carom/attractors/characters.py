@@ -50,9 +50,9 @@ class Character(Result):
     orbit : Orbit or None
         Where it is periodic, also a whirl that slides: closed by Newton's method, so that its number of impacts is exact.
     exponents : LyapunovExponents or None
-        Of a periodic orbit from its multipliers, of rolling, of irregular bouncing as measured on one motion.
+        For a periodic orbit from its multipliers, for rolling, and for irregular bouncing as measured on one motion.
     rates : ndarray or None
-        Lyapunov exponents in ``Ω``, the largest first, where they are known: those of ``exponents``, those of the
+        Lyapunov exponents in ``Ω``, the largest first, where they are known: those of ``exponents``, or those of the
         linearised motion next to levitation and a synchronous rub.
     rotation : Rotation or None
         Regularity of bouncing that does not repeat; its rotation number if it is a torus.
@@ -74,6 +74,8 @@ class Character(Result):
 def character_of(machine: Subject, attractor: Attractor, impacts: int = MEASURED) -> Character:
     """Find out what kind of motion an attractor is.
 
+    An undecided character says why.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
@@ -81,11 +83,6 @@ def character_of(machine: Subject, attractor: Attractor, impacts: int = MEASURED
     attractor : Attractor
     impacts : int
         Impacts from which exponents of irregular bouncing are measured.
-
-    Returns
-    -------
-    Character
-        An undecided one says why.
     """
     rotor, outcome = model_of(machine), attractor.name.outcome
     if outcome is Outcome.LEVITATED:

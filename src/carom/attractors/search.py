@@ -158,7 +158,7 @@ def find_attractors(
     """Follow disturbances, and starts next to every known motion, to the attractors on which they settle.
 
     Shares count the disturbances alone: a start next to a known motion shows that the motion attracts, not that any
-    disturbance leads to it.
+    disturbance leads to it.  The same arguments give the same result.
 
     Parameters
     ----------
@@ -177,11 +177,6 @@ def find_attractors(
         settle, unless that would take too long.
     threads : int, optional
         By default the number of available cores; the result does not depend on it.
-
-    Returns
-    -------
-    AttractorSet
-        The same for the same arguments.
 
     Raises
     ------

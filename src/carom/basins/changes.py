@@ -52,18 +52,13 @@ def least_gain_change(
 
     The search starts from the few nodes of the map that reach the share and are nearest (Euclidean distance of relative
     changes).  On the straight line from the present machine to each of them the change is found by bisection.  In other
-    directions there may be a smaller one.  For a sample, the lower end of the confidence interval has to reach the
-    wanted share.
+    directions there may be a smaller one.  For a sample, the lower end of the confidence interval has to reach the wanted
+    share.  Return ``None`` if no node of the map reaches the share, and a change of zero if the present machine does.
 
     Parameters
     ----------
     wanted : float
         Share, 0 to 1.
-
-    Returns
-    -------
-    GainChange or None
-        ``None`` if no node of the map reaches the share; a change of zero if the present machine does.
 
     Raises
     ------

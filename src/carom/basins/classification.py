@@ -155,6 +155,8 @@ def map_basins(
 ) -> Basin:
     """Follow disturbances until they settle.
 
+    The same arguments give the same result, bit for bit.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
@@ -171,11 +173,6 @@ def map_basins(
         By default the number of available cores; the result does not depend on it.
     source : mapping of str to str, optional
         Further attributes of the dataset that say where the machine comes from, such as its file.
-
-    Returns
-    -------
-    Basin
-        The same, bit for bit, for the same arguments.
 
     Raises
     ------

@@ -95,6 +95,8 @@ def map_gains(
 ) -> GainMap:
     """Measure the share of disturbances that recover, on a grid of two parameters.
 
+    For machines that cannot levitate the share is 0.
+
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
@@ -111,11 +113,6 @@ def map_gains(
         Number of values of both, ends included.
     patience, max_events, threads, source
         As for :func:`~carom.basins.map_basins`.
-
-    Returns
-    -------
-    GainMap
-        For machines that cannot levitate the share is 0.
 
     Raises
     ------

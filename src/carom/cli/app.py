@@ -77,18 +77,14 @@ def _options(
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command.
+    """Run a command; return its exit code.
+
+    0 for success; 1 for a failure not caused by the input; 2 for input that cannot be used; 130 if interrupted.
 
     Parameters
     ----------
     arguments : sequence of str, optional
         Command and options; by default those of the process.
-
-    Returns
-    -------
-    int
-        Exit code: 0 for success; 1 for a failure not caused by the input; 2 for input that cannot be used; 130 if
-        interrupted.
     """
     if sys.stdout is None:  # closed by the caller: discard the output
         sys.stdout = Path(os.devnull).open("w")  # noqa: SIM115

@@ -179,18 +179,14 @@ def non_smooth_hopf(system: ContactSystem, equilibrium_rate: complex) -> NonSmoo
 def cycle_determinant(system: System, period: float, direction: complex = 1.0) -> float:
     """``det(reset · e^{MT} − 1)`` of the linearised contact at a boundary equilibrium, for any number of modes.
 
-    With the reset ``1 − b rᵀ`` (``r`` reads the speed along the wall's normal, ``b`` is the change of the amplitudes
-    for a unit of it) the determinant lemma gives ``det(e^{MT} − 1) F₁(T)``: its zeros are the periods of the cycles.
+    With the reset ``1 − b rᵀ`` (``r`` reads the speed along the wall's normal, ``b`` is the change of the amplitudes for
+    a unit of it) the determinant lemma gives ``det(e^{MT} − 1) F₁(T)``: its zeros are the periods of the cycles.
+    The result is the determinant of the real map over ``(Re c, Im c)``, shape (2N, 2N).
 
     Parameters
     ----------
     direction : complex
         Unit normal of the wall at the equilibrium.  The determinant does not depend on it.
-
-    Returns
-    -------
-    float
-        Determinant of the real map over ``(Re c, Im c)``, shape (2N, 2N).
     """
     arrays = system.arrays
     modes = len(arrays.exponents)

@@ -156,14 +156,10 @@ def has_stable_rub(at: Values) -> bool:
 def rub_limit(machine: Subject) -> float:
     """Damping up to which a stable synchronous rub exists, with the other parameters unchanged.
 
-    It ends in a fold, ``γ = p − μκ``, if it is pressed on the wall there; otherwise its force vanishes on the circle
-    ``κ² + γ² = ρ²`` (derived in :mod:`carom.closed_forms.thresholds`).  Above the limit there is no stable rub; for
-    positive damping below it there always is one, unless the restitution is one.
-
-    Returns
-    -------
-    float
-        ``γ``; not positive if there is no rub with positive damping.
+    The rub ends in a fold, ``γ = p − μκ``, if it is pressed on the wall there; otherwise its force vanishes on the circle
+    ``κ² + γ² = ρ²`` (derived in :mod:`carom.closed_forms.thresholds`).  Above the limit there is no stable rub; for positive
+    damping below it there always is one, unless the restitution is one.  The limit is not positive if there is no rub with
+    positive damping.
 
     See Also
     --------
@@ -308,19 +304,14 @@ def harmless_shock(machine: Subject, duration: float) -> float:
     """Peak acceleration up to which a half-sine shock of the base provably never brings the rotor to the wall.
 
     The deviation is the convolution of the shock with the response to a kick, which is at most ``g``
-    (:func:`harmless_kick`).  So it is no larger than ``g`` times the change of velocity over the pulse, ``2âT/π``.
-    This bound is sharp for short pulses.
+    (:func:`harmless_kick`).  So it is no larger than ``g`` times the change of velocity over the pulse, ``2âT/π``.  This
+    bound, in ``c_r Ω²``, is sharp for short pulses.
 
     Parameters
     ----------
     machine : Machine, Case, Parameters or model
     duration : float
         ``T``, in ``1/Ω``.
-
-    Returns
-    -------
-    float
-        Peak acceleration in ``c_r Ω²``.
     """
     rotor = jeffcott_of(machine)
     if not (np.isfinite(duration) and duration > 0.0):
@@ -333,12 +324,8 @@ def harmless_step(machine: Subject) -> float:
 
     A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame.  This is the
     deviation at the step; its velocity in the fixed frame is ``iu₀``.  There the deviation obeys ``ü + γu̇ + ω²u = 0``,
-    whose energy ``|u̇|² + ω²|u|²`` does not grow, so it stays below ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.
-
-    Returns
-    -------
-    float
-        Change in ``c_r``; zero where the rotor cannot levitate inside the wall or its levitation is unstable.
+    whose energy ``|u̇|² + ω²|u|²`` does not grow, so it stays below ``|u₀|√(1 + 1/ω²)``.  This bound is not sharp.  The
+    change is in ``c_r``; zero where the rotor cannot levitate inside the wall or its levitation is unstable.
     """
     rotor = jeffcott_of(machine)
     return (
@@ -349,14 +336,10 @@ def harmless_step(machine: Subject) -> float:
 def harmless_blade_loss(machine: Subject) -> float:
     """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall.
 
-    As in :func:`harmless_step` the deviation from the levitation whirl after the loss stays below ``|u₀|√(1 + 1/ω²)``, but
-    that whirl itself is displaced from the one before by ``u₀``.  This bound is not sharp.
-
-    Returns
-    -------
-    float
-        Change ``|Δ|`` of the eccentricity, a complex number with its phase, in ``c_r``; zero where the rotor cannot levitate
-        inside the wall or its levitation is unstable.
+    As in :func:`harmless_step` the deviation from the levitation whirl after the loss stays below ``|u₀|√(1 + 1/ω²)``,
+    but that whirl itself is displaced from the one before by ``u₀``.  This bound is not sharp.  The change, in ``c_r``, is the modulus of that
+    of the complex eccentricity; zero where the rotor cannot levitate inside the wall or
+    its levitation is unstable.
     """
     at = jeffcott_of(machine).parameters
     deviation = math.hypot(1.0, 1.0 / at.omega)

@@ -125,16 +125,12 @@ class System(Result):
         return found
 
     def amplitudes(self, position: complex | np.ndarray, velocity: complex | np.ndarray) -> np.ndarray:
-        """Mode amplitudes of a state.
+        """Mode amplitudes of a state, shape (N,).
 
         Parameters
         ----------
         position, velocity : complex, or ndarray of complex, shape (n,)
             Coordinates and their rates.
-
-        Returns
-        -------
-        ndarray of complex, shape (N,)
         """
         return self.amplitude_change(position - (self.rest if len(self.rest) > 1 else self.rest[0]), velocity)
 
@@ -213,16 +209,12 @@ class System(Result):
         return position, np.einsum("...k,k->...", amplitudes, self.arrays.rate_rows[plane])
 
     def fly(self, amplitudes: np.ndarray, times: np.ndarray) -> np.ndarray:
-        """Mode amplitudes after free flights.
+        """Mode amplitudes after free flights, shape (..., N).
 
         Parameters
         ----------
         amplitudes : ndarray of complex, shape (..., N)
         times : array_like, shape (...)
-
-        Returns
-        -------
-        ndarray of complex, shape (..., N)
         """
         times = np.asarray(times, float)
         starts = np.broadcast_to(amplitudes, (*times.shape, amplitudes.shape[-1]))

@@ -123,11 +123,6 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         changes its partner: ``gamma`` the damping, ``omega`` the stiffness, ``rho`` the eccentricity, ``phi`` the
         unbalance phase, ``mu`` the friction, ``d`` the restitution, ``radius_ratio`` the rotor radius.
 
-    Returns
-    -------
-    Case
-        Name, parameters, machine, zones and limits.
-
     Raises
     ------
     InputError

@@ -62,11 +62,6 @@ def read_quantity(field: Field, given: object) -> float:
     given : object
         A real number, or text such as ``"1759 rpm"``.
 
-    Returns
-    -------
-    float
-        Finite, in the SI unit of `field`, within its range.
-
     Raises
     ------
     InputError

@@ -42,7 +42,7 @@ class MotionLook:
     colour : str
         That of its outcome; paler for the second motion of one outcome.
     share : float
-        Of the starts that end on it.
+        Share of the starts that end on it.
     """
 
     index: int

@@ -22,7 +22,7 @@ _UNDATED: dict[str, dict[str, str | None]] = {
 
 
 def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[str] = ("svg", "png")) -> list[Path]:
-    """Write a figure in several formats.
+    """Write a figure in several formats; return the files in the order of `formats`.
 
     All formats are drawn in memory before the first byte is written, and each file appears under its name only when it
     is complete.  The same figure gives the same bytes on every call: no dates, fixed identifiers.
@@ -36,11 +36,6 @@ def save(figure: Figure, path_stem: str | os.PathLike[str], formats: Sequence[st
         created.
     formats : sequence of {"svg", "pdf", "png"}
         Formats to write.
-
-    Returns
-    -------
-    list of pathlib.Path
-        The files written, in the order of `formats`.
 
     Raises
     ------

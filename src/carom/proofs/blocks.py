@@ -237,7 +237,7 @@ class OrbitBranch:
     Parameters
     ----------
     branch : Branch
-        Of its period; with a positive discriminant.
+        Branch of its period, with a positive discriminant.
     faster : bool
         Whether it has the higher of both radial speeds.
 

@@ -38,10 +38,6 @@ def check(source: str | os.PathLike[str] | Mapping[str, Any], *, progress: ShowP
     source : path or mapping
         A file, or what :meth:`Proof.document <carom.proofs.Proof.document>` gives.
 
-    Returns
-    -------
-    Proof
-
     Raises
     ------
     InputError

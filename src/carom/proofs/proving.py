@@ -41,9 +41,10 @@ def prove(
 ) -> Proof:
     """Prove what can be proven of a machine's equilibria and of its orbits with one impact a period.
 
-    With ``impacts`` above 1 orbits with up to so many impacts a period too, those that a simulation finds.  With ``along`` instead
-    of all this: bifurcation points along a parameter, and for all its values in an interval all orbits with one impact a
-    period, whether they are motions of the machine and whether they are stable.
+    With ``impacts`` above 1 the claims are also about orbits with up to so many impacts a period that a simulation finds.
+    With ``along`` they are instead about bifurcation points along a parameter, and about all orbits with one impact a
+    period for all its values in an interval: whether they are motions of the machine and whether they are stable.
+    An undecided claim says why.
 
     Parameters
     ----------
@@ -58,11 +59,6 @@ def prove(
         A parameter, dimensionless or physical.
     interval : pair of numbers, optional
         Its ends, such as ``("0.084", "0.177")`` or ``("300 N s/m", "2000 N s/m")``; as with ``machine`` a float is a double.
-
-    Returns
-    -------
-    Proof
-        Claims that are undecided have the reason with them.
 
     Raises
     ------

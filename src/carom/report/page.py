@@ -39,7 +39,7 @@ class InlineFigure:
 
 @shows_progress
 def write_report(study: Study, directory: str, *, png: bool = False, progress: ShowProgress = None) -> Path:
-    """Write ``report.html``, ``study.json`` and the figures of a study.
+    """Write ``report.html``, ``study.json`` and the figures of a study; return the path of the page.
 
     Parameters
     ----------
@@ -48,11 +48,6 @@ def write_report(study: Study, directory: str, *, png: bool = False, progress: S
 
     png : bool
         Write the figures as PNG too, which takes about as long as all the rest of the report.
-
-    Returns
-    -------
-    Path
-        Path of the page.
 
     Raises
     ------

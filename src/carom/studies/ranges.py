@@ -139,10 +139,7 @@ def _value(edge: Edge) -> float:
 def free_spans(ranges: tuple[MotionRange, ...], gain: Gain) -> tuple[Span, ...] | None:
     """Return where along one gain the contact-free motion exists, but neither a rub nor a single-impact orbit.
 
-    Returns
-    -------
-    tuple of Span, or None
-        Within the range searched for orbits; ``None`` if orbits were not searched.
+    The spans lie within the range searched for orbits; ``None`` if orbits were not searched.
     """
     here = {entry.motion: entry for entry in ranges if entry.gain == gain}
     orbits = here.get("single-impact")

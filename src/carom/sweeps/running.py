@@ -111,6 +111,7 @@ def run_sweep(
     Each chunk is stored as soon as it is computed, completely or not at all.  If this function is interrupted for any
     reason, the same call resumes the sweep.  Chunks finished before are compared with their checksums, and damaged ones
     are computed again.  On processors of one kind the results are bit for bit the same, whichever workers compute them.
+    The returned tally has the results as its ``dataset``.
 
     Parameters
     ----------
@@ -126,11 +127,6 @@ def run_sweep(
         Compute on a Dask cluster instead: address or file of its scheduler, ``"slurm"``, or a client.
     retry_failed : bool
         Compute chunks with failed points again.
-
-    Returns
-    -------
-    Tally
-        With the results as its ``dataset``.
 
     Raises
     ------

@@ -52,7 +52,7 @@ class KickedMotion:
     times, x, y : ndarray of float32, shape (n,)
         Position in the co-rotating frame in clearances at times in ``1/Ω``; the instants of impacts are among them.
     impact_times, impact_angles, impact_speeds, impulses : ndarray of float32, shape (m,)
-        Of the impacts drawn: time, angle in rad, radial speed before in ``c_r Ω``, normal impulse in ``m c_r Ω``.
+        Impacts that are drawn: time, angle in rad, radial speed before in ``c_r Ω``, normal impulse in ``m c_r Ω``.
     forward : ndarray of bool, shape (m,)
         Whether the rotor whirls forward in the fixed frame just before the impact.
     spans : tuple of Span

@@ -92,7 +92,7 @@ class Ending:
     Attributes
     ----------
     share : float
-        Of all kicks of the picture, 0 to 1.
+        Share of all kicks of the picture, 0 to 1.
     hatch : str
         Texture for print without colour; empty for none.
     """

@@ -45,7 +45,7 @@ class BouncingSample(Result):
         Its largest Lyapunov exponent across the motion, in ``Ω``, with its standard error (0 for a periodic orbit); ``nan`` where the
         motion ended too early.
     lifetimes : Lifetimes
-        Of all the motions.
+        Lifetimes of all the motions.
     """
 
     gamma: float

@@ -34,17 +34,12 @@ def _sample(sample: BouncingSample) -> dict[str, Any]:
 
 
 def write_loss(found: LossOfBouncing, directory: str) -> list[Path]:
-    """Draw the figure, and write it with the numbers.
+    """Draw the figure, and write it with the numbers; return the files written.
 
     Parameters
     ----------
     directory : str
         Created if it does not exist; files of the same name are replaced.
-
-    Returns
-    -------
-    list of Path
-        The files written.
 
     Raises
     ------

@@ -19,7 +19,7 @@ class TextTable:
     headings: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     agrees: tuple[bool, ...]
-    """Of each row: whether the source agrees with what was computed."""
+    """For each row, whether the source agrees with what was computed."""
     numbers: tuple[str, ...] = ()
     """Headings of the columns that hold numbers."""
 

@@ -45,13 +45,7 @@ class ShownMotion(Result):
 
 
 def shown_motions() -> tuple[ShownMotion, ...]:
-    """Compute levitation at ``γ = 0.3``, ``B1,d`` near grazing at 0.065 and ``B1,a`` near its birth at 0.1.
-
-    Returns
-    -------
-    tuple of ShownMotion
-        Panels a to c.
-    """
+    """Compute levitation at ``γ = 0.3``, ``B1,d`` near grazing at 0.065 and ``B1,a`` near its birth at 0.1: panels a to c."""
     levitating = Jeffcott(machine_at(0.3))
     shown = [ShownMotion("a", 0.3, "levitation", levitating, None, abs(levitating.equilibrium))]
     for panel, gamma, name, words in (

@@ -13,17 +13,12 @@ from carom.reproductions.mora2014.reproduction import Reproduction
 
 @shows_progress
 def write_paper(found: Reproduction, directory: str, *, progress: ShowProgress = None) -> list[Path]:
-    """Draw the figures, and write them with the numbers.
+    """Draw the figures, and write them with the numbers; return the files written.
 
     Parameters
     ----------
     directory : str
         Target directory, created if it does not exist; files of the same name are replaced.
-
-    Returns
-    -------
-    list of Path
-        The files written.
 
     Raises
     ------

@@ -78,11 +78,6 @@ def least_safe_damping(
     threads : int, optional
         By default one for each core; the result does not depend on it.
 
-    Returns
-    -------
-    SafeDamping
-        Equal for equal arguments.
-
     Raises
     ------
     InputError

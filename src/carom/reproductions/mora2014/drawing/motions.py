@@ -24,13 +24,7 @@ SHOWN_PERIODS = 3
 
 @styled
 def figure_2(motions: tuple[ShownMotion, ...]) -> Figure:
-    """Draw each motion in the fixed frame, in the co-rotating one, and its radius.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        A row for each motion.
-    """
+    """Draw each motion in the fixed frame, in the co-rotating one, and its radius: a row for each motion."""
     figure = StyledFigure(figsize=(TWO_COLUMNS, 1.02 * TWO_COLUMNS))
     rows = figure.subplots(len(motions), 3, width_ratios=(1.0, 1.0, 1.25))
     for (fixed, rotating, radius), motion in zip(rows, motions, strict=True):
