@@ -68,7 +68,10 @@ class Hypotheses:
     @cached_property
     def numbers(self) -> Mapping[str, ExactNumber]:
         """The numbers of :data:`NUMBERS` and ``phi``, exactly."""
-        found = self._of_machine() if self.table == "machine" else {}
+        found: dict[str, ExactNumber] = {}
+        if self.table == "machine":
+            machine = {name: read_exact(MACHINE_FIELDS[name], text) for name, text in self.values.items()}
+            found = {**dimensionless_of(machine), "phi": machine["unbalance_phase"]}
         given = self.settings if self.table == "machine" else {**self.values, **self.settings}
         for name, text in given.items():
             number = read_exact(DIMENSIONLESS_FIELDS[name], text)
@@ -76,19 +79,6 @@ class Hypotheses:
                 name, number = "omega_squared", number * number
             found[name] = number
         return found
-
-    def _of_machine(self) -> dict[str, ExactNumber]:
-        given = {name: read_exact(MACHINE_FIELDS[name], text) for name, text in self.values.items()}
-        speed = given["speed"]
-        return {
-            "gamma": given["damping"] / (given["mass"] * speed),
-            "omega_squared": given["stiffness"] / (given["mass"] * speed * speed),
-            "rho": given["eccentricity"] / given["clearance"],
-            "phi": given["unbalance_phase"],
-            "mu": given["friction"],
-            "d": given["restitution"],
-            "radius_ratio": given["rotor_radius"] / given["clearance"],
-        }
 
     @property
     def exact(self) -> bool:
@@ -135,6 +125,19 @@ class Hypotheses:
                 "hypotheses", shown(document.get("exact")), "the exact numbers do not follow from those given"
             )
         return read
+
+
+def dimensionless_of(machine: Mapping[str, Any]) -> dict[str, Any]:
+    """The numbers of :data:`NUMBERS` that follow from those of a machine: exact numbers, balls or power series."""
+    speed = machine["speed"]
+    return {
+        "gamma": machine["damping"] / (machine["mass"] * speed),
+        "omega_squared": machine["stiffness"] / (machine["mass"] * speed * speed),
+        "rho": machine["eccentricity"] / machine["clearance"],
+        "mu": machine["friction"],
+        "d": machine["restitution"],
+        "radius_ratio": machine["rotor_radius"] / machine["clearance"],
+    }
 
 
 def hypotheses_of(

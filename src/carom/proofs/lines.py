@@ -14,7 +14,7 @@ from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS
 from carom.parameters.exact import read_exact
 from carom.parameters.fields import unknown_name
 from carom.proofs.balls import ball_of, exact_ends, interval
-from carom.proofs.hypotheses import NUMBERS, Hypotheses
+from carom.proofs.hypotheses import NUMBERS, Hypotheses, dimensionless_of
 
 
 class Numbers(NamedTuple):
@@ -75,7 +75,7 @@ class Line:
         if not self.physical:
             found |= {"omega_squared": value * value} if self.name == "omega" else {self.name: value}
         else:
-            found |= {**self._of_machine({**self._machine, self.name: value}), **self._set}
+            found |= {**dimensionless_of({**self._machine, self.name: value}), **self._set}
         if isinstance(value, arb_series):
             # What does not depend on the parameter is a power series too.
             found["gamma"] = found["gamma"] + value * 0
@@ -97,18 +97,6 @@ class Line:
         return self._remembered(
             "machine", lambda: {name: ball_of(read_exact(MACHINE_FIELDS[name], text)) for name, text in values}
         )
-
-    @staticmethod
-    def _of_machine(given: dict[str, Any]) -> dict[str, Any]:
-        speed = given["speed"]
-        return {
-            "gamma": given["damping"] / (given["mass"] * speed),
-            "omega_squared": given["stiffness"] / (given["mass"] * speed * speed),
-            "rho": given["eccentricity"] / given["clearance"],
-            "mu": given["friction"],
-            "d": given["restitution"],
-            "radius_ratio": given["rotor_radius"] / given["clearance"],
-        }
 
     def _remembered(self, name: str, make: Any) -> dict[str, Any]:
         """What is made once at each precision."""

@@ -1,4 +1,4 @@
-"""Flights: the motion of the library, sampled."""
+"""The motion after a kick: that of the library, sampled."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ SINGLE = 1e-6
 )
 def test_it_is_the_motion(rotor, radial, tangential):
     rest = rest_of(rotor)
-    motion = follow_kick(rotor, rest, radial, tangential)
+    kicked = follow_kick(rotor, rest, radial, tangential)
     motion = carom.simulate(rotor, rest.kicked(radial, tangential), settle=True)
-    assert motion.outcome == motion.outcome.label
-    positions, _ = carom.simulate(rotor, rest.kicked(radial, tangential), LONGEST).at(motion.times.astype(float))
+    assert kicked.outcome == motion.outcome.label
+    positions, _ = carom.simulate(rotor, rest.kicked(radial, tangential), LONGEST).at(kicked.times.astype(float))
     # Times of single precision at speeds of the order of one.
-    np.testing.assert_allclose(motion.x + 1j * motion.y, positions, atol=LONGEST * SINGLE)
-    count = len(motion.impact_times)
+    np.testing.assert_allclose(kicked.x + 1j * kicked.y, positions, atol=LONGEST * SINGLE)
+    count = len(kicked.impact_times)
     known = min(count, len(motion.contacts.time))
-    np.testing.assert_allclose(motion.impact_times[:known], motion.contacts.time[:known], rtol=SINGLE)
-    assert motion.hardest == motion.contacts.normal_impulse.max()
-    assert np.hypot(motion.x, motion.y).max() <= 1.0 + SINGLE
+    np.testing.assert_allclose(kicked.impact_times[:known], motion.contacts.time[:known], rtol=SINGLE)
+    assert kicked.hardest == motion.contacts.normal_impulse.max()
+    assert np.hypot(kicked.x, kicked.y).max() <= 1.0 + SINGLE
 
 
 def test_every_impact_is_on_the_wall_at_its_instant():
-    motion = follow_kick(BOUNCING, rest_of(BOUNCING), 0.6, 0.1)
-    places = np.searchsorted(motion.times, motion.impact_times)
-    np.testing.assert_allclose(np.hypot(motion.x, motion.y)[places], 1.0, atol=SINGLE)
-    angles = np.angle(motion.x + 1j * motion.y)[places]
-    np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * motion.impact_angles), atol=LONGEST * SINGLE)
+    kicked = follow_kick(BOUNCING, rest_of(BOUNCING), 0.6, 0.1)
+    places = np.searchsorted(kicked.times, kicked.impact_times)
+    np.testing.assert_allclose(np.hypot(kicked.x, kicked.y)[places], 1.0, atol=SINGLE)
+    angles = np.angle(kicked.x + 1j * kicked.y)[places]
+    np.testing.assert_allclose(np.exp(1j * angles), np.exp(1j * kicked.impact_angles), atol=LONGEST * SINGLE)
 
 
 def test_each_flight_has_the_colour_of_its_cell():
@@ -52,42 +52,42 @@ def test_each_flight_has_the_colour_of_its_cell():
     middles = shown.basin.coordinates[0].middles(cells)
     for radial in range(0, cells, 3):
         for tangential in range(0, cells, 3):
-            motion = follow_kick(ROTOR, shown.rest, float(middles[radial]), float(middles[tangential]))
+            kicked = follow_kick(ROTOR, shown.rest, float(middles[radial]), float(middles[tangential]))
             ending = shown.endings[shown.cells[tangential, radial]]
-            assert motion.colour == ending.colour
-            assert f" ends in {ending.words}" in motion.words
+            assert kicked.colour == ending.colour
+            assert f" ends in {ending.words}" in kicked.words
 
 
 def test_a_small_kick_never_strikes():
-    motion = follow_kick(ROTOR, rest_of(ROTOR), 1e-4, 0.0)
-    assert (motion.outcome, motion.hardest, len(motion.impact_times), motion.spans) == ("levitated", 0.0, 0, ())
-    assert motion.words == "A kick of 0.0001 c_r Ω ends in levitation without an impact."
-    assert motion.whole
+    kicked = follow_kick(ROTOR, rest_of(ROTOR), 1e-4, 0.0)
+    assert (kicked.outcome, kicked.hardest, len(kicked.impact_times), kicked.spans) == ("levitated", 0.0, 0, ())
+    assert kicked.words == "A kick of 0.0001 c_r Ω ends in levitation without an impact."
+    assert kicked.whole
 
 
 def test_no_kick_at_all_can_be_drawn():
-    motion = follow_kick(ROTOR, rest_of(ROTOR), 0.0, 0.0)
-    assert motion.times[-1] > 0.0
-    assert np.ptp(motion.x) < SINGLE
+    kicked = follow_kick(ROTOR, rest_of(ROTOR), 0.0, 0.0)
+    assert kicked.times[-1] > 0.0
+    assert np.ptp(kicked.x) < SINGLE
 
 
 def test_long_motions_are_cut_and_say_so():
     weak = Jeffcott(PAPER.replace(gamma=0.09))
-    motion = follow_kick(weak, rest_of(weak), 0.9, 0.4)
-    assert motion.times[-1] <= LONGEST * (1.0 + SINGLE)
-    assert len(motion.impact_times) <= MOST_IMPACTS
-    assert not motion.whole
+    kicked = follow_kick(weak, rest_of(weak), 0.9, 0.4)
+    assert kicked.times[-1] <= LONGEST * (1.0 + SINGLE)
+    assert len(kicked.impact_times) <= MOST_IMPACTS
+    assert not kicked.whole
 
 
 def test_lasting_contact_is_told_in_words_and_colours():
-    motion = next(
+    kicked = next(
         found
         for speed in (0.4, 0.6, 0.9, 1.2, 1.5)
         if (found := follow_kick(ROTOR, rest_of(ROTOR), speed, 0.3)).outcome == "forward-rub" and found.spans
     )
-    assert motion.spans[-1].words.startswith("sliding")
-    assert motion.spans[-1].end <= motion.times[-1] * (1.0 + SINGLE)
-    assert motion.colour == OUTCOMES[Outcome.FORWARD_RUB.label].colour
+    assert kicked.spans[-1].words.startswith("sliding")
+    assert kicked.spans[-1].end <= kicked.times[-1] * (1.0 + SINGLE)
+    assert kicked.colour == OUTCOMES[Outcome.FORWARD_RUB.label].colour
 
 
 def test_what_cannot_start_is_refused():
