@@ -156,8 +156,8 @@ class Problems:
             self.errors += problem.errors
             return None
 
-    def tell(self) -> None:
-        """Raise the collected errors, if there are any."""
+    def raise_all(self) -> None:
+        """Raise the collected errors together, if there are any."""
         if self.errors:
             raise together(self.errors)
 

@@ -93,7 +93,7 @@ def test_the_readme_machine_is_left_alone_above_a_damping_and_above_a_stiffness(
     (span,) = stiffness.spans
     assert span.low.value**2 * README.scales.stiffness == pytest.approx(2.376e6, rel=1e-3)
     for entry in found:
-        assert entry.calm == entry.spans
+        assert entry.without_whirl == entry.spans
         check_inside(README, entry, random, 4, 200)
         check_outside(README, entry)
 
@@ -102,7 +102,7 @@ def test_stiffness_that_leaves_the_readme_machine_alone():
     """At 3.0e6 N/m everything comes back, where the study once said that no stiffness would do."""
     value = math.sqrt(3.0e6 / README.scales.stiffness)
     found = levitation_alone(README, "omega", ranges_of(README, "omega"), 100)
-    assert any(value in span for span in found.calm)
+    assert any(value in span for span in found.without_whirl)
     assert ends_of(Jeffcott(README.replace(omega=value)), 1000, 77).recovered.all()
 
 

@@ -37,9 +37,9 @@ def explore(
 
     path = str(example_file()) if machine is None else machine
     case = load(path, settings or ())
-    serve(Origin(path, tuple(settings or ()), case), port, browser=browser, tell=_tell)
+    serve(Origin(path, tuple(settings or ()), case), port, browser=browser, tell=_print_address)
 
 
-def _tell(address: str) -> None:
+def _print_address(address: str) -> None:
     typer.echo(address)
     sys.stdout.flush()

@@ -146,7 +146,7 @@ class Disturbance:
             known = f"one of: {', '.join(_KNOWN)}; one of your own must be imported before its results are read"
             raise InputError("disturbance", kind, known)
         model = _KNOWN[kind]
-        return model(**{one.name: _whole(one, description[one.name]) for one in dataclasses.fields(model)})
+        return model(**{one.name: _from_plain(one, description[one.name]) for one in dataclasses.fields(model)})
 
 
 _KNOWN: dict[str, type[Disturbance]] = {}
@@ -165,7 +165,7 @@ def _plain(name: str, value: object) -> object:
     raise InputError(name, shown(value), "a number, a text, or a tuple of these, so that results can record it")
 
 
-def _whole(field: dataclasses.Field[Any], value: Any) -> Any:
+def _from_plain(field: dataclasses.Field[Any], value: Any) -> Any:
     """Value of a field from plain data, in which complex numbers and tuples are lists."""
     if field.type in (complex, "complex"):
         return complex(*value)

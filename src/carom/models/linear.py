@@ -133,10 +133,10 @@ class LinearRotor(Result):
             raise InputError("mass, stiffness", "singular", "matrices that can be inverted") from None
         generator = np.concatenate([np.eye(n, 2 * n, n), -accelerations])
         found = modes_of(generator, self.mass)
-        felt = np.einsum("pn,np->p", self.planes, moved)
-        if not (felt.real > 0.0).all() or (np.abs(felt.imag) > 1e-9 * np.abs(felt)).any():
+        mobilities = np.einsum("pn,np->p", self.planes, moved)
+        if not (mobilities.real > 0.0).all() or (np.abs(mobilities.imag) > 1e-9 * np.abs(mobilities)).any():
             raise InputError(
-                "mass, planes", felt.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
+                "mass, planes", mobilities.tolist(), "positive mobilities W M⁻¹ Wᴴ: an impulse must move its plane"
             )
         if n == 1 and self.planes.tolist() == [[1.0]]:
             return self._one_coordinate(found.exponents, complex(rest[0]))
@@ -146,7 +146,7 @@ class LinearRotor(Result):
             driven=found.driven,
             offsets=self.planes @ rest,
             rows=self.planes @ found.basis[:n],
-            columns=inverse[:, n:] @ (moved / felt),
+            columns=inverse[:, n:] @ (moved / mobilities),
             friction=self.friction,
             restitution=self.restitution,
             drive=self.drive,

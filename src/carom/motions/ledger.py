@@ -109,7 +109,7 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
         shares[1:-1][events] = masses[trajectory.event_planes[events]] * values
         return np.cumsum(shares)
 
-    masses = _felt(trajectory.rotor, matrices)
+    masses = _effective_masses(trajectory.rotor, matrices)
     slides, drives = np.zeros(times.shape), np.zeros(times.shape)
     for plane, mass in enumerate(masses):
         friction, drive = contact_power(trajectory.seen_at(plane), times)
@@ -148,14 +148,14 @@ def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int
     return position, velocity + 1j * position
 
 
-def _felt(rotor: Model, matrices: Matrices) -> np.ndarray:
-    """Mass that an impulse at each plane moves, shape (P,): twice the energy of a rotor at rest that it gives speed one."""
+def _effective_masses(rotor: Model, matrices: Matrices) -> np.ndarray:
+    """Effective mass at each plane, which an impulse there moves, shape (P,): twice the energy of a rotor at rest that it gives speed one."""
     given = rotor.system.rates @ rotor.system.arrays.columns
     return _form(given.T, matrices.mass, given.T)
 
 
 def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Powers of friction on the contact point of a plane and of the drive, per mass that is felt there."""
+    """Powers of friction on the contact point of a plane and of the drive, per effective mass there."""
     position, velocity = motion.at_plane(times)
     drive = float(motion.rotor.system.arrays.drive[motion.plane])
     _, grip = motion.forces(times)

@@ -61,7 +61,7 @@ class LoadLimits:
             given: Any = getattr(self, name)
             if given is not None:
                 object.__setattr__(self, name, problems.attempt(read_quantity, field, given))
-        problems.tell()
+        problems.raise_all()
 
     @property
     def stated(self) -> dict[str, float]:
@@ -91,5 +91,5 @@ class LoadLimits:
             problems.errors.append(InputError("limits", shown(dict(table)), allowed))
         known = {name: value for name, value in table.items() if name in LIMIT_FIELDS}
         found = problems.attempt(cls, **known)
-        problems.tell()
+        problems.raise_all()
         return found or cls()

@@ -146,7 +146,7 @@ class Machine(pydantic.BaseModel):
             remedy = "must hold a [machine] table; a [dimensionless] one has no mass, clearance and speed"
             raise InputError("machine file", shown(path), remedy)
         machine = problems.attempt(cls, **tables.values)
-        problems.tell()
+        problems.raise_all()
         return cast("Machine", machine)
 
     @classmethod

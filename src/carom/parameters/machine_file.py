@@ -155,7 +155,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     if not of_machine:
         physical = {name: text for name, text in texts.items() if name in SETTABLE and name not in DIMENSIONLESS_FIELDS}
         problems.attempt(_refuse_physical, physical)
-    problems.tell()
+    problems.raise_all()
     name = printable(Path(path).stem)
     zones = zones or Zones()
     if isinstance(base, Machine):
@@ -194,7 +194,7 @@ def _refuse_physical(physical: Mapping[str, str]) -> None:
         advice = f"set {partner} instead" if partner else "use a file with a [machine] table"
         allowed = f"cannot be set: the file is dimensionless and has no mass, clearance and speed; {advice}"
         problems.errors.append(InputError(name, shown(text), allowed))
-    problems.tell()
+    problems.raise_all()
 
 
 def _read_dimensionless(tables: MachineTables) -> Parameters:
@@ -205,7 +205,7 @@ def _read_dimensionless(tables: MachineTables) -> Parameters:
         for name, field in DIMENSIONLESS_FIELDS.items()
         if name in tables.values
     }
-    problems.tell()
+    problems.raise_all()
     return Parameters(**cast("dict[str, float]", numbers), scales=None)
 
 
@@ -215,7 +215,7 @@ def _read_zones(table: Mapping[str, Any]) -> Zones:
         unknown_name(name, value, {"limits": None}, "[zones]") for name, value in table.items() if name != "limits"
     ]
     zones = problems.attempt(Zones, *(value for name, value in table.items() if name == "limits"))
-    problems.tell()
+    problems.raise_all()
     return zones or Zones()
 
 

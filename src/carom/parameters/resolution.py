@@ -65,7 +65,7 @@ def resolve(entries: Mapping[str, Any], base: Resolved | None = None) -> Resolve
         for name, value in entries.items()
         if name in (ENTRIES if base is None else SETTABLE)
     }
-    problems.tell()
+    problems.raise_all()
     work = _Work(entries, {name: number for name, number in numbers.items() if number is not None}, base)
     return work.resolved()
 
@@ -87,9 +87,9 @@ class _Work:
         for name in _FIELDS:
             self.problems.attempt(self._field, name)
             if self.problems.errors:
-                self.problems.tell()  # what follows needs this field
+                self.problems.raise_all()  # what follows needs this field
         self._check_use()
-        self.problems.tell()
+        self.problems.raise_all()
         ordered = [*MACHINE_FIELDS, *(name for name in BEARING_FIELDS if name in self.values)]
         return Resolved({name: self.values[name] for name in ordered}, self.given)
 

@@ -273,4 +273,4 @@ def check_names(changes: Iterable[str] | Mapping[str, Any]) -> None:
         if name not in SETTABLE
     ]
     problems.errors += conflicts({name: value for name, value in values.items() if name in SETTABLE})
-    problems.tell()
+    problems.raise_all()

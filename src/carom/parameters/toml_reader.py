@@ -60,7 +60,7 @@ def read_machine_tables(path: str | os.PathLike[str], problems: Problems) -> Mac
         found = "holds both" if kinds else "holds neither"
         problems.errors.append(InputError(_WHAT, shown(name), f"{_REMEDY}, one of them alone; it {found}"))
     if len(kinds) != 1 or not isinstance(content[kinds[0]], dict):
-        problems.tell()
+        problems.raise_all()
     zones, limits = (table if isinstance(table := content.get(name, {}), dict) else {} for name in ("zones", "limits"))
     return MachineTables(kinds[0], content[kinds[0]], zones, limits)
 

@@ -250,7 +250,7 @@ def instability_of(orbit: OrbitBranch, positive: bool) -> str | None:
     """
     if not positive:
         return "a multiplier is above 1"
-    if orbit.along(lambda course: course.crowding) < 0:
+    if orbit.along(lambda course: course.invariants.slope_at_one) < 0:
         return "two multipliers are outside the unit circle"
     flip = orbit.along(lambda course: course.invariants.at_minus_one)
     if flip < 0:

@@ -224,9 +224,3 @@ class Course:
         """Invariants of the derivative of the impact map."""
         (a, b, c), (d, e, f), (g, h, i) = self.jacobian()
         return Invariants(a + e + i, a * e - b * d + a * i - c * g + e * i - f * h, self.back.determinant)
-
-    @property
-    def crowding(self) -> Any:
-        """``3 − 2τ + m``, the derivative of the characteristic polynomial at 1: positive if all multipliers are inside."""
-        trace, minors, _ = self.invariants
-        return 3 - trace * 2 + minors

@@ -52,7 +52,7 @@ def _of_orbit(block: Block, orbit: OrbitBranch, name: str, positive: bool, about
     if motion is None or (motion and not (slip > 0 or block.whole.mu.is_zero())):
         raise OpenError(f"it is open whether {name} is a motion")
     found = [] if speed else [("speed", _zero(block, orbit, lambda course: course.speed))]
-    settled = not positive or orbit.along(lambda course: course.crowding) < 0
+    settled = not positive or orbit.along(lambda course: course.invariants.slope_at_one) < 0
     signs: dict[str, Callable[[Course], Any]] = {}
     if not settled:
         signs["flip"] = lambda course: course.invariants.at_minus_one

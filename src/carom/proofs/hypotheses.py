@@ -180,7 +180,7 @@ def _from_file(path: str | os.PathLike[str], settings: list[str]) -> Hypotheses:
             )
         texts[name] = text
     problems.attempt(check_names, texts)
-    problems.tell()
+    problems.raise_all()
     content = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"), parse_float=Decimal)
     table: Literal["machine", "dimensionless"] = "machine" if "machine" in content else "dimensionless"
     if table == "machine":

@@ -56,6 +56,11 @@ class Invariants(NamedTuple):
         return 1 - self.trace + self.minors - self.determinant
 
     @property
+    def slope_at_one(self) -> Any:
+        """``3 − 2τ + m``, the derivative of that polynomial at 1: positive if all multipliers are inside the unit circle."""
+        return 3 - self.trace * 2 + self.minors
+
+    @property
     def at_minus_one(self) -> Any:
         """``det(J + 1)``: zero at a period doubling."""
         return 1 + self.trace + self.minors + self.determinant

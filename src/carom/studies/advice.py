@@ -70,7 +70,7 @@ def advise(
     The ranges of the contact-free motion and of orbits say where to search if no value leaves only levitation.  No
     ``γ`` up to ``lost_up_to``, at which a disturbance is known to be lost, is advised as leaving only levitation.
     """
-    if any(parameters.value(found.gain) in span for found in alone for span in found.calm):
+    if any(parameters.value(found.gain) in span for found in alone for span in found.without_whirl):
         return ()
     found = [_advise_only_levitation(parameters, entry, lost_up_to) for entry in alone]
     if not any(found):
@@ -81,12 +81,12 @@ def advise(
 
 
 def _advise_only_levitation(parameters: Parameters, found: LevitationAlone, lost_up_to: float) -> Advice | None:
-    """Advise the nearest value in a calm range at which all disturbances of the check come back.
+    """Advise the nearest value in a range without backward whirl at which all disturbances of the check come back.
 
     If there is none, the value with the largest share is advised, provided that this share reaches ``WANTED``.
     """
     best: Advice | None = None
-    for value, margin in _values_in_calm_ranges(parameters, found):
+    for value, margin in _values_without_whirl(parameters, found):
         if found.gain == "gamma" and value <= lost_up_to:
             continue
         advice = _checked(parameters, found.gain, value, margin)
@@ -97,15 +97,17 @@ def _advise_only_levitation(parameters: Parameters, found: LevitationAlone, lost
     return best
 
 
-def _values_in_calm_ranges(parameters: Parameters, found: LevitationAlone) -> Iterator[tuple[float, float]]:
-    """Yield values inside the calm ranges with their margins, nearest range first."""
+def _values_without_whirl(parameters: Parameters, found: LevitationAlone) -> Iterator[tuple[float, float]]:
+    """Yield values inside the ranges without backward whirl, with their margins, nearest range first."""
     own, power = parameters.value(found.gain), CONVERSIONS[found.gain].power
 
     def ends(span: Span) -> tuple[float, float]:
         low, high = span.low.value, span.high.value
         return (low, high) if own < low else (high, low)
 
-    for span in sorted(found.calm, key=lambda span: abs(math.log(ends(span)[0] / own)) if own > 0 else ends(span)[0]):
+    for span in sorted(
+        found.without_whirl, key=lambda span: abs(math.log(ends(span)[0] / own)) if own > 0 else ends(span)[0]
+    ):
         near, far = ends(span)
         inward = math.copysign(1.0, far - near)
         middle = math.sqrt(near * far)

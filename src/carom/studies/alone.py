@@ -99,7 +99,7 @@ class LevitationAlone:
     fastest: float = FASTEST
 
     @property
-    def calm(self) -> tuple[Span, ...]:
+    def without_whirl(self) -> tuple[Span, ...]:
         """The parts of the spans in which every disturbance came back."""
         return tuple(part for span in self.spans for part in outside(self.whirl, span))
 

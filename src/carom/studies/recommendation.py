@@ -121,7 +121,7 @@ def recommend(study: Study) -> Recommendation:
     margins = [
         (entry.gain, margin)
         for entry in study.alone
-        for span in entry.calm
+        for span in entry.without_whirl
         if (present := study.case.parameters.value(entry.gain)) in span
         and (margin := _nearest(entry.gain, present, span))
     ]
@@ -154,14 +154,14 @@ def _change(study: Study, advice: Advice) -> Change:
     gain, value, parameters = advice.gain, advice.value, study.case.parameters
     rotor, present = Jeffcott(parameters.replace(**{gain: value})), parameters.value(gain)
     radius = abs(rotor.equilibrium)
-    calm = next((span for span in _calm(study, gain) if value in span), None) if advice.alone else None
+    within = next((span for span in _without_whirl(study, gain) if value in span), None) if advice.alone else None
     margin: Margin | None = None
     far: Edge | None = None
     bound: Bound = "about"
     tried: tuple[Tried, ...] = ()
-    if calm is not None:
+    if within is not None:
         upward = present < value
-        near, end = (calm.low, calm.high) if upward else (calm.high, calm.low)
+        near, end = (within.low, within.high) if upward else (within.high, within.low)
         margin, far = Margin(_best_known(study, gain, near), advice.margin), end if _happens(end) else None
         tried = _tried(study, gain, value, end.value)
         if far is None and tried and advice.returned.count == advice.returned.total:
@@ -184,9 +184,9 @@ def _best_known(study: Study, gain: Gain, edge: Edge) -> Edge:
     return exact[0] if exact and edge.kind != "simulated" else edge
 
 
-def _calm(study: Study, gain: Gain) -> tuple[Span, ...]:
+def _without_whirl(study: Study, gain: Gain) -> tuple[Span, ...]:
     found = study.alone_along(gain)
-    return found.calm if found else ()
+    return found.without_whirl if found else ()
 
 
 def _tried(study: Study, gain: Gain, value: float, end: float) -> tuple[Tried, ...]:

@@ -45,7 +45,7 @@ def _met(study: Study, found: LevitationAlone) -> str:
 def _came_back(study: Study, found: LevitationAlone) -> str:
     if not found.whirl:
         return "all came back"
-    if not found.calm:
+    if not found.without_whirl:
         return "some got into backward whirl, at every value; all others came back"
     whirl = study.wording.where(found.gain, found.whirl, None)
     return f"some got into backward whirl ({whirl}), all others came back"

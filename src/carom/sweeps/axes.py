@@ -71,7 +71,7 @@ class GridAxis:
         if not (isinstance(count, Integral) and 2 <= count <= LONGEST_AXIS):
             allowed = f"must be a whole number from 2 to {LONGEST_AXIS}: how many values"
             problems.errors.append(InputError(f"{where}.count", shown(count), allowed))
-        problems.tell()
+        problems.raise_all()
         first, last = cast("list[float]", ends)
         if first == last:
             raise InputError(f"{where}.to", shown(high), "must be another value than from")
@@ -93,7 +93,7 @@ class GridAxis:
         field, problems = _field(parameter), Problems()
         where = f"axes.{field.name}.values"
         numbers = [problems.attempt(_number, where, field, value) for value in values]
-        problems.tell()
+        problems.raise_all()
         if not 0 < len(set(numbers)) == len(numbers) <= LONGEST_AXIS:
             raise InputError(where, shown(list(values)), f"must be different values, 1 to {LONGEST_AXIS} of them")
         return cls(field.name, "list", tuple(cast("list[float]", numbers)), len(numbers), _own(parameter))

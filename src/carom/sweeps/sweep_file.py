@@ -105,7 +105,7 @@ def load_sweep(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Sw
     case = problems.attempt(load, machine, listed) if top else None
     axes = problems.attempt(_axes, tables.get("axes"), listed, case)
     task = problems.attempt(_task, tables, top, case)
-    problems.tell()
+    problems.raise_all()
     case, axes, task, top = cast("tuple[Case, tuple[GridAxis, ...], Task, _Top]", (case, axes, task, top))
     chunk = cut(tuple(axis.count for axis in axes), task, top.chunk)
     names = [setting.partition("=")[0].strip() for setting in listed]
@@ -153,7 +153,7 @@ def _axes(tables: object, settings: list[str], case: Case | None) -> tuple[GridA
     problems = Problems()
     problems.attempt(_check_varied, list(tables), settings)
     axes = [problems.attempt(_axis, case, name, table) for name, table in tables.items() if name in SETTABLE]
-    problems.tell()
+    problems.raise_all()
     return cast("tuple[GridAxis, ...]", tuple(axes))
 
 
@@ -169,7 +169,7 @@ def _check_varied(axes: list[str], settings: list[str]) -> None:
         check_names,
         {name: how for name, how in {**names, **dict.fromkeys(axes, "varied")}.items() if name not in unknown},
     )
-    problems.tell()
+    problems.raise_all()
 
 
 def _axis(case: Case | None, name: str, given: object) -> GridAxis:
@@ -179,7 +179,7 @@ def _axis(case: Case | None, name: str, given: object) -> GridAxis:
         problems.attempt(check_varied, case, name)
     table = problems.attempt(_read, _Axis, given, where)
     axis = problems.attempt(_values, name, table) if table else None
-    problems.tell()
+    problems.raise_all()
     return cast("GridAxis", axis)
 
 
@@ -194,14 +194,14 @@ def _values(name: str, table: _Axis) -> GridAxis:
             if value is not None
         ]
         axis = problems.attempt(GridAxis.of, name, table.values)
-        problems.tell()
+        problems.raise_all()
         return cast("GridAxis", axis)
     problems.errors += [
         InputError(f"{where}.{key}", None, f"missing; {_ALLOWED[key]}; or give values = [...]")
         for key, value in ends.items()
         if value is None
     ]
-    problems.tell()
+    problems.raise_all()
     low, high, count = cast("tuple[_Value, _Value, int]", (table.start, table.end, table.count))
     return GridAxis.between(name, low, high, count, table.spacing or "linear")
 
@@ -224,7 +224,7 @@ def _task(tables: Mapping[str, object], top: _Top | None, case: Case | None) -> 
     if top and top.seed is not None and not study.disturbances:
         allowed = "allowed only with simulated disturbances; leave it out, or set study.disturbances above 0"
         problems.errors.append(InputError("seed", top.seed, allowed))
-    problems.tell()
+    problems.raise_all()
     return cast("StudyTask", task)
 
 
@@ -233,7 +233,7 @@ def _basins(given: object, scales: Scales | None) -> BasinsTask:
     basins = problems.attempt(_read, _Basins, given, "basins")
     table = given.get("disturbance") if isinstance(given, dict) else None
     found = problems.attempt(_disturbance, table, scales) if isinstance(table, dict) else None
-    problems.tell()
+    problems.raise_all()
     basins, (kind, sizes) = cast("tuple[_Basins, tuple[str, _Sizes]]", (basins, found))
     units = MODELS[kind].measured_in
     own = {name: value / getattr(scales, units[name]) if si else value for name, (value, si) in sizes.items()}
@@ -265,7 +265,7 @@ def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, 
             sizes[name] = field.default, False
         elif name not in meant:
             problems.errors.append(InputError(f"{where}.{name}", None, f"missing; a {kind} needs it"))
-    problems.tell()
+    problems.raise_all()
     return kind, cast("_Sizes", sizes)
 
 

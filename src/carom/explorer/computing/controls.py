@@ -112,7 +112,7 @@ def with_settings(case: Case, settings: Mapping[str, str]) -> Case:
         given = problems.attempt(read_quantity, field, with_unit(kinds[name].unit, text))
         if given is not None:
             numbers[name] = given
-    problems.tell()
+    problems.raise_all()
     return case.replace(**numbers)
 
 
