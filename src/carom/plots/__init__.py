@@ -6,6 +6,12 @@ does not change the user's settings or backend.  :mod:`carom.plots.style` explai
 Where a function has the argument `axes`, it draws into these axes of the user; by default it makes a new figure.  A new
 figure is 180 mm wide (two columns of a page) unless its function says otherwise.  Lengths are in units of the clearance
 and times in units of ``1/Ω``, in SI units too if the machine is known.
+
+Motions and orbits are drawn by ``motions``, ``histories``, ``touchdowns``, ``spectra``, ``overviews`` and ``conditions``; along
+parameters ``diagrams`` with ``coexistence`` and ``proven``, ``regions`` and ``responses``; disturbances ``basins`` with ``rings``,
+``gains``, ``sweeps`` and ``attractor_shares``.  Shared are ``style`` (what colours mean), ``sheet`` (the style sheet),
+``figure`` (a figure that keeps it), ``arrangement`` (layout), ``files``, ``plane`` (the clearance circle), ``bands``, ``cells``,
+``closeups``, ``numerals``, ``placement`` and ``words``.
 """
 
 from __future__ import annotations
