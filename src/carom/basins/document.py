@@ -20,7 +20,6 @@ from carom.basins.losses import SmallestLoss, size_coordinate
 from carom.basins.shares import Share, starts_enough
 from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, harmless_step
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
-from carom.models import jeffcott_of
 from carom.outcome import InputError
 from carom.results import fields_of
 
@@ -64,18 +63,17 @@ def basin_document(
     model = basin.plan.model
     if smallest is not None and smallest.kind != "kick":
         document |= _loss(smallest, basin, smallest.kind)
+    proven: dict[str, tuple[float, str]] = {}
     if isinstance(model, UnbalanceStep):
-        document["harmless_step"] = harmless_step(jeffcott_of(basin.rotor))
-        if scales is not None:
-            document["harmless_step_si"] = document["harmless_step"] * scales.length
+        proven["harmless_step"] = harmless_step(basin.rotor), "length"
     if isinstance(model, BladeLoss):
-        document["harmless_blade_loss"] = harmless_blade_loss(basin.rotor)
-        if scales is not None:
-            document["harmless_blade_loss_si"] = document["harmless_blade_loss"] * scales.length
+        proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor), "length"
     if isinstance(model, BaseShock):
-        document["harmless_shock"] = harmless_shock(basin.rotor, model.duration)
+        proven["harmless_shock"] = harmless_shock(basin.rotor, model.duration), "acceleration"
+    for name, (size, scale) in proven.items():
+        document[name] = size
         if scales is not None:
-            document["harmless_shock_si"] = document["harmless_shock"] * scales.acceleration
+            document[f"{name}_si"] = size * getattr(scales, scale)
     if gains is not None:
         document["gains"] = _gains(gains, change, wanted)
     return document

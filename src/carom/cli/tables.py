@@ -208,7 +208,7 @@ def _motions(rows: list[MotionRow], title: str, width: int) -> Table:
         "state": "state",
         "period": "period",
         "size": "radius or impact speed",
-        "impulse": "impulse a hit",
+        "impulse": "impulse per hit",
         "force": "force",
         "trials": "disturbances",
         "remark": "remark",
