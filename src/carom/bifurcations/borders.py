@@ -20,7 +20,7 @@ from carom.orbits.word import Word
 from carom.outcome import CaromError, Outcome
 from carom.results import Result
 
-STEPS = (4e-5, 1e-5, 2.5e-6)
+STEPS = (4e-5, 1e-5, 2.5e-6, 6.25e-7, 1.5625e-7)
 """Distances from the border at which both sides are examined, relative to the parameter; each a quarter of the one before."""
 BESIDE = 1e-7
 """Relative change of the velocity at the start of a simulated motion."""
@@ -31,7 +31,7 @@ LATEST = 10_000
 SHRINKS = 0.75
 """Ratio of the distances at two neighbouring steps below which they count as shrinking; a square root gives a half."""
 STAYS = 0.85
-"""Ratio above which they count as staying."""
+"""Ratio above which they count as staying; where a small jump adds to a square root, at the last steps alone."""
 LARGEST_STEP, LEAST_JUMP = 0.3, 0.01
 """Distance above which even a shrinking one is not called small, and below which one that stays is not called a jump."""
 
@@ -45,7 +45,7 @@ Verdict = Literal["continuous", "chaotic band", "jump", "undecided", "unstable"]
 class Border(Result):
     """What was found on both sides of a special point at which the word of an orbit changes.
 
-    Everything here refers to three distances from the border.  Nothing is claimed beyond them, and a motion that was simulated for
+    Everything here refers to five distances from the border.  Nothing is claimed beyond them, and a motion that was simulated for
     20,000 impacts may go elsewhere later.
 
     Attributes
@@ -90,7 +90,7 @@ class Border(Result):
         """What simulated motions did when the orbit ceased to be a motion.
 
         ``"continuous"``: they stay near, the nearer the smaller the distance; ``"chaotic band"``: they do so and are irregular at all
-        distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances;
+        distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances, no less at the smallest ones;
         ``"unstable"``: the orbit is unstable on its own side, so that no motion can be followed from it.
         """
         if not self.departures:
@@ -102,7 +102,7 @@ class Border(Result):
         if far < LARGEST_STEP and ratios and max(ratios) < SHRINKS:
             chaotic = all(value > CONFIDENT * error for value, error in self.exponents)
             return "chaotic band" if chaotic else "continuous"
-        return "jump" if min(self.departures) > LEAST_JUMP and min(ratios) > STAYS else "undecided"
+        return "jump" if min(self.departures) > LEAST_JUMP and min(ratios[-2:]) > STAYS else "undecided"
 
     @property
     def words(self) -> str:
@@ -121,7 +121,7 @@ class Border(Result):
             "continuous": "Simulated motions beyond it stay near, the nearer the closer to it: a continuous transition.",
             "chaotic band": "Simulated motions beyond it stay near, the nearer the closer to it, and are irregular with a positive "
             "exponent: a band of chaos that begins there.",
-            "jump": "Simulated motions beyond it go away from it at all three distances: a jump.",
+            "jump": "Simulated motions beyond it go away from it and do not come near as it comes close: a jump.",
             "unstable": "The orbit is unstable, so no motion was followed across.",
             "undecided": "Simulated motions beyond it do not decide between a continuous transition and a jump.",
         }[self.verdict]
