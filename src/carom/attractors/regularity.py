@@ -54,14 +54,10 @@ class Rotation:
 
 
 def rotation_of(states: np.ndarray) -> Rotation:
-    """Regularity and rotation number of a sequence of states.
+    """Regularity and rotation number of a sequence of complex states, shape (m, n).
 
     Averages with the weight ``exp(−1/(t(1 − t)))`` converge faster than any power for a quasi-periodic sequence, and like
     one over the root of its length for an irregular one (Das, Sander, Saiki and Yorke 2016).
-
-    Parameters
-    ----------
-    states : ndarray of complex, shape (m, n)
     """
     size = 1.0 + np.abs(states).max()
     values = np.concatenate([states, states.real * states.imag, np.abs(states) ** 2], axis=1) / size

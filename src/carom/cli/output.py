@@ -18,12 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Output:
-    """A directory that is being filled.
-
-    Attributes
-    ----------
-    directory : Path
-    """
+    """A directory that is being filled."""
 
     directory: Path
 

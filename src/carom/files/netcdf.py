@@ -27,13 +27,7 @@ COMPRESSION = {"zlib": True, "complevel": 2, "shuffle": True}
 
 
 def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a dataset atomically: the file is complete, or as it was before.
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
-    """
+    """Write a dataset atomically: the file is complete, or as it was before; InputError if it cannot be written."""
     encoding = {str(name): dict(COMPRESSION) for name in dataset.data_vars}
     try:
         # Encoded in memory first: the library that writes such files crashes the process when the disk is full.
@@ -45,17 +39,9 @@ def save(dataset: xarray.Dataset, path: str | os.PathLike[str]) -> None:
 
 
 def load(path: str | os.PathLike[str], needed: Sequence[str]) -> xarray.Dataset:
-    """Read a dataset into memory.
+    """Read a dataset into memory; ``needed`` are the variables that it must contain.
 
-    Parameters
-    ----------
-    needed : sequence of str
-        Variables that the dataset must contain.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, is damaged, or does not contain the variables.
+    A file that cannot be read, is damaged or does not contain them is refused.
     """
     import xarray
 

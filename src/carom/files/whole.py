@@ -11,17 +11,8 @@ from pathlib import Path
 def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
     """Write a file atomically: under a temporary name until all of it is on the disk.
 
-    Parameters
-    ----------
-    target : Path
-        Replaced if it exists.
-    parts : Path, optional
-        Directory on the same file system for the unfinished file; by default that of the target.
-
-    Raises
-    ------
-    OSError
-        The file cannot be written; an existing one is unchanged.
+    An existing file is replaced; if an OSError occurs, it is unchanged.  The unfinished file is in ``parts``, a directory on the same
+    file system, by default that of the target.
     """
     part = (parts or target.parent) / _unfinished()
     try:
@@ -39,13 +30,7 @@ def write_whole(target: Path, data: bytes, parts: Path | None = None) -> None:
 
 
 def try_place(target: Path) -> None:
-    """Test whether a file can be written, and leave no trace.
-
-    Raises
-    ------
-    OSError
-        The file cannot be written.
-    """
+    """Test whether a file can be written, and leave no trace; OSError if not."""
     part = target.parent / _unfinished()
     try:
         part.touch(exist_ok=False)

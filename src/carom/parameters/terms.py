@@ -215,13 +215,7 @@ def set_by(name: str) -> str:
 
 
 def field_to_vary(name: str) -> Field:
-    """Field of a parameter of the planar rotor.
-
-    Raises
-    ------
-    InputError
-        There is no such parameter, or it is an entry that stands for one.
-    """
+    """Field of a parameter of the planar rotor; refuse an unknown name, and an entry that stands for a parameter."""
     if name not in PARAMETERS:
         raise no_such_parameter(name, "to vary", PARAMETERS, has_scales=True)
     return PARAMETERS[name]

@@ -132,13 +132,7 @@ def short_return(half: Any, split: Any, period: Any) -> tuple[Any, Any] | None:
         a₁₂ = 1/(PT) − Σ B₂ₖ/(2k)! T^{2k−1} h₂ₖ₋₂,      a₂₂ = −1/2 − Σ B₂ₖ/(2k)! T^{2k−1} h₂ₖ₋₁ .
 
     What is left out is bounded with ``|B₂ₖ/(2k)!| ≤ 4(2π)^{−2k}`` and ``|hₙ| ≤ (n + 1)Lⁿ``, ``L = |S/2| + √|D|``, on a circle
-    of the variable of the power series, by Cauchy's estimate.
-
-    Parameters
-    ----------
-    half, split : acb or acb_series, arb or arb_series
-        ``S/2`` and ``D = S²/4 − P``.
-    period : arb or arb_series
+    of the variable of the power series, by Cauchy's estimate.  The arguments are ``S/2``, ``D = S²/4 − P`` and ``T``.
     """
     total, product = half * 2, half * half - split
     if not first(product * period).abs_lower() > 0:

@@ -13,14 +13,9 @@ from carom.parameters import Parameters
 def attractors_document(
     parameters: Parameters, found: AttractorSet, characters: Sequence[Character], exponents: bool = True
 ) -> dict[str, Any]:
-    """Return the document of attractors.
+    """Return the document of attractors, with one character for each member of ``found``.
 
-    Parameters
-    ----------
-    characters : sequence of Character
-        One for each member of ``found``.
-    exponents : bool
-        Whether to tell the Lyapunov exponents.
+    ``exponents`` says whether to list the Lyapunov exponents.
     """
     total = len(found.disturbances)
     entries = [
