@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -84,3 +88,58 @@ def test_a_kernel_is_linked_although_its_first_caller_never_calls_it(tmp_path):
     for function in (root, first, outer, second, both):
         function._cache = KernelCache(function.py_func, tmp_path)
     assert both(record(values=np.array([4.0]))) == 6.0
+
+
+MODULE = """
+import numpy as np
+from carom.core.layout import kernel, record, shared
+
+@shared
+def length(values):
+    return np.sqrt((values.numbers**2).sum())
+
+@kernel
+def twice(values):
+    return 2.0 * length(values)
+
+@kernel
+def thrice(values):
+    return 3.0 * length(values)
+"""
+CALLS = """
+import sys
+import kernels_for_test as kernels
+for size in range(1, int(sys.argv[2]) + 1):  # others first: what Numba counts is then different
+    kernels.length(kernels.record(numbers=kernels.np.zeros(size), other=kernels.np.zeros(size)))
+values = kernels.record(numbers=kernels.np.array([3.0, 4.0]))
+for name in sys.argv[1].split():
+    print(getattr(kernels, name)(values), end=" ")
+for name in ("length", "twice", "thrice"):
+    print(sum(getattr(kernels, name).stats.cache_misses.values()), end=" ")
+"""
+
+
+@pytest.fixture
+def in_another_process(tmp_path):
+    """Call kernels of one module in another process; return what it prints: results, and how many of each were compiled."""
+    (tmp_path / "kernels_for_test.py").write_text(MODULE)
+    paths = {"PYTHONPATH": os.pathsep.join([str(tmp_path), *sys.path]), "CAROM_CACHE_DIR": str(tmp_path / "cache")}
+
+    def run(names, others=0):
+        command = [sys.executable, "-c", CALLS, names, str(others)]
+        done = subprocess.run(command, env=os.environ | paths, capture_output=True, text=True, check=True)
+        return done.stdout.split()
+
+    return run
+
+
+def test_machine_code_that_kernels_share_is_compiled_once_and_found_by_its_name_in_every_process(
+    in_another_process, tmp_path
+):
+    assert in_another_process("twice length") == ["10.0", "5.0", "1", "1", "0"]
+    assert in_another_process("thrice twice", others=2) == ["15.0", "10.0", "2", "0", "1"]
+    assert in_another_process("twice thrice length") == ["10.0", "15.0", "5.0", "0", "0", "0"]
+    for file in tmp_path.glob("cache/**/*.length.*"):
+        file.unlink()
+    assert in_another_process("twice thrice", others=3) == ["10.0", "15.0", "4", "0", "0"]
+    assert len(list(tmp_path.glob("cache/**/*.length.*"))) == 4

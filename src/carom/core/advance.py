@@ -9,7 +9,7 @@ from carom.core.events import INSIDE, LEAVING, search
 from carom.core.fate import forget_rub, levitates, recurs
 from carom.core.flow import acceleration, copy, displacement, squared_modulus, velocity
 from carom.core.impact import move_plane, rebound, set_on_wall, unit
-from carom.core.layout import kernel, part, passage
+from carom.core.layout import kernel, part, passage, shared
 from carom.core.planar_proofs import stays_inside
 from carom.core.rub import (
     RESTING,
@@ -49,7 +49,7 @@ LEAST_LOSS = 1e-3
 """Smallest loss of speed per bounce used in the test for the end of a chatter; an elastic one would never end."""
 
 
-@kernel
+@shared
 def advance(rotor, table, amplitudes, until, contact, times, phases, planes, before, after, memory, work, rub):
     """Follow a motion until a given time, until the log is full, or until it settles.
 

@@ -14,6 +14,7 @@ import pickle
 import sys
 from contextlib import suppress
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +74,10 @@ class KernelCache(_Cache):  # type: ignore[misc]
             with suppress(OSError):
                 file.unlink()
             return None
-        return CompileResult._rebuild(target_context, *pickle.loads(data[CHECKSUM:]))
+        needs, reduced = pickle.loads(data[CHECKSUM:])
+        for module, name, args in needs:  # machine code that this one calls
+            getattr(import_module(module), name).compile(args)
+        return CompileResult._rebuild(target_context, *reduced)
 
     def save_overload(self, sig: Any, data: CompileResult) -> None:
         """Write a version to the cache; if that fails, only this process uses it."""
@@ -83,7 +87,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
             tell_once()
             return
         origin = self._origin(sig, data.codegen)
-        content = dumps(data._reduce())
+        content = dumps((list(getattr(data.library, "needs", ())), data._reduce()))
         try:
             write_whole(self.directory / self._name(origin), _checksum(origin, content) + content, self.directory)
         except OSError:

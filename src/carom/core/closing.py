@@ -25,7 +25,7 @@ from carom.core.contact_series import FLIGHT
 from carom.core.fate import same_state
 from carom.core.flow import copy, displacement, squared_modulus, velocity
 from carom.core.impact import unit
-from carom.core.layout import NEAR, kernel, part
+from carom.core.layout import NEAR, kernel, part, shared
 from carom.core.variation import section_jacobian, set_amplitude_change
 from carom.outcome import Outcome
 
@@ -60,7 +60,7 @@ ALIGNED = 0.1
 """Largest component of a difference across the previous one, relative to it, if both form a geometric series."""
 
 
-@kernel
+@shared
 def least_period(rotor, table, state, count, log, memory, work, rub):
     """Number of impacts in the period of the orbit that a motion approaches.
 

@@ -8,17 +8,19 @@ called by kernels only, so most of their machine code would never run.
 from __future__ import annotations
 
 import gc
+from hashlib import sha256
 from typing import Any
 
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
+from numba.core.funcdesc import default_mangler
 from numba.core.registry import CPUDispatcher
 from numba.core.types import unliteral  # type: ignore[attr-defined]
 
 from carom.core.shapes import ShapedCompiler
 
-__all__ = ["CallerPipeline", "serve_kernels"]
+__all__ = ["CallerPipeline", "SharedPipeline", "serve_kernels", "share_machine_code"]
 
 
 def serve_kernels(kernel: Any) -> None:
@@ -27,6 +29,21 @@ def serve_kernels(kernel: Any) -> None:
     twin = _IntermediateKernel(kernel.py_func, locals={}, targetoptions=options, pipeline_class=_Pipeline)
     twin._compiler = _IntermediateCompiler(kernel.py_func, twin.targetdescr, options, {}, _Pipeline)
     kernel.get_call_template, kernel.get_overload = twin.get_call_template, twin.get_overload
+
+
+def share_machine_code(kernel: Any) -> None:
+    """Make the kernels that call a kernel use its machine code, which is compiled once for them and for Python.
+
+    Callers are kept on the disk with the name that they call, which :class:`SharedPipeline` makes the same in each process.
+    """
+    add_overload, get_call_template = kernel.add_overload, kernel.get_call_template
+
+    def add(result: CompileResult) -> None:
+        result.library.version = kernel.py_func.__module__, kernel.py_func.__name__, result.signature.args
+        add_overload(result)
+
+    kernel.add_overload = add
+    kernel.get_call_template = lambda args, kws: get_call_template(tuple(map(unliteral, args)), kws)
 
 
 class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
@@ -62,7 +79,7 @@ class _IntermediateLibrary(JITCodeLibrary):  # type: ignore[misc]
         """Code of callees that the outermost caller has to link."""
         if self._finalized:
             return self._left_out
-        return list({library: None for library in self._linking_libraries if getattr(library, "apart", False)})
+        return list({library: None for library in self._linking_libraries if _is_left_out(library)})
 
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()
@@ -70,7 +87,20 @@ class _IntermediateLibrary(JITCodeLibrary):  # type: ignore[misc]
 
 
 class _CallerLibrary(JITCodeLibrary):  # type: ignore[misc]
-    """Code of a kernel that Python calls, with that of all kernels it reaches."""
+    """Code of a kernel that Python calls, with that of all kernels it reaches except those that share theirs."""
+
+    def __init__(self, *args: Any) -> None:
+        super().__init__(*args)
+        self.needs: dict[Any, None] = {}
+        """Versions of kernels whose machine code this one calls."""
+
+    def add_linking_library(self, library: Any) -> None:
+        """Add the code of a callee, unless it shares its machine code."""
+        version = getattr(library, "version", None)
+        if version is None:
+            super().add_linking_library(library)
+        else:
+            self.needs[version] = None
 
     def finalize(self) -> None:
         """Link the callees that are inlined, then the others, and optimise."""
@@ -82,6 +112,10 @@ class _CallerLibrary(JITCodeLibrary):  # type: ignore[misc]
         for library in _callers_first(_functions(self, False), self._apart):
             self._final_module.link_in(library._get_module_for_linking(), preserve=True)
         super()._optimize_final_module()
+
+
+def _is_left_out(library: Any) -> bool:
+    return getattr(library, "apart", False) or hasattr(library, "version")
 
 
 def _callers_first(called: set[str], libraries: list[_IntermediateLibrary]) -> list[_IntermediateLibrary]:
@@ -125,6 +159,21 @@ class CallerPipeline(ShapedCompiler):
         self.state.library = _CallerLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
         self.state.library.enable_object_caching()
         return super().define_pipelines()
+
+
+class SharedPipeline(CallerPipeline):
+    """Numba's compiler pipeline for kernels that share their machine code."""
+
+    def define_pipelines(self) -> Any:
+        """The steps of compilation."""
+        self.state.targetctx.mangler = self._symbol
+        return super().define_pipelines()
+
+    def _symbol(self, name: str, kinds: Any, *, abi_tags: Any = (), uid: int | None = None) -> str:
+        """Name in the machine code: that of Numba counts functions and records, and so differs between processes."""
+        if uid != self.state.func_id.unique_id:  # a function that Numba compiles for this one
+            return default_mangler(name, kinds, abi_tags=abi_tags, uid=uid)
+        return default_mangler(name, (), abi_tags=(sha256(repr(kinds).encode()).hexdigest(),))
 
 
 class _Pipeline(ShapedCompiler):

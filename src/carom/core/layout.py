@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numba
 import numpy as np
 from numba.core.registry import cpu_target
 
 from carom.core.cache import keep
-from carom.core.intermediate import CallerPipeline, serve_kernels
+from carom.core.intermediate import CallerPipeline, SharedPipeline, serve_kernels, share_machine_code
 
 __all__ = [
     "DEGREE",
@@ -33,6 +33,7 @@ __all__ = [
     "record",
     "rotor_record",
     "rub_workspace",
+    "shared",
     "table_record",
     "workspace",
 ]
@@ -314,6 +315,11 @@ def kernel(function: Kernel) -> Kernel:
     return _compile(function)
 
 
+def shared(function: Kernel) -> Kernel:
+    """Compile a large kernel, a function of a module, once for Python and for all kernels: these call its machine code."""
+    return _compile(function, SharedPipeline, share_machine_code)
+
+
 def part(function: Kernel) -> Kernel:
     """Compile a small kernel inline into each of its callers: no call, and code a caller does not need is dropped."""
     return _compile(function, forceinline=True)
@@ -324,10 +330,15 @@ def passage(function: Kernel) -> Kernel:
     return _compile(function, inline="always")
 
 
-def _compile(function: Kernel, **more: bool | str) -> Kernel:
+def _compile(
+    function: Kernel,
+    pipeline: type = CallerPipeline,
+    serve: Callable[[Any], None] = serve_kernels,
+    **more: bool | str,
+) -> Kernel:
     options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}, **more}
-    compiled = numba.jit(**options, no_cfunc_wrapper=True, pipeline_class=CallerPipeline)(function)
+    compiled = numba.jit(**options, no_cfunc_wrapper=True, pipeline_class=pipeline)(function)
     if compiled is not function:  # with the compiler switched off, jit returns the function itself
         keep(compiled)
-        serve_kernels(compiled)
+        serve(compiled)
     return compiled

@@ -7,7 +7,7 @@ numbers, arrays, strings, lists, dates.  Kernels repeat the same few hundred ope
 from __future__ import annotations
 
 from collections import defaultdict
-from typing import Any
+from typing import Any, ClassVar
 
 from numba.core import types
 
@@ -24,7 +24,7 @@ class RecallingContext:
         Definitions that Numba compiles from Python source inherit some of them, so each set of flags has its own types.
     """
 
-    _known: dict[str, dict[Any, Any]] = defaultdict(dict)
+    _known: ClassVar[dict[str, dict[Any, Any]]] = defaultdict(dict)
 
     def __init__(self, context: Any, flags: Any) -> None:
         self._context = context
