@@ -18,6 +18,8 @@ from carom.outcome import Outcome, Phase
 
 ARRIVAL_TOLERANCE = 1e-7
 """Relative difference below which the certified next event and the end of a segment count as the same event."""
+SHIFT = 1e-4
+"""Relative difference up to which they may be the same event if the rotor is on the wall from one to the other."""
 MOST_STEPS = 256
 """Steps of lasting contact in one segment."""
 INSTANT = 1e-9
@@ -125,8 +127,9 @@ def _same_arrival(rotor: Model, plane: int, after: np.ndarray, time: float, dura
 
     The nodes are on the wall as closely as Newton's method brings them, which shifts a slow arrival in time by far more.
     """
-    if abs(time - duration) <= ARRIVAL_TOLERANCE * duration:
-        return True
+    apart = abs(time - duration)
+    if apart <= ARRIVAL_TOLERANCE * duration or apart > SHIFT * duration:
+        return apart <= ARRIVAL_TOLERANCE * duration
     between, _ = rotor.system.at_plane(rotor.system.fly(after, np.array(0.5 * (time + duration))), plane)
     return bool(abs(abs(between) - 1.0) <= TOLERANCE * (1.0 + np.abs(after).max()))
 
