@@ -89,16 +89,22 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     plain = count == 1 and memory.rubbed == 0 and rotor.restitution[0] < 1.0
     if plain and same_state(memory.attracted, state, KNOWN):
         return 1
-    ahead = count if count > 0 else WATCHED
+    ahead, longest = (count, count) if count > 0 else (WATCHED, SHORT)
     states, durations = np.empty((ahead + 1, 2), np.complex128), np.empty(ahead)
     copy(state, states[0])
-    followed, bounces = _follow_impacts(rotor, table, states, durations, log, memory, work, rub)
+    followed, bounces = _follow_impacts(
+        rotor, table, states[: longest + 1], durations[:longest], log, memory, work, rub
+    )
+    if count == 0 and followed:
+        # Most irregular motions do not even come near.
+        if not _comes_back(states[: longest + 1]):
+            return 0
+        followed, _ = _follow_impacts(rotor, table, states[longest:], durations[longest:], log, memory, work, rub)
     if not followed or _fades(rotor, states, durations):
         return 0
     if count == 1 and bounces and _pulls_in(rotor, states, durations):
         copy(state, memory.attracted)
         return 1
-    longest = count if count > 0 else SHORT
     orbit = np.empty((longest + 1, 2), np.complex128)
     closes, passes = False, False
     for impacts in range(1, longest + 1):
@@ -115,6 +121,15 @@ def least_period(rotor, table, state, count, log, memory, work, rub):
     if passes and count > 0:
         return PASSES
     return count if closes else 0
+
+
+@kernel
+def _comes_back(states):
+    """Whether one of the states is close to the first."""
+    i = 1
+    while i < states.shape[0] and not same_state(states[0], states[i], AROUND):
+        i += 1
+    return i < states.shape[0]
 
 
 @kernel
