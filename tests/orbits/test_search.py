@@ -72,6 +72,22 @@ def test_an_orbit_that_attracts_one_start_in_a_thousand_is_found():
     assert f"{found.settled} motions were followed" in found.argument
 
 
+@pytest.mark.jit_only
+def test_bounces_lower_than_rounding_are_no_orbit():
+    machine = PAPER.replace(
+        gamma=0.03720271908029623,
+        omega=0.5477059666138558,
+        rho=0.42143003654730754,
+        phi=1.6680640870879264,
+        mu=0.07864579382234652,
+        d=0.8719818046776144,
+        radius_ratio=75.45770866643024,
+    )
+    proven = [orbit for orbit in find_orbits(machine) if orbit.admissible]
+    found = find_orbits(machine, impacts=1, starts=15)
+    assert all(any(same_orbit(orbit, other) for other in proven) for orbit in found)
+
+
 def test_the_same_seed_finds_the_same():
     first, second = (find_orbits(DOUBLED, impacts=2, starts=sized(4, 1), seed=3) for _ in range(2))
     assert [orbit.period for orbit in first] == [orbit.period for orbit in second]

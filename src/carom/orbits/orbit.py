@@ -303,10 +303,14 @@ def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | Cou
     if start.nodes.shape != shape or start.durations.shape != shape[:1]:
         raise InputError("start", start.nodes.shape, f"nodes of shape {shape} and {shape[0]} durations")
     links = converged(rotor, word, start)
-    # A chatter that does not rebound at all takes no time.
-    if links is None or (links.start.durations < np.where(word.kinds == Kind.LAND, 0.0, SHORTEST)).any():
+    if links is None or not lasts(word, links.start):
         return None
     return orbit_of_links(rotor, word, links, name)
+
+
+def lasts(word: Word, solution: Start) -> bool:
+    """Whether each segment of a solution lasts; a chatter that does not rebound at all takes no time."""
+    return bool((solution.durations >= np.where(word.lands, 0.0, SHORTEST)).all())
 
 
 def orbit_of_links(rotor: Model, word: Word, links: Links, name: OrbitName | CountedName | None = None) -> Orbit:

@@ -13,7 +13,7 @@ from carom.motions.ensembles import settle
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.names import CountedName
-from carom.orbits.orbit import Orbit, OrbitSequence, orbit_of_links, same_orbit
+from carom.orbits.orbit import Orbit, OrbitSequence, lasts, orbit_of_links, same_orbit
 from carom.orbits.recognising import orbit_of_motion, segments_of
 from carom.orbits.shooting import Start, converged, pack
 from carom.orbits.word import Word
@@ -245,10 +245,10 @@ class _Search:
         links = converged(self.rotor, word, guess)
         if links is not None and _is_among(pack(links.start), known, SAME):
             links = converged(self.rotor, word, guess, known)
-            if links is None or (links.start.durations <= 0.0).any():
+            if links is None or not lasts(word, links.start):
                 self.repeats += 1
                 return
-        if links is None or (links.start.durations <= 0.0).any():
+        if links is None or not lasts(word, links.start):
             self.failures += 1
             return
         orbit = orbit_of_links(self.rotor, word, links)
