@@ -208,3 +208,12 @@ def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
     for at in branch.orbits[::4]:
         motion = at.trajectory(3.0)
         assert abs(motion.at_plane(np.array([motion.time]))[0][0] - at.position) < 1e-8
+
+
+def test_neimark_sacker_points_have_a_pair_of_multipliers_on_the_unit_circle():
+    """A multiplier without bound at the end of a step is none of them."""
+    branch = located("grazing", 0.0826743).switch((0.07, 0.0999))
+    turning = [point.orbit.multipliers.values for point in branch.special if point.kind == "neimark-sacker"]
+    assert turning
+    for values in turning:
+        assert np.abs(np.abs(values) - 1.0).min() < 1e-7

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.continuation.roots import bracketed_root, sign_change
+from carom.continuation.roots import bracketed_root, narrowed, sign_change
 from carom.outcome import CaromError
 
 
@@ -31,3 +31,13 @@ def test_sign_change_next_to_where_a_function_begins(mirror):
     assert sign_change(np.cosh, *ends) is None
     assert sign_change(lambda x: np.nan, *ends) is None
     assert sign_change(lambda x: x - mirror, *ends) == tuple(ends)
+
+
+def test_narrowed_to_neighbours_between_which_the_sign_changes():
+    places = np.linspace(0.0, 1.0, 17).tolist()
+    for root in (0.01, 0.3, 0.999):
+        low, high = narrowed(lambda x, root=root: x - root, places)
+        assert low < root < high
+        assert high - low == pytest.approx(1.0 / 16.0)
+    low, high = narrowed(lambda x: x - 0.5 if x > 0.4 else np.nan, places)
+    assert low < 0.4 < high

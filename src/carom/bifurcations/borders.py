@@ -102,7 +102,9 @@ class Border(Result):
         if far < LARGEST_STEP and ratios and max(ratios) < SHRINKS:
             chaotic = all(value > CONFIDENT * error for value, error in self.exponents)
             return "chaotic band" if chaotic else "continuous"
-        return "jump" if min(self.departures) > LEAST_JUMP and min(ratios[-2:]) > STAYS else "undecided"
+        # What shrinks like a root cannot be as far away as that at the smallest of these distances.
+        away = min(self.departures) > LARGEST_STEP
+        return "jump" if away or (min(self.departures) > LEAST_JUMP and min(ratios[-2:]) > STAYS) else "undecided"
 
     @property
     def words(self) -> str:

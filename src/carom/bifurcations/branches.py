@@ -316,6 +316,7 @@ def continue_single_impact(orbit: Orbit, parameter: str, interval: Ends, steps: 
         steps=steps or STEPS,
         scales=np.array([1.0, 1.0, size]),
         reach=relative_to_speed,
+        crossings="",
     )
     special = (_bifurcation(point, along.name, numbers_at(point.parameter), pair) for point in branch.special)
     return OrbitBranch(
@@ -340,14 +341,14 @@ def continue_single_impact(orbit: Orbit, parameter: str, interval: Ends, steps: 
 def _bifurcation(point: SpecialPoint, parameter: str, numbers: Numbers, pair: int) -> Bifurcation | None:
     """Special point of the continuation as a bifurcation of orbits; ``None`` if it is none.
 
-    Branch points of the continuation are not bifurcations of orbits, nor are two real multipliers with the product one
-    a Neimark–Sacker bifurcation.  The height of the radius also changes sign where the orbit shrinks to nothing and,
-    without rebound, where its maximum emerges from the impact as lasting contact begins; neither is grazing.
+    Two real multipliers with the product one are no Neimark–Sacker bifurcation.  The height of the radius also changes sign
+    where the orbit shrinks to nothing and, without rebound, where its maximum emerges from the impact as lasting contact
+    begins; neither is grazing.
     """
     at = numbers, float(point.unknowns[0]), float(point.unknowns[1])
     conditions = conditions_at(*at)
     kind = point.kind
-    if kind in ("branch point", BOUNDLESS) or (kind == "neimark-sacker" and abs(conditions.pair_sum) >= 2.0):
+    if kind == BOUNDLESS or (kind == "neimark-sacker" and abs(conditions.pair_sum) >= 2.0):
         return None
     if kind == "grazing" and (abs(at[2]) < NOTHING or not profile_at(*at).top > EMERGING * at[1]):
         return None

@@ -263,6 +263,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         reach=relative_to_speed if definition.unknowns else None,
         # A fold in the second parameter is only a turning point of the curve.
         folds="turning point",
+        crossings="",
     )
     shown = np.array([*np.full(definition.unknowns, np.inf), *plane.widths])
     rows = refined_points(

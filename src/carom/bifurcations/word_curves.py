@@ -128,6 +128,7 @@ def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None 
         scales=sizes,
         # A fold in the second parameter is only a turning point of the curve.
         folds="turning point",
+        crossings="",
     )
     return _curve(special, plane, equations, branch)
 
@@ -157,7 +158,7 @@ def _curve(special: Bifurcation, plane: Plane, equations: _CurveEquations, branc
     points = [equations.point(row) for row in rows]
     meetings = []
     for point in branch.special:
-        if point.kind in (EDGE, "turning point", "branch point"):
+        if point.kind in (EDGE, "turning point"):
             continue
         x = np.append(point.unknowns, point.parameter)
         at = equations.point(x)

@@ -6,6 +6,8 @@ from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
+from math import isfinite, prod
 
 import numpy as np
 
@@ -13,7 +15,7 @@ from carom.continuation import Watch
 from carom.core.segments import LEAST_PUSH
 from carom.models import Model
 from carom.models.axes import Axis
-from carom.orbits.orbit import Margins, margins_of, on_section
+from carom.orbits.orbit import Margins, margins_of
 from carom.orbits.shooting import Links, closed_flights, links_of, pack, unpack, unpack_free
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
@@ -61,43 +63,45 @@ class FamilyPoint:
         return self.margins.normal_force if goes_on.any() else np.inf
 
     @cached_property
-    def multipliers(self) -> np.ndarray:
+    def multipliers(self) -> list[complex]:
         """Non-trivial multipliers; ``nan`` where an impact grazes."""
-        section = on_section(self.links)
-        if not np.isfinite(section).all():
-            return np.full(len(section), np.nan + 0j)
-        return np.linalg.eigvals(section).astype(complex)
+        monodromy = self.links.monodromy
+        if not np.isfinite(monodromy).all():
+            return [complex(np.nan)] * (len(monodromy) - 1)
+        found: list[complex] = np.linalg.eigvals(monodromy).astype(complex).tolist()
+        # The derivative of the return to the wall has a zero of its own.
+        found.remove(min(found, key=abs))
+        return found
 
     @property
-    def pairs(self) -> tuple[np.ndarray, np.ndarray]:
+    def pairs(self) -> list[tuple[complex, complex]]:
         """Products and sums of the multipliers, two at a time."""
-        first, second = np.triu_indices(len(self.multipliers), 1)
-        return self.multipliers[first] * self.multipliers[second], self.multipliers[first] + self.multipliers[second]
+        return [(first * second, first + second) for first, second in combinations(self.multipliers, 2)]
 
     @property
     def pair_sum(self) -> float:
         """Sum of the two multipliers whose product is closest to one: ``2 cos α`` on a Neimark–Sacker curve."""
-        products, sums = self.pairs
-        return float(sums[np.argmin(np.abs(products - 1.0))].real)
+        return min(self.pairs, key=lambda pair: abs(pair[0] - 1.0))[1].real
 
 
 def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | None:
     """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
     start = unpack_free(word, unknowns)
     # The contact after a chatter may vanish: lasting contact begins there.
-    if (start.durations[~(word.lands | word.landed)] < SHORTEST).any():
+    if start.durations.min(where=word.timed, initial=np.inf) < SHORTEST:
         return None
     links = links_of(rotor, word, start)
-    return FamilyPoint(rotor, word, links) if np.isfinite(links.size) else None
+    return FamilyPoint(rotor, word, links) if isfinite(links.residual.sum()) else None
 
 
 TESTS: dict[str, Callable[[FamilyPoint], float]] = {
-    "fold": lambda point: float(np.prod(1.0 - point.multipliers).real),
-    "period-doubling": lambda point: float(np.prod(1.0 + point.multipliers).real),
-    "neimark-sacker": lambda point: float(np.prod(point.pairs[0] - 1.0).real),
-    # Without maxima the margin is that of a flight through the centre: their birth is not an event.
-    "grazing": lambda point: min(point.margins.radius, 1.0),
+    "fold": lambda point: prod([1.0 - each for each in point.multipliers], start=1.0 + 0j).real,
+    "period-doubling": lambda point: prod([1.0 + each for each in point.multipliers], start=1.0 + 0j).real,
+    "neimark-sacker": lambda point: prod([product - 1.0 for product, _ in point.pairs], start=1.0 + 0j).real,
     "vanishing-impact": lambda point: point.margins.approach,
+    # Without maxima the margin is that of a flight through the centre: their birth is not an event.  A flight that meets the wall
+    # from outside has a maximum beyond the wall.
+    "grazing": lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else np.nan,
     "slip-stop": lambda point: point.margins.slip,
     "contact-onset": lambda point: point.onset,
     "permanent-contact": lambda point: point.least_push,

@@ -275,6 +275,7 @@ def _follow(
         solver=family.solved,
         steps=steps or STEPS,
         scales=np.append(np.ones(len(start)), family.size),
+        crossings="",
     )
     passed = branch.of_kind("period-halving"), branch.of_kind("vanishing-impact")
     whole = [family.whole(u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
@@ -350,9 +351,7 @@ def _is_special(
     """
     if point.kind == "period-halving":
         return True
-    if point.kind in ("branch point", FAR, LYING) or any(
-        abs(point.place - halving.place) < 1e-3 for halving in halvings
-    ):
+    if point.kind in (FAR, LYING) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
         return False
     if point.kind == "grazing" and any(_meet(point, other) for other in vanishing):
         return False

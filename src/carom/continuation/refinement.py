@@ -41,7 +41,7 @@ def refined_points(
     ndarray, shape (m, n + 1)
         Unknowns and parameter, in the order of the branch.
     """
-    tracer = Tracer(residual, jacobian, scales, (-np.inf, np.inf), (), steps or Steps(), "")
+    tracer = Tracer(residual, jacobian, scales, (-np.inf, np.inf), (), steps or Steps(), "", "")
     places = np.concatenate([np.arange(len(branch.parameters)), [point.place for point in branch.special]])
     own = np.column_stack([branch.unknowns, branch.parameters])
     special = np.array([[*point.unknowns, point.parameter] for point in branch.special]).reshape(-1, own.shape[1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -76,3 +76,21 @@ def sign_change(
             return min(middle, defined), max(middle, defined)
         undefined, defined = (middle, defined) if math.isnan(value) else (undefined, middle)
     return None
+
+
+def narrowed(function: Callable[[float], float], places: Sequence[float]) -> tuple[float, float]:
+    """Two neighbours among ascending places between which a function changes sign, or ceases to be defined, as between the ends."""
+    first, last = 0, len(places) - 1
+    ends = _sign(function(places[first])), _sign(function(places[last]))
+    while last - first > 1:
+        middle = (first + last) // 2
+        sign = _sign(function(places[middle]))
+        if sign not in ends:
+            break
+        first, last = (middle, last) if sign == ends[0] else (first, middle)
+    return places[first], places[last]
+
+
+def _sign(value: float) -> float | None:
+    """Sign of a number; ``None`` if it is ``nan``."""
+    return None if math.isnan(value) else math.copysign(1.0, value) if value else 0.0

@@ -20,7 +20,7 @@ from functools import cached_property
 import numpy as np
 
 from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
-from carom.continuation.roots import bracketed_root, sign_change
+from carom.continuation.roots import HALVINGS, bracketed_root, narrowed, sign_change
 from carom.outcome import CaromError, InputError
 
 Function = Callable[[np.ndarray, float], np.ndarray]
@@ -34,10 +34,13 @@ UPRIGHT = 0.2
 """Share of the parameter in the tangent above which points are sought at fixed parameter, if there is a solver for that."""
 ROUNDING = 1e-14
 """Value of a watched function that counts as zero, relative to its values at the ends of a step."""
+LEVEL = 1e-12
+"""Share of the parameter in the tangent that counts as none: at a fold the parameter is exact to its square."""
 ON_LIMIT = 1e-9
 """Largest value of a limit, relative to its range, at which a point counts as on it."""
 JUMP = 1e-4
-"""Largest remaining value of a watched function at a zero, relative to its values at the ends of the bracket.
+"""Largest remaining value of a watched function at a zero, relative to its values on the step, or at the ends of the bracket if
+it is not defined on all of it.
 
 At a jump more remains.
 """
@@ -56,6 +59,7 @@ def continue_branch(
     reach: Callable[[np.ndarray], float] | None = None,
     solver: Solver | None = None,
     folds: str = "fold",
+    crossings: str = "branch point",
 ) -> Branch:
     """Follow the branch of solutions through a point, in both directions.
 
@@ -80,8 +84,9 @@ def continue_branch(
     solver : callable, optional
         Of ``u`` and ``p``: the solution next to ``u`` at this parameter, or ``None``.  It is asked where the branch is not
         close to a fold, and saves evaluations where the equations at another parameter take long to set up.
-    folds : str
-        Kind under which turning points of the parameter are listed; branch points are listed as ``"branch point"``.
+    folds, crossings : str
+        Kinds under which turning points of the parameter are listed, and points where another branch crosses; empty if these are
+        not wanted.
 
     Raises
     ------
@@ -94,7 +99,7 @@ def continue_branch(
         raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
     start = np.append(np.asarray(unknowns, float), parameter)
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
-    tracer = Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, reach, solver)
+    tracer = Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, crossings, reach, solver)
     first, tangent = tracer.begin(start / sizes)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
@@ -138,6 +143,7 @@ class Tracer:
     watches: Sequence[Watch]
     steps: Steps
     folds: str
+    crossings: str
     reach: Callable[[np.ndarray], float] | None = None
     solver: Solver | None = None
 
@@ -210,6 +216,10 @@ class Tracer:
                 return np.append(found / self.scales[:-1], guess[-1])
         return self.correct(guess, here.tangent, here.inverse)
 
+    def near_fold(self, guess: np.ndarray, here: _Point) -> np.ndarray | None:
+        """The same beside a fold, in the normal hyperplane: by Newton's method, for the direction of the branch has to be exact."""
+        return self.correct(guess, here.tangent, applied(np.linalg.inv, self.jacobian(guess), here.tangent))
+
     def walk(self, start: np.ndarray, heading: np.ndarray) -> _Path:
         """Follow the branch from a point in a direction."""
         path = _Path([start], [], "most points")
@@ -279,10 +289,11 @@ class Tracer:
         return "step too small" if np.isfinite(around).all() else "end of domain"
 
     def _watched(self, at: _Point) -> np.ndarray:
-        """Values of the relative distance to the limit, of the watches, and of the fold and branch-point functions."""
+        """Values of the relative distance to the limit, of the watches, and of the functions of folds and crossings."""
         u, p = self.plain(at.x)
         watches = [watch.function(u, p) for watch in self.watches]
-        return np.array([self._margin(p), *watches, at.tangent[-1], self._crossing(at)])
+        crossing = [self._crossing(at)] if self.crossings else []
+        return np.array([self._margin(p), *watches, at.tangent[-1], *crossing])
 
     def _watched_value(self, which: int, x: np.ndarray, here: _Point) -> float:
         """One of the values of :meth:`_watched`, at a point on the step from ``here``."""
@@ -306,14 +317,15 @@ class Tracer:
 
     def _locate(self, path: _Path, here: _Point, there: _Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
-        kinds = ["", *(watch.kind for watch in self.watches), self.folds, "branch point"]
+        kinds = ["", *(watch.kind for watch in self.watches), self.folds, self.crossings]
         ends = [True, *(watch.ends_branch or watch.limit for watch in self.watches), False, False]
         reached: list[tuple[float, int, np.ndarray]] = []
+        known = {0.0: here.x, length: there.x}
         changed = here.watched * there.watched < 0.0
         for i in np.flatnonzero(changed | (np.isnan(here.watched) != np.isnan(there.watched))):
             if i in self.limits and there.watched[i] > 0.0:
                 continue  # It began beyond the limit by a rounding error, and comes in.
-            place = self._root_on_step(here, there, length, int(i))
+            place = self._root_on_step(here, there, known, int(i))
             if place is not None and (share is None or place[0] <= share * length):
                 reached.append((place[0], int(i), place[1]))
         for distance, which, x in sorted(reached, key=lambda item: item[0]):
@@ -324,38 +336,53 @@ class Tracer:
                 return kinds[which] or "parameter limit"
         return None
 
-    def _root_on_step(self, here: _Point, there: _Point, length: float, which: int) -> tuple[float, np.ndarray] | None:
-        """Arclength and point of a zero of a watched function.
+    def _root_on_step(
+        self, here: _Point, there: _Point, known: dict[float, np.ndarray], which: int
+    ) -> tuple[float, np.ndarray] | None:
+        """Arclength and point of a zero of a watched function; the points ``known`` by arclength become more.
 
         ``None`` if the function jumps from one sign to the other, or has one sign wherever it is defined.
         """
-        at = {0.0: here.x, length: there.x}
+        length = max(known)
         values = {0.0: float(here.watched[which]), length: float(there.watched[which])}
-        largest = max(map(abs, values.values()))
+        of_fold = which == len(self.watches) + 1
+        near = self.near_fold if of_fold else self.near
 
         def value(distance: float) -> float:
-            if distance not in values:
+            if distance not in known:
                 # On the chord between the nearest points found: the closer these are, the closer is the guess.
-                before = max(each for each in at if each < distance)
-                after = min(each for each in at if each > distance)
+                before = max(each for each in known if each < distance)
+                after = min(each for each in known if each > distance)
                 share = (distance - before) / (after - before)
-                x = self.near(at[before] + share * (at[after] - at[before]), here)
-                found = np.nan
-                if x is not None:
-                    at[distance] = x
-                    found = self._watched_value(which, x, here)
-                values[distance] = 0.0 if abs(found) <= ROUNDING * largest else found
+                x = near(known[before] + share * (known[after] - known[before]), here)
+                if x is None:
+                    return np.nan
+                known[distance] = x
+            if distance not in values:
+                values[distance] = self._watched_value(which, known[distance], here)
             return values[distance]
 
-        bracket = sign_change(value, 0.0, length)
+        smaller, size = sorted(map(abs, values.values()))
+        if smaller < JUMP * size:
+            # One end is all but a zero, or the other a pole.
+            size = min(size, abs(value(0.5 * length)))
+        nothing = LEVEL if of_fold else ROUNDING * size
+
+        def rounded(distance: float) -> float:
+            found = value(distance)
+            return 0.0 if abs(found) <= nothing else found
+
+        low, high = narrowed(rounded, sorted(known))
+        bracket = sign_change(rounded, low, high, HALVINGS - int(math.log2(length / (high - low))))
         if bracket is None:
             return None
         try:
-            distance = bracketed_root(value, *bracket, 1e-14)
+            distance = bracketed_root(rounded, *bracket, 1e-14)
         except CaromError:
             return None
-        jump = abs(values[distance]) > JUMP * max(abs(values[end]) for end in bracket)
-        return None if jump else (distance, at[distance])
+        if math.isnan(smaller + size):
+            size = max(abs(values[end]) for end in bracket)
+        return None if abs(rounded(distance)) > JUMP * size else (distance, known[distance])
 
     def _return(self, path: _Path, here: _Point, there: _Point, heading: np.ndarray) -> float | None:
         """Share of the step at which the branch passes its start again, in the initial direction."""

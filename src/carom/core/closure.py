@@ -1,4 +1,4 @@
-"""Newton's method for the equations of multiple shooting, for words of impacts with the flights after them."""
+"""The equations of multiple shooting, Newton's method for words of impacts with the flights after them, and derivatives of a period."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from carom.core.layout import kernel, part
 from carom.core.segments import follow_flights
 
-__all__ = ["close_flights", "eliminate"]
+__all__ = ["carry_through_segments", "close_flights", "eliminate", "shooting_equations"]
 
 
 @kernel
@@ -34,23 +34,13 @@ def close_flights(
     before = np.inf
     for _ in range(steps):
         follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes)
+        _assemble(nodes, arrivals, values, slopes, matrix)
         largest, size = 0.0, 1.0
-        matrix[:] = 0.0
+        for row in range(m * width):
+            largest = max(largest, abs(matrix[row, m * width]))
         for i in range(m):
-            after = (i + 1) % m
-            for row in range(width):
-                for column in range(width):
-                    matrix[i * width + row, i * width + column] += slopes[i, row, column]
             for k in range(modes):
-                apart = nodes[after, k] - arrivals[i, k]
-                matrix[i * width + k, after * width + k] -= 1.0
-                matrix[i * width + modes + k, after * width + modes + k] -= 1.0
-                matrix[i * width + k, m * width] = apart.real
-                matrix[i * width + modes + k, m * width] = apart.imag
                 size = max(size, 1.0 + abs(nodes[i, k]))
-            matrix[i * width + 2 * modes, m * width] = -values[i]
-            for row in range(width):
-                largest = max(largest, abs(matrix[i * width + row, m * width]))
         # Rounding lets the residual fall no further: the last step has converged too.
         done = largest <= tolerance * size or (largest <= 1e3 * tolerance * size and largest >= 0.5 * before)
         if not (largest < np.inf and eliminate(matrix)):
@@ -58,13 +48,62 @@ def close_flights(
         before = largest
         for i in range(m):
             for k in range(modes):
-                nodes[i, k] += complex(matrix[i * width + k, m * width], matrix[i * width + modes + k, m * width])
-            durations[i] += matrix[i * width + 2 * modes, m * width]
+                nodes[i, k] -= complex(matrix[i * width + k, m * width], matrix[i * width + modes + k, m * width])
+            durations[i] -= matrix[i * width + 2 * modes, m * width]
             if not durations[i] > 0.0:
                 return False
         if done:
             return True
     return False
+
+
+@kernel
+def shooting_equations(nodes, arrivals, values, slopes):
+    """Derivative of the left sides by nodes and durations, and the left sides as last column; see :func:`follow_flights`."""
+    size = nodes.shape[0] * slopes.shape[1]
+    matrix = np.empty((size, size + 1))
+    _assemble(nodes, arrivals, values, slopes, matrix)
+    return matrix
+
+
+@part
+def _assemble(nodes, arrivals, values, slopes, matrix):
+    """Write the equations: each segment ends at the next node, where its condition is fulfilled."""
+    m, modes = nodes.shape
+    width = 2 * modes + 1
+    matrix[:] = 0.0
+    for i in range(m):
+        after = (i + 1) % m
+        for row in range(width):
+            for column in range(width):
+                matrix[i * width + row, i * width + column] += slopes[i, row, column]
+        for k in range(modes):
+            apart = arrivals[i, k] - nodes[after, k]
+            matrix[i * width + k, after * width + k] -= 1.0
+            matrix[i * width + modes + k, after * width + modes + k] -= 1.0
+            matrix[i * width + k, m * width] = apart.real
+            matrix[i * width + modes + k, m * width] = apart.imag
+        matrix[i * width + 2 * modes, m * width] = values[i]
+
+
+@kernel
+def carry_through_segments(slopes):
+    """Derivative of the end of each segment by its node if it ends where its condition is fulfilled, and their product."""
+    m, last = slopes.shape[0], slopes.shape[1] - 1
+    passages, product = np.empty((m, last, last)), np.eye(last)
+    for i in range(m):
+        for row in range(last):
+            for column in range(last):
+                delay = -slopes[i, last, column] / slopes[i, last, last]
+                passages[i, row, column] = slopes[i, row, column] + slopes[i, row, last] * delay
+        before = product.copy()
+        for row in range(last):
+            for column in range(last):
+                total = 0.0
+                for k in range(last):
+                    total += passages[i, row, k] * before[k, column]
+                product[row, column] = total
+    return passages, product
 
 
 @part

@@ -131,15 +131,29 @@ def rotor_record(
     np.divide(1.0, gaps, out=inverse_gaps, where=gaps != 0)
     rate_rows = rows @ generator
     acceleration_rows = rate_rows @ generator
-    packed = _blank(_rotor_layout(modes, planes))
-    packed["exponents"], packed["driven"] = exponents, driven
-    packed["gaps"], packed["inverse_gaps"] = gaps, inverse_gaps
-    packed["largest_response"] = _largest_response(exponents, gaps)
-    packed["offsets"], packed["rows"], packed["columns"] = offsets, rows, columns
-    packed["rate_rows"], packed["acceleration_rows"] = rate_rows, acceleration_rows
-    packed["jerk_rows"], packed["mobility"] = acceleration_rows @ generator, rate_rows @ columns
-    packed["weights"] = (np.abs(rows) ** 2).sum(axis=1)
-    packed["friction"], packed["restitution"], packed["drive"] = friction, restitution, drive
+    fields = {
+        "exponents": exponents,
+        "driven": driven,
+        "gaps": gaps,
+        "inverse_gaps": inverse_gaps,
+        "largest_response": _largest_response(exponents, gaps),
+        "offsets": offsets,
+        "rows": rows,
+        "rate_rows": rate_rows,
+        "acceleration_rows": acceleration_rows,
+        "jerk_rows": acceleration_rows @ generator,
+        "columns": columns,
+        "mobility": rate_rows @ columns,
+        "weights": (np.abs(rows) ** 2).sum(axis=1),
+        "friction": friction,
+        "restitution": restitution,
+        "drive": drive,
+    }
+    layout = _rotor_layout(modes, planes)
+    # All fields at once: to set one takes as long as to compute it.
+    room = _room(layout)
+    room[0] = tuple(fields[name] for name in layout.names or ())
+    packed: np.record = room[0]
     return packed
 
 
@@ -292,17 +306,22 @@ def record(**fields: np.ndarray | np.record) -> np.record:
 
 
 def _blank(layout: np.dtype) -> np.record:
-    """A record of zeros aligned to a cache line, so that arrays of that length never extend over two of them."""
+    """A record of zeros."""
+    blank: np.record = _room(layout)[0]
+    return blank
+
+
+def _room(layout: np.dtype) -> np.ndarray:
+    """Array of one record of zeros aligned to a cache line, so that arrays of that length never extend over two of them."""
     room = np.zeros(layout.itemsize + CACHE_LINE, np.uint8)
     first = -room.__array_interface__["data"][0] % CACHE_LINE
-    blank: np.record = room[first : first + layout.itemsize].view((np.record, layout))[0]
-    return blank
+    return np.ndarray(1, layout, room, first)
 
 
 @cache
 def _layout(fields: tuple[tuple[str, np.dtype, tuple[int, ...]], ...]) -> np.dtype:
     """Type of a record with fields of these names, types and shapes."""
-    return np.dtype(list(fields), align=True)
+    return np.dtype((np.record, np.dtype(list(fields), align=True)))
 
 
 def kernel(function: Kernel) -> Kernel:

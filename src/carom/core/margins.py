@@ -9,8 +9,9 @@ import numpy as np
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import unit
 from carom.core.layout import kernel, part
+from carom.core.segments import IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, ROLL, SLIDE_FORWARD, strike
 
-__all__ = ["highest_point", "local_motion"]
+__all__ = ["highest_point", "least_margins", "local_motion"]
 
 SAMPLES, PER_RADIAN = 32, 10.0
 """Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
@@ -37,6 +38,56 @@ def local_motion(rotor, planes, states):
         local[i, 3] = (normal.conjugate() * a).real + (normal.conjugate() * v).imag ** 2
         local[i, 4] = (normal.conjugate() * a).imag
     return local
+
+
+@kernel
+def least_margins(rotor, kinds, planes, nodes, durations, landings):
+    """Least distances of a word's segments from a change of the word.
+
+    Parameters
+    ----------
+    rotor : record
+    kinds, planes : int arrays, shape (m,)
+        As for :func:`~carom.core.segments.follow_flights`.
+    nodes : complex array, shape (m, N)
+        Amplitudes at the beginning of each segment.
+    durations, landings : array, shape (m,)
+        Of the segments; and of each chatter its distance from the onset of lasting contact, below zero if it is interrupted.
+
+    Returns
+    -------
+    tuple of float
+        Depth of the highest maximum of the radius inside a flight, ``1 − |y|²``; radial speed before impacts; slip left after
+        impacts, or where friction stops the slip what it could still take; normal force; and distance from the limit of
+        friction while rolling.  Infinite where there is none of the kind.
+    """
+    m = kinds.shape[0]
+    local = local_motion(rotor, planes, nodes)
+    radius, approach, slip, push, cone = np.inf, np.inf, np.inf, np.inf, np.inf
+    after, still = np.empty(nodes.shape[1], np.complex128), np.empty((0, nodes.shape[1]), np.complex128)
+    for i in range(m):
+        radial, drift, pressed, pull = local[i, 1], local[i, 2], local[i, 3], local[i, 4]
+        friction = rotor.friction[planes[i]]
+        if kinds[i] < LIFT and friction > 0.0:
+            taken = friction * (1.0 + rotor.restitution[planes[i]]) * radial
+            left = (-drift if kinds[i] == IMPACT_BACKWARD else drift) - taken
+            slip = min(slip, taken - abs(drift) if kinds[i] == IMPACT_STOPPED else left)
+        if kinds[i] == ROLL:
+            cone = min(cone, friction * pressed - abs(pull))
+        if kinds[i] >= SLIDE_FORWARD:
+            begins = landings[i - 1] if i else landings[m - 1]
+            push = min(push, begins if begins < 0.0 else pressed)
+        elif kinds[i] != LIFT:
+            approach = min(approach, radial)
+        if kinds[i] <= LIFT:
+            after[:] = nodes[i]
+            if kinds[i] < LIFT:
+                strike(rotor, planes[i], kinds[i], after, still)
+            for plane in range(rotor.rows.shape[0]):
+                height, _ = highest_point(rotor, plane, after, durations[i])
+                if height > -radius:
+                    radius = -height
+    return radius, approach, slip, push, cone
 
 
 @kernel

@@ -44,6 +44,7 @@ __all__ = [
     "carry_through_chatter",
     "follow_contact",
     "follow_flights",
+    "strike",
 ]
 
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
@@ -88,7 +89,7 @@ def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, 
             continue
         directions = _set_out(to_modes, rest, nodes[i], moved)
         if kinds[i] < LIFT:
-            _strike(rotor, planes[i], kinds[i], moved[last], directions)
+            strike(rotor, planes[i], kinds[i], moved[last], directions)
         flight_increments(rotor, moved, durations[i], increments)
         for row in range(last + 1):
             for k in range(modes):
@@ -159,7 +160,7 @@ def _hand_over(basis, rest, moved, rate, arrival, slopes):
 
 
 @kernel
-def _strike(rotor, plane, kind, state, directions):
+def strike(rotor, plane, kind, state, directions):
     """Impact with a given slip case, in place."""
     position, speed = displacement(rotor, plane, state), velocity(rotor, plane, state)
     normal, radius = unit(position), math.sqrt(squared_modulus(position))

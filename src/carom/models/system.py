@@ -80,24 +80,24 @@ class System(Result):
     @cached_property
     def exponents(self) -> np.ndarray:
         """Exponents ``λ`` of free flight, shape (N,)."""
-        return np.asarray(self.arrays.exponents)
+        return np.asarray(self.arrays["exponents"])
 
     @cached_property
     def generator(self) -> np.ndarray:
         """Matrix ``M`` of free flight ``ċ = M c``, shape (N, N)."""
         return np.diag(self.exponents) + np.diag(self.arrays.driven[1:].astype(complex), -1)
 
-    @cached_property
+    @property
     def rates(self) -> np.ndarray:
         """Rates of the coordinates per amplitude, shape (n, N)."""
-        rates = self.shapes * self.exponents
-        rates[:, :-1] += self.shapes[:, 1:] * self.arrays.driven[1:]
-        return rates
+        return self.basis[len(self.rest) :]
 
     @cached_property
     def basis(self) -> np.ndarray:
         """Coordinates, then their rates, per amplitude, shape (2n, N)."""
-        return np.concatenate([self.shapes, self.rates])
+        basis = np.concatenate([self.shapes, self.shapes * self.exponents])
+        basis[len(self.rest) :, :-1] += self.shapes[:, 1:] * self.arrays["driven"][1:]
+        return basis
 
     @cached_property
     def to_modes(self) -> np.ndarray:
@@ -106,13 +106,12 @@ class System(Result):
 
     @cached_property
     def _whole_rest(self) -> np.ndarray:
-        return np.concatenate([self.rest, np.zeros(len(self.rest))])
+        return np.concatenate([self.rest, np.zeros(len(self.rest), complex)])
 
     @cached_property
     def coordinates(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """``basis``, ``to_modes`` and the state (2n,) at rest, as the kernels take them."""
-        basis, to_modes = np.ascontiguousarray(self.basis), np.ascontiguousarray(self.to_modes)
-        return basis, to_modes, self._whole_rest.astype(complex)
+        return self.basis, np.ascontiguousarray(self.to_modes), self._whole_rest
 
     def amplitudes_of(self, states: np.ndarray) -> np.ndarray:
         """Mode amplitudes of states (m, 2n), each the coordinates and then their rates; shape (m, N)."""

@@ -20,6 +20,8 @@ ARRIVAL_TOLERANCE = 1e-7
 """Relative difference below which the certified next event and the end of a segment count as the same event."""
 SHIFT = 1e-4
 """Relative difference up to which they may be the same event if the rotor is on the wall from one to the other."""
+AT_REST = 1e-14
+"""Radial speed, in ``c_r Ω``, that counts as none: the size of rounding."""
 MOST_STEPS = 256
 """Steps of lasting contact in one segment."""
 INSTANT = 1e-9
@@ -93,7 +95,7 @@ def _why_no_impact(rotor: Model, segment: Segment, target: Segment, node: np.nda
     contact = contacts[plane]
     position, radial, slip = _at_wall(contact, node)
     friction, restitution = contact.friction, contact.restitution
-    if radial <= 0.0:
+    if radial <= AT_REST:
         return "it would meet the wall from outside (radial speed not above 0)"
     stops = friction * (1.0 + restitution) * radial >= abs(slip)
     if segment.kind is Kind.IMPACT_STOPPED:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
-from carom.core.margins import highest_point, local_motion
+from carom.core.margins import least_margins
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
@@ -18,7 +18,7 @@ from carom.orbits.maps import Section
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.shooting import Links, Start, converged, links_of
 from carom.orbits.stability import Multipliers, multipliers
-from carom.orbits.word import Kind, Word
+from carom.orbits.word import Word
 from carom.outcome import CaromError, InputError
 from carom.results import Result
 
@@ -248,35 +248,9 @@ def on_section(links: Links) -> np.ndarray:
 
 def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     """How far an orbit is from a change of its word."""
-    arrays, contacts = rotor.system.arrays, rotor.system.contacts
     nodes = rotor.system.amplitudes_of(links.start.nodes)
-    _, radial, slips, push, pull = local_motion(arrays, word.planes, nodes).T
-    heights, left, cones = [], [], []
-    for i, segment in enumerate(word):
-        friction = contacts[segment.plane].friction
-        if segment.kind.is_impact and friction > 0.0:
-            taken = friction * (1.0 + contacts[segment.plane].restitution) * radial[i]
-            if segment.kind is Kind.IMPACT_STOPPED:
-                left.append(taken - abs(slips[i]))
-            else:
-                left.append(SLIPS[segment.kind] * slips[i] - taken)
-        if segment.kind is Kind.ROLL:
-            cones.append(friction * push[i] - abs(pull[i]))
-        if segment.kind.flies:
-            after = departure(rotor, segment, nodes[i])
-            tops = [highest_point(arrays, p, after, float(links.start.durations[i]))[0] for p in range(len(contacts))]
-            heights += [top for top in tops if not np.isnan(top)]
-    rests = np.array([segment.kind.lasts for segment in word])
-    if word.lands.any():
-        begins = np.roll(links.landings, 1)
-        push = np.where(begins < 0.0, begins, push)
-    return Margins(
-        radius=-max(heights, default=-np.inf),
-        approach=float(radial[~rests & (word.kinds != Kind.LIFT)].min(initial=np.inf)),
-        slip=min(left, default=np.inf),
-        normal_force=float(push[rests].min(initial=np.inf)),
-        cone=min(cones, default=np.inf),
-    )
+    at = word.kinds, word.planes, nodes, links.start.durations, links.landings
+    return Margins(*least_margins(rotor.system.arrays, *at))
 
 
 def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | CountedName | None = None) -> Orbit | None:

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.core.closure import close_flights
+from carom.core.closure import carry_through_segments, close_flights, shooting_equations
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace
 from carom.core.rub import wall_push
@@ -84,11 +84,14 @@ class Links:
     landings: np.ndarray
 
     @cached_property
+    def _equations(self) -> np.ndarray:
+        found: np.ndarray = shooting_equations(self.start.nodes, self.arrivals, self.values, self.slopes)
+        return found
+
+    @property
     def residual(self) -> np.ndarray:
         """Left sides of the equations, shape (m (2N + 1),)."""
-        nodes = self.start.nodes
-        apart = self.arrivals - (nodes if len(nodes) == 1 else np.concatenate([nodes[1:], nodes[:1]]))
-        return pack(Start(apart, self.values))
+        return self._equations[:, -1]
 
     @property
     def size(self) -> float:
@@ -98,12 +101,7 @@ class Links:
     @property
     def jacobian(self) -> np.ndarray:
         """Derivative of the residual, shape (m (2N + 1), m (2N + 1))."""
-        m, n, _ = self.slopes.shape
-        whole = np.zeros((m, n, m, n))
-        places, states = np.arange(m), np.arange(n - 1)
-        whole[places, :, places, :] = self.slopes
-        whole[places[:, None], states, (places[:, None] + 1) % m, states] -= 1.0
-        return whole.reshape(m * n, m * n)
+        return self._equations[:, :-1]
 
     @property
     def reduced(self) -> tuple[np.ndarray, np.ndarray]:
@@ -113,7 +111,7 @@ class Links:
             return self.residual, self.jacobian
         width = self.slopes.shape[1]
         free, rows = free_entries(lands, width), np.repeat(~lands, width)
-        whole = self.jacobian
+        whole = self.jacobian.copy()
         # The later a chatter lands, the shorter is the contact after it.
         ends = width * np.flatnonzero(lands) + width - 1
         whole[:, ends] -= whole[:, (ends + width) % len(free)]
@@ -121,21 +119,19 @@ class Links:
         follows = np.linalg.solve(whole[np.ix_(~rows, ~free)], whole[np.ix_(~rows, free)])
         return self.residual[rows], whole[np.ix_(rows, free)] - whole[np.ix_(rows, ~free)] @ follows
 
+    @cached_property
+    def _carried(self) -> tuple[np.ndarray, np.ndarray]:
+        return carry_through_segments(self.slopes)
+
     @property
     def passages(self) -> np.ndarray:
         """Derivative of each end by its node if the segment ends where its condition is fulfilled, shape (m, 2N, 2N)."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            delays = -self.slopes[:, -1, :-1] / self.slopes[:, -1, -1:]
-        carried: np.ndarray = self.slopes[:, :-1, :-1] + self.slopes[:, :-1, -1:] * delays[:, None, :]
-        return carried
+        return self._carried[0]
 
     @property
     def monodromy(self) -> np.ndarray:
         """Derivative of the first node after a period by the first node, shape (2N, 2N); one eigenvalue is zero."""
-        product = np.eye(self.slopes.shape[1] - 1)
-        for passage in self.passages:
-            product = passage @ product
-        return product
+        return self._carried[1]
 
 
 def links_of(rotor: Model, word: Word, start: Start) -> Links:

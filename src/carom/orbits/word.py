@@ -170,6 +170,12 @@ class Word(Sequence[Segment]):
         return np.roll(self.lands, 1)
 
     @cached_property
+    def timed(self) -> np.ndarray:
+        """Which segments are neither a chatter nor follow one, bool, shape (m,)."""
+        timed: np.ndarray = ~(self.lands | self.landed)
+        return timed
+
+    @cached_property
     def planes(self) -> np.ndarray:
         """Contact planes, shape (m,)."""
         return np.fromiter((segment.plane for segment in self), np.int64, len(self))

@@ -67,6 +67,8 @@ def read_quantity(field: Field, given: object) -> float:
     InputError
         If `given` is anything else, of another dimension, not finite or out of range.
     """
+    if type(given) is float and field.lowest <= given <= field.highest and not field.whole:
+        return given + 0.0  # the common case first: continuation sets parameters thousands of times
     if isinstance(given, str):
         number = float(_from_text(field, given))
     elif isinstance(given, Real) and not isinstance(given, bool):

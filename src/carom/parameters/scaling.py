@@ -196,7 +196,7 @@ class Parameters:
         physical = {name: value for name, value in changes.items() if name in MACHINE_FIELDS}
         own = {name: value for name, value in changes.items() if name not in physical}
         if not physical:
-            return dataclasses.replace(self, **own)
+            return Parameters(**(vars(self) | own))
         numbers = Numbers.of(dataclasses.replace(self, scales=own.pop("scales")) if "scales" in own else self)
         for name, value in physical.items():
             numbers = numbers.moved(name, read_quantity(MACHINE_FIELDS[name], value))
