@@ -176,6 +176,20 @@ def tilting_too(coupling: float) -> LinearRotor:
     )
 
 
+@pytest.mark.jit_only
+def test_contact_after_a_chatter_is_of_the_kind_that_its_slip_says():
+    """The chatter of this orbit ends while it slips forward: it neither rolls nor slides backward then."""
+    (known,) = rubbing_orbits(CHATTERING)
+    start = Start(known.nodes, known.durations)
+    assert str(known.word) == "lift land slide+"
+    assert why_virtual(known.rotor, known.word, start) == ""
+    for kind in (Kind.ROLL, Kind.SLIDE_BACKWARD):
+        segments = [kind if segment.kind is Kind.SLIDE_FORWARD else segment.kind for segment in known.word]
+        reason = why_virtual(known.rotor, Word.of(*segments), start)
+        assert reason.startswith("segment 2 of 3: land would end with the slip")
+        assert reason.endswith(f"not with {kind.label}")
+
+
 def test_orbits_of_a_rotor_with_two_coordinates_and_two_planes():
     planar = find_orbits(PAPER)["B1,d"]
     before = planar.section.state

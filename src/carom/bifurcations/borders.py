@@ -90,8 +90,8 @@ class Border(Result):
         """What simulated motions did when the orbit ceased to be a motion.
 
         ``"continuous"``: they stay near, the nearer the smaller the distance; ``"chaotic band"``: they do so and are irregular at all
-        distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances, no less at the smallest ones;
-        ``"unstable"``: the orbit is unstable on its own side, so that no motion can be followed from it.
+        distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances,
+        no less at the smallest ones, or by more than 0.3 at each; ``"unstable"``: the orbit is unstable on its own side, so that no motion can be followed from it.
         """
         if not self.departures:
             return "unstable" if self.inside else "undecided"

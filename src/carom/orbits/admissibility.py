@@ -12,7 +12,7 @@ from carom.core.rub import lift_off
 from carom.models import Jeffcott, Model
 from carom.models.system import Contact
 from carom.motions.trajectories import EventLog, follow
-from carom.orbits.shooting import TOLERANCE, Start
+from carom.orbits.shooting import LONGEST, MOST_BOUNCES, TOLERANCE, Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Outcome, Phase
 
@@ -24,6 +24,8 @@ AT_REST = 1e-14
 """Radial speed, in ``c_r Ω``, that counts as none: the size of rounding."""
 MOST_STEPS = 256
 """Steps of lasting contact in one segment."""
+STOPPED = 1e-10
+"""Slip at a landing, in ``c_r Ω``, that counts as none."""
 INSTANT = 1e-9
 """Time within which a rotor that has just lost its normal force may still be in contact, in ``1/Ω``."""
 SLIPS = {Kind.IMPACT_FORWARD: 1, Kind.IMPACT_BACKWARD: -1, Kind.IMPACT_STOPPED: 0}
@@ -160,6 +162,8 @@ PHASES = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: 2, Kind.ROLL: 3}
 
 def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: np.ndarray, duration: float) -> str:
     """Reason why a segment is not what the simulation does from its node, by kind of contact, place and time."""
+    if segment.kind is Kind.LAND:
+        return _why_no_such_landing(rotor, segment, target, node)
     planes = len(rotor.system.contacts)
     contact = np.full(planes, AWAY)
     contact[segment.plane] = PHASES.get(segment.kind, Phase.FLIGHT)
@@ -170,8 +174,6 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     before = contact.copy()
     stays = segment == target
     for _ in range(MOST_STEPS):
-        if segment.kind is Kind.LAND:
-            return ""  # :func:`~carom.orbits.shooting.links_of` follows a chatter by simulation in any case
         horizon = duration - time if stays else 2.0 * duration + 1.0
         outcome, elapsed, _ = follow(rotor, amplitudes, horizon, contact, log, recollection)
         time += elapsed
@@ -186,3 +188,15 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     if late or wrong:
         return f"{segment} would end at t = {time:.6g} in another way than with {target}"
     return ""
+
+
+def _why_no_such_landing(rotor: Model, segment: Segment, target: Segment, node: np.ndarray) -> str:
+    """Reason why the lasting contact after a chatter is of another kind; the chatter itself is simulated in any case."""
+    planes, landing = len(rotor.system.contacts), node.copy()
+    contact = np.full(planes, AWAY)
+    contact[segment.plane] = Phase.FLIGHT
+    log = EventLog.empty(MOST_BOUNCES, len(node), planes)
+    follow(rotor, landing, LONGEST, contact, log, memory(len(node), stop_at_landing=True))
+    _, _, slip = _at_wall(rotor.system.contacts[segment.plane], landing)
+    wrong = {Kind.SLIDE_FORWARD: -slip, Kind.SLIDE_BACKWARD: slip}.get(target.kind, abs(slip))
+    return f"{segment} would end with the slip {slip:.3g}, not with {target}" if wrong > STOPPED else ""
