@@ -48,14 +48,20 @@ def test_branch_of_two_impacts_has_the_folds_and_period_doublings_of_auto(tmp_pa
     branch = continue_orbit(find_orbits(Jeffcott(PAPER))["B1,d"], "gamma", (0.075, 0.11))
     (doubling,) = [special for special in branch.special if special.kind == "period-doubling"]
     doubled = doubling.switch((0.078, 0.09))
-    start = doubled.starts_at(0.083)[0]
-    rows = zip(start.nodes, start.durations, strict=True)
-    unknowns = [float(x) for (u, v), time in rows for x in (u.real, u.imag, v.real, v.imag, time)]
-    theirs = special_points(PAPER.replace(gamma=0.083), unknowns, (0.078, 0.09), tmp_path)
-    # Its branch turns where the period is halved: a fold of the algebraic equations, which it reports or not by rounding.
-    folds = [value for value in theirs["fold"] if abs(value - doubling.value) > 1e-6]
-    for kind, values in (("fold", folds), ("period-doubling", theirs["period-doubling"])):
+    theirs: dict[str, set[float]] = {"fold": set(), "period-doubling": set()}
+    # Which folds it reports of those it passes depends on the last bit of its start: it starts wherever the branch passes.
+    for number, start in enumerate(doubled.starts_at(0.083)):
+        rows = zip(start.nodes, start.durations, strict=True)
+        unknowns = [float(x) for (u, v), time in rows for x in (u.real, u.imag, v.real, v.imag, time)]
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        for kind, values in special_points(PAPER.replace(gamma=0.083), unknowns, (0.078, 0.09), folder).items():
+            theirs[kind] |= set(values)
+    # Its branch turns where the period is halved: a fold of the algebraic equations.
+    theirs["fold"] = {value for value in theirs["fold"] if abs(value - doubling.value) > 1e-6}
+    for kind, found in theirs.items():
         ours = sorted(special.value for special in doubled.special if special.kind == kind)
         assert len(ours) == 2
         # It prints eleven digits.
-        assert ours == pytest.approx(sorted(values), abs=2e-11)
+        assert all(min(abs(value - other) for other in found) < 2e-11 for value in ours)
+        assert all(min(abs(value - other) for value in ours) < 2e-11 for other in found)
