@@ -23,7 +23,9 @@ Spacing = Literal["linear", "log", "list"]
 
 @dataclass(frozen=True)
 class GridAxis:
-    """Values of one parameter, made by :meth:`between` or :meth:`of`.
+    """Values of one parameter in a sweep.
+
+    :meth:`between` makes them from two ends, :meth:`of` from a list.
 
     Attributes
     ----------
