@@ -91,7 +91,8 @@ class Border(Result):
 
         ``"continuous"``: they stay near, the nearer the smaller the distance; ``"chaotic band"``: they do so and are irregular at all
         distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances,
-        no less at the smallest ones, or by more than 0.3 at each; ``"unstable"``: the orbit is unstable on its own side, so that no motion can be followed from it.
+        no less at the smallest ones, or by more than 0.3 at each; ``"unstable"``: the orbit is unstable on its own side, so that
+        no motion can be followed from it.
         """
         if not self.departures:
             return "unstable" if self.inside else "undecided"
@@ -123,7 +124,7 @@ class Border(Result):
             "continuous": "Simulated motions beyond it stay near, the nearer the closer to it: a continuous transition.",
             "chaotic band": "Simulated motions beyond it stay near, the nearer the closer to it, and are irregular with a positive "
             "exponent: a band of chaos that begins there.",
-            "jump": "Simulated motions beyond it go away from it and do not come near as it comes close: a jump.",
+            "jump": "Simulated motions beyond it move away by a distance that does not shrink with that from the border: a jump.",
             "unstable": "The orbit is unstable, so no motion was followed across.",
             "undecided": "Simulated motions beyond it do not decide between a continuous transition and a jump.",
         }[self.verdict]
