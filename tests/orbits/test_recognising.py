@@ -7,11 +7,12 @@ import pytest
 
 from carom.models import Jeffcott
 from carom.motions import State, simulate
-from carom.orbits.exponents import orbit_exponents
+from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import orbit_near
-from carom.orbits.recognising import orbit_of_whirl
+from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
 from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Word
+from carom.parameters import Parameters
 from tests.orbits.test_orbit import CHATTERING
 
 pytestmark = pytest.mark.jit_only
@@ -59,3 +60,21 @@ def test_its_exponent_is_the_rate_at_which_simulated_motions_part(whirl):
 def test_rolling_alone_has_no_such_orbit():
     motion = simulate(Jeffcott(CHATTERING), State(1.0, -80j), settle=True)
     assert orbit_of_whirl(motion, 0.108) is None
+
+
+def test_impacts_without_rebound_that_do_not_stay():
+    """After the first of two impacts nothing presses the rotor outward: it leaves the wall, although it does not rebound."""
+    machine = Parameters(gamma=0.0182, omega=0.102, rho=0.101, phi=0.0, mu=0.194, d=0.0, radius_ratio=3.18)
+    orbit = orbit_of_motion(simulate(machine, State(-0.9 + 0.36j, 0.37 + 0.92j), settle=True))
+    assert str(orbit.word) == "impact+ land slide+ lift"
+    assert orbit.admissible
+    # Of a disturbed motion, the states at the first impacts come closer by the multiplier in each period.
+    start = State(orbit.departure.position, (1.0 + 1e-8) * orbit.departure.velocity)
+    motion = simulate(machine, start, 5.0 * orbit.period)
+    states = motion.rotor.system.states_of(motion.arrivals[motion.is_impact])
+    apart = np.abs(states - orbit.nodes[0]).max(axis=1)
+    apart = apart[apart < 1e-5]
+    # The second derivative, some hundreds, times the distance of 1e-7.
+    assert apart[2] / apart[1] == pytest.approx(orbit.multipliers.spectral_radius, rel=1e-4)
+    measured = lyapunov_exponents(machine, orbit.departure, 60, transient=20)
+    assert measured.across[0] == pytest.approx(orbit_exponents(orbit).across[0], rel=1e-6)

@@ -159,10 +159,11 @@ def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
 def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = False) -> tuple[Word, Start]:
     """Word, nodes and durations of a motion from one event up to another, which the last segment reaches.
 
-    Impacts that lead to a landing without anything else in between become one chatter; if it is to be ``brief``, only
-    those from which on each bounce is shorter than the one before.
+    Impacts that lead to a landing without anything else in between become one chatter; without restitution only the last of
+    them; if it is to be ``brief``, only those from which on each bounce is shorter than the one before.
     """
     steps: list[tuple[Segment, np.ndarray, float]] = []
+    arrays = motion.rotor.system.arrays
     times = np.append(motion.segment_starts[1:], motion.time)
     kinds, places = _impact_kinds(motion, first, last).tolist(), np.arange(first, last)
     planes = motion.event_planes[first:last]
@@ -176,6 +177,8 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
             continue  # a long contact is logged in steps
         if before == Phase.FLIGHT:
             bounces = next((k for k, step in enumerate(reversed(steps)) if not _bounces(step[0], plane)), len(steps))
+            if arrays.restitution[plane] == 0.0:
+                bounces = min(bounces, 1)  # after those before it, the rotor left the wall as it does at a lift-off
             if brief:
                 bounces = _getting_shorter([step[2] for step in steps[len(steps) - bounces :]])
             chatter = steps[len(steps) - bounces :]

@@ -91,9 +91,10 @@ class Word(Sequence[Segment]):
     """The segments of one period, in their order.
 
     ``impact+``, ``impact-`` and ``impact0`` are one impact with forward slip, with backward slip, or one that stops the
-    slip, and the flight after it.  ``land`` is a chatter, from its first impact to lasting contact.  ``slide+``,
-    ``slide-`` and ``roll`` are lasting contact at one plane while no other touches, and ``lift`` is the flight after it.  Sliding that
-    is followed by the same sliding ends where the normal force is least: ``slide-`` alone never leaves the wall.
+    slip, and the flight after it.  ``land`` is a chatter, from its first impact to lasting contact; without restitution it is the
+    impact that stays.  ``slide+``, ``slide-`` and ``roll`` are lasting contact at one plane while no other touches, and ``lift`` is the
+    flight after it.  Sliding that is followed by the same sliding ends where the normal force is least: ``slide-`` alone never leaves
+    the wall.
 
     Attributes
     ----------
