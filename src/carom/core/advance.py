@@ -168,16 +168,23 @@ def _reaction(rotor, contact, memory, work, rub):
     return reaction, resting, place
 
 
-@kernel
+@passage
 def _touch(rotor, contact, plane, reaction, memory, work, rub):
     """Impact or landing of a plane in the state ``work.arrival``; returns the outcome."""
-    state = work.current
     contact[plane] = FLIGHT
     if reaction == CONTACT:
         outcome = _meet(rotor, contact, plane, memory, work)
         if rotor.rows.shape[0] > 1 and outcome == CONTACT:
-            _loosen(rotor, contact, plane, state, rub)
-        return outcome
+            _loosen(rotor, contact, plane, work.current, rub)
+    else:
+        outcome = _end_flight(rotor, contact, plane, reaction, memory, work, rub)
+    return outcome
+
+
+@kernel
+def _end_flight(rotor, contact, plane, reaction, memory, work, rub):
+    """Landing of a plane in the state ``work.arrival``, or a grazing that ends the motion; returns the outcome."""
+    state = work.current
     if reaction == LANDING:
         set_on_wall(rotor, plane, work.arrival)
     copy(work.arrival, state)
