@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.neighbours import neighbour
+from carom.bifurcations.neighbours import NEIGHBOURS, is_other, neighbour, read_beside, setting_out
+from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
 from carom.models import Model
-from carom.models.axes import axis
+from carom.models.axes import Axis, axis
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.exponents import CONFIDENT, lyapunov_exponents
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
 from carom.orbits.word import Word
-from carom.outcome import CaromError, Outcome
+from carom.outcome import CaromError, InputError, Outcome
 from carom.results import Result
 
 STEPS = (4e-5, 1e-5, 2.5e-6, 6.25e-7, 1.5625e-7)
@@ -35,6 +38,14 @@ STAYS = 0.85
 LARGEST_STEP, LEAST_JUMP = 0.3, 0.01
 """Distance above which even a shrinking one is not called small, and below which one that stays is not called a jump."""
 
+LONG = 4
+"""Number of equal segments in a row above which they are counted, not listed."""
+READ = ("contact-onset", "permanent-contact")
+"""Borders beyond which the word is read from a simulated period."""
+STAYING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
+"""How motions end that do not leave the wall."""
+TURNS = 50
+"""Periods over which the distance of such a motion counts."""
 MEASURED = 4000
 """Impacts over which the exponent of an irregular motion is measured."""
 
@@ -54,22 +65,24 @@ class Border(Result):
     inside : {1, -1, 0}
         Side on which the orbit is a motion of the machine: where the parameter is above, or below, the border; 0 if not on exactly
         one.
-    word : Word
-        The neighbouring word.
+    word : Word or None
+        The neighbouring word; ``None`` if none was seen.
     neighbours : tuple of Orbit or None
-        Orbits of the neighbouring word just below and just above the border, at the smallest distance, where they are motions.
+        Orbits of the neighbouring word just below and just above the border, where they are motions: at the smallest of the distances at
+        which one is found.
     distances : tuple of float
         From the border, in units of the parameter.
     departures : tuple of float
-        How far from the orbit on the border the impacts of motions are that were started beside it at these distances outside;
-        infinite for motions that no longer bounce.  Empty if the orbit is unstable or has no outside.
+        How far from the orbit on the border the impacts of motions are that were started beside it at these distances outside, or
+        all events of motions with lasting contact (:class:`~carom.bifurcations.paths.Path`); infinite for motions that no longer bounce, or
+        no longer touch the wall if the orbit never leaves it.  Empty if the orbit is unstable or has no outside.
     exponents : tuple of (float, float)
         Largest Lyapunov exponent across each of these motions that is irregular, and its standard error; ``nan`` for the others.
     """
 
     point: Bifurcation
     inside: int
-    word: Word
+    word: Word | None
     neighbours: tuple[Orbit | None, Orbit | None]
     distances: tuple[float, ...]
     departures: tuple[float, ...]
@@ -108,6 +121,16 @@ class Border(Result):
         return "jump" if away or (min(self.departures) > LEAST_JUMP and min(ratios[-2:]) > STAYS) else "undecided"
 
     @property
+    def _other(self) -> str:
+        """The neighbouring word, equal segments in a row counted."""
+        if self.word is None:
+            return "of another word"
+        runs = [(str(segment), sum(1 for _ in run)) for segment, run in groupby(self.word)]
+        return " ".join(
+            f"{count} × {segment}" if count > LONG else " ".join([segment] * count) for segment, count in runs
+        )
+
+    @property
     def words(self) -> str:
         """What was found, in one or two sentences."""
         side = {1: "above", -1: "below", 0: "on neither or both sides of"}[self.inside]
@@ -115,9 +138,9 @@ class Border(Result):
         if self.inside:
             other = {1: "below", -1: "above"}[self.inside]
             if self.beyond is not None:
-                told += f", an orbit {self.word} ({_stability(self.beyond)}) {other} it"
+                told += f", an orbit {self._other} ({_stability(self.beyond)}) {other} it"
             else:
-                told += f", no orbit {self.word} was found {other} it"
+                told += f", no orbit {self._other} was found {other} it"
             if self.alongside is not None:
                 told += f", and one ({_stability(self.alongside)}) on the same side: both end there"
         seen = {
@@ -146,64 +169,124 @@ class Border(Result):
 def examine_border(point: Bifurcation) -> Border:
     """Look at both sides of a special point at which the word of an orbit changes.
 
-    On both sides the orbits of both words next to the border are computed, with certified admissibility.  If the orbit is stable on
-    its own side, motions are simulated that start beside it on the other side.
+    On both sides the orbits of both words next to the border are computed, with certified admissibility.  The neighbouring word follows
+    from the orbit where an impact grazes, vanishes or ceases to slip; at the borders of lasting contact it is that of a simulated
+    period that starts on the orbit, beside the border.  If the orbit is stable on its own side, motions are simulated that start
+    beside it on the other side.
 
     Parameters
     ----------
     point : Bifurcation
-        Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``.
+        Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``, or of orbits with lasting contact ``"contact-onset"`` or
+        ``"permanent-contact"``.
 
     Raises
     ------
     InputError
         Another kind.
     """
-    orbit = point.orbit
-    word, start = neighbour(point.kind, orbit)
-    along = axis(orbit.rotor, point.parameter)
-    distances = tuple(step * abs(point.value) for step in STEPS)
-
-    def at(side: int, distance: float) -> Model:
-        return along.move(orbit.rotor, point.value + side * distance)
-
-    def near(side: int, distance: float, chosen: Word, guess: Start) -> Orbit | None:
-        found = orbit_near(at(side, distance), chosen, guess)
-        if found is None or not found.admissible or len(found.word) != len(chosen):
-            return None
-        return found if abs(found.period - orbit.period) < LARGEST_STEP else None
-
-    own = {side: near(side, distances[-1], orbit.word, Start(orbit.nodes, orbit.durations)) for side in (-1, 1)}
-    neighbours = near(-1, distances[-1], word, start), near(1, distances[-1], word, start)
-    sides = [side for side, found in own.items() if found is not None]
-    inside = sides[0] if len(sides) == 1 else 0
+    if point.kind not in (*NEIGHBOURS, *READ):
+        raise InputError("border", point.kind, f"one of {', '.join((*NEIGHBOURS, *READ))}")
+    orbit, sides = point.orbit, _Sides.of(point)
+    contacts = orbit.nodes
+    own = {side: sides.near(side, sides.least, orbit.word, Start(orbit.nodes, orbit.durations)) for side in (-1, 1)}
+    if point.kind in NEIGHBOURS:
+        known, start = neighbour(point.kind, orbit)
+        contacts = np.concatenate([contacts, start.nodes])
+        neighbours = sides.near(-1, sides.least, known, start), sides.near(1, sides.least, known, start)
+        word: Word | None = known
+    else:
+        word, neighbours = sides.read()
+    inside = sum(side for side, found in own.items() if found is not None)
     followed: tuple[_Followed, ...] = ()
     held = own.get(inside)
     if held is not None and held.stable:
-        contacts = np.concatenate([orbit.nodes, start.nodes])
-        followed = tuple(_follow(orbit, contacts, at(-inside, distance)) for distance in distances)
+        apart = Path.of(orbit).distances if not orbit.word.flies else _from_contacts(contacts)
+        followed = tuple(_follow(orbit, apart, sides.at(-inside, distance)) for distance in sides.distances)
     departures, exponents = tuple(each.departure for each in followed), tuple(each.exponent for each in followed)
-    return Border(point, inside, word, neighbours, distances, departures, exponents)
+    return Border(point, inside, word, neighbours, sides.distances, departures, exponents)
+
+
+@dataclass(frozen=True)
+class _Sides:
+    """Rotors on both sides of a border, and the orbits there."""
+
+    orbit: Orbit
+    along: Axis
+    value: float
+    distances: tuple[float, ...]
+
+    @classmethod
+    def of(cls, point: Bifurcation) -> _Sides:
+        orbit = point.orbit
+        return cls(
+            orbit, axis(orbit.rotor, point.parameter), point.value, tuple(step * abs(point.value) for step in STEPS)
+        )
+
+    def at(self, side: int, distance: float) -> Model:
+        """Rotor on a side."""
+        return self.along.move(self.orbit.rotor, self.value + side * distance)
+
+    @property
+    def least(self) -> float:
+        """Smallest distance."""
+        return self.distances[-1]
+
+    def near(self, side: int, distance: float, word: Word, start: Start) -> Orbit | None:
+        """Orbit of a word on a side, if it is a motion and next to that on the border."""
+        found = orbit_near(self.at(side, distance), word, start)
+        if found is None or not found.admissible or len(found.word) != len(word):
+            return None
+        return found if abs(found.period - self.orbit.period) < LARGEST_STEP else None
+
+    def read(self) -> tuple[Word | None, tuple[Orbit | None, Orbit | None]]:
+        """The word that a simulated period has beside the border where it is not that of the orbit, and the orbits of it.
+
+        They are those at the smallest distance at which one is found: close to permanent contact flights are lower than rounding.
+        """
+        seen = None
+        for distance in reversed(self.distances):
+            for side in (-1, 1):
+                word, start = read_beside(self.orbit, self.at(side, distance)) or (None, None)
+                if word is None or start is None or not is_other(word, self.orbit.word):
+                    continue
+                seen = seen or word
+                found = self.near(side, distance, word, start)
+                if found is not None:
+                    other = self.near(-side, distance, found.word, Start(found.nodes, found.durations))
+                    return found.word, (found, other) if side < 0 else (other, found)
+        return seen, (None, None)
 
 
 class _Followed(NamedTuple):
-    """A motion that starts beside an orbit: where its last impacts are, and how fast motions beside it part."""
+    """A motion that starts beside an orbit: where its last events are, and how fast motions beside it part."""
 
     departure: float
     exponent: tuple[float, float] = (np.nan, np.nan)
 
 
-def _follow(orbit: Orbit, contacts: np.ndarray, rotor: Model) -> _Followed:
-    """Largest distance of the last impacts of a motion from the contacts of the orbit beside which it starts, and its exponent."""
-    before = orbit.departure
+def _from_contacts(contacts: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """Distance of states (m, 2n) before impacts from the nearest of those of an orbit, shape (m,)."""
+
+    def apart(states: np.ndarray) -> np.ndarray:
+        nearest: np.ndarray = np.abs(states[:, None] - contacts).max(axis=2).min(axis=1)
+        return nearest
+
+    return apart
+
+
+def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Model) -> _Followed:
+    """Largest distance of a motion at its last events from the orbit beside which it starts, and its exponent."""
+    before = setting_out(orbit)
     start = State(before.position, before.velocity * (1.0 + BESIDE))
     motion: Trajectory = simulate(rotor, start, settle=True, patience=PATIENCE)
     if motion.outcome not in (Outcome.BOUNCING, Outcome.MIXED):
-        return _Followed(np.inf)
-    states = motion.rotor.system.states_of(motion.arrivals[motion.is_impact][-LATEST:])
-    apart: np.ndarray = np.abs(states[:, None] - contacts).max(axis=2).min(axis=1)
-    departure = float(apart.max())
-    if motion.multiplicity or departure > LARGEST_STEP:
+        if any(segment.kind.flies for segment in orbit.word) or motion.outcome not in STAYING:
+            return _Followed(np.inf)
+        motion = simulate(rotor, motion.final, TURNS * orbit.period)
+    states = motion.rotor.system.states_of(motion.arrivals[-LATEST:])
+    departure = float(apart(states).max())
+    if motion.outcome is Outcome.TIME_REACHED or motion.multiplicity or departure > LARGEST_STEP:
         return _Followed(departure)
     try:
         return _Followed(departure, lyapunov_exponents(rotor, motion.final, MEASURED).across)

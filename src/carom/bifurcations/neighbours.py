@@ -6,16 +6,24 @@ from collections.abc import Callable
 
 import numpy as np
 
+from carom.core.impact import set_on_wall
 from carom.core.margins import highest_point
 from carom.models import Model
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
 from carom.orbits.admissibility import SLIPS, departure
-from carom.orbits.orbit import Orbit
+from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.recognising import segments_of
-from carom.orbits.shooting import Links, Start
+from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Segment, Word
-from carom.outcome import InputError
+from carom.outcome import InputError, Phase
+
+READ = 2.3
+"""Periods that are simulated to read one."""
+SAME_TIME = 0.02
+"""Relative difference of the period read from that on the border."""
+MOST_EVENTS = 20_000
+"""Events of a motion from which a period is read."""
 
 
 def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
@@ -24,7 +32,7 @@ def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
     Parameters
     ----------
     kind : str
-        ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``.
+        ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``; beyond other borders a period is simulated (:func:`read_beside`).
     orbit : Orbit
         The orbit on the border.
 
@@ -38,39 +46,62 @@ def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
     return NEIGHBOURS[kind](orbit)
 
 
-def interrupted(rotor: Model, word: Word, links: Links) -> tuple[Word, Start] | None:
-    """The impacts that a chatter becomes beyond the onset of lasting contact, read from a simulated period.
+def setting_out(orbit: Orbit) -> State:
+    """State on an orbit from which motions beside it are simulated.
 
-    How many they are grows with the logarithm of the distance from the onset.
+    After the first impact if it only bounces; otherwise in the middle of its longest flight, or on the wall if it never leaves it.
+    """
+    if orbit.word.flies:
+        return orbit.departure
+    system, amplitudes = orbit.rotor.system, orbit.rotor.system.amplitudes_of(orbit.nodes)
+    flights = [i for i, segment in enumerate(orbit.word) if segment.kind.flies]
+    if flights:
+        longest = max(flights, key=lambda i: orbit.durations[i])
+        begun = departure(orbit.rotor, orbit.word[longest], amplitudes[longest])
+        return State.of(*system.state(system.fly(begun, np.array(0.5 * orbit.durations[longest]))))
+    set_on_wall(system.arrays, orbit.word[0].plane, amplitudes[0])
+    return State.of(*system.state(amplitudes[0]))
 
-    Parameters
-    ----------
-    rotor : Model
-        Beyond the onset.
-    word : Word
-        A lift-off, a chatter, and lasting contact.
-    links : Links
-        Its segments there, with the interrupted chatter.
+
+def read_beside(orbit: Orbit, rotor: Model) -> tuple[Word, Start] | None:
+    """Word, nodes and durations of the next period of a motion that starts on the orbit on a border, of a rotor beside the border.
+
+    Where lasting contact begins, the word holds the impacts that a chatter becomes: the closer to the border, the more.
 
     Returns
     -------
     tuple or None
-        ``None`` for another word, or if the simulated motion does anything but strike.
+        ``None`` if nothing recurs after about a period, or if what happens in it has no word.
     """
-    lifts = np.flatnonzero(word.kinds == Kind.LIFT)
-    if len(word) != 3 or len(lifts) != 1:
+    # The orbit of the same word there is no motion, but nearer to the one that is sought than that on the border.
+    beside = orbit_near(rotor, orbit.word, Start(orbit.nodes, orbit.durations)) or orbit
+    motion = simulate(rotor, setting_out(beside), READ * orbit.period, max_events=MOST_EVENTS)
+    times, places = motion.segment_starts[1:], np.arange(len(motion.event_planes))
+    before, after = (motion.segment_phases[places + later, motion.event_planes] for later in (0, 1))
+    signs = np.stack([motion.event_planes, before, after], axis=1)
+    begins = np.flatnonzero((motion.is_impact | (before != after)) & (times < orbit.period))
+    if not len(begins):
         return None
-    nodes, durations = links.start
-    flight, period = float(durations[lifts[0]]), float(durations.sum())
-    position, velocity = rotor.system.state(rotor.system.amplitudes_of(nodes[lifts])[0])
-    start = State.of(position / abs(position), velocity)
-    motion = simulate(rotor, start, period + 1.5 * flight)
-    times = motion.segment_starts[1:]
-    first = int(np.searchsorted(times, 0.5 * flight))
-    last = int(np.searchsorted(times, 0.5 * flight + period))
-    if last >= len(times) or not motion.is_impact[first : last + 1].all():
+    # Impacts before a landing belong to one chatter: it is not cut where a lift-off can be.
+    lifts = begins[(before[begins] != Phase.FLIGHT) & (after[begins] == Phase.FLIGHT)]
+    if len(lifts):
+        first = lifts[int(np.argmax(np.diff(times)[lifts]))]
+    else:
+        position, velocity = motion.rotor.system.at_planes(motion.arrivals[begins], motion.event_planes[begins])
+        first = begins[int(np.argmax((position.conj() * velocity).real))]
+    alike = np.flatnonzero((signs == signs[first]).all(axis=1))
+    last = alike[int(np.argmin(np.abs(times[alike] - times[first] - orbit.period)))]
+    if abs(times[last] - times[first] - orbit.period) > SAME_TIME * orbit.period:
         return None
-    return segments_of(motion, first, last)
+    try:
+        return segments_of(motion, int(first), int(last))
+    except InputError:  # an impact at one plane while another stays in contact has no word
+        return None
+
+
+def is_other(word: Word, known: Word) -> bool:
+    """Whether two words differ, whichever segment they begin with."""
+    return len(word) != len(known) or all(word.turned(k) != known for k in range(len(word)))
 
 
 def _with_impact(orbit: Orbit) -> tuple[Word, Start]:

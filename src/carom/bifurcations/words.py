@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact, passing
-from carom.bifurcations.neighbours import NEIGHBOURS, interrupted, neighbour
+from carom.bifurcations.neighbours import NEIGHBOURS, is_other, neighbour, read_beside
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.word_equations import FAR, LYING, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
@@ -33,8 +33,8 @@ BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "permane
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
 ONSET, PERMANENT = "contact-onset", "permanent-contact"
-BESIDE_ONSET = 1e-5
-"""Distance from the onset of lasting contact, relative to the parameter, at which the impacts of an interrupted chatter are counted."""
+BESIDE = 1e-5
+"""Distance from a border, relative to the parameter, at which the word beyond it is read from a simulated period."""
 NEARBY = 0.02
 """Range in which permanent contact is searched beyond the last orbit whose flight is followed, in sizes of the parameter."""
 BEYOND = 0.2
@@ -215,7 +215,7 @@ def switched(
         doubled = np.tile(pack_free(orbit.word, orbit.links.start), 2)
         unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
     elif kind == ONSET:
-        word, start, present = _beyond_onset(orbit, along, limits)
+        word, start, present = _beyond(orbit, along, limits)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
         alone = orbit.word, Start(orbit.nodes, orbit.durations)
@@ -224,20 +224,19 @@ def switched(
     return _follow(family, unknowns, present, None, CountedName(family.word.impacts, 1), virtual=virtual)
 
 
-def _beyond_onset(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Word, Start, float]:
-    """Orbit of impacts beyond the onset of lasting contact, and the parameter there."""
+def _beyond(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Word, Start, float]:
+    """Orbit of the word that a simulated period has beside a border, and the parameter there."""
     value = along.value(orbit.rotor)
     for side in (-1, 1):
-        there = value + side * BESIDE_ONSET * abs(value)
+        there = value + side * BESIDE * abs(value)
         if not limits[0] <= there <= limits[1]:
             continue
         rotor = along.move(orbit.rotor, there)
-        links = converged(rotor, orbit.word, Start(orbit.nodes, orbit.durations))
-        read = interrupted(rotor, orbit.word, links) if links is not None and (links.landings < 0.0).any() else None
-        found = orbit_near(rotor, *read) if read is not None else None
-        if found is not None:
+        read = read_beside(orbit, rotor)
+        found = orbit_near(rotor, *read) if read is not None and is_other(read[0], orbit.word) else None
+        if found is not None and found.admissible:
             return found.word, Start(found.nodes, found.durations), there
-    raise CaromError("no orbit of impacts was found beyond the onset of lasting contact")
+    raise CaromError("no orbit of another word was found beside the border")
 
 
 def _alternating(word: Word, links: Links) -> np.ndarray:
