@@ -8,7 +8,7 @@ receptance ``H = 1/(ω² − 1 + iγ)`` (:func:`~carom.closed_forms.equilibria.f
 
     N ≈ −g/Re h = g ρ²/(κ − μγ),      κ = 1 − ω².
 
-If ``κ < μγ``, ``N > 0`` where the contact-free equilibrium is virtual: the rotor goes over from one to the other,
+If ``κ < μγ``, ``N > 0`` where the contact-free equilibrium is virtual: the motion changes continuously from one to the other,
 *persistence*.  The rub is then the larger root, which is stable.  If ``κ > μγ``, both exist on the side where the rotor
 levitates, with the rub a saddle, and neither exists on the other: a *non-smooth fold*, beyond which the rotor must
 leave.
@@ -121,7 +121,7 @@ class BoundaryEquilibrium(Result):
 
 
 _EQUILIBRIA = {
-    "persistence": ("levitation goes over into a stable synchronous rub that begins without force (persistence)."),
+    "persistence": ("levitation turns into a stable synchronous rub that begins without force (persistence)."),
     "non-smooth fold": (
         "levitation meets an unstable synchronous rub and both vanish (non-smooth fold): the rotor must go somewhere else."
     ),

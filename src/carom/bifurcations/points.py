@@ -55,7 +55,7 @@ class Bifurcation(Result):
     admissible : bool
         Whether it happens to a motion of the machine, or to one that just becomes or ceases to be one.
     detail : str
-        For a boundary equilibrium ``"persistence"`` (levitation goes over into a rub) or ``"non-smooth fold"``
+        For a boundary equilibrium ``"persistence"`` (levitation turns into a rub) or ``"non-smooth fold"``
         (levitation and an unstable rub vanish together).
     place : float
         Position on the branch: index of the point before it plus the fraction of the step; ``nan`` without a branch.

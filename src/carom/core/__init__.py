@@ -1,5 +1,41 @@
 """Numba kernels: floats and arrays in, floats and outcome codes out.
 
 Nothing here knows units, files or results.  A kernel sees a rotor as the arrays of
-:class:`~carom.core.layout.RotorArrays` and works for any number of modes and contact planes.
+:func:`~carom.core.layout.rotor_record` and works for any number of modes and contact planes.
+
+===================  ===========================================================
+``layout``           the data that kernels work on, and how kernels are compiled
+``flow``             exact flight: sums of exponentials and their derivatives
+``table``            constants of a block of flight, for the search of crossings
+``block``            one block of flight: possible roots, state at a time
+``events``           certified first crossing of the wall
+``impact``           laws of impact and friction
+``contact_series``   lasting contact as Taylor series
+``taylor``           length of a step, sums and zeros of Taylor series
+``rub``              when lasting contact changes, and what follows
+``rub_step``         one step of lasting contact
+``advance``          the event loop of one motion
+``fate``             criteria for the end to which a motion settles
+``planar_proofs``    ends that are proven before they are reached
+``ensemble``         many motions in one call, each to its end
+``lanes``            many motions side by side in vector registers
+``lane_search``      the search of crossings for lanes
+``vector``           numbers that stand for many lanes
+``counter``          a counter by which threads share a list of tasks
+``closing``          the orbit that a simulated motion approaches
+``periods``          all periods of single-impact orbits
+``planar``           single-impact orbits in closed form
+``segments``         maps of the segments of an orbit, with derivatives
+``closure``          equations of multiple shooting, and Newton's method
+``margins``          how far an orbit is from a change of its word
+``variation``        how small changes of a state propagate
+``growth``           growth of small changes along a motion
+``cache``            the disk cache of compiled kernels
+``cache_directory``  where that cache is
+``intermediate``     kernels that only other kernels call
+``shapes``           shapes of arrays as constants of the compiler
+``signatures``       types of operations, inferred once
+``target``           the processor that kernels are compiled for
+``processors``       number of available processor cores
+===================  ===========================================================
 """
