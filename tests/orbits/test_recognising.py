@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.models import Jeffcott
+from carom.models import Jeffcott, LinearRotor
 from carom.motions import State, simulate
 from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import orbit_near
@@ -78,3 +78,36 @@ def test_impacts_without_rebound_that_do_not_stay():
     assert apart[2] / apart[1] == pytest.approx(orbit.multipliers.spectral_radius, rel=1e-4)
     measured = lyapunov_exponents(machine, orbit.departure, 60, transient=20)
     assert measured.across[0] == pytest.approx(orbit_exponents(orbit).across[0], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("machine", "impacts"),
+    [
+        (Parameters(gamma=0.0701, omega=0.101, rho=0.381, phi=0.0, mu=0.0, d=0.106, radius_ratio=0.218), 13),
+        (Parameters(gamma=0.0386, omega=0.201, rho=0.682, phi=0.0, mu=0.474, d=0.17, radius_ratio=1.07), 7),
+    ],
+)
+@pytest.mark.parametrize("touched", [0, 1])
+def test_a_plane_that_is_never_touched_changes_no_orbit(machine, impacts, touched):
+    """The planar rotor beside a coordinate that it does not feel, with a contact plane far from that coordinate's motion."""
+    alone = orbit_of_motion(simulate(machine, State(0.1, -1.0 - 1.0j), settle=True))
+    rotor = LinearRotor.in_fixed_frame(
+        mass=np.eye(2),
+        damping=np.diag([machine.gamma, 0.3]),
+        stiffness=np.diag([machine.omega**2, 0.7]),
+        forcing=[machine.rho, 0.3],
+        planes=[[1.0, 0.0], [0.0, 0.1]][:: 1 - 2 * touched],
+        friction=[machine.mu] * 2,
+        restitution=[machine.d] * 2,
+        drive=[machine.radius_ratio + 1.0] * 2,
+    )
+    motion = simulate(rotor, State.of([0.1, 0.0], [-1.0 - 1.0j, 0.1]), settle=True)
+    assert motion.multiplicity == impacts
+    orbit = orbit_of_motion(motion)
+    assert orbit.admissible, orbit.reason
+    assert [(segment.kind, touched) for segment in alone.word] == [(each.kind, each.plane) for each in orbit.word]
+    assert orbit.period == pytest.approx(alone.period, rel=1e-10)
+    moduli, others = np.abs(orbit.multipliers.values), np.abs(alone.multipliers.values)
+    # Those of the other coordinate, in pairs of one modulus, besides.
+    assert all(np.abs(moduli - other).min() < 1e-8 for other in others)
+    assert lyapunov_exponents(rotor, orbit.departure, 60, transient=20).lost == orbit_exponents(alone).lost

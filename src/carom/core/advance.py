@@ -144,7 +144,9 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
             break
         if settle and (levitates(rotor, state, work) or (elapsed > 0.0 and stays_inside(rotor, state))):
             return LEVITATED, elapsed, plane
-        leap = min(horizon - elapsed, memory.recheck) if settle else horizon - elapsed
+        # A plane that is not touched would be searched up to the horizon before the others are.
+        by_leaps = settle or rotor.rows.shape[0] > 1
+        leap = min(horizon - elapsed, memory.recheck) if by_leaps else horizon - elapsed
         reaction, duration, plane = _leap(rotor, table, leap, contact, resting, work, rub)
         elapsed += duration
         if reaction != CLEAR:
@@ -152,7 +154,7 @@ def _fly(rotor, table, horizon, contact, memory, work, rub):
         copy(work.arrival, state)
         if elapsed >= horizon:
             return TIME_REACHED, horizon, plane
-    return _touch(rotor, contact, plane, reaction, memory, work, rub), elapsed, plane
+    return _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub), elapsed, plane
 
 
 @passage
@@ -169,11 +171,11 @@ def _reaction(rotor, contact, memory, work, rub):
 
 
 @passage
-def _touch(rotor, contact, plane, reaction, memory, work, rub):
+def _touch(rotor, contact, plane, reaction, elapsed, memory, work, rub):
     """Impact or landing of a plane in the state ``work.arrival``; returns the outcome."""
     contact[plane] = FLIGHT
     if reaction == CONTACT:
-        outcome = _meet(rotor, contact, plane, memory, work)
+        outcome = _meet(rotor, contact, plane, elapsed, memory, work)
         if rotor.rows.shape[0] > 1 and outcome == CONTACT:
             _loosen(rotor, contact, plane, work.current, rub)
     else:
@@ -253,7 +255,7 @@ def _next_contact(rotor, table, horizon, contact, work):
 
 
 @passage
-def _meet(rotor, contact, plane, memory, work):
+def _meet(rotor, contact, plane, elapsed, memory, work):
     """Apply the impact to the arriving state; return CONTACT, or how the motion has settled."""
     normal, speed = displacement(rotor, plane, work.arrival), velocity(rotor, plane, work.arrival)
     # Remove the rounding error of |y| = 1 from the state, to first order; the impact law does not need that.
@@ -262,7 +264,11 @@ def _meet(rotor, contact, plane, memory, work):
     for other in range(rotor.rows.shape[0]):
         if contact[other] > FLIGHT:
             memory.rubbed = 1
-    if memory.patience > 0 and (rotor.rows.shape[0] == 1 or _time_has_passed(memory)) and recurs(memory, work.arrival):
+    if (
+        memory.patience > 0
+        and (rotor.rows.shape[0] == 1 or _time_has_passed(memory, elapsed))
+        and recurs(memory, work.arrival)
+    ):
         copy(work.arrival, work.current)
         return MIXED if memory.rubbed > 0 else BOUNCING
     local = normal.conjugate() * speed
@@ -274,11 +280,11 @@ def _meet(rotor, contact, plane, memory, work):
 
 
 @part
-def _time_has_passed(memory):
-    """Whether time has passed since the last impact that was tested for recurrence."""
-    passed = memory.lap > SHORTEST_LAP
+def _time_has_passed(memory, elapsed):
+    """Whether time has passed since the last impact that was tested for recurrence; the time elapsed is not yet part of the lap."""
+    passed = memory.lap + elapsed > SHORTEST_LAP
     if passed:
-        memory.lap = 0.0
+        memory.lap = -elapsed
     return passed
 
 
@@ -311,7 +317,7 @@ def _slide(rotor, contact, horizon, memory, work, rub):
         reaction, _, plane = _reaction(rotor, contact, memory, work, rub)
     if reaction != CLEAR:
         copy(work.current, work.arrival)
-        outcome, duration = _touch(rotor, contact, plane, reaction, memory, work, rub), 0.0
+        outcome, duration = _touch(rotor, contact, plane, reaction, 0.0, memory, work, rub), 0.0
     else:
         outcome, duration, plane = rub_step(rotor, contact, work.current, horizon, memory, rub)
         copy(work.current, work.arrival)

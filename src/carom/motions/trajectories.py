@@ -85,7 +85,7 @@ class Trajectory(Result):
     segment_phases : ndarray of :class:`~carom.outcome.Phase`, shape (n + 1, P)
         Phase of each contact plane.
     event_planes : ndarray of int, shape (n,)
-        Contact plane of the event that ends each segment but the last.
+        Contact plane of the event that ends each segment but the last; −1 for a step of flight that changes nothing.
     segment_amplitudes : ndarray of complex, shape (n + 1, N)
         Mode amplitudes at the start of each segment.
     arrivals : ndarray of complex, shape (n, N)

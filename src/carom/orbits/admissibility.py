@@ -9,6 +9,7 @@ from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
 from carom.core.rub import lift_off
+from carom.core.rub_step import NOWHERE
 from carom.models import Jeffcott, Model
 from carom.models.system import Contact
 from carom.motions.trajectories import EventLog, follow
@@ -177,6 +178,8 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
         horizon = duration - time if stays else 2.0 * duration + 1.0
         outcome, elapsed, _ = follow(rotor, amplitudes, horizon, contact, log, recollection)
         time += elapsed
+        if outcome is Outcome.EVENT_LIMIT and log.planes[0] == NOWHERE:
+            continue  # a step of the flight next to a wall
         if segment.kind is Kind.LIFT and time <= INSTANT:
             continue  # by rounding the rotor may stay on the wall for an instant before it lifts off
         changes = (np.maximum(contact, 0) != np.maximum(before, 0)).any() or segment.kind.flies

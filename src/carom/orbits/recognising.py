@@ -169,12 +169,15 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
     planes = motion.event_planes[first:last]
     known = {(kind, plane): Segment(Kind(kind), plane) for kind in set(kinds) for plane in set(planes.tolist())}
     phases = zip(*(motion.segment_phases[places + later, planes].tolist() for later in (0, 1)), strict=True)
-    for event, struck, plane, (before, after) in zip(places.tolist(), kinds, planes.tolist(), phases, strict=True):
-        if before == after == Phase.FLIGHT:
+    strikes = motion.is_impact[first:last].tolist()
+    for event, strike, struck, plane, (before, after) in zip(
+        places.tolist(), strikes, kinds, planes.tolist(), phases, strict=True
+    ):
+        if strike:
             steps.append((known[struck, plane], motion.arrivals[event], float(times[event])))
             continue
         if before == after:
-            continue  # a long contact is logged in steps
+            continue  # long contacts are logged in steps, and so is flight next to a wall beside other planes
         if before == Phase.FLIGHT:
             bounces = next((k for k, step in enumerate(reversed(steps)) if not _bounces(step[0], plane)), len(steps))
             if arrays.restitution[plane] == 0.0:
