@@ -9,8 +9,8 @@ from carom.models import Jeffcott, LinearRotor
 from carom.motions import State, simulate
 from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import orbit_near
-from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
-from carom.orbits.shooting import Start
+from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl, segments_of
+from carom.orbits.shooting import Start, links_of
 from carom.orbits.word import Kind, Word
 from carom.parameters import Parameters
 from tests.orbits.test_orbit import CHATTERING
@@ -60,6 +60,19 @@ def test_its_exponent_is_the_rate_at_which_simulated_motions_part(whirl):
 def test_rolling_alone_has_no_such_orbit():
     motion = simulate(Jeffcott(CHATTERING), State(1.0, -80j), settle=True)
     assert orbit_of_whirl(motion, 0.108) is None
+
+
+def test_a_chatter_after_an_impact_that_grazes():
+    """The chatter does not begin with the slow impact from which the rotor does not return at once."""
+    rotor, place = Jeffcott(CHATTERING), np.exp(2j)
+    motion = simulate(rotor, State(place, (1e-7 - 1.0j) * place), 30.0)
+    hits, landing = np.flatnonzero(motion.is_impact), np.flatnonzero(motion.is_landing)[0]
+    next_flight = int(hits[hits > landing][0])
+    for brief in (False, True):
+        word, begin = segments_of(motion, 0, next_flight + 1, brief=brief)
+        assert str(word) == "impact+ land slide+ lift impact+"
+        # Each segment ends where the simulation does.
+        assert np.abs(links_of(rotor, word, begin).arrivals[:-1] - begin.nodes[1:]).max() < 1e-12
 
 
 def test_impacts_without_rebound_that_do_not_stay():

@@ -10,7 +10,7 @@ from carom.core.advance import SHORTEST_LAP
 from carom.models import Model
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import Start, slow_departures
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import InputError, Outcome, Phase
 
@@ -159,11 +159,11 @@ def _near(rotor: Model, word: Word, start: Start) -> Orbit | None:
 def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = False) -> tuple[Word, Start]:
     """Word, nodes and durations of a motion from one event up to another, which the last segment reaches.
 
-    Impacts that lead to a landing without anything else in between become one chatter; without restitution only the last of
-    them; if it is to be ``brief``, only those from which on each bounce is shorter than the one before.
+    Impacts that lead to a landing without anything else in between become one chatter, but for those up to a slow one from
+    which the rotor did not return at once; if it is to be ``brief``, only those from which on each bounce is shorter than the one before.
     """
     steps: list[tuple[Segment, np.ndarray, float]] = []
-    arrays = motion.rotor.system.arrays
+    struck_at: list[int] = []
     times = np.append(motion.segment_starts[1:], motion.time)
     kinds, places = _impact_kinds(motion, first, last).tolist(), np.arange(first, last)
     planes = motion.event_planes[first:last]
@@ -174,14 +174,14 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
         places.tolist(), strikes, kinds, planes.tolist(), phases, strict=True
     ):
         if strike:
+            struck_at.append(event)
             steps.append((known[struck, plane], motion.arrivals[event], float(times[event])))
             continue
         if before == after:
             continue  # long contacts are logged in steps, and so is flight next to a wall beside other planes
         if before == Phase.FLIGHT:
             bounces = next((k for k, step in enumerate(reversed(steps)) if not _bounces(step[0], plane)), len(steps))
-            if arrays.restitution[plane] == 0.0:
-                bounces = min(bounces, 1)  # after those before it, the rotor left the wall as it does at a lift-off
+            bounces -= _not_of_chatter(motion, plane, struck_at[len(struck_at) - bounces :][:-1])
             if brief:
                 bounces = _getting_shorter([step[2] for step in steps[len(steps) - bounces :]])
             chatter = steps[len(steps) - bounces :]
@@ -196,6 +196,12 @@ def segments_of(motion: Trajectory, first: int, last: int, *, brief: bool = Fals
 
 def _bounces(segment: Segment, plane: int) -> bool:
     return segment.kind.is_impact and segment.plane == plane
+
+
+def _not_of_chatter(motion: Trajectory, plane: int, bounces: list[int]) -> int:
+    """Number of the bounces before the last of a landing, given by their events, up to the last slow departure."""
+    *_, last = -1, *slow_departures(motion.rotor, plane, motion.segment_amplitudes[1:][bounces])
+    return last + 1
 
 
 def _getting_shorter(times: list[float]) -> int:

@@ -13,7 +13,7 @@ equations hold beyond the onset too.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -248,13 +248,22 @@ def _distance(rotor: Model, plane: int, bounce: np.ndarray) -> float:
 
 def _interruption(rotor: Model, plane: int, bounces: EventLog) -> int | None:
     """Last bounce but one of a chatter that is interrupted just before it is complete."""
-    position, velocity = rotor.system.at_planes(bounces.after, np.full(len(bounces.times), plane))
+    gone = next(slow_departures(rotor, plane, bounces.after, bounces.planes == plane), None)
+    return None if gone is None else max(gone - 1, 0)
+
+
+def slow_departures(rotor: Model, plane: int, after: np.ndarray, chosen: np.ndarray | None = None) -> Iterator[int]:
+    """Bounces, of states (n, N) just after them, that are slow and from which the rotor does not return at once.
+
+    They interrupt a chatter, graze the wall, or have no rebound.
+    """
+    position, velocity = rotor.system.at_planes(after, np.full(len(after), plane))
     speeds = -(position.conj() * velocity).real
-    for k in np.flatnonzero((speeds < SLOW) & (bounces.planes == plane)).tolist():
-        push, rate = wall_push(rotor.system.arrays, plane, bounces.after[k])
+    slow = speeds < SLOW if chosen is None else (speeds < SLOW) & chosen
+    for k in np.flatnonzero(slow).tolist():
+        push, rate = wall_push(rotor.system.arrays, plane, after[k])
         if push <= 0.0 or -rate * speeds[k] > NO_RETURN * push * push:
-            return max(k - 1, 0)
-    return None
+            yield k
 
 
 def pack(start: Start) -> np.ndarray:
