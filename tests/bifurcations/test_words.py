@@ -176,6 +176,18 @@ def test_beyond_the_grazing_the_branch_turns():
     assert slopes == pytest.approx([0.5, 0.5], abs=0.02)
 
 
+def test_orbits_next_to_a_fold_close():
+    """Newton's method must not leave the orbit by a step with a singular derivative."""
+    orbit = find_orbits(PAPER.replace(gamma=0.17))["B1,d"]
+    (fold,) = [point for point in continue_word(orbit, "gamma", (0.165, 0.19)).special if point.kind == "fold"]
+    start = Start(fold.orbit.nodes, fold.orbit.durations)
+    for shift in (-1e-12, *np.arange(-20, 21) * 1e-15, 1e-13):
+        found = orbit_near(PAPER.replace(gamma=fold.value * (1.0 + shift)), orbit.word, start)
+        assert found is not None
+        assert found.links.size < 1e-12
+        assert found.period == pytest.approx(fold.orbit.period, abs=1e-5)  # the square root of the shift
+
+
 def test_the_next_period_doubling_of_the_doubled_branch():
     """It is on the virtual part; the branch of four impacts that is born there ends at the same damping."""
     point = located("period-doubling", 0.08556)

@@ -341,10 +341,12 @@ def converged(rotor: Model, word: Word, start: Start, known: Sequence[np.ndarray
         try:
             change = np.linalg.solve(here.jacobian, -here.residual)
         except np.linalg.LinAlgError:
-            return None
+            return here if size <= STALLED else None
         unknowns = pack(here.start)
         if size <= TOLERANCE:
-            return links_of(rotor, word, unpack(unknowns + change, len(word)))
+            polished = links_of(rotor, word, unpack(unknowns + change, len(word)))
+            # At a fold the derivative is singular, and the step leads anywhere.
+            return polished if polished.size <= TOLERANCE else here
         change *= _deflation(unknowns, change, known)
         moved, durations = np.abs(change.reshape(len(word), -1)[:, -1]), np.abs(here.start.durations)
         share = min(1.0, LONGEST_STEP * float((durations / np.maximum(moved, 1e-300))[word.kinds != Kind.LAND].min()))
