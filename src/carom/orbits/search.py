@@ -226,9 +226,10 @@ class _Search:
             return
         states = self.rotor.system.states_of(motion.arrivals[impacts])
         times = motion.segment_starts[1:][impacts]
-        # Low bounces change little because they are short.
+        # Low bounces change little because they are short; planes that strike at one instant take no time.
         lasted = times[self.impacts :] - times[: -self.impacts]
-        apart = np.abs(states[self.impacts :] - states[: -self.impacts]).max(axis=1) / lasted
+        changes = np.abs(states[self.impacts :] - states[: -self.impacts]).max(axis=1)
+        apart = np.divide(changes, lasted, out=np.full_like(changes, np.inf), where=lasted > 0.0)
         for first in np.argsort(apart, kind="stable")[:GUESSES]:
             self.correct(start, motion, int(impacts[first]), int(impacts[first + self.impacts]))
 
