@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.neighbours import NEIGHBOURS, is_other, neighbour, read_beside, setting_out
+from carom.bifurcations.neighbours import CONTACT_CHANGES, NEIGHBOURS, is_other, neighbour, read_beside, setting_out
 from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
 from carom.models import Model
@@ -40,12 +40,16 @@ LARGEST_STEP, LEAST_JUMP = 0.3, 0.01
 
 LONG = 4
 """Number of equal segments in a row above which they are counted, not listed."""
-READ = ("contact-onset", "permanent-contact")
+READ = ("contact-onset", "permanent-contact", *CONTACT_CHANGES)
 """Borders beyond which the word is read from a simulated period."""
 STAYING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 """How motions end that do not leave the wall."""
+SETTLED = 8
+"""Periods of the orbit over which a motion counts that has settled, with lasting contact."""
 TURNS = 50
 """Periods over which the distance of such a motion counts."""
+RESOLVED = 1e-6
+"""Departure down to which a motion with chatter is resolved: the simulation completes it where bounces have a speed of this size."""
 MEASURED = 4000
 """Impacts over which the exponent of an irregular motion is measured."""
 
@@ -112,7 +116,8 @@ class Border(Result):
         far, *nearer = self.departures
         if not np.isfinite(self.departures).all():
             return "jump" if not np.isfinite(self.departures).any() else "undecided"
-        ratios = [b / a for a, b in zip(self.departures, nearer, strict=False) if a > 0.0]
+        chatters = any(word is not None and word.lands.any() for word in (self.point.orbit.word, self.word))
+        ratios = [b / a for a, b in zip(self.departures, nearer, strict=False) if a > chatters * RESOLVED]
         if far < LARGEST_STEP and ratios and max(ratios) < SHRINKS:
             chaotic = all(value > CONFIDENT * error for value, error in self.exponents)
             return "chaotic band" if chaotic else "continuous"
@@ -177,8 +182,8 @@ def examine_border(point: Bifurcation) -> Border:
     Parameters
     ----------
     point : Bifurcation
-        Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``, or of orbits with lasting contact ``"contact-onset"`` or
-        ``"permanent-contact"``.
+        Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``, or of orbits with lasting contact ``"contact-onset"``,
+        ``"permanent-contact"``, ``"cone-limit"``, ``"slide-stop"`` or ``"lift-off"``.
 
     Raises
     ------
@@ -189,7 +194,7 @@ def examine_border(point: Bifurcation) -> Border:
         raise InputError("border", point.kind, f"one of {', '.join((*NEIGHBOURS, *READ))}")
     orbit, sides = point.orbit, _Sides.of(point)
     contacts = orbit.nodes
-    own = {side: sides.near(side, sides.least, orbit.word, Start(orbit.nodes, orbit.durations)) for side in (-1, 1)}
+    own = sides.own() if point.admissible else {}
     if point.kind in NEIGHBOURS:
         known, start = neighbour(point.kind, orbit)
         contacts = np.concatenate([contacts, start.nodes])
@@ -239,6 +244,25 @@ class _Sides:
             return None
         return found if abs(found.period - self.orbit.period) < LARGEST_STEP else None
 
+    def own(self) -> dict[int, Orbit | None]:
+        """The orbit itself on both sides where it is a motion, at the smallest distance at which it is one on either."""
+        found: dict[int, Orbit | None] = {-1: None, 1: None}
+        for distance in reversed(self.distances):
+            found = {side: self._own_at(side, distance) for side in (-1, 1)}
+            # Bounces that the simulation leaves out of a chatter hide a slip of 1e-7.
+            if self.orbit.word.flies or any(each is not None for each in found.values()):
+                break
+        return found
+
+    def _own_at(self, side: int, distance: float) -> Orbit | None:
+        found = self.near(side, distance, self.orbit.word, Start(self.orbit.nodes, self.orbit.durations))
+        if found is None and not self.orbit.word.flies:
+            # Where a segment shrinks like a root, the orbit on the border is no start for Newton's method.
+            read = read_beside(self.orbit, self.at(side, distance))
+            if read is not None and not is_other(read[0], self.orbit.word):
+                found = self.near(side, distance, *read)
+        return found
+
     def read(self) -> tuple[Word | None, tuple[Orbit | None, Orbit | None]]:
         """The word that a simulated period has beside the border where it is not that of the orbit, and the orbits of it.
 
@@ -284,7 +308,8 @@ def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Mode
         if any(segment.kind.flies for segment in orbit.word) or motion.outcome not in STAYING:
             return _Followed(np.inf)
         motion = simulate(rotor, motion.final, TURNS * orbit.period)
-    states = motion.rotor.system.states_of(motion.arrivals[-LATEST:])
+    last = motion.arrivals[-LATEST:] if orbit.word.flies else _settled_on(motion, orbit.period)
+    states = motion.rotor.system.states_of(last)
     departure = float(apart(states).max())
     if motion.outcome is Outcome.TIME_REACHED or motion.multiplicity or departure > LARGEST_STEP:
         return _Followed(departure)
@@ -292,6 +317,13 @@ def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Mode
         return _Followed(departure, lyapunov_exponents(rotor, motion.final, MEASURED).across)
     except CaromError:  # its segments cannot be repeated to eight digits, or it stops hitting the wall
         return _Followed(departure)
+
+
+def _settled_on(motion: Trajectory, period: float) -> np.ndarray:
+    """Amplitudes at the events of a motion with lasting contact after it has settled, which may take it but two periods, or at its last ones."""
+    if motion.outcome is Outcome.TIME_REACHED or not motion.multiplicity:
+        return motion.arrivals[-LATEST:]
+    return simulate(motion.rotor, motion.final, SETTLED * period).arrivals
 
 
 def _stability(orbit: Orbit) -> str:

@@ -20,6 +20,8 @@ from carom.outcome import InputError, Phase
 
 READ = 2.3
 """Periods that are simulated to read one."""
+BEGUN = 0.1
+"""Share of the first period that is left out: on the wall a simulation may begin with an instant of another contact."""
 SAME_TIME = 0.02
 """Relative difference of the period read from that on the border."""
 MOST_EVENTS = 20_000
@@ -79,7 +81,8 @@ def read_beside(orbit: Orbit, rotor: Model) -> tuple[Word, Start] | None:
     times, places = motion.segment_starts[1:], np.arange(len(motion.event_planes))
     before, after = (motion.segment_phases[places + later, motion.event_planes] for later in (0, 1))
     signs = np.stack([motion.event_planes, before, after], axis=1)
-    begins = np.flatnonzero((motion.is_impact | (before != after)) & (times < orbit.period))
+    changes = motion.is_impact | (before != after)
+    begins = np.flatnonzero(changes & (times > BEGUN * orbit.period) & (times < (1.0 + BEGUN) * orbit.period))
     if not len(begins):
         return None
     # Impacts before a landing belong to one chatter: it is not cut where a lift-off can be.
@@ -164,3 +167,5 @@ NEIGHBOURS: dict[str, Callable[[Orbit], tuple[Word, Start]]] = {
     "slip-stop": _with_other_slip,
 }
 """Borders beyond which the orbit of the neighbouring word is known."""
+CONTACT_CHANGES = ("cone-limit", "slide-stop", "lift-off")
+"""Borders at which lasting contact changes its kind."""

@@ -34,7 +34,9 @@ class Bifurcation(Result):
         ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"`` (a maximum of the radius reaches the wall),
         ``"non-smooth-hopf"`` (orbits with one impact shrink to a boundary equilibrium), ``"vanishing-impact"`` (the speed of an
         impact vanishes: grazing of the orbit without this impact), ``"slip-stop"`` (friction begins or ceases to stop the slip in an
-        impact), ``"contact-onset"`` (lasting contact begins), ``"cone-limit"`` (rolling begins at the limit of friction),
+        impact), ``"contact-onset"`` (lasting contact begins), ``"cone-limit"`` (friction just holds the rotor rolling, where this begins or
+        while it lasts), ``"slide-stop"`` (the slip vanishes while sliding, or with which a chatter lands), ``"lift-off"`` (the normal force
+        vanishes during lasting contact),
         ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the period), or
         ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).  Of steady motions:
         ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at

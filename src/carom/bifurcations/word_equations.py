@@ -87,8 +87,8 @@ class FamilyPoint:
 def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | None:
     """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
     start = unpack_free(word, unknowns)
-    # The contact after a chatter may vanish: lasting contact begins there.
-    if start.durations.min(where=word.timed, initial=np.inf) < SHORTEST:
+    # The contact after a chatter may vanish: lasting contact begins there.  Contact that shrinks to nothing goes on with negative duration.
+    if start.durations.min(where=word.timed & (word.kinds <= Kind.LIFT), initial=np.inf) < SHORTEST:
         return None
     links = links_of(rotor, word, start)
     return FamilyPoint(rotor, word, links) if isfinite(links.residual.sum()) else None
@@ -106,9 +106,11 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
     "contact-onset": lambda point: point.onset,
     "permanent-contact": lambda point: point.least_push,
     "cone-limit": lambda point: point.margins.cone,
+    "slide-stop": lambda point: point.margins.sliding,
+    "lift-off": lambda point: point.margins.pressing,
 }
 """Functions that vanish at special points; not finite where they are not defined."""
-OF_CONTACT = ("contact-onset", "permanent-contact", "cone-limit")
+OF_CONTACT = ("contact-onset", "permanent-contact", "cone-limit", "slide-stop", "lift-off")
 """Those of words with lasting contact alone."""
 
 
@@ -213,7 +215,9 @@ class Family:
                 found = np.nan if point is None else TESTS[kind](point)
                 return found if np.isfinite(found) else np.nan
 
-            return Watch(kind, value, ends_branch=kind == "contact-onset")
+            # Where friction stops the slip before a slide, this ceases to be; other words go on among virtual orbits.
+            slides = (self.word.landed & (self.word.kinds != Kind.ROLL)).any()
+            return Watch(kind, value, ends_branch=kind == "contact-onset" or (kind == "slide-stop" and slides))
 
         # The continuation finds folds itself.
         left_out = {"fold", *(OF_CONTACT if self.word.flies else ())}

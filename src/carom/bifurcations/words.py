@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact, passing
-from carom.bifurcations.neighbours import NEIGHBOURS, is_other, neighbour, read_beside
+from carom.bifurcations.neighbours import CONTACT_CHANGES, NEIGHBOURS, is_other, neighbour, read_beside
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_equations import FAR, LYING, Family
+from carom.bifurcations.word_equations import BRIEF, FAR, LYING, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
 from carom.models import Jeffcott, Model
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -28,11 +28,13 @@ from carom.outcome import CaromError, InputError
 from carom.parameters import Numbers
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
-BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "permanent-contact", "cone-limit")
+BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "permanent-contact", *CONTACT_CHANGES)
 """Special points at which the word of a motion changes."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
 ONSET, PERMANENT = "contact-onset", "permanent-contact"
+LEAVES = (PERMANENT, "lift-off")
+"""Where contact that never leaves the wall begins to."""
 BESIDE = 1e-5
 """Distance from a border, relative to the parameter, at which the word beyond it is read from a simulated period."""
 NEARBY = 0.02
@@ -181,7 +183,8 @@ def switched(
     At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and where friction
     begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the other slip.  Where contact becomes
     permanent, it is that of the sliding that never leaves the wall.  At the onset of lasting contact it is that of the many impacts which the
-    interrupted chatter has at a small distance; the closer, the more they are.  Which of
+    interrupted chatter has at a small distance; the closer, the more they are.  Where lasting contact changes its kind it is that of the word which a
+    simulated period has beside the border.  Which of
     its orbits are motions, and on which side, :func:`~carom.bifurcations.examine_border` tells.
 
     Parameters
@@ -203,7 +206,7 @@ def switched(
     CaromError
         No orbit is found next to it.
     """
-    known = (ONSET, PERMANENT, *NEIGHBOURS)
+    known = (ONSET, PERMANENT, *CONTACT_CHANGES, *NEIGHBOURS)
     if kind not in ("period-doubling", *known):
         raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(known)}")
     along = axis(orbit.rotor, parameter)
@@ -214,7 +217,7 @@ def switched(
         family = Family(orbit.rotor, along, orbit.word.repeated(2), limits)
         doubled = np.tile(pack_free(orbit.word, orbit.links.start), 2)
         unknowns, present = family.beside(doubled, present, _alternating(orbit.word, orbit.links))
-    elif kind == ONSET:
+    elif kind == ONSET or kind in CONTACT_CHANGES:
         word, start, present = _beyond(orbit, along, limits)
         family, unknowns = Family(orbit.rotor, along, word, limits), pack_free(word, start)
     else:
@@ -276,7 +279,7 @@ def _follow(
         scales=np.append(np.ones(len(start)), family.size),
         crossings="",
     )
-    passed = branch.of_kind("period-halving"), branch.of_kind("vanishing-impact")
+    passed = [branch.of_kind(kind) for kind in ("period-halving", "vanishing-impact", "cone-limit")]
     whole = [family.whole(u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
     special = tuple(
         _special_point(
@@ -296,7 +299,8 @@ def _follow(
     )
     stops = list(branch.stops)
     for end, place in ((0, 0.0), (-1, len(branch) - 1.0)):
-        point = _permanent_contact(family, whole[end], branch.parameters[end], place) if stops[end] == LYING else None
+        lies = stops[end] in (LYING, "step too small")
+        point = _permanent_contact(family, whole[end], branch.parameters[end], place) if lies else None
         if point is not None:
             special, stops[end] = (*special, point), point.kind
     special = tuple(sorted(special, key=lambda point: point.place))
@@ -321,31 +325,51 @@ def _special_point(kind: str, along: Axis, value: float, orbit: Orbit, place: fl
 
 
 def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place: float) -> Bifurcation | None:
-    """Where the only flight of a period vanishes: sliding that never leaves the wall, whose least normal force vanishes."""
-    word, start = family.word, unpack(unknowns, len(family.word))
-    stays = [segment for segment in word if segment.kind.lasts]
-    if len(word) != 3 or len(stays) != 1 or stays[0].kind is Kind.ROLL:
+    """Where the only flight of a period vanishes: lasting contact that never leaves the wall, whose least normal force vanishes."""
+    start = _without_flight(family.word, unpack(unknowns, len(family.word)))
+    if start is None:
         return None
-    lift = start.nodes[word.kinds == Kind.LIFT]
-    alone = orbit_near(
-        family.along.move(family.rotor, value), Word((stays[0],)), Start(lift, start.durations.sum()[None])
-    )
+    alone = orbit_near(family.along.move(family.rotor, value), *start)
     if alone is None:
         return None
     reach = NEARBY * family.size
     limits = max(family.limits[0], value - reach), min(family.limits[1], value + reach)
-    found = [point for point in continue_word(alone, family.along.name, limits).special if point.kind == PERMANENT]
+    found = [point for point in continue_word(alone, family.along.name, limits).special if point.kind in LEAVES]
     nearest = min(found, key=lambda point: abs(point.value - value), default=None)
     return None if nearest is None else replace(nearest, place=place)
 
 
+def _without_flight(word: Word, start: Start) -> tuple[Word, Start] | None:
+    """The contact of a period without its only flight, if it is of one kind before and after this."""
+    lifts = np.flatnonzero(word.kinds == Kind.LIFT)
+    if len(lifts) != 1 or word.impacts or word.lands.sum() != 1 or start.durations[lifts[0]] > 1.01 * BRIEF:
+        return None
+    first = int(lifts[0])
+    turned, nodes, durations = (
+        word.turned(first),
+        np.roll(start.nodes, -first, axis=0),
+        np.roll(start.durations, -first),
+    )
+    if turned[1].kind is not Kind.LAND or turned[2] != turned[-1] or turned[2].kind is Kind.ROLL:
+        return None
+    if len(word) == 3:
+        return Word(turned[2:]), Start(nodes[:1], durations.sum()[None])
+    durations[-1] += durations[:3].sum()
+    return Word(turned[3:]), Start(nodes[3:], durations[3:])
+
+
 def _is_special(
-    family: Family, point: SpecialPoint, halvings: tuple[SpecialPoint, ...], vanishing: tuple[SpecialPoint, ...]
+    family: Family,
+    point: SpecialPoint,
+    halvings: tuple[SpecialPoint, ...],
+    vanishing: tuple[SpecialPoint, ...],
+    limits: tuple[SpecialPoint, ...],
 ) -> bool:
     """Whether a special point of the continuation is one of orbits.
 
     Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an impact vanishes, a
-    maximum of the radius is at the wall: that impact.  Two real multipliers with
+    maximum of the radius is at the wall: that impact.  Where rolling between slides of one direction shrinks to nothing, their slip touches zero
+    and the branch turns.  Two real multipliers with
     the product one are no Neimark–Sacker bifurcation.
     """
     if point.kind == "period-halving":
@@ -353,6 +377,8 @@ def _is_special(
     if point.kind in (FAR, LYING) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
         return False
     if point.kind == "grazing" and any(_meet(point, other) for other in vanishing):
+        return False
+    if point.kind in ("fold", "slide-stop") and any(_meet(point, other) for other in limits):
         return False
     if point.kind == "neimark-sacker":
         there = family.point(point.unknowns, point.parameter)

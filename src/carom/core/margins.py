@@ -6,12 +6,14 @@ import math
 
 import numpy as np
 
+from carom.core.contact_series import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, rub_series
 from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import unit
-from carom.core.layout import kernel, part
-from carom.core.segments import IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, ROLL, SLIDE_FORWARD, strike
+from carom.core.layout import ORDER, kernel, part
+from carom.core.segments import IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, strike
+from carom.core.taylor import series_step, sum_series
 
-__all__ = ["highest_point", "least_margins", "local_motion"]
+__all__ = ["contact_margins", "highest_point", "least_margins", "local_motion"]
 
 SAMPLES, PER_RADIAN = 32, 10.0
 """Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
@@ -22,6 +24,10 @@ A flight that leaves a wall to which it is pressed, while this force falls linea
 of the maximum with which it touches the wall again.
 """
 HALVINGS = 50
+PARTS = 6
+"""Parts of a Taylor step, a seventh of its radius of convergence, in each of which a margin has one minimum at most."""
+AT_EDGE = 1e-9
+"""Time from the ends of a Taylor step within which a minimum cannot be told from rounding, in ``1/Ω``."""
 
 
 @kernel
@@ -59,7 +65,7 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
     tuple of float
         Depth of the highest maximum of the radius inside a flight, ``1 − |y|²``; radial speed before impacts; slip left after
         impacts, or where friction stops the slip what it could still take; normal force; and distance from the limit of
-        friction while rolling.  Infinite where there is none of the kind.
+        friction where rolling begins, or where the slip passes through zero.  Infinite where there is none of the kind.
     """
     m = kinds.shape[0]
     local = local_motion(rotor, planes, nodes)
@@ -72,10 +78,13 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
             taken = friction * (1.0 + rotor.restitution[planes[i]]) * radial
             left = (-drift if kinds[i] == IMPACT_BACKWARD else drift) - taken
             slip = min(slip, taken - abs(drift) if kinds[i] == IMPACT_STOPPED else left)
-        if kinds[i] == ROLL:
+        # After a chatter with rebound friction ceases to stop the slip before this limit is reached.
+        if kinds[i] == ROLL and (math.isinf(landings[i - 1]) or rotor.restitution[planes[i]] == 0.0):
             cone = min(cone, friction * pressed - abs(pull))
+        if kinds[i] >= SLIDE_FORWARD and kinds[i] != ROLL and kinds[i - 1] == SLIDE_FORWARD + SLIDE_BACKWARD - kinds[i]:
+            cone = min(cone, (pull if kinds[i] == SLIDE_FORWARD else -pull) - friction * pressed)
         if kinds[i] >= SLIDE_FORWARD:
-            begins = landings[i - 1] if i else landings[m - 1]
+            begins = landings[i - 1]
             push = min(push, begins if begins < 0.0 else pressed)
         elif kinds[i] != LIFT:
             approach = min(approach, radial)
@@ -88,6 +97,86 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
                 if height > -radius:
                     radius = -height
     return radius, approach, slip, push, cone
+
+
+@kernel
+def contact_margins(rotor, kinds, planes, nodes, durations, rub):
+    """Least distances of lasting contact from a change of its kind, at the minima inside each segment.
+
+    Parameters
+    ----------
+    rotor, kinds, planes, nodes, durations
+        As for :func:`least_margins`.
+    rub : record of :func:`~carom.core.layout.rub_workspace`
+
+    Returns
+    -------
+    tuple of float
+        Normal force, slip in the direction of the sliding, and distance from the limits of friction while rolling; infinite without
+        minima.
+    """
+    push, slip, cone = np.inf, np.inf, np.inf
+    state, contact = np.empty(nodes.shape[1], np.complex128), np.empty(rotor.rows.shape[0], np.int64)
+    for i in range(kinds.shape[0]):
+        if kinds[i] < SLIDE_FORWARD:
+            continue
+        plane, rolls, backward = planes[i], kinds[i] == ROLL, kinds[i] == SLIDE_BACKWARD
+        friction = rotor.friction[plane]
+        contact[:] = AWAY
+        contact[plane] = ROLLING if rolls else BACKWARD_SLIP if backward else FORWARD_SLIP
+        state[:] = nodes[i]
+        elapsed = 0.0
+        while elapsed < durations[i]:
+            rub_series(rotor, contact, state, rub)
+            step = min(series_step(rub), durations[i] - elapsed)
+            push = min(push, _least_inside(rub.push[plane], step))
+            for k in range(ORDER + 1):
+                grip = rub.grip[plane, k] if rolls else 0.0
+                rub.first_margin[k] = friction * rub.push[plane, k] - grip
+                rub.second_margin[k] = friction * rub.push[plane, k] + grip
+                if not rolls:
+                    rub.first_margin[k] = -rub.slip[plane, k] if backward else rub.slip[plane, k]
+            if rolls:
+                cone = min(cone, _least_inside(rub.first_margin, step), _least_inside(rub.second_margin, step))
+            else:
+                slip = min(slip, _least_inside(rub.first_margin, step))
+            sum_series(rub, step, state)
+            elapsed = durations[i] if step == durations[i] - elapsed else elapsed + step
+    return push, slip, cone
+
+
+@part
+def _least_inside(margin, step):
+    """Smallest value of the minima of a polynomial inside a step; infinite without any."""
+    least, early, before = np.inf, 0.0, _slope(margin, AT_EDGE)
+    for i in range(1, PARTS + 1):
+        late = step * i / PARTS
+        after = _slope(margin, late)
+        if before < 0.0 and after >= 0.0:
+            low, high = early, late
+            for _ in range(HALVINGS):
+                middle = 0.5 * (low + high)
+                if _slope(margin, middle) < 0.0:
+                    low = middle
+                else:
+                    high = middle
+            value = margin[ORDER]
+            for k in range(ORDER - 1, -1, -1):
+                value = value * high + margin[k]
+            # A change of kind begins with a margin of zero that may have no slope: by rounding that is no minimum.
+            if AT_EDGE < high < step - AT_EDGE:
+                least = min(least, value)
+        early, before = late, after
+    return least
+
+
+@part
+def _slope(margin, time):
+    """Derivative of a polynomial."""
+    slope = ORDER * margin[ORDER]
+    for k in range(ORDER - 1, 0, -1):
+        slope = slope * time + k * margin[k]
+    return slope
 
 
 @kernel

@@ -345,7 +345,7 @@ def carry_through_chatter(rotor, plane, arrivals, durations, landing, slip, dire
     landing : complex array, shape (N,)
         Amplitudes just after the last bounce; overwritten by those of lasting contact.
     slip : {1, -1, 0}
-        Direction of the slip at the landing; 0 if it rolls.
+        Direction of the slip at the landing; 0 if it rolls.  The last impact has the same, whatever its state says.
     directions : complex array, shape (2N, N)
         Overwritten.
     delays : array, shape (2N,)
@@ -353,10 +353,11 @@ def carry_through_chatter(rotor, plane, arrivals, durations, landing, slip, dire
     """
     later = np.empty_like(delays)
     delays[:] = 0.0
-    for bounce in range(arrivals.shape[0]):
+    for bounce in range(arrivals.shape[0] - 1):
         carry_through_impact(rotor, plane, arrivals[bounce], directions)
-        if bounce + 1 < arrivals.shape[0]:
-            carry_to_wall(rotor, plane, durations[bounce], arrivals[bounce + 1], directions, later)
-            for row in range(delays.shape[0]):
-                delays[row] += later[row]
+        carry_to_wall(rotor, plane, durations[bounce], arrivals[bounce + 1], directions, later)
+        for row in range(delays.shape[0]):
+            delays[row] += later[row]
+    kind = IMPACT_STOPPED if slip == 0 else IMPACT_FORWARD if slip > 0 else IMPACT_BACKWARD
+    strike(rotor, plane, kind, arrivals[-1].copy(), directions)
     _rest(rotor, plane, landing, directions, slip * rotor.friction[plane], slip == 0)

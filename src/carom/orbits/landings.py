@@ -9,6 +9,11 @@ above it ends with a flight from which the rotor does not return at once (``w > 
 A small distance from ``w*`` grows by the factor ``λ = d²/(1 − τ)⁵`` a bounce while ``N`` falls by ``1 − τ``.  So the force
 that is left at the landing is a power of the distance from the onset, with the exponent ``−ln(1 − τ)/ln λ``: 1 without
 rebound, 3/5 for a rebound without loss.
+
+Whether the contact slides or rolls is decided on the way.  The last bounces are alike: a bounce that begins with the speed ``v`` takes the
+time ``2v/N``, in which the pull ``P`` along the wall changes the slip by ``2vP/N``, and the impact at its end can take away
+``μ(1 + d)v``.  The difference is what friction can take beyond that (:func:`slip_at_landing`); where it vanishes small bounces cease to
+stop the slip, before the limit of rolling is reached.
 """
 
 from __future__ import annotations
@@ -18,6 +23,10 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+
+from carom.core.margins import local_motion
+from carom.models import Model
+from carom.motions.trajectories import EventLog
 
 NO_RETURN = 0.375
 """Value of ``w`` above which the rotor does not return to the wall at once."""
@@ -90,3 +99,52 @@ def distance_from_onset(restitution: float, force: float, ratio: float) -> float
         taken = w / (linear + math.sqrt(linear**2 - square * w))
         w, gone = 0.5 * taken - taken**2 / 6.0, gone * (1.0 - taken)
     return float((abs(force) / gone) ** onset.power * onset.slope * (onset.ratio - w))
+
+
+def slip_at_landing(rotor: Model, plane: int, direction: int, bounces: EventLog) -> tuple[float, int | None]:
+    """How far a chatter is from contact of another kind, as a function that vanishes there and is continuous.
+
+    Parameters
+    ----------
+    rotor : Model
+    plane : int
+    direction : {1, -1, 0}
+        Of the slip after it; 0 if rolling follows.
+    bounces : EventLog
+
+    Returns
+    -------
+    float
+        The slip at the landing in this direction, above zero.  Where friction stops the slip: what it could still take away in all
+        bounces from then on or, if that is less, in the later bounces relative to their speed; above zero if
+        rolling follows, below if not.
+    int or None
+        The first bounce from which on friction stops the slip, if that is not what follows.
+    """
+    planes = np.full(len(bounces.times), plane)
+    friction, restitution = float(rotor.system.arrays.friction[plane]), rotor.system.contacts[plane].restitution
+    _, speed, slip, _, _ = local_motion(rotor.system.arrays, planes, bounces.before).T
+    spare = friction * (1.0 + restitution) * speed - np.abs(slip)
+    slides = np.flatnonzero(spare < 0.0)
+    first = int(slides[-1]) + 1 if len(slides) else 0
+    _, radial, slip, push, pull = local_motion(rotor.system.arrays, planes[:1], bounces.after[-1:])[0].tolist()
+    if first < len(bounces.times):
+        sense = direction or 1
+        if direction and restitution == 0.0 and sense * pull > friction * push:
+            return sense * pull - friction * push, None
+        later = float((spare[first + 1 :] / speed[first + 1 :]).min(initial=np.inf))
+        spared = float(spare[first:].sum()) + _spare_beyond(friction, restitution, radial, abs(pull), push)
+        if not direction:
+            return min(spared, later), None
+        # Where small bounces begin to stop the slip it vanishes with its slope, and there is nothing to be carried on beyond zero.
+        return (-spared, first) if spared < later else (-later, None)
+    sense = direction or (1 if slip > 0.0 else -1)
+    left = sense * slip - _spare_beyond(friction, restitution, radial, sense * pull, push)
+    return (left if direction else -left), None
+
+
+def _spare_beyond(friction: float, restitution: float, radial: float, pull: float, push: float) -> float:
+    """What friction could take away, beyond what the pull adds to the slip, in all bounces after one that begins with a radial speed."""
+    if push <= 0.0:
+        return 0.0
+    return -radial / (1.0 - restitution) * (friction * (1.0 + restitution) - 2.0 * pull / push)

@@ -9,7 +9,8 @@ from typing import Any, ClassVar, overload
 
 import numpy as np
 
-from carom.core.margins import least_margins
+from carom.core.layout import rub_workspace
+from carom.core.margins import contact_margins, least_margins
 from carom.models import Model, Subject, model_of
 from carom.motions.starts import State
 from carom.motions.trajectories import Trajectory, simulate
@@ -27,6 +28,7 @@ ALIKE = 1e-8
 
 SHORTEST = 1e-9
 """Least duration of a segment other than a chatter, in ``1/Ω``."""
+OTHER_SLIP = "friction during its chatter would leave another slip"
 INTERRUPTED = "its chatter would not be complete before the normal force vanishes"
 
 
@@ -43,10 +45,17 @@ class Margins(Result):
     slip : float
         Least slip velocity left after an impact in its direction; where friction stops the slip, what friction could
         still take away.  In ``c_r Ω``; infinite without impacts or friction.
-    normal_force, cone : float
-        Least normal force, and least distance of friction from its limit while rolling, at the beginning of lasting contact;
-        in ``m c_r Ω²``, infinite without it.  Where the chatter before is interrupted, the signed
-        distance from the onset of lasting contact stands for the normal force.
+    normal_force : float
+        Least normal force at the beginning of lasting contact, in ``m c_r Ω²``; infinite without it.  Where the chatter before is
+        interrupted, the signed distance from the onset of lasting contact stands for it.
+    cone : float
+        Least distance from the limit of friction where rolling begins, while it lasts, and where the slip passes through zero, in
+        ``m c_r Ω²``.
+    sliding : float
+        Least slip velocity at its minima while sliding, and with which a chatter lands, in ``c_r Ω``; where rolling follows, what friction
+        could still take away.
+    pressing : float
+        Least normal force at its minima inside lasting contact, in ``m c_r Ω²``.
     """
 
     radius: float
@@ -54,11 +63,13 @@ class Margins(Result):
     slip: float
     normal_force: float
     cone: float
+    sliding: float
+    pressing: float
 
     @property
     def least(self) -> float:
         """The smallest of them."""
-        return min(self.radius, self.approach, self.slip, self.normal_force, self.cone)
+        return min(self.radius, self.approach, self.slip, self.normal_force, self.cone, self.sliding, self.pressing)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,7 +121,10 @@ class Orbit(Result):
     def from_links(cls, rotor: Model, word: Word, links: Links, name: OrbitName | CountedName) -> Orbit:
         """Orbit that multiple shooting has found, with its multipliers and its admissibility checked."""
         start = links.start
-        reason = INTERRUPTED if (links.landings < 0.0).any() else why_virtual(rotor, word, start)
+        if (links.landings < 0.0).any():
+            reason = INTERRUPTED
+        else:
+            reason = OTHER_SLIP if (links.slips < 0.0).any() else why_virtual(rotor, word, start)
         return cls(rotor, name, word, *start, multipliers_of(links), reason)
 
     @property
@@ -250,7 +264,14 @@ def margins_of(links: Links, rotor: Model, word: Word) -> Margins:
     """How far an orbit is from a change of its word."""
     nodes = rotor.system.amplitudes_of(links.start.nodes)
     at = word.kinds, word.planes, nodes, links.start.durations, links.landings
-    return Margins(*least_margins(rotor.system.arrays, *at))
+    radius, approach, speed, force, cone = least_margins(rotor.system.arrays, *at)
+    if word.flies:
+        return Margins(radius, approach, speed, force, cone, np.inf, np.inf)
+    push, slip, rolling = contact_margins(
+        rotor.system.arrays, *at[:-1], rub_workspace(nodes.shape[1], len(rotor.system.contacts))
+    )
+    sliding = min(slip, float(links.slips.min()))
+    return Margins(radius, approach, speed, force, min(cone, rolling), sliding, push)
 
 
 def orbit_near(machine: Subject, word: Word, start: Start, name: OrbitName | CountedName | None = None) -> Orbit | None:

@@ -24,10 +24,10 @@ from carom.core.closure import carry_through_segments, close_flights, shooting_e
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace
 from carom.core.rub import wall_push
-from carom.core.segments import carry_through_chatter, follow_contact, follow_flights
+from carom.core.segments import carry_through_chatter, follow_contact, follow_flights, strike
 from carom.models import Model
 from carom.motions.trajectories import EventLog, follow
-from carom.orbits.landings import NO_RETURN, distance_from_onset
+from carom.orbits.landings import NO_RETURN, distance_from_onset, slip_at_landing
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Outcome, Phase
 
@@ -35,6 +35,8 @@ MOST_BOUNCES = 4096
 """Bounces of the longest chatter."""
 LONGEST = 1e3
 """Longest chatter, in ``1/Ω``: a guess from which the rotor does not come back to the wall has to end too."""
+AFTER = {1: Kind.IMPACT_FORWARD, -1: Kind.IMPACT_BACKWARD, 0: Kind.IMPACT_STOPPED}
+"""The last impact of a chatter, by the direction of the slip at the landing."""
 SLOW = 1e-5
 """Speed of a bounce, in ``c_r Ω``, below which a flight without return at once interrupts a chatter."""
 ITERATIONS = 25
@@ -75,6 +77,9 @@ class Links:
     landings : ndarray, shape (m,)
         Of each chatter its signed distance from the onset of lasting contact (:func:`~carom.orbits.landings.distance_from_onset`), below
         zero if it is interrupted; infinite for other segments.
+    slips : ndarray, shape (m,)
+        Of each chatter the slip with which it lands, in the direction of the sliding that follows; or where rolling follows, by how much
+        friction could stop more.  Below zero if the contact is of another kind; infinite for other segments.
     """
 
     start: Start
@@ -82,6 +87,7 @@ class Links:
     values: np.ndarray
     slopes: np.ndarray
     landings: np.ndarray
+    slips: np.ndarray
 
     @cached_property
     def _equations(self) -> np.ndarray:
@@ -156,18 +162,18 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
     follow_flights(
         arrays, *coordinates, word.kinds, word.planes, word.targets, nodes, durations, arrivals, values, slopes
     )
-    landings = np.full(m, np.inf)
+    landings, slips = np.full((2, m), np.inf)
     if not word.flies:
         nodes, durations = nodes.copy(), durations.copy()
         for i in np.flatnonzero(word.lands).tolist():
-            time, landings[i] = _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], slopes[i])
+            time, landings[i], slips[i] = _land(rotor, word[(i + 1) % m], nodes[i], arrivals[i], slopes[i])
             values[i] = 0.0 if np.isfinite(time) else np.nan
             if np.isfinite(time):
                 after = (i + 1) % m
                 nodes[after], durations[after], durations[i] = arrivals[i], durations[after] + durations[i] - time, time
         at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(modes, len(arrays.rows))
         follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
-    return Links(Start(nodes, durations), arrivals, values, slopes, landings)
+    return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips)
 
 
 def _room(m: int, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -193,10 +199,11 @@ def closed_flights(rotor: Model, word: Word, start: Start) -> Start | None:
 
 def _land(
     rotor: Model, following: Segment, node: np.ndarray, arrival: np.ndarray, slopes: np.ndarray
-) -> tuple[float, float]:
-    """Follow a chatter and write its end and derivatives; return its duration and its distance from the onset.
+) -> tuple[float, float, float]:
+    """Follow a chatter and write its end and derivatives; return its duration, its distance from the onset, and its slip.
 
-    The duration is ``nan`` if it does not end as it should.
+    The duration is ``nan`` if it does not end as it should.  If friction stops the slip of a chatter before sliding, it is completed at the
+    bounce at which this happens, with the slip carried on beyond zero: so its slip at the landing is smooth.
     """
     system, modes, plane = rotor.system, len(arrival), following.plane
     basis, to_modes, rest = system.coordinates
@@ -213,9 +220,14 @@ def _land(
         landing, time, outcome = bounces.after[last].copy(), float(bounces.times[last]), Outcome.CHATTER
     if outcome is not Outcome.CHATTER or not count or (bounces.planes != plane).any():
         arrival[:] = node
-        return float("nan"), float("nan")
+        return float("nan"), float("nan"), float("nan")
     distance = _distance(rotor, plane, bounces.after[-1])
     slip = {Kind.SLIDE_FORWARD: 1, Kind.SLIDE_BACKWARD: -1}.get(following.kind, 0)
+    left, stops = slip_at_landing(rotor, plane, slip, bounces)
+    if stops is not None:
+        bounces = bounces.first(stops + 1)
+        landing, time = bounces.before[stops].copy(), float(bounces.times[stops])
+        strike(system.arrays, plane, AFTER[slip], landing, np.empty((0, modes), complex))
     delays = np.empty(2 * modes)
     at = plane, bounces.before, np.diff(bounces.times), landing, slip
     carry_through_chatter(system.arrays, *at, changes, delays)
@@ -223,7 +235,7 @@ def _land(
     moved = basis @ changes.T
     slopes[:modes, :-1], slopes[modes:-1, :-1] = moved.real, moved.imag
     slopes[-1, :-1], slopes[-1, -1] = -delays, 1.0
-    return time, distance
+    return time, distance, left
 
 
 def _on_wall(rotor: Model, plane: int, amplitudes: np.ndarray, changes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

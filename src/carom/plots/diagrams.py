@@ -40,6 +40,8 @@ POINTS = MappingProxyType(
         "grazing": Look("#0072b2", "grazing", marker="v"),
         "vanishing-impact": Look("#0072b2", "grazing, one impact more", marker="1"),
         "cone-limit": Look("#882255", "rolling begins at the limit of friction", marker="|"),
+        "slide-stop": Look("#882255", "friction stops sliding", marker="_"),
+        "lift-off": Look("#7a4fa3", "the rotor lifts off in between", marker="2"),
         "radius-extremum": Look("#808080", "new extremum of the radius", marker="D"),
         "slip-stop": Look("#e69f00", "friction stops the slip", marker="P"),
         "non-smooth-hopf": Look("#009e73", "non-smooth Hopf bifurcation", marker="*"),
@@ -65,6 +67,9 @@ CURVES = MappingProxyType(
         "rub-fold": Look("#cc79a7", "fold of synchronous rubs", line="--", width=1.4),
         "contact-onset": Look("#7a4fa3", "lasting contact begins", line="-", width=1.1),
         "permanent-contact": Look("#7a4fa3", "contact becomes permanent", line="--", width=1.1),
+        "cone-limit": Look("#882255", "rolling begins at the limit of friction", line=":", width=1.1),
+        "slide-stop": Look("#882255", "friction stops sliding", line="--", width=1.1),
+        "lift-off": Look("#7a4fa3", "the rotor lifts off in between", line=":", width=1.1),
         "rolling-limit": Look("#882255", "rolling no longer holds", line="-.", width=1.1),
     }
 )
