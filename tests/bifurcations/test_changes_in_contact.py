@@ -17,7 +17,7 @@ from carom.models import Jeffcott
 from carom.motions import State
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
-from carom.orbits.word import Word
+from carom.orbits.word import Kind, Word
 from carom.outcome import Outcome, Phase
 from carom.parameters import Parameters
 
@@ -102,8 +102,10 @@ def borders(case: tuple[Parameters, str, float, float]) -> tuple[Border, ...]:
 
 @pytest.mark.parametrize("case", BRANCHES)
 def test_the_changes_are_located_once_each_with_the_word_beyond(case):
-    found = [(border.point.kind, "" if border.word is None else str(border.word)) for border in borders(case)]
-    assert found == EXPECTED[case[0]]
+    assert [border.point.kind for border in borders(case)] == [kind for kind, _ in EXPECTED[case[0]]]
+    for border, (_, wanted) in zip(borders(case), EXPECTED[case[0]], strict=True):
+        assert border.word is not None
+        assert is_one_turn_of(wanted.split(), border.word)
     values = np.array([border.point.value for border in borders(case)])
     assert np.diff(values).min(initial=1.0) > 1e-3
     special = [point.value for point in branch(*case).special]
@@ -160,6 +162,52 @@ def test_from_the_other_side_the_same_border_is_found(case):
         assert near, border.words
         # A slope of zero at the border, as that of the slip of small bounces, is found to the root of rounding.
         assert min(abs(found - point.value) for found in near) < 1e-8
+
+
+FOLDS = PAPER.replace(omega=0.8759, rho=0.4157, mu=0.5124, d=0.2930, gamma=0.07576, radius_ratio=1.1445)
+"""The slip of an unstable orbit touches zero where the rolling of a stable one shrinks to nothing: both vanish."""
+
+
+@cache
+def vanishing() -> Border:
+    orbits = (settled(FOLDS, start) for start in starts(1, 60))
+    orbit = next(each for each in orbits if each is not None and str(each.word) == "lift land slide+ roll slide+")
+    (point,) = [each for each in continue_word(orbit, "mu", (0.48, 0.53)).special if each.kind == "cone-limit"]
+    return examine_border(point)
+
+
+def test_both_orbits_may_end_where_rolling_between_slides_shrinks_to_nothing():
+    border = vanishing()
+    assert border.beyond is None
+    assert border.alongside is not None
+    assert str(border.alongside.word) == "lift land slide+"
+    assert not border.alongside.stable
+    assert border.verdict == "jump"
+    assert "both end there" in border.words
+    # A disturbed motion leaves the orbit without rolling, by its multiplier in each period.
+    orbit = border.alongside
+    start, growth = setting_out(orbit), float(np.abs(orbit.multipliers.values).max())
+    motion = simulate(orbit.rotor, State(start.position, start.velocity * (1.0 - 1e-10)), 12.0 * orbit.period)
+    here = np.array([start.position, start.velocity])
+    apart = np.array([np.abs(np.array(motion.at(np.array(k * orbit.period))) - here).max() for k in range(13)])
+    assert growth > 1.5
+    # What is left along the orbit does not grow, and after twelve periods is a two hundredth of the rest.
+    assert apart[12] / apart[11] == pytest.approx(growth, rel=0.005)
+
+
+def test_fresh_motions_beyond_go_to_another_motion():
+    point, side = vanishing().point, -vanishing().inside
+    before, rng = setting_out(point.orbit), np.random.default_rng(9)
+    for distance in rng.uniform([1e-6, 1e-5, 1e-4], [1e-5, 1e-4, 5e-4]):
+        for sign, stays in ((side, False), (-side, True)):
+            machine = point.orbit.rotor.parameters.replace(mu=point.value * (1.0 + sign * distance))
+            start = State(before.position, before.velocity * (1.0 + 1e-7 * rng.normal()))
+            motion = simulate(machine, start, 200.0 * point.orbit.period)
+            lifts = motion.segment_phases[:-1, 0] != Phase.FLIGHT
+            lifts &= motion.segment_phases[1:, 0] == Phase.FLIGHT
+            place = motion.rotor.system.states_of(motion.arrivals)[np.flatnonzero(lifts)[-1]]
+            apart = np.abs(place - point.orbit.nodes[point.orbit.word.kinds == Kind.LIFT][0]).max()
+            assert (apart < 10.0 * distance) if stays else (apart > 0.1)
 
 
 def slip_after_chatter(share: float, restitution: float, friction: float) -> int:

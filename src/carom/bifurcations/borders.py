@@ -275,10 +275,13 @@ class _Sides:
                 if word is None or start is None or not is_other(word, self.orbit.word):
                     continue
                 seen = seen or word
-                found = self.near(side, distance, word, start)
+                # Virtual where the motion was simulated, it may be a motion on the other side: then both orbits end at the border.
+                closed = orbit_near(self.at(side, distance), word, start)
+                guess = (word, start) if closed is None else (closed.word, Start(closed.nodes, closed.durations))
+                here, there = (self.near(each, distance, *guess) for each in (side, -side))
+                found = here or there
                 if found is not None:
-                    other = self.near(-side, distance, found.word, Start(found.nodes, found.durations))
-                    return found.word, (found, other) if side < 0 else (other, found)
+                    return found.word, (here, there) if side < 0 else (there, here)
         return seen, (None, None)
 
 

@@ -11,17 +11,15 @@ from carom.core.margins import highest_point
 from carom.models import Model
 from carom.motions.starts import State
 from carom.motions.trajectories import simulate
-from carom.orbits.admissibility import SLIPS, departure
+from carom.orbits.admissibility import INSTANT, SLIPS, departure
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.recognising import segments_of
+from carom.orbits.recognising import orbit_of_whirl, segments_of
 from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import InputError, Phase
 
 READ = 2.3
 """Periods that are simulated to read one."""
-BEGUN = 0.1
-"""Share of the first period that is left out: on the wall a simulation may begin with an instant of another contact."""
 SAME_TIME = 0.02
 """Relative difference of the period read from that on the border."""
 MOST_EVENTS = 20_000
@@ -51,12 +49,13 @@ def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
 def setting_out(orbit: Orbit) -> State:
     """State on an orbit from which motions beside it are simulated.
 
-    After the first impact if it only bounces; otherwise in the middle of its longest flight, or on the wall if it never leaves it.
+    After the first impact if it only bounces; otherwise in the middle of its longest flight after a lift-off, or on the wall if it never
+    leaves it.
     """
     if orbit.word.flies:
         return orbit.departure
     system, amplitudes = orbit.rotor.system, orbit.rotor.system.amplitudes_of(orbit.nodes)
-    flights = [i for i, segment in enumerate(orbit.word) if segment.kind.flies]
+    flights = np.flatnonzero(orbit.word.kinds == Kind.LIFT).tolist()
     if flights:
         longest = max(flights, key=lambda i: orbit.durations[i])
         begun = departure(orbit.rotor, orbit.word[longest], amplitudes[longest])
@@ -82,16 +81,16 @@ def read_beside(orbit: Orbit, rotor: Model) -> tuple[Word, Start] | None:
     before, after = (motion.segment_phases[places + later, motion.event_planes] for later in (0, 1))
     signs = np.stack([motion.event_planes, before, after], axis=1)
     changes = motion.is_impact | (before != after)
-    begins = np.flatnonzero(changes & (times > BEGUN * orbit.period) & (times < (1.0 + BEGUN) * orbit.period))
+    begins = np.flatnonzero(changes & (times > INSTANT) & (times < orbit.period))
+    if not changes[times > INSTANT].any():
+        whirl = orbit_of_whirl(motion, orbit.period)
+        return None if whirl is None else (whirl.word, Start(whirl.nodes, whirl.durations))
     if not len(begins):
         return None
-    # Impacts before a landing belong to one chatter: it is not cut where a lift-off can be.
+    # From the first change on: whether a later period is like it is what is asked.  A chatter must not be cut.
     lifts = begins[(before[begins] != Phase.FLIGHT) & (after[begins] == Phase.FLIGHT)]
-    if len(lifts):
-        first = lifts[int(np.argmax(np.diff(times)[lifts]))]
-    else:
-        position, velocity = motion.rotor.system.at_planes(motion.arrivals[begins], motion.event_planes[begins])
-        first = begins[int(np.argmax((position.conj() * velocity).real))]
+    cut = not motion.is_impact[begins[0]] or not beside.word.kinds.min() <= Kind.LIFT
+    first = lifts[int(np.argmax(np.diff(times)[lifts]))] if cut and len(lifts) else begins[0]
     alike = np.flatnonzero((signs == signs[first]).all(axis=1))
     last = alike[int(np.argmin(np.abs(times[alike] - times[first] - orbit.period)))]
     if abs(times[last] - times[first] - orbit.period) > SAME_TIME * orbit.period:

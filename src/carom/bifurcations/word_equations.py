@@ -34,6 +34,8 @@ FAR = "far from a motion"
 LYING, BRIEF = "flights vanish", 0.03
 """Where a branch ends because flights between lasting contacts vanish, and their duration there, in ``1/Ω``: their height falls
 with the fourth power of it, so that there is nothing to be computed beyond."""
+GONE, LONG_GONE = "contact vanishes", -0.05
+"""Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
 FAR_OUT, FAR_IN = -0.3, -0.1
 """Margins of the radius and of the radial speed at an impact beyond which an orbit is far from being a motion."""
 
@@ -224,6 +226,11 @@ class Family:
         watched = [watch(kind) for kind in TESTS if kind not in left_out]
         if not virtual:
             watched.append(Watch(FAR, self._nearness, ends_branch=True))
+        touches = self.word.timed & (self.word.kinds > Kind.LAND)
+        if touches.any():
+            watched.append(
+                Watch(GONE, lambda u, _: unpack_free(self.word, u).durations[touches].min() - LONG_GONE, True)
+            )
         lifts = self.word.kinds == Kind.LIFT
         if lifts.any():
             watched.append(Watch(LYING, lambda u, _: unpack_free(self.word, u).durations[lifts].min() - BRIEF, True))

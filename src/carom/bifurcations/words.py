@@ -16,7 +16,7 @@ import numpy as np
 from carom.bifurcations.branches import OrbitBranch, continue_single_impact, passing
 from carom.bifurcations.neighbours import CONTACT_CHANGES, NEIGHBOURS, is_other, neighbour, read_beside
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_equations import BRIEF, FAR, LYING, Family
+from carom.bifurcations.word_equations import BRIEF, FAR, GONE, LYING, Family
 from carom.continuation import SpecialPoint, Steps, continue_branch
 from carom.models import Jeffcott, Model
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -318,7 +318,7 @@ def _special_point(kind: str, along: Axis, value: float, orbit: Orbit, place: fl
         orbit.name,
         along.name,
         value,
-        orbit.admissible or (kind in BORDERS and orbit.margins.least > -ON_BORDER),
+        orbit.admissible or (kind in BORDERS and min(orbit.margins.least, orbit.durations.min()) > -ON_BORDER),
         place=place,
         shot=orbit,
     )
@@ -374,7 +374,7 @@ def _is_special(
     """
     if point.kind == "period-halving":
         return True
-    if point.kind in (FAR, LYING) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
+    if point.kind in (FAR, LYING, GONE) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
         return False
     if point.kind == "grazing" and any(_meet(point, other) for other in vanishing):
         return False
