@@ -33,8 +33,10 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``cache``            the disk cache of compiled kernels
 ``cache_directory``  where that cache is
 ``intermediate``     kernels that only other kernels call
+``steps``            Numba's steps of compilation, as kernels need them
 ``shapes``           shapes of arrays as constants of the compiler
 ``signatures``       types of operations, inferred once
+``lowering``         the code of a kernel for LLVM, without what kernels do not need
 ``target``           the processor that kernels are compiled for
 ``processors``       number of available processor cores
 ===================  ===========================================================

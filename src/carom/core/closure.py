@@ -90,7 +90,10 @@ def _assemble(nodes, arrivals, values, slopes, matrix):
 def carry_through_segments(slopes):
     """Derivative of the end of each segment by its node if it ends where its condition is fulfilled, and their product."""
     m, last = slopes.shape[0], slopes.shape[1] - 1
-    passages, product = np.empty((m, last, last)), np.eye(last)
+    passages, product = np.empty((m, last, last)), np.empty((last, last))
+    for row in range(last):
+        for column in range(last):
+            product[row, column] = 1.0 if row == column else 0.0
     for i in range(m):
         for row in range(last):
             for column in range(last):

@@ -18,7 +18,7 @@ from numba.core.funcdesc import default_mangler
 from numba.core.registry import CPUDispatcher
 from numba.core.types import unliteral  # type: ignore[attr-defined]
 
-from carom.core.shapes import ShapedCompiler
+from carom.core.steps import KernelCompiler
 
 __all__ = ["CallerPipeline", "SharedPipeline", "serve_kernels", "share_machine_code"]
 
@@ -141,7 +141,7 @@ def _functions(library: Any, defined: bool) -> set[str]:
     return {function.name for function in library._final_module.functions if function.is_declaration != defined}
 
 
-class CallerPipeline(ShapedCompiler):
+class CallerPipeline(KernelCompiler):
     """Numba's compiler pipeline for kernels that Python calls."""
 
     def compile_extra(self, func: Any) -> Any:
@@ -176,7 +176,7 @@ class SharedPipeline(CallerPipeline):
         return default_mangler(name, (), abi_tags=(sha256(repr(kinds).encode()).hexdigest(),))
 
 
-class _Pipeline(ShapedCompiler):
+class _Pipeline(KernelCompiler):
     """Numba's compiler pipeline for kernels that other kernels call."""
 
     def define_pipelines(self) -> Any:

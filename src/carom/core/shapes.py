@@ -9,14 +9,10 @@ from __future__ import annotations
 from typing import Any
 
 from numba.core import ir, types
-from numba.core.compiler import Compiler
 from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.ir_utils import build_definitions, find_const, get_definition, guard
-from numba.core.untyped_passes import InlineInlinables, RewriteSemanticConstants
 
-from carom.core.signatures import RecallingContext
-
-__all__ = ["ShapedCompiler"]
+__all__ = ["RecordShapes"]
 
 
 @register_pass(mutates_CFG=False, analysis_only=False)
@@ -63,16 +59,3 @@ def _length(function: Any, arguments: tuple[types.Type, ...], item: Any) -> int 
 
 def _is_attribute(expression: Any) -> bool:
     return isinstance(expression, ir.Expr) and expression.op == "getattr"
-
-
-class ShapedCompiler(Compiler):  # type: ignore[misc]
-    """Numba's compiler with this pass: before branches are pruned, and again after functions are inlined."""
-
-    def define_pipelines(self) -> Any:
-        """The steps of compilation."""
-        self.state.typingctx = RecallingContext(self.state.typingctx, self.state.flags)
-        (pipeline,) = super().define_pipelines()
-        for step in RewriteSemanticConstants, InlineInlinables:
-            pipeline.add_pass_after(RecordShapes, step)
-        pipeline.finalize()
-        return [pipeline]

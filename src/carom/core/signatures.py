@@ -6,6 +6,7 @@ numbers, arrays, strings, lists, dates.  Kernels repeat the same few hundred ope
 
 from __future__ import annotations
 
+import operator
 from collections import defaultdict
 from typing import Any, ClassVar
 
@@ -35,12 +36,20 @@ class RecallingContext:
 
     def resolve_function_type(self, function: Any, args: Any, keywords: Any) -> Any:
         """The signature of a call, None if there is none."""
+        if not isinstance(function, types.Type):  # an operation that is no name in the kernel
+            function = self._context._lookup_global(function) or function
         if keywords or not isinstance(function, types.BaseFunction | types.BoundFunction):
             return self._context.resolve_function_type(function, args, keywords)
         key = function, args
         if key not in self._found:
             self._found[key] = self._context.resolve_function_type(function, args, keywords)
         return self._found[key]
+
+    def resolve_setitem(self, target: Any, index: Any, value: Any) -> Any:
+        """The signature of an assignment to an item, None if there is none."""
+        return self.resolve_function_type(
+            self._context.resolve_value_type(operator.setitem), (target, index, value), {}
+        )
 
     def resolve_getattr(self, kind: Any, name: str) -> Any:
         """The type of an attribute of a value of this type, None if there is none."""
