@@ -10,7 +10,7 @@ from compilation import sized
 from machines import PAPER
 
 from carom import simulate
-from carom.bifurcations import Bifurcation, Border, OrbitBranch, examine_border
+from carom.bifurcations import Bifurcation, Border, OrbitBranch, Plane, continue_curve, examine_border
 from carom.bifurcations.neighbours import is_other, setting_out
 from carom.bifurcations.words import continue_word
 from carom.models import Jeffcott
@@ -18,7 +18,7 @@ from carom.motions import State
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
 from carom.orbits.word import Kind, Word
-from carom.outcome import Outcome, Phase
+from carom.outcome import InputError, Outcome, Phase
 from carom.parameters import Parameters
 
 pytestmark = pytest.mark.jit_only
@@ -208,6 +208,28 @@ def test_fresh_motions_beyond_go_to_another_motion():
             place = motion.rotor.system.states_of(motion.arrivals)[np.flatnonzero(lifts)[-1]]
             apart = np.abs(place - point.orbit.nodes[point.orbit.word.kinds == Kind.LIFT][0]).max()
             assert (apart < 10.0 * distance) if stays else (apart > 0.1)
+
+
+@pytest.mark.parametrize(("case", "kind"), [(BRANCHES[4], "lift-off"), (BRANCHES[3], "cone-limit")])
+def test_points_of_a_curve_are_found_again_along_one_parameter(case, kind):
+    point = next(each for each in branch(*case).special if each.kind == kind and each.admissible)
+    machine = point.orbit.rotor.parameters
+    plane = Plane("gamma", "mu", (0.93 * machine.gamma, 1.07 * machine.gamma), (0.95 * machine.mu, 1.05 * machine.mu))
+    curve = continue_curve(point, plane)
+    assert set(curve.stops) == {"edge of the plane"}
+    for gamma, mu in curve.points[1 : -1 : sized(5, 2, 9)].tolist():
+        found = (
+            settled(machine.replace(gamma=gamma, mu=mu * share), setting_out(point.orbit)) for share in (1.001, 0.999)
+        )
+        orbit = next(each for each in found if each is not None and not is_other(each.word, point.orbit.word))
+        again = continue_word(orbit, "mu", (0.98 * mu, 1.02 * mu)).special
+        assert min(abs(each.value - mu) for each in again if each.kind == kind) < 1e-11
+
+
+def test_a_landing_without_slip_is_not_followed_in_two_parameters():
+    point = borders(BRANCHES[1])[0].point
+    with pytest.raises(InputError, match="without chatter"):
+        continue_curve(point, Plane("gamma", "mu", (0.05, 0.15), (0.4, 0.5)))
 
 
 def slip_after_chatter(share: float, restitution: float, friction: float) -> int:

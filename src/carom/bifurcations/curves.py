@@ -192,7 +192,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     ----------
     bifurcation : Bifurcation
         A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of :data:`KINDS`; for an orbit
-        with lasting contact also ``"permanent-contact"``, ``"cone-limit"``, ``"slide-stop"`` or ``"lift-off"``.
+        with lasting contact also ``"permanent-contact"``, ``"cone-limit"``, ``"lift-off"`` or, without chatter, ``"slide-stop"``.
 
     Raises
     ------

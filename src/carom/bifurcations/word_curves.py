@@ -108,6 +108,9 @@ def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None 
     """
     if special.kind not in TESTS:
         raise InputError("kind", special.kind, f"one of: {', '.join(TESTS)}")
+    if special.kind == "slide-stop" and special.orbit.word.lands.any():
+        # Its function has a slope that depends on the number of the bounce in which friction stops the slip.
+        raise InputError("kind", f"slide-stop of {special.orbit.word}", "a slide-stop of an orbit without chatter")
     rotor = special.orbit.rotor
     start = np.array([axis(rotor, name).value(rotor) for name in (plane.first, plane.second)])
     lows, highs = np.transpose([plane.first_range, plane.second_range])
