@@ -7,6 +7,7 @@ import pytest
 
 from carom.models import Jeffcott, LinearRotor
 from carom.motions import State, simulate
+from carom.orbits.admissibility import why_virtual
 from carom.orbits.exponents import lyapunov_exponents, orbit_exponents
 from carom.orbits.orbit import orbit_near
 from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl, segments_of
@@ -124,3 +125,20 @@ def test_a_plane_that_is_never_touched_changes_no_orbit(machine, impacts, touche
     # Those of the other coordinate, in pairs of one modulus, besides.
     assert all(np.abs(moduli - other).min() < 1e-8 for other in others)
     assert lyapunov_exponents(rotor, orbit.departure, 60, transient=20).lost == orbit_exponents(alone).lost
+
+
+@pytest.mark.parametrize("shift", [4e-12, -4e-12])
+def test_what_newtons_method_leaves_at_the_wall_makes_no_orbit_virtual(shift):
+    """Where contact begins or ends, the radial speed, the force or the slip is zero, or anything of the size of its tolerance."""
+    machine = Parameters(gamma=0.0386, omega=0.201, rho=0.682, phi=0.0, mu=0.474, d=0.17, radius_ratio=1.07)
+    orbit = orbit_of_motion(simulate(machine, State(0.1, -1.0 - 1.0j), settle=True))
+    assert str(orbit.word) == "lift land slide+ slide- roll slide+"
+    assert orbit.admissible
+    place = orbit.nodes[:, 0] / np.abs(orbit.nodes[:, 0])
+    nodes = orbit.nodes + shift * np.column_stack([place, (1.0 + 0.5j) * place])
+    assert why_virtual(orbit.rotor, orbit.word, Start(nodes, orbit.durations)) == ""
+    # The lift-off and the end of rolling 1e-6 too early are no rounding.
+    for segment in (0, 5):
+        nodes = orbit.nodes.copy()
+        nodes[segment, 1] += np.sign(segment - 1) * 1e-6j * place[segment]
+        assert "would end" in why_virtual(orbit.rotor, orbit.word, Start(nodes, orbit.durations))

@@ -8,7 +8,7 @@ from carom.core.contact_series import AWAY
 from carom.core.events import INSIDE, LEAVING, first_crossing
 from carom.core.fate import memory
 from carom.core.layout import rub_workspace, workspace
-from carom.core.rub import lift_off
+from carom.core.rub import lift_off, rest_on_wall, wall_push
 from carom.core.rub_step import NOWHERE
 from carom.models import Jeffcott, Model
 from carom.models.system import Contact
@@ -26,7 +26,7 @@ AT_REST = 1e-14
 MOST_STEPS = 256
 """Steps of lasting contact in one segment."""
 STOPPED = 1e-10
-"""Slip at a landing, in ``c_r Ω``, that counts as none."""
+"""Slip at a landing or at the beginning of lasting contact, in ``c_r Ω``, that counts as none."""
 INSTANT = 1e-9
 """Time within which a rotor that has just lost its normal force may still be in contact, in ``1/Ω``."""
 SLIPS = {Kind.IMPACT_FORWARD: 1, Kind.IMPACT_BACKWARD: -1, Kind.IMPACT_STOPPED: 0}
@@ -166,11 +166,15 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     if segment.kind is Kind.LAND:
         return _why_no_such_landing(rotor, segment, target, node)
     planes = len(rotor.system.contacts)
+    log, amplitudes = EventLog.empty(1, len(node), planes), node.copy()
     contact = np.full(planes, AWAY)
     contact[segment.plane] = PHASES.get(segment.kind, Phase.FLIGHT)
+    if not segment.kind.is_impact:
+        contact[segment.plane] = _put_on_wall(rotor, segment, amplitudes)
     recollection = memory(len(node), stop_at_landing=True)
-    recollection.lifting = segment.plane + 1 if segment.kind is Kind.LIFT else 0
-    log, amplitudes = EventLog.empty(1, len(node), planes), node.copy()
+    recollection.lifting = (
+        segment.plane + 1 if contact[segment.plane] == Phase.FLIGHT and segment.kind is Kind.LIFT else 0
+    )
     time, first = 0.0, segment.kind.is_impact
     before = contact.copy()
     stays = segment == target
@@ -191,6 +195,19 @@ def _why_no_such_contact(rotor: Model, segment: Segment, target: Segment, node: 
     if late or wrong:
         return f"{segment} would end at t = {time:.6g} in another way than with {target}"
     return ""
+
+
+def _put_on_wall(rotor: Model, segment: Segment, amplitudes: np.ndarray) -> int:
+    """Remove from a segment's start, at rest on the wall, what Newton's method leaves of speeds that are zero there; return the phase.
+
+    A rotor that lifts off may still be pressed to the wall for an instant, in which it slides.
+    """
+    arrays, plane = rotor.system.arrays, segment.plane
+    _, _, slip = _at_wall(rotor.system.contacts[plane], amplitudes)
+    rest_on_wall(arrays, plane, amplitudes, segment.kind is Kind.ROLL or abs(slip) <= STOPPED)
+    if segment.kind is Kind.LIFT and wall_push(arrays, plane, amplitudes)[0] > 0.0:
+        return PHASES[Kind.SLIDE_BACKWARD if slip < 0.0 else Kind.SLIDE_FORWARD]
+    return PHASES.get(segment.kind, int(Phase.FLIGHT))
 
 
 def _why_no_such_landing(rotor: Model, segment: Segment, target: Segment, node: np.ndarray) -> str:
