@@ -1,4 +1,4 @@
-"""Branches of orbits: one impact by the closed form, one and more by multiple shooting; and a curve in two parameters."""
+"""Branches of orbits with one impact a period and more, and a curve in two parameters."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import pytest
 from workload import source_paper_machine
 
 from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit
-from carom.bifurcations.words import continue_word
 from carom.orbits import find_orbits
 
 PER_ORBIT = "branch along the damping, per orbit"
@@ -18,24 +17,16 @@ def doubling() -> Bifurcation:
     return point
 
 
-def test_branch_closed_form(benchmark):
-    orbit = find_orbits(source_paper_machine(0.1))["B1,d"]
-    benchmark.group = PER_ORBIT
-    branch = benchmark(continue_orbit, orbit, "gamma", (0.06, 0.17))
-    assert branch.closed
-    benchmark.extra_info.update(who="carom", unit="orbit (closed form, 1 impact)", units=len(branch))
-
-
 @pytest.mark.parametrize("impacts", [1, 2, 3, 6])
-def test_branch_by_shooting(benchmark, impacts):
+def test_branch(benchmark, impacts):
     benchmark.group = PER_ORBIT
     if impacts == 1:
         arguments = find_orbits(source_paper_machine(0.1))["B1,d"], "gamma", (0.06, 0.17)
     else:
         members = find_orbits(source_paper_machine(0.083), impacts=impacts)
         arguments = members[0], "gamma", (0.0828, 0.0835)
-    branch = benchmark.pedantic(continue_word, args=arguments, rounds=5, warmup_rounds=1)
-    benchmark.extra_info.update(who=f"multiple shooting, impacts: {impacts}", unit="orbit", units=len(branch))
+    branch = benchmark.pedantic(continue_orbit, args=arguments, rounds=5, warmup_rounds=1)
+    benchmark.extra_info.update(who=f"carom, impacts: {impacts}", unit="orbit", units=len(branch))
 
 
 def test_curve_of_two_impacts(benchmark):

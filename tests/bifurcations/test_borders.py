@@ -9,7 +9,6 @@ import pytest
 
 from carom.bifurcations import Bifurcation, Border, OrbitBranch, continue_orbit, examine_border
 from carom.bifurcations.neighbours import neighbour
-from carom.bifurcations.words import WordOrbits, continue_word
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -32,7 +31,7 @@ def three_impacts() -> OrbitBranch:
 def stopped() -> Bifurcation:
     """B1,d of a small rotor, where friction begins to stop the slip."""
     orbit = find_orbits(PAPER.replace(radius_ratio=1.0))["B1,d"]
-    (point,) = [each for each in continue_word(orbit, "radius_ratio", (0.5, 1.2)).special if each.kind == "slip-stop"]
+    (point,) = [each for each in continue_orbit(orbit, "radius_ratio", (0.5, 1.2)).special if each.kind == "slip-stop"]
     return point
 
 
@@ -141,9 +140,7 @@ def resonant() -> OrbitBranch:
     """A stable orbit of three impacts, between a period doubling and a Neimark–Sacker bifurcation."""
     found = find_orbits(PAPER.replace(gamma=0.09), impacts=3, starts=60)
     (orbit,) = [each for each in found if each.stable]
-    branch = continue_orbit(orbit, "gamma", (0.086, 0.094))
-    assert isinstance(branch.points, WordOrbits)
-    return branch
+    return continue_orbit(orbit, "gamma", (0.086, 0.094))
 
 
 def product(orbit: Orbit) -> np.ndarray:

@@ -8,7 +8,8 @@ from compilation import sized
 from machines import PAPER, random_parameters
 
 from carom import find_orbits, simulate
-from carom.bifurcations import OrbitBranch, branches, conditions, continue_orbit
+from carom.bifurcations import OrbitBranch, conditions, continue_orbit
+from carom.bifurcations.word_equations import Family
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps
 from carom.models import Jeffcott
@@ -210,7 +211,7 @@ def test_a_branch_ends_where_the_radial_speed_grows_without_bound():
 
 
 def test_steps_that_grow_with_the_radial_speed_miss_no_bifurcation(monkeypatch):
-    random = np.random.default_rng(43)
+    random, growing = np.random.default_rng(43), Family.reach
     points = missed = 0
     saved = 0.0
     for _ in range(sized(10, 2, 150)):
@@ -219,8 +220,8 @@ def test_steps_that_grow_with_the_radial_speed_miss_no_bifurcation(monkeypatch):
         present = getattr(parameters, parameter)
         for orbit in [orbit for orbit in find_orbits(parameters, 20.0) if orbit.slip > 0][:2]:
             found = []
-            for factor in (conditions.relative_to_speed, lambda unknowns: 1.0):
-                monkeypatch.setattr(branches, "relative_to_speed", factor)
+            for factor in (growing, lambda self, unknowns: 1.0):
+                monkeypatch.setattr(Family, "reach", factor)
                 found.append(continue_orbit(orbit, parameter, (0.5 * present, 2.0 * present + 0.1)))
             grown, even = found
             saved += len(even) - len(grown)
@@ -249,5 +250,4 @@ def test_a_correction_that_leads_far_away_is_a_step_too_long():
     )
     branch = continue_orbit(find_orbits(machine)["B1,d"], "gamma", (0.0452, 0.3391))
     assert branch.stops == ("parameter limit", "parameter limit")
-    points = zip(branch.closed.numbers, branch.period, branch.radial_speed, strict=True)
-    assert np.abs([conditions.conditions_at(*point)[:2] for point in points]).max() < 1e-10
+    assert np.abs([conditions.conditions_at(*orbit[1:])[:2] for orbit in branch.closed]).max() < 1e-10

@@ -12,7 +12,7 @@ from machines import PAPER
 from carom import simulate
 from carom.bifurcations import Bifurcation, Border, OrbitBranch, Plane, continue_curve, examine_border
 from carom.bifurcations.neighbours import is_other, setting_out
-from carom.bifurcations.words import continue_word
+from carom.bifurcations.words import continue_orbit
 from carom.models import Jeffcott
 from carom.motions import State
 from carom.orbits.orbit import Orbit
@@ -75,7 +75,7 @@ def starts(seed: int, count: int) -> list[State]:
 @cache
 def branch(machine: Parameters, along: str, low: float, high: float) -> OrbitBranch:
     found = (settled(machine, start) for start in starts(0, 60))
-    return continue_word(next(each for each in found if each is not None), along, (low, high))
+    return continue_orbit(next(each for each in found if each is not None), along, (low, high))
 
 
 BRANCHES = (
@@ -157,7 +157,7 @@ def test_from_the_other_side_the_same_border_is_found(case):
         assert border.word is not None
         assert not is_other(beyond.word, border.word)
         low, high = sorted((value * (1.0 - border.inside * 1e-3), point.value * (1.0 + border.inside * 5e-3)))
-        again = continue_word(beyond, case[1], (low, high)).special
+        again = continue_orbit(beyond, case[1], (low, high)).special
         near = [found.value for found in again if found.kind in KINDS]
         assert near, border.words
         # A slope of zero at the border, as that of the slip of small bounces, is found to the root of rounding.
@@ -172,7 +172,7 @@ FOLDS = PAPER.replace(omega=0.8759, rho=0.4157, mu=0.5124, d=0.2930, gamma=0.075
 def vanishing() -> Border:
     orbits = (settled(FOLDS, start) for start in starts(1, 60))
     orbit = next(each for each in orbits if each is not None and str(each.word) == "lift land slide+ roll slide+")
-    (point,) = [each for each in continue_word(orbit, "mu", (0.48, 0.53)).special if each.kind == "cone-limit"]
+    (point,) = [each for each in continue_orbit(orbit, "mu", (0.48, 0.53)).special if each.kind == "cone-limit"]
     return examine_border(point)
 
 
@@ -222,7 +222,7 @@ def test_points_of_a_curve_are_found_again_along_one_parameter(case, kind):
             settled(machine.replace(gamma=gamma, mu=mu * share), setting_out(point.orbit)) for share in (1.001, 0.999)
         )
         orbit = next(each for each in found if each is not None and not is_other(each.word, point.orbit.word))
-        again = continue_word(orbit, "mu", (0.98 * mu, 1.02 * mu)).special
+        again = continue_orbit(orbit, "mu", (0.98 * mu, 1.02 * mu)).special
         assert min(abs(each.value - mu) for each in again if each.kind == kind) < 1e-11
 
 
@@ -267,7 +267,7 @@ def attacked() -> list[tuple[Bifurcation, Border]]:
         orbit = settled(machine, State(0.9 * np.exp(1j * rng.uniform(0.0, 6.3)), complex(*rng.normal(size=2))))
         if orbit is None or orbit.word.flies:
             continue
-        points = continue_word(orbit, "mu", (0.8 * machine.mu, 1.25 * machine.mu)).special
+        points = continue_orbit(orbit, "mu", (0.8 * machine.mu, 1.25 * machine.mu)).special
         found += [(point, examine_border(point)) for point in points if point.kind in KINDS and point.admissible]
     return found
 

@@ -11,7 +11,7 @@ from flint import acb, acb_mat, arb, arb_mat, ctx
 from machines import PAPER, random_parameters
 
 from carom import find_orbits
-from carom.bifurcations import Bifurcation, Plane, branches, continue_curve, continue_orbit, curves
+from carom.bifurcations import Bifurcation, Plane, continue_curve, continue_orbit, curves, words
 from carom.bifurcations.conditions import conditions_at
 from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
 from carom.continuation import continue_branch
@@ -201,7 +201,7 @@ def test_branches_along_any_parameter(monkeypatch, name):
     def follow():
         continue_orbit(orbit, name, (0.98 * value, 1.02 * value))
 
-    assert_consistent(*followed(monkeypatch, branches, follow))
+    assert_consistent(*followed(monkeypatch, words, follow))
 
 
 PLANES = {

@@ -187,7 +187,7 @@ def test_beyond_permanent_contact_the_whirl_does_not_leave_the_wall(chatter):
     assert below.any()
     # It repels: one period of a simulation from the orbit itself stays on the wall, and comes back.
     for shift, stays in ((1e-4, True), (-1e-4, False)):
-        (start,) = branch.points.starts_at(point.value + shift)
+        (start,) = branch.starts_at(point.value + shift)
         rotor = Jeffcott(CHATTERING.replace(gamma=point.value + shift))
         position, velocity = start.nodes[0]
         position /= abs(position)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
-from carom.bifurcations.words import WordOrbits, continue_word
+from carom.bifurcations.conditions import TESTS, conditions_at
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
@@ -27,9 +27,7 @@ pytestmark = pytest.mark.jit_only
 
 @cache
 def single() -> OrbitBranch:
-    branch = continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.075, 0.11))
-    assert branch.closed.pair == 1
-    return branch
+    return continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.075, 0.11))
 
 
 @cache
@@ -43,60 +41,62 @@ def located(kind: str, near: float) -> Bifurcation:
     return point
 
 
-def test_special_points_of_a_single_impact_orbit_are_those_of_the_closed_form():
-    orbit = find_orbits(PAPER)["B1,d"]
-    branch = continue_word(orbit, "gamma", (0.06, 0.11))
-    known = continue_orbit(orbit, "gamma", (0.06, 0.11))
-    for kind in ("grazing", "period-doubling"):
-        (found,) = [point for point in branch.special if point.kind == kind]
-        (expected,) = [point for point in known.special if point.kind == kind]
-        assert found.value == pytest.approx(expected.value, abs=1e-12)
-        assert found.orbit.period == pytest.approx(expected.period, abs=1e-10)
+@pytest.mark.parametrize("name", ["B1,b", "B1,d"])
+def test_orbits_with_one_impact_and_their_special_points_solve_the_equations_of_the_closed_form(name):
+    branch = continue_orbit(find_orbits(PAPER)[name], "gamma", (0.06, 0.2))
+    for orbit in branch.closed:
+        # Shooting knows the period to rounding divided by the radial speed, which is 2e-5 at one point.
+        assert np.abs(conditions_at(*orbit[1:])[:2]).max() < 1e-14 / min(1e-3, abs(orbit.radial_speed))
+    for point in branch.special:
+        at = point.numbers, point.period, point.radial_speed
+        assert conditions_at(*at)[:2] == pytest.approx((0.0, 0.0), abs=1e-11)
+        if point.kind != "radius-extremum":
+            assert TESTS[point.kind](*at) == pytest.approx(0.0, abs=1e-10)
+    expected = {"B1,b": ["fold", "non-smooth-hopf"], "B1,d": ["fold", "grazing", "period-doubling", "radius-extremum"]}
+    assert sorted({point.kind for point in branch.special}) == expected[name]
 
 
 def test_shooting_passes_where_orbits_of_one_impact_shrink_to_a_point_on_the_wall():
     """Levitation meets the wall there, and is an orbit of any period: the equations of shooting are singular in one point."""
-    orbit = find_orbits(PAPER)["B1,b"]
-    branch = continue_word(orbit, "gamma", (0.06, 0.11))
-    known = continue_orbit(orbit, "gamma", (0.06, 0.11))
-    (vanishing,) = branch.special
-    (hopf,) = known.special
-    assert (vanishing.kind, hopf.kind) == ("vanishing-impact", "non-smooth-hopf")
-    assert vanishing.value == pytest.approx(hopf.value, abs=1e-9)
+    branch = continue_orbit(find_orbits(PAPER)["B1,b"], "gamma", (0.06, 0.11))
+    (hopf,) = branch.special
+    assert hopf.kind == "non-smooth-hopf"
+    assert TESTS["boundary-equilibrium"](hopf.numbers, 1.0, 0.0) == pytest.approx(0.0, abs=1e-11)
     assert branch.radial_speed.min() < 0.0 < branch.radial_speed.max()
-    for p, speed in zip(branch.values, branch.radial_speed, strict=True):
-        start = known.starts_at(float(p))[0]
-        position, velocity = start.nodes[0]
-        assert (position.conjugate() * velocity).real == pytest.approx(speed, abs=1e-9)
+    for p, speed in zip(branch.values.tolist(), branch.radial_speed, strict=True):
+        assert find_orbits(PAPER.replace(gamma=p))["B1,b"].radial_speed == pytest.approx(speed, abs=1e-9)
 
 
-def test_both_equations_tell_the_same_of_the_orbits_at_a_value():
-    branch = continue_word(find_orbits(PAPER)["B1,d"], "gamma", (0.075, 0.11))
-    for found in (single(), branch):
-        (start,) = found.starts_at(0.09)
-        known = find_orbits(PAPER.replace(gamma=0.09))["B1,d"]
-        assert start.nodes == pytest.approx(known.nodes, abs=1e-10)
-        assert start.durations == pytest.approx(known.durations, abs=1e-10)
-        assert (found.name, found.impacts, str(found.word), found.parameter) == ("B1,d", 1, "impact+", "gamma")
-        for values in (found.period, found.radial_speed, found.angular_speed, found.admissible, found.stable):
-            assert values.shape == (len(found),)
-        assert found.radial_speeds.shape == (len(found), 1)
-        assert found.multipliers.shape == (len(found), 3)
-    ours, theirs = (np.interp(0.09, found.values, found.angular_speed) for found in (single(), branch))
-    assert ours == pytest.approx(theirs, abs=1e-3)  # straight lines between points of different branches
-    with pytest.raises(CaromError, match="not followed by the closed form"):
-        _ = branch.closed
+def test_a_branch_tells_its_orbits_at_a_value():
+    found = single()
+    (start,) = found.starts_at(0.09)
+    known = find_orbits(PAPER.replace(gamma=0.09))["B1,d"]
+    assert start.nodes == pytest.approx(known.nodes, abs=1e-10)
+    assert start.durations == pytest.approx(known.durations, abs=1e-10)
+    assert (found.name, found.impacts, str(found.word), found.parameter) == ("B1,d", 1, "impact+", "gamma")
+    for values in (found.period, found.radial_speed, found.angular_speed, found.admissible, found.stable):
+        assert values.shape == (len(found),)
+    assert found.radial_speeds.shape == (len(found), 1)
+    assert found.multipliers.shape == (len(found), 3)
 
 
-def test_folds_of_a_single_impact_orbit_are_those_of_the_closed_form():
-    orbit = find_orbits(PAPER.replace(gamma=0.17))["B1,d"]
-    branch = continue_word(orbit, "gamma", (0.165, 0.19))
-    (fold,) = [point for point in branch.special if point.kind == "fold"]
-    assert fold.value == pytest.approx(0.1780277257, abs=1e-10)
-    assert fold.orbit.period == pytest.approx(1.6408219835, abs=1e-8)
-    # The branch goes on to the other orbit of the fold.
+def test_what_the_closed_form_tells_of_a_branch_is_what_shooting_tells_of_its_orbits():
+    branch = single()
+    for i, orbit in enumerate(branch.orbits):
+        assert (branch.admissible[i], branch.stable[i]) == (orbit.admissible, orbit.stable)
+        assert branch.names[i] == orbit.name
+        assert branch.radial_speed[i] == pytest.approx(orbit.radial_speed, abs=1e-13)
+        assert branch.angular_speed[i] == pytest.approx(orbit.angular_speed, abs=1e-13)
+        assert np.sort(np.abs(branch.multipliers[i])) == pytest.approx(
+            np.sort(np.abs(orbit.multipliers.values)), abs=1e-9
+        )
+
+
+def test_a_branch_goes_on_to_the_other_orbit_of_a_fold():
+    branch = continue_orbit(find_orbits(PAPER.replace(gamma=0.17))["B1,d"], "gamma", (0.165, 0.19))
     assert branch.values[0] == pytest.approx(0.165, abs=1e-12)
     assert branch.values[-1] == pytest.approx(0.165, abs=1e-12)
+    assert {branch.names[0], branch.names[-1]} == {"B1,c", "B1,d"}
 
 
 def test_the_doubled_branch_begins_at_the_period_doubling():
@@ -106,7 +106,7 @@ def test_the_doubled_branch_begins_at_the_period_doubling():
     # Next to its end the branch is a parabola, so an error of 1e-4 in the unknowns is one of 1e-8 in the damping.
     assert end.value == pytest.approx(DOUBLING, abs=1e-6)
     assert end.orbit.period == pytest.approx(2.0 * find_orbits(PAPER.replace(gamma=end.value))["B1,d"].period, abs=1e-4)
-    assert (branch.points.unknowns.shape[1], len(branch.word)) == (10, 2)
+    assert (branch.unknowns.shape[1], len(branch.word)) == (10, 2)
 
 
 def test_every_orbit_of_the_doubled_branch_solves_the_equations():
@@ -169,7 +169,7 @@ def test_beyond_the_grazing_the_branch_turns():
     assert apart < 1e-4  # the square root of the error of its damping
     distances, periods = np.array([4e-6, 8e-6, 1.6e-5]), []
     for distance in distances:
-        branch = continue_word(grazing.orbit, "gamma", (fold.value - 1e-5, fold.value + distance))
+        branch = continue_orbit(grazing.orbit, "gamma", (fold.value - 1e-5, fold.value + distance))
         assert branch.stops == ("parameter limit", "parameter limit")
         periods.append(abs(branch.period[-1] - branch.period[0]))
     slopes = np.diff(np.log(periods)) / np.diff(np.log(distances))
@@ -179,7 +179,7 @@ def test_beyond_the_grazing_the_branch_turns():
 def test_orbits_next_to_a_fold_close():
     """Newton's method must not leave the orbit by a step with a singular derivative."""
     orbit = find_orbits(PAPER.replace(gamma=0.17))["B1,d"]
-    (fold,) = [point for point in continue_word(orbit, "gamma", (0.165, 0.19)).special if point.kind == "fold"]
+    (fold,) = [point for point in continue_orbit(orbit, "gamma", (0.165, 0.19)).special if point.kind == "fold"]
     start = Start(fold.orbit.nodes, fold.orbit.durations)
     for shift in (-1e-12, *np.arange(-20, 21) * 1e-15, 1e-13):
         found = orbit_near(PAPER.replace(gamma=fold.value * (1.0 + shift)), orbit.word, start)
@@ -203,7 +203,7 @@ def test_no_branch_begins_at_a_fold():
     with pytest.raises(InputError, match="period doubling"):
         located("fold", 0.08267).switch()
     with pytest.raises(InputError, match="interval"):
-        continue_word(find_orbits(PAPER)["B1,d"], "gamma", (0.2, 0.3))
+        continue_orbit(find_orbits(PAPER)["B1,d"], "gamma", (0.2, 0.3))
 
 
 def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
@@ -214,7 +214,9 @@ def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
     orbit = orbit_near(rotor, planar.word, Start(node, planar.durations))
     assert isinstance(orbit, Orbit)
     branch = continue_orbit(orbit, "restitution", (0.93, 0.97))
-    assert isinstance(branch.points, WordOrbits)
+    assert branch.name == "P1,1"
+    with pytest.raises(CaromError, match="no closed form"):
+        _ = branch.closed
     assert branch.stops == ("parameter limit", "parameter limit")
     assert branch.admissible.all()
     for at in branch.orbits[::4]:

@@ -28,6 +28,28 @@ def gaps(branch: Branch) -> np.ndarray:
     return np.linalg.norm(np.diff(x, axis=0), axis=1)
 
 
+def test_a_branch_ends_on_the_limit_beyond_which_the_equations_are_undefined():
+    def line(u, p):
+        return np.array([u[0] - 3.0 * p]) if 0.0 <= p <= 1.0 else np.full(1, np.nan)
+
+    def solver(u, p):
+        return np.array([3.0 * p]) if 0.0 <= p <= 1.0 else None
+
+    # In scaled unknowns the branch is steep, and close to level in the parameter.
+    for size in (1.0, 20.0):
+        branch = continue_branch(
+            line, np.array([1.2]), 0.4, (0.0, 1.0), jacobian=lambda u, p: np.array([[1.0, -3.0]]), solver=solver,
+            scales=np.array([1.0, size]),
+        )  # fmt: skip
+        assert branch.stops == ("parameter limit", "parameter limit")
+        assert sorted([branch.parameters[0], branch.parameters[-1]]) == [0.0, 1.0]
+        assert np.abs(branch.unknowns[:, 0] - 3.0 * branch.parameters).max() < 1e-12
+    (begin, end) = continue_branch(
+        line, np.array([0.0]), 0.0, (0.0, 1.0), jacobian=lambda u, p: np.array([[1.0, -3.0]]), solver=solver
+    ).parameters[[0, -1]]
+    assert (begin, end) == (0.0, 1.0)
+
+
 def test_a_solver_at_fixed_parameter_is_used_away_from_folds():
     calls, solved = [], []
 

@@ -125,3 +125,24 @@ def test_a_pair_of_extrema_of_the_radius_is_born_where_the_flattest_slope_vanish
     fewer, more = at(0.082), at(0.075)
     assert abs(fewer[0] - more[0]) == 2
     assert fewer[1] * more[1] < 0.0
+
+
+@pytest.mark.parametrize(
+    ("d", "gammas"), [(PAPER.d, np.linspace(0.1, 0.178, 60)), (PAPER.d, np.linspace(0.02, 0.1, 60))]
+)
+def test_its_sign_tells_the_number_of_extrema_also_where_inflections_pass_an_end(d, gammas):
+    """Two extrema are born together, so their number goes up and down by two, and the sign changes with it."""
+    seen, inflections = {}, set()
+    for gamma in gammas.tolist():
+        for orbit in find_orbits(Jeffcott(PAPER.replace(gamma=gamma, d=d)), 6.0):
+            if orbit.radial_speed < 1e-3:
+                continue
+            numbers = gamma, PAPER.omega, PAPER.mu, d, orbit.period, orbit.radial_speed
+            outward = [radial_course(*numbers, time)[0] for time in np.linspace(0.0, orbit.period, 2001)]
+            bends = np.diff(outward)
+            inflections.add(int((bends[1:] * bends[:-1] < 0.0).sum()))
+            extrema = int((np.diff(np.sign(outward)) != 0).sum())
+            seen.setdefault(extrema % 4, set()).add(float(np.sign(radial_profile(*numbers)[2])))
+    assert len(inflections) > 1
+    assert all(len(signs) == 1 for signs in seen.values()), seen
+    assert len(seen) < 2 or seen[1] != seen[3]

@@ -106,8 +106,9 @@ def test_diagram_and_proof_must_agree(diagram, proof):
     fewer = replace(diagram, orbits=tuple(branch for branch in diagram.orbits if "B1,d" not in branch.names))
     with pytest.raises(InputError, match=r"lacks orbits that are proven there: .*B1,d"):
         proven_of_diagram(proof, fewer)
-    points = diagram.orbits[0].closed
-    moved = replace(diagram.orbits[0], points=replace(points, period=points.period + 1.0))
+    unknowns = diagram.orbits[0].unknowns.copy()
+    unknowns[:, -1] += 1.0  # the durations of the only flight
+    moved = replace(diagram.orbits[0], unknowns=unknowns)
     wide = proven(EXACT, "gamma", "0.09", "0.1")
     assert proven_of_diagram(wide, diagram).stretches
     with pytest.raises(InputError, match="proven not to exist"):

@@ -13,12 +13,10 @@ from carom.bifurcations.conditions import (
     BOUNDLESS,
     FASTEST,
     RESONANCES,
-    SHORTEST,
     TESTS,
     conditions_at,
     grazing_equations,
     profile_at,
-    relative_to_speed,
 )
 from carom.bifurcations.derivatives import analytic_rates, orbit_jacobian
 from carom.bifurcations.naming import orbits_on_curve
@@ -35,6 +33,11 @@ Function = Callable[[np.ndarray, float], np.ndarray]
 STEPS = Steps(first=0.02, largest=0.1, sharpest_turn=0.3, most_points=1000)
 BEND = 5e-5
 """Largest distance of a curve from the straight lines between its points, in widths of the plane."""
+SHORTEST = 1e-4
+"""Period, in ``1/Ω``, below which test functions may be only rounding; with ``d = 1`` the period of a pair can vanish.
+
+That of a Neimark–Sacker bifurcation then falls with the cube of the period: it is 2e-13 here and 2e-16 at a tenth of it.
+"""
 VANISHING = 1e-2
 """Period, or fraction of a period, that counts as vanished where the equations end."""
 
@@ -260,7 +263,8 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         watches=[plane.edge, *bounds, *(watch(name) for name in (*definition.watched, *definition.ends))],
         steps=steps or STEPS,
         scales=scales,
-        reach=relative_to_speed if definition.unknowns else None,
+        # Where the radial speed grows without bound, the curve becomes straight.
+        reach=(lambda u: max(1.0, abs(float(u[1])))) if definition.unknowns else None,
         # A fold in the second parameter is only a turning point of the curve.
         folds="turning point",
         crossings="",

@@ -9,7 +9,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from carom.attractors import DisturbanceSet
-from carom.bifurcations.branches import OrbitBranch, continue_single_impact
+from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.conditions import corrected
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
@@ -21,7 +21,7 @@ from carom.bifurcations.steady import (
     rolling_branch,
     steady_points,
 )
-from carom.bifurcations.words import continue_word, renamed
+from carom.bifurcations.words import continue_orbit, renamed
 from carom.models import Jeffcott, Model, Subject, jeffcott_of, model_of
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.orbits.names import RubbingName
@@ -240,10 +240,10 @@ def _follow(
         for orbit in _orbits(here):
             wanted = chosen.virtual or orbit.admissible or orbit.name.pair == 1
             if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
-                branches.append(continue_single_impact(orbit, along.name, limits))
+                branches.append(continue_orbit(orbit, along.name, limits))
         for motion in rubbing_orbits(here) if chosen.lasting else ():
             if not any(lies_on(motion, value, branch) for branch in rubbing):
-                branch = continue_word(motion, along.name, limits, virtual=chosen.virtual)
+                branch = continue_orbit(motion, along.name, limits, virtual=chosen.virtual)
                 rubbing.append(renamed(branch, RubbingName(motion.impacts, len(rubbing) + 1)))
         single((done + 1) / SAMPLES)
     several: tuple[OrbitBranch, ...] = ()

@@ -62,7 +62,8 @@ class Bifurcation(Result):
     place : float
         Position on the branch: index of the point before it plus the fraction of the step; ``nan`` without a branch.
     shot : Orbit or None
-        The orbit there, if multiple shooting has found it and not the closed form.
+        The orbit there; ``None`` for one with one impact a period, of which the closed form gives all from the numbers, the period and
+        the radial speed.
     """
 
     kind: str

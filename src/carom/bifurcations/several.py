@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.words import continue_word, renamed, switched
+from carom.bifurcations.words import continue_orbit, renamed, switched
 from carom.models import Model
 from carom.models.axes import Axis
 from carom.motions.starts import State
@@ -76,7 +76,7 @@ def several_impacts(
         rotor = along.move(model, value)
         for orbit in orbits_of_several_impacts(rotor, impacts, _starts(rotor, value, singles, found)):
             if not any(lies_on(orbit, value, branch) for branch in found):
-                add(continue_word(orbit, along.name, limits, virtual=virtual))
+                add(continue_orbit(orbit, along.name, limits, virtual=virtual))
         tell((done + 1) / VALUES)
     return tuple(found)
 

@@ -15,8 +15,9 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.branches import OrbitBranch, continue_single_impact
+from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.conditions import (
+    conditions_at,
     corrected,
     grazing_equations,
     is_admissible,
@@ -24,7 +25,9 @@ from carom.bifurcations.conditions import (
     orbit_of,
     spectral_radii,
 )
+from carom.bifurcations.derivatives import orbit_jacobian
 from carom.bifurcations.solutions import Solution, orbit_solutions
+from carom.bifurcations.words import STEPS, continue_orbit
 from carom.models import Jeffcott, Subject, axis, jeffcott_of
 from carom.orbits.admissibility import slip_stays_forward
 from carom.orbits.single_impact import longest_within_reach
@@ -36,8 +39,8 @@ SAME = 1e-6
 """Relative difference of period and radial speed below which two solutions are the same."""
 MERGED = 1e-9
 """Relative width of a gap below which two windows are merged."""
-SHORT = 1e-3
-"""Period, in ``1/Ω``, below which the end of a branch is attributed to a vanishing period."""
+SHORT, VANISHED = 3e-3, 1e-4
+"""Period, in ``1/Ω``, below which the end of a branch is attributed to a vanishing period, and the period that counts as vanished."""
 FAR = -1.0
 """Margin at which an orbit without a partner at the next value is not followed: it surely stays virtual."""
 
@@ -274,20 +277,16 @@ def _to_follow(
 def _followed(solutions: Iterable[Solution], parameter: str, interval: tuple[float, float]) -> list[_Arc]:
     """Arcs of the branches through the given solutions, each of which lies at one end of the interval."""
     arcs: list[_Arc] = []
-    passed: list[tuple[Numbers, float, float]] = []
+    passed: list[Solution] = []
     for solution in solutions:
-        if any(
-            numbers == solution.numbers and _same(period, speed, solution.period, solution.radial_speed)
-            for numbers, period, speed in passed
-        ):
+        if any(end.numbers == solution.numbers and _same(*end[2:], *solution[2:]) for end in passed):
             continue
         orbit = orbit_of(solution.numbers, solution.name.pair, solution.period, solution.radial_speed)
         try:
-            branch = continue_single_impact(orbit, parameter, interval)
+            branch = continue_orbit(orbit, parameter, interval, STEPS)
         except CaromError:
             continue
-        periods, speeds = branch.period.tolist(), branch.radial_speed.tolist()
-        passed += [(branch.closed.numbers[end], periods[end], speeds[end]) for end in (0, -1)]
+        passed += [branch.closed[end] for end in (0, -1)]
         arcs += _arcs(branch)
     return arcs
 
@@ -320,8 +319,20 @@ def _branch_end(branch: OrbitBranch, end: Literal[0, -1]) -> WindowEnd:
     stop = branch.stops[end]
     if stop in ("parameter limit", "closed loop"):
         return WindowEnd(value)
-    kind = "vanishing-period" if period < SHORT else stop
-    return WindowEnd(value, kind, branch.names[end], period, float(branch.radial_speed[end]))
+    speed = float(branch.radial_speed[end])
+    if period < SHORT:
+        value, speed = _vanishing(branch, value, speed)
+        return WindowEnd(value, "vanishing-period", branch.names[end], VANISHED, speed)
+    return WindowEnd(value, stop, branch.names[end], period, speed)
+
+
+def _vanishing(branch: OrbitBranch, value: float, speed: float) -> tuple[float, float]:
+    """Parameter and radial speed where the period of a branch vanishes, by the closed form: shooting loses digits there."""
+    for _ in range(5):
+        slopes = orbit_jacobian(branch.numbers_at, (value,), VANISHED, speed)[:, 1:]
+        change = np.linalg.solve(slopes, conditions_at(branch.numbers_at(value), VANISHED, speed)[:2])
+        speed, value = speed - float(change[0]), value - float(change[1])
+    return value, speed
 
 
 def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, float] | None:
@@ -331,7 +342,7 @@ def _halfway(branch: OrbitBranch, course: np.ndarray) -> tuple[Numbers, float, f
     """
     middle = 0.5 * float(course[0, 0] + course[-1, 0])
     values, *others = course[np.argsort(course[:, 0])].T
-    numbers = branch.closed.at(middle)
+    numbers = branch.numbers_at(middle)
     period, speed = corrected(numbers, *(float(np.interp(middle, values, other)) for other in others))
     return (numbers, period, speed) if np.isfinite([period, speed]).all() and period > 0.0 else None
 

@@ -8,24 +8,32 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from math import isfinite, prod
+from typing import Any
 
 import numpy as np
 
+from carom.bifurcations.branches import speeds_at
+from carom.bifurcations.conditions import BOUNDLESS, FASTEST, profile_at, with_slip
 from carom.continuation import Watch
+from carom.core.rub import wall_push
 from carom.core.segments import LEAST_PUSH
-from carom.models import Model
+from carom.models import Jeffcott, Model
 from carom.models.axes import Axis
+from carom.orbits.admissibility import SLIPS, departure
 from carom.orbits.orbit import Margins, margins_of
 from carom.orbits.shooting import Links, closed_flights, links_of, pack, unpack, unpack_free
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
+from carom.parameters import Numbers
 
-DIFFERENCE = 1e-6
-"""Step of the differences by the parameter, relative to its size; they only bend the predicted direction."""
+DIFFERENCE, COARSE = 1e-7, 1e-6
+"""Step of the differences by the parameter, relative to its size, and that for words with lasting contact, whose chatter is simulated;
+they only bend the predicted direction."""
 REMEMBERED = 64
 """Points whose segments are kept: each is asked for by the equations, their derivative and all watches."""
-SHORTEST = 1e-6
-"""Duration of a flight, in ``1/Ω``, at which a branch ends."""
+SHORTEST, ALONE = 1e-6, 1e-3
+"""Duration of a flight, in ``1/Ω``, at which a branch ends; the second for the only flight of a period, which can vanish if ``d = 1``:
+there rounding shifts the parameter of the orbit by some 1e-7."""
 ASIDE = 0.02
 """Distance, in the norm of all unknowns, at which a branch born in a period doubling is begun."""
 CORRECTIONS = 20
@@ -36,6 +44,11 @@ LYING, BRIEF = "flights vanish", 0.03
 with the fourth power of it, so that there is nothing to be computed beyond."""
 GONE, LONG_GONE = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
+ONSET, PERMANENT = "contact-onset", "permanent-contact"
+HOPF, EXTREMUM = "non-smooth-hopf", "radius-extremum"
+"""Special points of orbits with one impact alone: where it vanishes only a point on the wall is left of the orbit."""
+FAST = 3.0
+"""Speed before an impact, in ``c_r Ω``, above which steps grow with it."""
 FAR_OUT, FAR_IN = -0.3, -0.1
 """Margins of the radius and of the radial speed at an impact beyond which an orbit is far from being a motion."""
 
@@ -44,7 +57,8 @@ FAR_OUT, FAR_IN = -0.3, -0.1
 class FamilyPoint:
     """The segments of an orbit at a value of the parameter, and what is watched there."""
 
-    rotor: Model
+    # Not narrower: the closed form reads the parameters of a planar rotor.
+    rotor: Any
     word: Word
     links: Links
 
@@ -55,8 +69,25 @@ class FamilyPoint:
 
     @property
     def onset(self) -> float:
-        """Least distance of a chatter from the onset of lasting contact, proportional to that of the parameter; or infinite."""
-        return float(self.links.landings.min())
+        """Least distance from the onset of lasting contact, proportional to that of the parameter; or infinite.
+
+        That of a chatter, or the pull off a wall from which the rotor does not rebound just after an impact.
+        """
+        if not self.word.flies:
+            return float(self.links.landings.min())
+        system = self.rotor.system
+        struck = [i for i, plane in enumerate(self.word.planes) if not system.contacts[plane].restitution]
+        nodes = system.amplitudes_of(self.links.start.nodes[struck])
+        left = (departure(self.rotor, self.word[i], node) for i, node in zip(struck, nodes, strict=True))
+        pushes = (wall_push(system.arrays, self.word[i].plane, each)[0] for i, each in zip(struck, left, strict=True))
+        return min((-push for push in pushes), default=np.inf)
+
+    @property
+    def flattest(self) -> float:
+        """What changes its sign where the radius between impacts of the planar rotor gains a maximum and a minimum."""
+        start, numbers = self.links.start, with_slip(Numbers.of(self.rotor.parameters), SLIPS[self.word[0].kind])
+        speed = speeds_at(self.rotor, self.word.planes, start.nodes)[0].real
+        return profile_at(numbers, float(start.durations[0]), float(speed)).flattest
 
     @property
     def least_push(self) -> float:
@@ -90,7 +121,8 @@ def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | No
     """The segments of a word from the unknowns of :func:`~carom.orbits.shooting.pack_free`; ``None`` where they are not defined."""
     start = unpack_free(word, unknowns)
     # The contact after a chatter may vanish: lasting contact begins there.  Contact that shrinks to nothing goes on with negative duration.
-    if start.durations.min(where=word.timed & (word.kinds <= Kind.LIFT), initial=np.inf) < SHORTEST:
+    shortest = ALONE if word.flies and len(word) == 1 else SHORTEST
+    if start.durations.min(where=word.timed & (word.kinds <= Kind.LIFT), initial=np.inf) < shortest:
         return None
     links = links_of(rotor, word, start)
     return FamilyPoint(rotor, word, links) if isfinite(links.residual.sum()) else None
@@ -105,14 +137,14 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
     # from outside has a maximum beyond the wall.
     "grazing": lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else np.nan,
     "slip-stop": lambda point: point.margins.slip,
-    "contact-onset": lambda point: point.onset,
-    "permanent-contact": lambda point: point.least_push,
+    ONSET: lambda point: point.onset,
+    PERMANENT: lambda point: point.least_push,
     "cone-limit": lambda point: point.margins.cone,
     "slide-stop": lambda point: point.margins.sliding,
     "lift-off": lambda point: point.margins.pressing,
 }
 """Functions that vanish at special points; not finite where they are not defined."""
-OF_CONTACT = ("contact-onset", "permanent-contact", "cone-limit", "slide-stop", "lift-off")
+OF_CONTACT = (ONSET, PERMANENT, "cone-limit", "slide-stop", "lift-off")
 """Those of words with lasting contact alone."""
 
 
@@ -122,6 +154,7 @@ class Family:
     def __init__(self, rotor: Model, along: Axis, word: Word, limits: tuple[float, float]) -> None:
         self.rotor, self.along, self.word, self.limits = rotor, along, word, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
+        self.struck = np.array([segment.kind.is_impact for segment in word])
         self.points: OrderedDict[bytes, FamilyPoint | None] = OrderedDict()
         self.rotors: OrderedDict[float, Model | None] = OrderedDict()
 
@@ -169,16 +202,16 @@ class Family:
         return np.column_stack([point.links.reduced[1], self._by_parameter(point, p)])
 
     def solved(self, u: np.ndarray, p: float) -> np.ndarray | None:
-        """Orbit next to a point at the same parameter; ``None`` where the iteration fails, or the word has lasting contact."""
+        """Orbit of a word without lasting contact next to a point at the same parameter; ``None`` where the iteration fails."""
         rotor = self.rotor_at(p)
-        if rotor is None or not self.word.flies:
+        if rotor is None:
             return None
         found = closed_flights(rotor, self.word, unpack(u, len(self.word)))
         return None if found is None else pack(found)
 
     def _by_parameter(self, point: FamilyPoint, p: float) -> np.ndarray:
         """Derivative of the equations by the parameter, by a difference to a side where the rotor exists."""
-        step = DIFFERENCE * self.size
+        step = (DIFFERENCE if self.word.flies else COARSE) * self.size
         here = point.links.reduced[0]
         rotor = self.rotor_at(p + step)
         if rotor is None:
@@ -203,6 +236,24 @@ class Family:
                 return u, min(max(p, self.limits[0]), self.limits[1])
         raise CaromError("no orbit of twice the period was found beside the period doubling")
 
+    def speeds(self, u: np.ndarray) -> np.ndarray:
+        """:func:`~carom.bifurcations.branches.speeds_at` before each impact."""
+        return speeds_at(self.rotor, self.word.planes[self.struck], unpack_free(self.word, u).nodes[self.struck])
+
+    def fastest(self, u: np.ndarray) -> float:
+        """Largest radial speed before an impact."""
+        return float(np.abs(self.speeds(u).real).max(initial=0.0))
+
+    def reach(self, u: np.ndarray) -> float:
+        """Factor by which steps may grow: a branch whose speeds grow without bound becomes straight."""
+        return max(1.0, float(np.abs(self.speeds(u)).max(initial=0.0)) / FAST)
+
+    def _may_happen(self, kind: str) -> bool:
+        """Whether orbits of the word can have special points of a kind."""
+        if not self.word.flies or kind not in OF_CONTACT:
+            return True
+        return kind == ONSET and any(not contact.restitution for contact in self.rotor.system.contacts)
+
     def _nearness(self, u: np.ndarray, p: float) -> float:
         """Above zero as long as the orbit is a motion, or not far from one."""
         point = self.point(u, p)
@@ -211,19 +262,28 @@ class Family:
     def watches(self, start: np.ndarray, *, virtual: bool = True) -> list[Watch]:
         """Functions that vanish at the special points, and where the branch ends."""
 
-        def watch(kind: str) -> Watch:
+        def watch(kind: str, test: Callable[[FamilyPoint], float]) -> Watch:
             def value(u: np.ndarray, p: float) -> float:
                 point = self.point(u, p)
-                found = np.nan if point is None else TESTS[kind](point)
+                found = np.nan if point is None else test(point)
                 return found if np.isfinite(found) else np.nan
 
             # Where friction stops the slip before a slide, this ceases to be; other words go on among virtual orbits.
             slides = (self.word.landed & (self.word.kinds != Kind.ROLL)).any()
-            return Watch(kind, value, ends_branch=kind == "contact-onset" or (kind == "slide-stop" and slides))
+            ends = (kind == ONSET and not self.word.flies) or (kind == "slide-stop" and bool(slides))
+            return Watch(kind, value, ends_branch=ends)
 
         # The continuation finds folds itself.
-        left_out = {"fold", *(OF_CONTACT if self.word.flies else ())}
-        watched = [watch(kind) for kind in TESTS if kind not in left_out]
+        tests = {kind: test for kind, test in TESTS.items() if kind != "fold" and self._may_happen(kind)}
+        if self.word.flies and self.word.impacts == 1:
+            tests[HOPF] = tests.pop("vanishing-impact")
+            # Beyond that point the orbit meets the wall from outside, and its maxima lie outside from the first.
+            tests["grazing"] = lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else 1.0
+            if isinstance(self.rotor, Jeffcott):
+                tests[EXTREMUM] = lambda point: point.flattest
+        watched = [watch(*test) for test in tests.items()]
+        fastest = max(FASTEST, 2.0 * self.fastest(start))
+        watched.append(Watch(BOUNDLESS, lambda u, _: fastest - self.fastest(u), ends_branch=True))
         if not virtual:
             watched.append(Watch(FAR, self._nearness, ends_branch=True))
         touches = self.word.timed & (self.word.kinds > Kind.LAND)

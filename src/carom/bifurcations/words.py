@@ -7,32 +7,34 @@ passes through grazing and goes on with orbits that are not motions of the machi
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from carom.bifurcations.branches import OrbitBranch, continue_single_impact, passing
+from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
+from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
 from carom.bifurcations.neighbours import CONTACT_CHANGES, NEIGHBOURS, is_other, neighbour, read_beside
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_equations import BRIEF, FAR, GONE, LYING, Family
-from carom.continuation import SpecialPoint, Steps, continue_branch
-from carom.models import Jeffcott, Model
+from carom.bifurcations.single_impact import special_orbit
+from carom.bifurcations.word_equations import BRIEF, EXTREMUM, FAR, GONE, HOPF, LYING, ONSET, PERMANENT, Family
+from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
+from carom.models import Jeffcott
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.shooting import Links, Start, converged, links_of, pack_free, unpack
+from carom.orbits.shooting import Links, Start, pack_free, unpack
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 from carom.parameters import Numbers
 
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
-BORDERS = ("grazing", "vanishing-impact", "slip-stop", "contact-onset", "permanent-contact", *CONTACT_CHANGES)
+CLOSE_STEPS = replace(STEPS, largest=0.1)
+"""For orbits with one impact, of which figures and documents show every orbit of a branch."""
+BORDERS = ("grazing", "vanishing-impact", "slip-stop", ONSET, PERMANENT, *CONTACT_CHANGES)
 """Special points at which the word of a motion changes."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
-ONSET, PERMANENT = "contact-onset", "permanent-contact"
 LEAVES = (PERMANENT, "lift-off")
 """Where contact that never leaves the wall begins to."""
 BESIDE = 1e-5
@@ -43,92 +45,21 @@ BEYOND = 0.2
 """Half of the range, relative to the parameter, in which a branch is followed that is switched to without a range."""
 
 
-@dataclass(frozen=True, eq=False)
-class WordOrbits:
-    """Orbits of a word along a parameter, by the unknowns of multiple shooting.
-
-    Attributes
-    ----------
-    axis : Axis
-    name : OrbitName or CountedName
-        Name of all of them, on both sides of folds: that of the orbit from which they were followed.
-    word : Word
-    rotor : Model
-        The rotor of that orbit.
-    values : ndarray, shape (m,)
-        The parameter.
-    unknowns : ndarray, shape (m, k)
-        Nodes and durations, in the order of :func:`carom.orbits.shooting.pack`.
-    """
-
-    axis: Axis
-    name: OrbitName | CountedName
-    word: Word
-    rotor: Model
-    values: np.ndarray
-    unknowns: np.ndarray
-
-    @property
-    def names(self) -> tuple[OrbitName | CountedName, ...]:
-        """Name of each orbit."""
-        return (self.name,) * len(self.values)
-
-    @cached_property
-    def radial_speeds(self) -> np.ndarray:
-        """``ṙ`` just before each impact in ``c_r Ω``, shape (m, n)."""
-        return np.array([orbit.impact_speeds for orbit in self.orbits])
-
-    @cached_property
-    def angular_speed(self) -> np.ndarray:
-        """``θ̇`` just before the first impact in ``Ω``, shape (m,)."""
-        return np.array([orbit.angular_speed for orbit in self.orbits])
-
-    def starts_at(self, value: float) -> list[Start]:
-        """Nodes and durations of the orbits at a value of the parameter, one for each time the branch passes there."""
-        found = []
-        for i, share in passing(self.values, value):
-            guess = (1.0 - share) * self.unknowns[i] + share * self.unknowns[i + 1]
-            links = converged(self.axis.move(self.rotor, value), self.word, unpack(guess, len(self.word)))
-            found.append(unpack(guess, len(self.word)) if links is None else links.start)
-        return found
-
-    @property
-    def period(self) -> np.ndarray:
-        """Periods in ``1/Ω``, shape (m,)."""
-        total: np.ndarray = self.unknowns.reshape(len(self.values), len(self.word), -1)[:, :, -1].sum(axis=1)
-        return total
-
-    @cached_property
-    def orbits(self) -> tuple[Orbit, ...]:
-        """Every orbit, with its multipliers and its admissibility certified."""
-        pairs = zip(self.values.tolist(), self.unknowns, strict=True)
-        return tuple(_orbit_at(self.axis.move(self.rotor, p), self.word, u, self.name) for p, u in pairs)
-
-    @cached_property
-    def admissible(self) -> np.ndarray:
-        """Which orbits are motions of the machine, bool, shape (m,)."""
-        return np.array([orbit.admissible for orbit in self.orbits])
-
-    @cached_property
-    def multipliers(self) -> np.ndarray:
-        """Non-trivial Floquet multipliers, complex, shape (m, 2N − 1)."""
-        return np.array([orbit.multipliers.values for orbit in self.orbits])
-
-
 def renamed(branch: OrbitBranch, name: CountedName) -> OrbitBranch:
     """A branch followed by multiple shooting, with another name."""
-    points: Any = branch.points
     special = tuple(
         replace(point, name=name, shot=replace(point.shot, name=name) if point.shot else None)
         for point in branch.special
     )
-    return replace(branch, name=name, points=replace(points, name=name), special=special)
+    return replace(branch, name=name, special=special)
 
 
-def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None) -> OrbitBranch:
+def continue_orbit(
+    orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
+) -> OrbitBranch:
     """Continue an orbit along a parameter, through folds, grazing and stretches where it is virtual.
 
-    Orbits of the closed form are continued by their own two equations, all others by multiple shooting.
+    The unknowns are the states at the beginning of its segments and their durations (multiple shooting).
 
     Parameters
     ----------
@@ -136,6 +67,8 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
         A parameter of the rotor: for the planar one dimensionless (``"gamma"``) or physical (``"speed"``, SI units; needs scales).
     interval : tuple of float or str
         Range of the parameter; it must contain the orbit's own value.  ``("300 N s/m", "2000 N s/m")`` has units.
+    virtual : bool
+        Follow it to any distance from motions of the machine.
 
     Returns
     -------
@@ -159,15 +92,6 @@ def continue_orbit(orbit: Orbit, parameter: str, interval: Ends, steps: Steps | 
     >>> [(point.kind, round(point.value, 6)) for point in branch.special]
     [('grazing', 0.063611), ('radius-extremum', 0.07852), ('period-doubling', 0.083381), ('fold', 0.178028)]
     """
-    if isinstance(orbit.name, OrbitName):
-        return continue_single_impact(orbit, parameter, interval, steps)
-    return continue_word(orbit, parameter, interval, steps)
-
-
-def continue_word(
-    orbit: Orbit, parameter: str, interval: Ends, steps: Steps | None = None, *, virtual: bool = True
-) -> OrbitBranch:
-    """:func:`continue_orbit` by multiple shooting, for an orbit of any word; on request not far among virtual orbits."""
     along = axis(orbit.rotor, parameter)
     present, limits = interval_around(along, along.value(orbit.rotor), interval)
     start = pack_free(orbit.word, Start(orbit.nodes, orbit.durations))
@@ -274,52 +198,63 @@ def _follow(
         family.limits,
         jacobian=family.jacobian,
         watches=family.watches(start, virtual=virtual),
-        solver=family.solved,
-        steps=steps or STEPS,
+        solver=family.solved if family.word.flies else None,
+        steps=steps or (CLOSE_STEPS if isinstance(name, OrbitName) else STEPS),
         scales=np.append(np.ones(len(start)), family.size),
+        reach=family.reach,
         crossings="",
     )
-    passed = [branch.of_kind(kind) for kind in ("period-halving", "vanishing-impact", "cone-limit")]
+    vanishing = *branch.of_kind("vanishing-impact"), *branch.of_kind(HOPF)
+    passed = branch.of_kind("period-halving"), vanishing, branch.of_kind("cone-limit")
     whole = [family.whole(u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
-    special = tuple(
-        _special_point(
-            point.kind,
-            family.along,
-            point.parameter,
-            _orbit_at(
-                family.along.move(family.rotor, point.parameter),
-                family.word,
-                family.whole(point.unknowns, point.parameter),
-                name,
-            ),
-            point.place,
-        )
-        for point in branch.special
-        if _is_special(family, point, *passed)
-    )
+    wanted = [point for point in branch.special if _is_special(family, point, *passed)]
+    special = [found for point in wanted if (found := _special_point(family, branch, point, name)) is not None]
     stops = list(branch.stops)
     for end, place in ((0, 0.0), (-1, len(branch) - 1.0)):
         lies = stops[end] in (LYING, "step too small")
         point = _permanent_contact(family, whole[end], branch.parameters[end], place) if lies else None
         if point is not None:
-            special, stops[end] = (*special, point), point.kind
-    special = tuple(sorted(special, key=lambda point: point.place))
-    at = family.along, name, family.word, family.rotor, branch.parameters
-    return OrbitBranch(*at, WordOrbits(*at, np.array(whole)), special, (stops[0], stops[1]))
+            special.append(point)
+            stops[end] = point.kind
+    return OrbitBranch(
+        axis=family.along,
+        name=name,
+        word=family.word,
+        rotor=family.rotor,
+        values=branch.parameters,
+        unknowns=np.array(whole),
+        special=tuple(sorted(special, key=lambda point: point.place)),
+        stops=(stops[0], stops[1]),
+    )
 
 
-def _special_point(kind: str, along: Axis, value: float, orbit: Orbit, place: float) -> Bifurcation:
-    """Special point at which multiple shooting has found the orbit."""
+def _special_point(
+    family: Family, branch: Branch, point: SpecialPoint, name: OrbitName | CountedName
+) -> Bifurcation | None:
+    """Special point of orbits of a name, those of the closed form without certified orbit; ``None`` if it is none."""
+    parameter, value = family.along.name, point.parameter
+    rotor: Any = family.along.move(family.rotor, value)
+    unknowns = family.whole(point.unknowns, value)
+    if isinstance(name, OrbitName):
+        numbers, period = with_slip(Numbers.of(rotor.parameters), name.slip), float(unknowns[-1])
+        speed = float(speeds_at(rotor, family.word.planes, unpack(unknowns, 1).nodes)[0].real)
+        if point.kind == HOPF:
+            # Any period solves the equations there: it is the limit of those on both sides.
+            period = float(np.interp(point.place, np.arange(len(branch)), branch.unknowns[:, -1]))
+            period, speed = corrected(numbers, period, speed)
+        return special_orbit(point.kind, numbers, name.pair, period, speed, parameter, point.place)
+    orbit = orbit_at(rotor, family.word, unknowns, name)
     return Bifurcation(
-        kind,
-        Numbers.of(orbit.rotor.parameters) if isinstance(orbit.rotor, Jeffcott) else None,
+        point.kind,
+        Numbers.of(rotor.parameters) if isinstance(rotor, Jeffcott) else None,
         orbit.period,
         orbit.radial_speed if orbit.word[0].kind.is_impact else math.nan,
-        orbit.name,
-        along.name,
+        name,
+        parameter,
         value,
-        orbit.admissible or (kind in BORDERS and min(orbit.margins.least, orbit.durations.min()) > -ON_BORDER),
-        place=place,
+        orbit.admissible
+        or (point.kind in (*BORDERS, HOPF) and min(orbit.margins.least, orbit.durations.min()) > -ON_BORDER),
+        place=point.place,
         shot=orbit,
     )
 
@@ -334,7 +269,7 @@ def _permanent_contact(family: Family, unknowns: np.ndarray, value: float, place
         return None
     reach = NEARBY * family.size
     limits = max(family.limits[0], value - reach), min(family.limits[1], value + reach)
-    found = [point for point in continue_word(alone, family.along.name, limits).special if point.kind in LEAVES]
+    found = [point for point in continue_orbit(alone, family.along.name, limits).special if point.kind in LEAVES]
     nearest = min(found, key=lambda point: abs(point.value - value), default=None)
     return None if nearest is None else replace(nearest, place=place)
 
@@ -368,15 +303,17 @@ def _is_special(
     """Whether a special point of the continuation is one of orbits.
 
     Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an impact vanishes, a
-    maximum of the radius is at the wall: that impact.  Where rolling between slides of one direction shrinks to nothing, their slip touches zero
-    and the branch turns.  Two real multipliers with
+    maximum of the radius is at the wall: that impact; without rebound the force after it vanishes too, and extrema of the radius are only
+    rounding.  Where rolling between slides of one direction shrinks to nothing, their slip touches zero and the branch turns.  Two real multipliers with
     the product one are no Neimark–Sacker bifurcation.
     """
     if point.kind == "period-halving":
         return True
-    if point.kind in (FAR, LYING, GONE) or any(abs(point.place - halving.place) < 1e-3 for halving in halvings):
+    if point.kind in (FAR, LYING, GONE, BOUNDLESS) or any(
+        abs(point.place - halving.place) < 1e-3 for halving in halvings
+    ):
         return False
-    if point.kind == "grazing" and any(_meet(point, other) for other in vanishing):
+    if point.kind in ("grazing", ONSET, EXTREMUM) and any(_meet(point, other) for other in vanishing):
         return False
     if point.kind in ("fold", "slide-stop") and any(_meet(point, other) for other in limits):
         return False
@@ -389,8 +326,3 @@ def _is_special(
 def _meet(point: SpecialPoint, other: SpecialPoint) -> bool:
     """Whether two special points of a branch are one."""
     return abs(point.place - other.place) < 1e-2 or abs(point.parameter - other.parameter) < 1e-7 * abs(other.parameter)
-
-
-def _orbit_at(rotor: Model, word: Word, unknowns: np.ndarray, name: OrbitName | CountedName) -> Orbit:
-    """Orbit at a point of a branch."""
-    return Orbit.from_links(rotor, word, links_of(rotor, word, unpack(unknowns, len(word))), name)

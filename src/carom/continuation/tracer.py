@@ -38,6 +38,8 @@ LEVEL = 1e-12
 """Share of the parameter in the tangent that counts as none: at a fold the parameter is exact to its square."""
 ON_LIMIT = 1e-9
 """Largest value of a limit, relative to its range, at which a point counts as on it."""
+LANDED = 1e-15
+"""Distance from a limit of the parameter, relative to the limits, of a point that is on it but for rounding."""
 JUMP = 1e-4
 """Largest remaining value of a watched function at a zero, relative to its values on the step, or at the ends of the bracket if
 it is not defined on all of it.
@@ -208,9 +210,9 @@ class Tracer:
             x, previous, correction = x + change, size, max(map(abs, change.tolist()))
         return None
 
-    def near(self, guess: np.ndarray, here: _Point) -> np.ndarray | None:
+    def near(self, guess: np.ndarray, here: _Point, fixed: bool = False) -> np.ndarray | None:
         """Point of the branch next to a guess ahead of a point: at the parameter of the guess, or in the normal hyperplane."""
-        if self.solver is not None and abs(here.tangent[-1]) >= UPRIGHT:
+        if self.solver is not None and (fixed or abs(here.tangent[-1]) >= UPRIGHT):
             found = self.solver(*self.plain(guess))
             if found is not None:
                 return np.append(found / self.scales[:-1], guess[-1])
@@ -227,7 +229,9 @@ class Tracer:
         here.watched = self._watched(here)
         length = self.steps.first
         while len(path.points) < self.steps.most_points:
-            there, share, ending, known = self._step(here, length), None, None, len(path.special)
+            to_limit = self._to_limit(here)
+            length = min(length, to_limit)
+            there, share, ending, known = self._step(here, length, length == to_limit), None, None, len(path.special)
             if there is not None:
                 there.watched = self._watched(there)
                 left = self._left(here, there)
@@ -236,6 +240,9 @@ class Tracer:
                     return path
                 share = self._return(path, here, there, heading)
                 ending = self._locate(path, here, there, length, share)
+                if there.watched[0] == 0.0 and not ending and not share:
+                    path.points.append(there.x)
+                    ending = "parameter limit"
             # A step beyond the limit on which the limit itself was not located is too long as well.
             if there is None or (there.watched[0] < 0.0 and not ending and not share):
                 del path.special[known:]
@@ -255,6 +262,17 @@ class Tracer:
             here = there
         return path
 
+    def _to_limit(self, here: _Point) -> float:
+        """Length of the step that ends on the limit of the parameter, beyond which the equations may be undefined.
+
+        Infinite where the tangent does not lead there, or there is no solver for points at fixed parameter.
+        """
+        ahead, size = float(here.tangent[-1]), float(self.scales[-1])
+        if self.solver is None or ahead == 0.0:
+            return math.inf
+        left = self.interval[ahead > 0.0] - float(here.x[-1]) * size
+        return left / (ahead * size) if here.watched[0] != 0.0 else math.inf
+
     def _left(self, here: _Point, there: _Point) -> str:
         """The limit that a step leaves from a point on it; empty if there is none."""
         return next(
@@ -265,10 +283,10 @@ class Tracer:
         """Length of the largest step at a point."""
         return self.steps.largest * (1.0 if self.reach is None else self.reach(self.plain(x)[0]))
 
-    def _step(self, here: _Point, length: float) -> _Point | None:
-        """Next point; ``None`` if the step is too long."""
+    def _step(self, here: _Point, length: float, fixed: bool) -> _Point | None:
+        """Next point, on request at the parameter to which the tangent leads; ``None`` if the step is too long."""
         guess = here.x + length * here.tangent
-        x = self.near(guess, here)
+        x = self.near(guess, here, fixed)
         if x is None or np.linalg.norm(x - guess) > STRAY * length:
             return None
         jacobian = self.jacobian(x)
@@ -284,6 +302,8 @@ class Tracer:
 
     def _stuck(self, here: _Point) -> str:
         """Why no step succeeds: the equations may be undefined within the reach of the central differences."""
+        if here.watched[0] == 0.0:
+            return "parameter limit"
         reach = 10.0 * DIFFERENCE * np.eye(len(here.x))
         around = [self.value(here.x + side) for side in (*reach, *-reach)]
         return "step too small" if np.isfinite(around).all() else "end of domain"
@@ -309,7 +329,8 @@ class Tracer:
 
     def _margin(self, p: float) -> float:
         low, high = self.interval
-        return min(p - low, high - p) / (high - low)
+        left = min(p - low, high - p)
+        return 0.0 if abs(left) <= LANDED * max(abs(low), abs(high)) else left / (high - low)
 
     def _crossing(self, at: _Point) -> float:
         """Determinant of the bordered Jacobian; it changes sign where another branch crosses."""

@@ -162,8 +162,9 @@ def radial_profile(gamma, omega, mu, d, period, speed):
     height, top : float
         Largest ``r² − 1`` of the local maxima inside the period, and its time; ``nan`` if there is none.
     flattest : float
-        Product of ``s/(1 + |s|)`` over all inflections of ``r²``, with the slope ``s`` there.  It changes sign through
-        zero where a maximum and a minimum of the radius are born.
+        Product of ``x/(1 + |x|)`` over all inflections of ``r²``, with ``x = s(T/t)²`` from the time ``t`` and the slope ``s``
+        there.  It passes through zero where a maximum and a minimum of the radius are born.  Its sign is such that it does not change where
+        an inflection passes an end of the flight; without rebound it may jump where one passes the impact.
     """
     first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
     fastest = max(abs(first), abs(second))
@@ -171,6 +172,8 @@ def radial_profile(gamma, omega, mu, d, period, speed):
     step = period / count
     height, top, flattest = np.nan, np.nan, 1.0
     _, bend, _, _ = _radial(first, second, rest, driven, driving, 0.0)
+    # The slope is −d ṙ at the beginning and ṙ at the end: an inflection that leaves by the end where it is negative takes a sign along.
+    beginning = bend
     # Exact: without rebound (d = 0), rounding could make it positive and create a maximum at the impact itself.
     slope = -d * speed
     for i in range(1, count + 1):
@@ -179,7 +182,8 @@ def radial_profile(gamma, omega, mu, d, period, speed):
         if bend * next_bend < 0.0:
             turning = _zero(first, second, rest, driven, driving, time - step, time, 1)
             flat, _, _, _ = _radial(first, second, rest, driven, driving, turning)
-            flattest *= flat / (1.0 + abs(flat))
+            steepness = flat * (period / turning) ** 2
+            flattest *= steepness / (1.0 + abs(steepness))
             # A maximum may hide between the inflection and the end of the step.
             if slope > 0.0 > flat or flat > 0.0 > next_slope:
                 low, high = (time - step, turning) if slope > 0.0 > flat else (turning, time)
@@ -193,6 +197,8 @@ def radial_profile(gamma, omega, mu, d, period, speed):
             if not tall <= height:
                 height, top = tall, place
         slope, bend = next_slope, next_bend
+    if (d > 0.0 and beginning < 0.0) if speed > 0.0 else (bend > 0.0):
+        flattest = -flattest
     return height, top, flattest
 
 

@@ -141,7 +141,7 @@ def _compare(diagram: Diagram, stretch: ProvenStretch) -> None:
     middle = 0.5 * (low + high)
     for branch in diagram.orbits:
         values, names = branch.values, branch.names
-        forward = np.array([numbers.mu >= 0.0 for numbers in branch.closed.numbers])
+        forward = np.array([orbit.numbers.mu >= 0.0 for orbit in branch.closed])
         for i in np.flatnonzero((low < values) & (values < high) & forward).tolist():
             shortest, longest = stretch.periods.get(names[i], (np.inf, -np.inf))
             if not shortest - _NEAR < branch.period[i] < longest + _NEAR:

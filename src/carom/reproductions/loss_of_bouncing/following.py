@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.bifurcations import Diagram, OrbitBranch, find_bifurcations
 from carom.bifurcations.several import lies_on
-from carom.bifurcations.words import continue_word
+from carom.bifurcations.words import continue_orbit
 from carom.models import Jeffcott
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.reproductions.loss_of_bouncing.samples import BouncingSample, sample_bouncing
@@ -111,5 +111,5 @@ def _windows(samples: tuple[BouncingSample, ...], impacts: int) -> tuple[OrbitBr
         if orbit is None or not max(impacts, 1) < orbit.impacts <= MOST_IMPACTS:
             continue
         if not any(lies_on(orbit, sample.gamma, branch) for branch in branches):
-            branches.append(continue_word(orbit, "gamma", RANGE, virtual=False))
+            branches.append(continue_orbit(orbit, "gamma", RANGE, virtual=False))
     return tuple(branches)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from carom.bifurcations import Bifurcation, OrbitBranch
-from carom.bifurcations.branches import continue_single_impact
+from carom.bifurcations.words import continue_orbit
 from carom.continuation import Steps
 from carom.models import Jeffcott
 from carom.orbits.single_impact import find_orbits
@@ -61,8 +61,8 @@ def first_pair() -> FirstPair:
     # Without positive damping the search for all orbits would not end; these two have short periods.
     undamped = find_orbits(Jeffcott(machine_at(-0.3)), 1.0)
     return FirstPair(
-        slow=continue_single_impact(orbits["B1,b"], "gamma", DAMPINGS, STEPS),
-        fast=continue_single_impact(orbits["B1,d"], "gamma", DAMPINGS, STEPS),
-        negative=continue_single_impact(undamped["B1,c"], "gamma", (NEGATIVE, DAMPINGS[0]), STEPS),
+        slow=continue_orbit(orbits["B1,b"], "gamma", DAMPINGS, STEPS),
+        fast=continue_orbit(orbits["B1,d"], "gamma", DAMPINGS, STEPS),
+        negative=continue_orbit(undamped["B1,c"], "gamma", (NEGATIVE, DAMPINGS[0]), STEPS),
         hopf=hopf_side(machine_at(0.1)),
     )

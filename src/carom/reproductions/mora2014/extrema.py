@@ -113,8 +113,7 @@ def extremum_lines(branch: OrbitBranch) -> tuple[ExtremumLine, ...]:
     A segment ends where two extrema are born or vanish (``"radius-extremum"`` of
     :class:`~carom.bifurcations.Bifurcation`); its lines extend to that point.
     """
-    each = list(zip(branch.closed.numbers, branch.period.tolist(), branch.radial_speed.tolist(), strict=True))
-    extrema = [radius_extrema(*orbit) for orbit in each]
+    extrema = [radius_extrema(*orbit[1:]) for orbit in branch.closed]
     turns = [point for point in branch.special if point.kind == "radius-extremum"]
     counts = np.array([len(found) for found in extrema])
     starts = [0, *(np.flatnonzero(np.diff(counts)) + 1).tolist(), len(counts)]

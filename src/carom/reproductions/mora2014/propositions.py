@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from carom.bifurcations import Bifurcation
-from carom.bifurcations.branches import continue_single_impact
+from carom.bifurcations.words import continue_orbit
 from carom.closed_forms.local import ContactSystem, LocalCycle, non_smooth_hopf
 from carom.closed_forms.thresholds import ranges_of
 from carom.models import Jeffcott
@@ -133,7 +133,7 @@ def simultaneous_folds(parameters: Parameters, pair: int = 1) -> SimultaneousFol
     interval = (parameters.gamma, 2.0 * parameters.gamma + 10.0)
     folds = []
     for orbit in longer:
-        branch = continue_single_impact(orbit, "gamma", interval)
+        branch = continue_orbit(orbit, "gamma", interval)
         found = [point for point in branch.special if point.kind == "fold"]
         if not found:
             raise CaromError(f"{orbit.name} meets no other orbit up to gamma = {interval[1]:g}")
