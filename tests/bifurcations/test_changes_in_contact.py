@@ -17,6 +17,7 @@ from carom.models import Jeffcott
 from carom.motions import State
 from carom.orbits.orbit import Orbit
 from carom.orbits.recognising import orbit_of_motion, orbit_of_whirl
+from carom.orbits.shooting import Start, links_of
 from carom.orbits.word import Kind, Word
 from carom.outcome import InputError, Outcome, Phase
 from carom.parameters import Parameters
@@ -230,6 +231,14 @@ def test_a_landing_without_slip_is_not_followed_in_two_parameters():
     point = borders(BRANCHES[1])[0].point
     with pytest.raises(InputError, match="without chatter"):
         continue_curve(point, Plane("gamma", "mu", (0.05, 0.15), (0.4, 0.5)))
+
+
+def test_contact_that_runs_away_backward_in_time_is_not_followed_for_ever():
+    orbit = branch(*BRANCHES[1]).orbits[0]
+    durations = orbit.durations.copy()
+    durations[2] = -1e3
+    links = links_of(orbit.rotor, orbit.word, Start(orbit.nodes, durations))
+    assert not np.isfinite(links.size)
 
 
 def slip_after_chatter(share: float, restitution: float, friction: float) -> int:

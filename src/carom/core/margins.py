@@ -129,6 +129,8 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
         while elapsed < durations[i]:
             rub_series(rotor, contact, state, rub)
             step = min(series_step(rub), durations[i] - elapsed)
+            if not step > 0.0:
+                return np.nan, np.nan, np.nan
             push = min(push, _least_inside(rub.push[plane], step))
             for k in range(ORDER + 1):
                 grip = rub.grip[plane, k] if rolls else 0.0

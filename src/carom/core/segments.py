@@ -53,6 +53,9 @@ NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD, LEAST_P
 """Conditions at the end: two are the limits of the friction cone beyond which forward or backward slip begins; at the last one
 the normal force is least, and the same sliding goes on."""
 
+MOST_STEPS = 2000
+"""Taylor steps of one stretch of lasting contact, beyond which it is not followed; a turn of the shaft takes some thirty."""
+
 
 @kernel
 def follow_flights(rotor, basis, to_modes, rest, kinds, planes, targets, nodes, durations, arrivals, values, slopes):
@@ -234,7 +237,7 @@ def _slide(rotor, contact, plane, duration, state, directions, rate, falls, rub)
     Returns the rate of the normal force at the end; ``falls`` receives its derivatives by the directions and by the duration, which
     mean nothing for rolling.
     """
-    modes, elapsed = state.shape[0], 0.0
+    modes, elapsed, steps = state.shape[0], 0.0, 0
     series = np.empty((ORDER + 1, modes), np.complex128)
     moved = np.empty((4, ORDER + 1), np.complex128)
     push = np.empty(ORDER + 1)
@@ -242,6 +245,11 @@ def _slide(rotor, contact, plane, duration, state, directions, rate, falls, rub)
         rub_series(rotor, contact, state, rub)
         largest = series_step(rub)
         left = duration - elapsed
+        steps += 1
+        if steps > MOST_STEPS or not largest > 0.0:
+            # Sliding may run away in a finite time, backward in time sooner than forward.
+            state[:], rate[:], falls[:] = np.nan, np.nan, np.nan
+            return np.nan
         step = min(largest, left) if left >= 0.0 else max(-largest, left)
         for row in range(directions.shape[0]):
             for k in range(modes):
