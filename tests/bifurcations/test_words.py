@@ -15,7 +15,7 @@ from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion
-from carom.orbits.shooting import Start
+from carom.orbits.shooting import Start, closed_flights, links_of
 from carom.outcome import CaromError, InputError
 from tests.machines import PAPER
 from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state, tilting_too
@@ -182,9 +182,11 @@ def test_orbits_next_to_a_fold_close():
     (fold,) = [point for point in continue_orbit(orbit, "gamma", (0.165, 0.19)).special if point.kind == "fold"]
     start = Start(fold.orbit.nodes, fold.orbit.durations)
     for shift in (-1e-12, *np.arange(-20, 21) * 1e-15, 1e-13):
-        found = orbit_near(PAPER.replace(gamma=fold.value * (1.0 + shift)), orbit.word, start)
+        rotor = Jeffcott(PAPER.replace(gamma=fold.value * (1.0 + shift)))
+        found, flights = orbit_near(rotor, orbit.word, start), closed_flights(rotor, orbit.word, start)
         assert found is not None
         assert found.links.size < 1e-12
+        assert flights is None or links_of(rotor, orbit.word, flights).size < 1e-12
         assert found.period == pytest.approx(fold.orbit.period, abs=1e-5)  # the square root of the shift
 
 

@@ -9,6 +9,9 @@ from carom.core.segments import follow_flights
 
 __all__ = ["carry_through_segments", "close_flights", "eliminate", "shooting_equations"]
 
+LAST = 1e-6
+"""Longest last step, relative to one plus the size of the nodes; a longer one comes from the singular derivative at a fold."""
+
 
 @kernel
 def close_flights(
@@ -19,7 +22,7 @@ def close_flights(
     Parameters
     ----------
     tolerance : float
-        Largest residual accepted, relative to one plus the size of the nodes; one more step follows.
+        Largest residual accepted, relative to one plus the size of the nodes; one more step follows, unless it is long.
     steps : int
         Number of steps after which to give up.
 
@@ -45,7 +48,11 @@ def close_flights(
         done = largest <= tolerance * size or (largest <= 1e3 * tolerance * size and largest >= 0.5 * before)
         if not (largest < np.inf and eliminate(matrix)):
             return False
-        before = largest
+        before, farthest = largest, 0.0
+        for row in range(m * width):
+            farthest = max(farthest, abs(matrix[row, m * width]))
+        if done and farthest > LAST * size:
+            return True
         for i in range(m):
             for k in range(modes):
                 nodes[i, k] -= complex(matrix[i * width + k, m * width], matrix[i * width + modes + k, m * width])
