@@ -258,9 +258,9 @@ class _Sides:
         found = self.near(side, distance, self.orbit.word, Start(self.orbit.nodes, self.orbit.durations))
         if found is None and not self.orbit.word.flies:
             # Where a segment shrinks like a root, the orbit on the border is no start for Newton's method.
-            read = read_beside(self.orbit, self.at(side, distance))
-            if read is not None and not is_other(read[0], self.orbit.word):
-                found = self.near(side, distance, *read)
+            for word, start in read_beside(self.orbit, self.at(side, distance)):
+                if found is None and not is_other(word, self.orbit.word):
+                    found = self.near(side, distance, word, start)
         return found
 
     def read(self) -> tuple[Word | None, tuple[Orbit | None, Orbit | None]]:
@@ -270,9 +270,9 @@ class _Sides:
         """
         seen = None
         for distance in reversed(self.distances):
-            for side in (-1, 1):
-                word, start = read_beside(self.orbit, self.at(side, distance)) or (None, None)
-                if word is None or start is None or not is_other(word, self.orbit.word):
+            beside = [(side, *read) for side in (-1, 1) for read in read_beside(self.orbit, self.at(side, distance))]
+            for side, word, start in beside:
+                if not is_other(word, self.orbit.word):
                     continue
                 seen = seen or word
                 # Virtual where the motion was simulated, it may be a motion on the other side: then both orbits end at the border.

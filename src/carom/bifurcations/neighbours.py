@@ -18,8 +18,8 @@ from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import InputError, Phase
 
-READ = 2.3
-"""Periods that are simulated to read one."""
+READ = 3.3
+"""Periods that are simulated to read two."""
 SAME_TIME = 0.02
 """Relative difference of the period read from that on the border."""
 MOST_EVENTS = 20_000
@@ -64,15 +64,15 @@ def setting_out(orbit: Orbit) -> State:
     return State.of(*system.state(amplitudes[0]))
 
 
-def read_beside(orbit: Orbit, rotor: Model) -> tuple[Word, Start] | None:
-    """Word, nodes and durations of the next period of a motion that starts on the orbit on a border, of a rotor beside the border.
+def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
+    """Word, nodes and durations of the next two periods of a motion that starts on the orbit on a border, of a rotor beside the border.
 
     Where lasting contact begins, the word holds the impacts that a chatter becomes: the closer to the border, the more.
 
     Returns
     -------
-    tuple or None
-        ``None`` if nothing recurs after about a period, or if what happens in it has no word.
+    list of (Word, Start)
+        Fewer if nothing recurs after about a period, or if what happens in it has no word.
     """
     # The orbit of the same word there is no motion, but nearer to the one that is sought than that on the border.
     beside = orbit_near(rotor, orbit.word, Start(orbit.nodes, orbit.durations)) or orbit
@@ -84,21 +84,26 @@ def read_beside(orbit: Orbit, rotor: Model) -> tuple[Word, Start] | None:
     begins = np.flatnonzero(changes & (times > INSTANT) & (times < orbit.period))
     if not changes[times > INSTANT].any():
         whirl = orbit_of_whirl(motion, orbit.period)
-        return None if whirl is None else (whirl.word, Start(whirl.nodes, whirl.durations))
+        return [] if whirl is None else [(whirl.word, Start(whirl.nodes, whirl.durations))]
     if not len(begins):
-        return None
+        return []
     # From the first change on: whether a later period is like it is what is asked.  A chatter must not be cut.
     lifts = begins[(before[begins] != Phase.FLIGHT) & (after[begins] == Phase.FLIGHT)]
     cut = not motion.is_impact[begins[0]] or not beside.word.kinds.min() <= Kind.LIFT
     first = lifts[int(np.argmax(np.diff(times)[lifts]))] if cut and len(lifts) else begins[0]
     alike = np.flatnonzero((signs == signs[first]).all(axis=1))
-    last = alike[int(np.argmin(np.abs(times[alike] - times[first] - orbit.period)))]
-    if abs(times[last] - times[first] - orbit.period) > SAME_TIME * orbit.period:
-        return None
-    try:
-        return segments_of(motion, int(first), int(last))
-    except InputError:  # an impact at one plane while another stays in contact has no word
-        return None
+    read = []
+    # The first period may still be that of the orbit, the second no longer that from which the other word is seen.
+    for _ in range(2):
+        last = alike[int(np.argmin(np.abs(times[alike] - times[first] - orbit.period)))]
+        if abs(times[last] - times[first] - orbit.period) > SAME_TIME * orbit.period:
+            break
+        try:
+            read.append(segments_of(motion, int(first), int(last)))
+        except InputError:  # an impact at one plane while another stays in contact has no word
+            break
+        first = last
+    return read
 
 
 def is_other(word: Word, known: Word) -> bool:

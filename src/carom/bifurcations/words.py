@@ -159,10 +159,10 @@ def _beyond(orbit: Orbit, along: Axis, limits: tuple[float, float]) -> tuple[Wor
         if not limits[0] <= there <= limits[1]:
             continue
         rotor = along.move(orbit.rotor, there)
-        read = read_beside(orbit, rotor)
-        found = orbit_near(rotor, *read) if read is not None and is_other(read[0], orbit.word) else None
-        if found is not None and found.admissible:
-            return found.word, Start(found.nodes, found.durations), there
+        for word, start in read_beside(orbit, rotor):
+            found = orbit_near(rotor, word, start) if is_other(word, orbit.word) else None
+            if found is not None and found.admissible:
+                return found.word, Start(found.nodes, found.durations), there
     raise CaromError("no orbit of another word was found beside the border")
 
 
