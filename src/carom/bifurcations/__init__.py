@@ -1,4 +1,37 @@
-"""Bifurcations of equilibria and orbits: branches, diagrams, curves in two parameters, regions."""
+"""Bifurcations of equilibria and orbits: branches, diagrams, curves in two parameters, regions.
+
+==================  ==========================================================
+``diagrams``        bifurcation diagrams along one parameter
+``steady``          levitation, synchronous rubs and rolling along it
+``branches``        a branch of orbits of any word
+``words``           following such a branch, and switching to others
+``word_equations``  equations of a word, and what vanishes at special points
+``single_impact``   what the closed form tells of orbits with one impact
+``several``         orbits with several impacts for diagrams
+``samples``         attractors found by simulation, for diagrams
+``points``          special points of branches
+``borders``         what becomes of a motion where its word changes
+``neighbours``      the word on the other side of such a border
+``paths``           how far states are from the path of an orbit
+``boundary``        where levitation meets the wall
+``windows``         ranges of a parameter in which orbits are motions
+``curves``          curves of bifurcations in two parameters
+``word_curves``     those of orbits of any word
+``conditions``      test functions of orbits with one impact and of equilibria
+``derivatives``     their exact derivatives
+``resonances``      where Neimark–Sacker curves begin
+``passing``         whether a known curve passes through a point
+``naming``          names of the orbits of a curve
+``solutions``       all solutions of the closed form's equations
+``planes``          the plane of two parameters
+``regions``         regions of a plane with the same motions
+``cells``           groups of neighbouring cells
+``motions``         the simple motions of a machine
+``survey``          the search for curves that explain each change
+``changes``         changes between two points, and their causes
+``documents``       results as plain data for JSON
+==================  ==========================================================
+"""
 
 from carom.bifurcations.borders import Border, examine_border
 from carom.bifurcations.boundary import BoundaryEquilibrium, boundary_equilibria
