@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -112,6 +113,19 @@ def test_the_changes_are_located_once_each_with_the_word_beyond(case):
     special = [point.value for point in branch(*case).special]
     # Nothing else, such as the fold of a root, is told of the same place.
     assert all((np.abs(np.array(special) - value) < 1e-6).sum() <= 2 for value in values)
+
+
+def test_departures_that_a_chatter_hides_are_not_told_apart():
+    border = borders(BRANCHES[2])[0]
+    verdicts = [
+        replace(border, departures=departures).verdict
+        for departures in (
+            (4e-6, 1e-6, 3e-7, 4e-7, 3e-7),
+            (9e-7, 8e-7, 9e-7, 7e-7, 8e-7),
+            (4e-6, 5e-7, 1e-2, 5e-3, 2e-3),
+        )
+    ]
+    assert verdicts == ["continuous", "undecided", "undecided"]
 
 
 @pytest.mark.parametrize("case", BRANCHES)

@@ -109,7 +109,7 @@ class Border(Result):
         ``"continuous"``: they stay near, the nearer the smaller the distance; ``"chaotic band"``: they do so and are irregular at all
         distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances,
         no less at the smallest ones, or by more than 0.3 at each; ``"unstable"``: the orbit is unstable on its own side, so that
-        no motion can be followed from it.
+        no motion can be followed from it.  With a chatter, departures below 1e-6 are not told apart.
         """
         if not self.departures:
             return "unstable" if self.inside else "undecided"
@@ -117,7 +117,9 @@ class Border(Result):
         if not np.isfinite(self.departures).all():
             return "jump" if not np.isfinite(self.departures).any() else "undecided"
         chatters = any(word is not None and word.lands.any() for word in (self.point.orbit.word, self.word))
-        ratios = [b / a for a, b in zip(self.departures, nearer, strict=False) if a > chatters * RESOLVED]
+        resolved = chatters * RESOLVED
+        steps = [(a, b) for a, b in zip(self.departures, nearer, strict=False) if max(a, b) > resolved]
+        ratios = [b / a if a > 0.0 else np.inf for a, b in steps]
         if far < LARGEST_STEP and ratios and max(ratios) < SHRINKS:
             chaotic = all(value > CONFIDENT * error for value, error in self.exponents)
             return "chaotic band" if chaotic else "continuous"
