@@ -105,7 +105,7 @@ class FoundOrbits(Result, OrbitSequence):
         return (
             f"Found by a search, which proves nothing: {self.settled} motions were followed until they settled; {self.starts} "
             f"simulated starts gave {self.guesses} guesses for Newton's method, of which {self.repeats} led to known orbits "
-            f"and {self.failures} to none; {newest}; {self.virtual} solutions found are not motions."
+            f"and {self.failures} to none; {newest}; solutions that are not motions: {self.virtual}."
         )
 
 
