@@ -7,9 +7,11 @@ from functools import cache
 import numpy as np
 import pytest
 
+from carom import simulate
 from carom.bifurcations import Bifurcation, Curve, Plane, continue_curve, continue_orbit
 from carom.models import Jeffcott
-from carom.orbits import find_orbits
+from carom.motions import State
+from carom.orbits import find_orbits, orbit_of_motion
 from carom.orbits.orbit import Orbit, orbit_near
 from carom.orbits.shooting import Start
 from carom.outcome import InputError
@@ -71,6 +73,32 @@ def test_points_of_a_curve_are_found_again_along_one_parameter(kind):
         (doubling,) = [each for each in branch.special if each.kind == "period-doubling"]
         values = [each.value for each in doubling.switch((0.08, 0.087)).special if each.kind == kind]
         assert np.abs(np.array(values) - x).min() < 1e-8
+
+
+def test_a_curve_ends_where_both_halves_of_the_period_become_equal():
+    """It came back over itself from there, with the two impacts exchanged, and listed what it passes twice."""
+    machine = PAPER.replace(
+        gamma=0.06899982980689087,
+        omega=1.2779660134098125,
+        rho=0.9574077702761065,
+        mu=0.1443825101327086,
+        d=0.8631643332470018,
+    )
+    start = State(0.742594968245957 + 0.6697407805530331j, 1.7180056690412444 - 0.7328015507403582j)
+    orbit = orbit_of_motion(simulate(machine, start, settle=True))
+    (point,) = [each for each in continue_orbit(orbit, "gamma", (0.05, 0.08)).special if each.kind == "grazing"]
+    curve = continue_curve(point, Plane("gamma", "omega", (0.03, 0.1), (1.2, 1.4)))
+    assert curve.stops[1] == "period-halving"
+    places = np.array([each.value for each in curve.codimension2])
+    apart = np.abs(places[:, None] - places).max(axis=2)
+    assert apart[~np.eye(len(places), dtype=bool)].min() > 1e-3
+    (end,) = [each for each in curve.codimension2 if each.kind == "grazing + period-doubling"]
+    assert end.admissible
+    # The closed form has an orbit of half the period there that grazes and has the multiplier −1.
+    halved = find_orbits(machine.replace(gamma=end.value[0], omega=end.value[1]))["B1,d"]
+    assert 2.0 * halved.period == pytest.approx(end.period, rel=1e-8)
+    assert np.abs(halved.multipliers.values + 1.0).min() < 1e-6
+    assert abs(halved.margins.radius) < 1e-8
 
 
 def test_a_neimark_sacker_curve_passes_resonances():

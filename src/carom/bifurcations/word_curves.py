@@ -13,7 +13,7 @@ import numpy as np
 from carom.bifurcations.curves import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
 from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_equations import REMEMBERED, TESTS, FamilyPoint, point_at
+from carom.bifurcations.word_equations import HALVING, REMEMBERED, TESTS, FamilyPoint, halving, point_at
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Model
 from carom.models.axes import axis
@@ -126,7 +126,7 @@ def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None 
         float(start[1]),
         plane.second_range,
         jacobian=lambda u, p: equations.slopes(np.append(u, p)),
-        watches=_watches(equations, plane),
+        watches=_watches(equations, plane, unknowns),
         steps=steps or STEPS,
         scales=sizes,
         # A fold in the second parameter is only a turning point of the curve.
@@ -136,7 +136,7 @@ def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None 
     return _curve(special, plane, equations, branch)
 
 
-def _watches(equations: _CurveEquations, plane: Plane) -> list[Watch]:
+def _watches(equations: _CurveEquations, plane: Plane, start: np.ndarray) -> list[Watch]:
     def watch(name: str) -> Watch:
         def value(u: np.ndarray, p: float) -> float:
             at = equations.point(np.append(u, p))
@@ -149,7 +149,10 @@ def _watches(equations: _CurveEquations, plane: Plane) -> list[Watch]:
     if equations.kind == "neimark-sacker":
         # At the resonances 1:1 and 1:2 two multipliers are 1, or −1.
         others = [name for name in others if name not in ("fold", "period-doubling")] + list(RESONANCES)
-    return [plane.edge, *map(watch, others)]
+    halves = halving(equations.word, start)
+    # Beyond that point the curve would come back over itself, with the halves of the period exchanged.
+    ends = [] if halves is None else [Watch(HALVING, lambda u, _: halves(u[:-1]), ends_branch=True)]
+    return [plane.edge, *ends, *map(watch, others)]
 
 
 def _curve(special: Bifurcation, plane: Plane, equations: _CurveEquations, branch: Branch) -> Curve:
@@ -166,7 +169,8 @@ def _curve(special: Bifurcation, plane: Plane, equations: _CurveEquations, branc
         x = np.append(point.unknowns, point.parameter)
         at = equations.point(x)
         if at is not None:
-            kinds = (point.kind,) if point.kind in RESONANCES else (special.kind, point.kind)
+            other = "period-doubling" if point.kind == HALVING else point.kind
+            kinds = (other,) if other in RESONANCES else (special.kind, other)
             place = float(x[-2]), float(x[-1])
             meetings.append(Codimension2Point(kinds, place, *_period_and_speed(at), happens(x)))
     measured = np.array([_period_and_speed(at) if at is not None else (np.nan, np.nan) for at in points])

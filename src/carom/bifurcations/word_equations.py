@@ -45,6 +45,8 @@ with the fourth power of it, so that there is nothing to be computed beyond."""
 GONE, LONG_GONE = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
 ONSET, PERMANENT = "contact-onset", "permanent-contact"
+HALVING = "period-halving"
+"""Where both halves of a period become equal: the orbit is one of half the period there, at its period doubling."""
 HOPF, EXTREMUM = "non-smooth-hopf", "radius-extremum"
 """Special points of orbits with one impact alone: where it vanishes only a point on the wall is left of the orbit."""
 FAST = 3.0
@@ -294,13 +296,26 @@ class Family:
         lifts = self.word.kinds == Kind.LIFT
         if lifts.any():
             watched.append(Watch(LYING, lambda u, _: unpack_free(self.word, u).durations[lifts].min() - BRIEF, True))
-        m = len(self.word)
-        if m % 2 == 0 and (m // 2) % self.word.least == 0:
-            first = np.subtract(*np.split(start, 2))
-
-            def halves(u: np.ndarray, _: float) -> float:
-                apart = np.subtract(*np.split(u, 2))
-                return float(np.copysign(np.linalg.norm(apart), apart @ first))
-
-            watched.append(Watch("period-halving", halves, ends_branch=True))
+        if (halves := halving(self.word, start)) is not None:
+            watched.append(Watch(HALVING, lambda u, _: halves(u), ends_branch=True))
         return watched
+
+
+def halving(word: Word, start: np.ndarray) -> Callable[[np.ndarray], float] | None:
+    """Function of the free unknowns that vanishes where both halves of a period become equal; ``None`` if their words differ.
+
+    Parameters
+    ----------
+    start : ndarray
+        Unknowns at which it is positive.
+    """
+    m = len(word)
+    if m % 2 or (m // 2) % word.least:
+        return None
+    first = np.subtract(*np.split(start, 2))
+
+    def halves(u: np.ndarray) -> float:
+        apart = np.subtract(*np.split(u, 2))
+        return float(np.copysign(np.linalg.norm(apart), apart @ first))
+
+    return halves

@@ -17,7 +17,7 @@ from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
 from carom.bifurcations.neighbours import CONTACT_CHANGES, NEIGHBOURS, is_other, neighbour, read_beside
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.single_impact import special_orbit
-from carom.bifurcations.word_equations import BRIEF, EXTREMUM, FAR, GONE, HOPF, LYING, ONSET, PERMANENT, Family
+from carom.bifurcations.word_equations import BRIEF, EXTREMUM, FAR, GONE, HALVING, HOPF, LYING, ONSET, PERMANENT, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.models import Jeffcott
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -205,7 +205,7 @@ def _follow(
         crossings="",
     )
     vanishing = *branch.of_kind("vanishing-impact"), *branch.of_kind(HOPF)
-    passed = branch.of_kind("period-halving"), vanishing, branch.of_kind("cone-limit")
+    passed = branch.of_kind(HALVING), vanishing, branch.of_kind("cone-limit")
     whole = [family.whole(u, p) for u, p in zip(branch.unknowns, branch.parameters.tolist(), strict=True)]
     wanted = [point for point in branch.special if _is_special(family, point, *passed)]
     special = [found for point in wanted if (found := _special_point(family, branch, point, name)) is not None]
@@ -307,7 +307,7 @@ def _is_special(
     rounding.  Where rolling between slides of one direction shrinks to nothing, their slip touches zero and the branch turns.  Two real multipliers with
     the product one are no Neimark–Sacker bifurcation.
     """
-    if point.kind == "period-halving":
+    if point.kind == HALVING:
         return True
     if point.kind in (FAR, LYING, GONE, BOUNDLESS) or any(
         abs(point.place - halving.place) < 1e-3 for halving in halvings
