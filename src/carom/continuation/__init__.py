@@ -2,7 +2,8 @@
 
 ==============  =======================================================
 ``branch``      the settings and the result
-``tracer``      the algorithm: prediction, correction, special points
+``tracer``      the algorithm: steps, their ends, special points
+``equations``   the equations in scaled unknowns, and Newton's method
 ``refinement``  points between those of a branch, to draw it
 ``roots``       bracketed root of a function of one variable
 ==============  =======================================================

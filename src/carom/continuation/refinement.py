@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from carom.continuation.branch import Branch, Steps
-from carom.continuation.tracer import Function, Tracer, applied
+from carom.continuation.equations import Equations, Function, applied
 
 HALVINGS = 6
 """Largest number of times that a step is halved to insert points."""
@@ -41,7 +41,7 @@ def refined_points(
     ndarray, shape (m, n + 1)
         Unknowns and parameter, in the order of the branch.
     """
-    tracer = Tracer(residual, jacobian, scales, (-np.inf, np.inf), (), steps or Steps(), "", "")
+    equations = Equations(residual, jacobian, scales, steps or Steps())
     places = np.concatenate([np.arange(len(branch.parameters)), [point.place for point in branch.special]])
     own = np.column_stack([branch.unknowns, branch.parameters])
     special = np.array([[*point.unknowns, point.parameter] for point in branch.special]).reshape(-1, own.shape[1])
@@ -53,7 +53,7 @@ def refined_points(
             return []
         length = float(np.linalg.norm(chord))
         normal = chord / length
-        found = tracer.correct(middle, normal, applied(np.linalg.inv, tracer.jacobian(middle), normal))
+        found = equations.correct(middle, normal, applied(np.linalg.inv, equations.jacobian(middle), normal))
         if found is None or np.linalg.norm(found - middle) > 0.5 * length:
             return []
         if np.linalg.norm((found - middle) * scales / widths) <= bend:
@@ -61,7 +61,7 @@ def refined_points(
         return [*between(first, found, halvings - 1), found, *between(found, last, halvings - 1)]
 
     # A special point that ends the branch is listed twice.
-    apart = np.linalg.norm(np.diff(points, axis=0), axis=1) > tracer.steps.smallest
+    apart = np.linalg.norm(np.diff(points, axis=0), axis=1) > equations.steps.smallest
     points = points[np.append(True, apart)]
     rows = [points[0]]
     for first, last in pairwise(points):

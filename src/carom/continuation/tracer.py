@@ -14,24 +14,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from carom.continuation.branch import Branch, SpecialPoint, Steps, Watch
+from carom.continuation.equations import DIFFERENCE, Equations, Function, Point, Solver, applied, bordered
 from carom.continuation.roots import HALVINGS, bracketed_root, narrowed, sign_change
 from carom.outcome import CaromError, InputError
 
-Function = Callable[[np.ndarray, float], np.ndarray]
-Solver = Callable[[np.ndarray, float], np.ndarray | None]
-
-DIFFERENCE = 6e-6
-"""Step of central differences in scaled unknowns: the cube root of the rounding error."""
 STRAY = 0.3
 """Largest distance of a corrected point from its prediction, in steps: a point further away is on another branch."""
-UPRIGHT = 0.2
-"""Share of the parameter in the tangent above which points are sought at fixed parameter, if there is a solver for that."""
 ROUNDING = 1e-14
 """Value of a watched function that counts as zero, relative to its values at the ends of a step."""
 LEVEL = 1e-12
@@ -101,7 +95,9 @@ def continue_branch(
         raise InputError("interval", interval, f"two values in ascending order with {parameter:g} between them")
     start = np.append(np.asarray(unknowns, float), parameter)
     sizes = np.ones(len(start)) if scales is None else np.asarray(scales, float)
-    tracer = Tracer(residual, jacobian, sizes, interval, watches, steps or Steps(), folds, crossings, reach, solver)
+    steps = steps or Steps()
+    equations = Equations(residual, jacobian, sizes, steps, solver)
+    tracer = Tracer(equations, interval, watches, steps, folds, crossings, reach)
     first, tangent = tracer.begin(start / sizes)
     ahead = tracer.walk(first, tangent)
     behind = _Path([first], [], "closed loop")
@@ -120,112 +116,41 @@ class _Path:
 
 
 @dataclass(eq=False)
-class _Point:
-    """A point of the branch, with Jacobian, tangent and watched values there."""
-
-    x: np.ndarray
-    jacobian: np.ndarray
-    tangent: np.ndarray
-    watched: np.ndarray = field(default_factory=lambda: np.empty(0))
-
-    @cached_property
-    def inverse(self) -> np.ndarray | None:
-        """Inverse of the Jacobian bordered by the tangent."""
-        return applied(np.linalg.inv, self.jacobian, self.tangent)
-
-
-@dataclass(eq=False)
 class Tracer:
     """Steps along a branch in scaled unknowns ``x``."""
 
-    residual: Function
-    slopes: Function | None
-    scales: np.ndarray
+    equations: Equations
     interval: tuple[float, float]
     watches: Sequence[Watch]
     steps: Steps
     folds: str
     crossings: str
     reach: Callable[[np.ndarray], float] | None = None
-    solver: Solver | None = None
 
     @cached_property
     def limits(self) -> dict[int, str]:
         """Kinds of the limits, by their place among the watched values."""
         return {0: "parameter limit"} | {i: watch.kind for i, watch in enumerate(self.watches, 1) if watch.limit}
 
-    def plain(self, x: np.ndarray) -> tuple[np.ndarray, float]:
-        """Unknowns and parameter without scaling."""
-        y = x * self.scales
-        return y[:-1], float(y[-1])
-
-    def value(self, x: np.ndarray) -> np.ndarray:
-        """Residual."""
-        return np.asarray(self.residual(*self.plain(x)), float)
-
-    def jacobian(self, x: np.ndarray) -> np.ndarray:
-        """Derivatives in scaled unknowns, shape (n, n + 1)."""
-        if self.slopes is not None:
-            return np.asarray(self.slopes(*self.plain(x)), float) * self.scales
-        changes = DIFFERENCE * np.eye(len(x))
-        return np.array([self.value(x + change) - self.value(x - change) for change in changes]).T / (2.0 * DIFFERENCE)
-
     def begin(self, guess: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """First point and the direction in which the parameter grows there."""
-        jacobian = self.jacobian(guess)
+        jacobian = self.equations.jacobian(guess)
         if np.isfinite(jacobian).all():
             level = np.zeros(len(guess))
             level[-1] = 1.0
             # At a fold the parameter cannot be held fixed.
             for normal in (level, np.linalg.svd(jacobian)[2][-1]):
-                first = self.correct(guess, normal, applied(np.linalg.inv, jacobian, normal))
-                if first is not None and self._margin(self.plain(first)[1]) >= -1e-9:
-                    tangent = np.linalg.svd(self.jacobian(first))[2][-1]
+                first = self.equations.correct(guess, normal, applied(np.linalg.inv, jacobian, normal))
+                if first is not None and self._margin(self.equations.plain(first)[1]) >= -1e-9:
+                    tangent = np.linalg.svd(self.equations.jacobian(first))[2][-1]
                     return first, tangent if tangent[-1] >= 0.0 else -tangent
-        u, p = self.plain(guess)
+        u, p = self.equations.plain(guess)
         raise CaromError(f"no solution near the start {u} at parameter {p:g}; give a closer one")
-
-    def correct(self, guess: np.ndarray, normal: np.ndarray, inverse: np.ndarray | None) -> np.ndarray | None:
-        """Point of the branch in the hyperplane through ``guess``; ``None`` if the iteration does not converge.
-
-        The inverse of a bordered Jacobian nearby is kept as long as the residual falls by a factor of 30 in each iteration.
-        """
-        x, previous, correction = guess, np.inf, np.inf
-        right = np.empty(len(guess))
-        for _ in range(self.steps.iterations):
-            value = self.value(x)
-            sizes = [abs(entry) for entry in value.tolist()]
-            if not all(map(math.isfinite, sizes)):
-                return None
-            size = max(sizes)
-            good = size <= self.steps.tolerance or correction <= self.steps.tolerance
-            if size > previous / 30.0 and not good:
-                inverse = applied(np.linalg.inv, self.jacobian(x), normal)
-            if inverse is None:
-                return x if good else None
-            right[:-1], right[-1] = -value, normal @ (guess - x)
-            change = inverse @ right
-            if good:
-                return x if size > self.steps.tolerance else x + change
-            x, previous, correction = x + change, size, max(map(abs, change.tolist()))
-        return None
-
-    def near(self, guess: np.ndarray, here: _Point, fixed: bool = False) -> np.ndarray | None:
-        """Point of the branch next to a guess ahead of a point: at the parameter of the guess, or in the normal hyperplane."""
-        if self.solver is not None and (fixed or abs(here.tangent[-1]) >= UPRIGHT):
-            found = self.solver(*self.plain(guess))
-            if found is not None:
-                return np.append(found / self.scales[:-1], guess[-1])
-        return self.correct(guess, here.tangent, here.inverse)
-
-    def near_fold(self, guess: np.ndarray, here: _Point) -> np.ndarray | None:
-        """The same beside a fold, in the normal hyperplane: by Newton's method, for the direction of the branch has to be exact."""
-        return self.correct(guess, here.tangent, applied(np.linalg.inv, self.jacobian(guess), here.tangent))
 
     def walk(self, start: np.ndarray, heading: np.ndarray) -> _Path:
         """Follow the branch from a point in a direction."""
         path = _Path([start], [], "most points")
-        here = _Point(start, self.jacobian(start), heading)
+        here = Point(start, self.equations.jacobian(start), heading)
         here.watched = self._watched(here)
         length = self.steps.first
         while len(path.points) < self.steps.most_points:
@@ -262,18 +187,18 @@ class Tracer:
             here = there
         return path
 
-    def _to_limit(self, here: _Point) -> float:
+    def _to_limit(self, here: Point) -> float:
         """Length of the step that ends on the limit of the parameter, beyond which the equations may be undefined.
 
         Infinite where the tangent does not lead there, or there is no solver for points at fixed parameter.
         """
-        ahead, size = float(here.tangent[-1]), float(self.scales[-1])
-        if self.solver is None or ahead == 0.0:
+        ahead, size = float(here.tangent[-1]), float(self.equations.scales[-1])
+        if self.equations.solver is None or ahead == 0.0:
             return math.inf
         left = self.interval[ahead > 0.0] - float(here.x[-1]) * size
         return left / (ahead * size) if here.watched[0] != 0.0 else math.inf
 
-    def _left(self, here: _Point, there: _Point) -> str:
+    def _left(self, here: Point, there: Point) -> str:
         """The limit that a step leaves from a point on it; empty if there is none."""
         return next(
             (kind for i, kind in self.limits.items() if there.watched[i] < 0.0 and here.watched[i] <= ON_LIMIT), ""
@@ -281,50 +206,45 @@ class Tracer:
 
     def _largest(self, x: np.ndarray) -> float:
         """Length of the largest step at a point."""
-        return self.steps.largest * (1.0 if self.reach is None else self.reach(self.plain(x)[0]))
+        return self.steps.largest * (1.0 if self.reach is None else self.reach(self.equations.plain(x)[0]))
 
-    def _step(self, here: _Point, length: float, fixed: bool) -> _Point | None:
+    def _step(self, here: Point, length: float, fixed: bool) -> Point | None:
         """Next point, on request at the parameter to which the tangent leads; ``None`` if the step is too long."""
         guess = here.x + length * here.tangent
-        x = self.near(guess, here, fixed)
+        x = self.equations.near(guess, here, fixed)
         if x is None or np.linalg.norm(x - guess) > STRAY * length:
             return None
-        jacobian = self.jacobian(x)
-        tangent = self._tangent(jacobian, here.tangent)
+        jacobian = self.equations.jacobian(x)
+        tangent = self.equations.tangent(jacobian, here.tangent)
         if tangent is None or here.tangent @ tangent < np.cos(self.steps.sharpest_turn):
             return None
-        return _Point(x, jacobian, tangent)
+        return Point(x, jacobian, tangent)
 
-    def _tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
-        """Unit tangent on the side of ``along``."""
-        direction = applied(np.linalg.solve, jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
-        return None if direction is None else direction / np.linalg.norm(direction)
-
-    def _stuck(self, here: _Point) -> str:
+    def _stuck(self, here: Point) -> str:
         """Why no step succeeds: the equations may be undefined within the reach of the central differences."""
         if here.watched[0] == 0.0:
             return "parameter limit"
         reach = 10.0 * DIFFERENCE * np.eye(len(here.x))
-        around = [self.value(here.x + side) for side in (*reach, *-reach)]
+        around = [self.equations.value(here.x + side) for side in (*reach, *-reach)]
         return "step too small" if np.isfinite(around).all() else "end of domain"
 
-    def _watched(self, at: _Point) -> np.ndarray:
+    def _watched(self, at: Point) -> np.ndarray:
         """Values of the relative distance to the limit, of the watches, and of the functions of folds and crossings."""
-        u, p = self.plain(at.x)
+        u, p = self.equations.plain(at.x)
         watches = [watch.function(u, p) for watch in self.watches]
         crossing = [self._crossing(at)] if self.crossings else []
         return np.array([self._margin(p), *watches, at.tangent[-1], *crossing])
 
-    def _watched_value(self, which: int, x: np.ndarray, here: _Point) -> float:
+    def _watched_value(self, which: int, x: np.ndarray, here: Point) -> float:
         """One of the values of :meth:`_watched`, at a point on the step from ``here``."""
-        u, p = self.plain(x)
+        u, p = self.equations.plain(x)
         if which == 0:
             return self._margin(p)
         if which <= len(self.watches):
             return self.watches[which - 1].function(u, p)
-        jacobian = self.jacobian(x)
-        tangent = self._tangent(jacobian, here.tangent)
-        at = _Point(x, jacobian, here.tangent if tangent is None else tangent)
+        jacobian = self.equations.jacobian(x)
+        tangent = self.equations.tangent(jacobian, here.tangent)
+        at = Point(x, jacobian, here.tangent if tangent is None else tangent)
         return float(at.tangent[-1]) if which == len(self.watches) + 1 else self._crossing(at)
 
     def _margin(self, p: float) -> float:
@@ -332,11 +252,11 @@ class Tracer:
         left = min(p - low, high - p)
         return 0.0 if abs(left) <= LANDED * max(abs(low), abs(high)) else left / (high - low)
 
-    def _crossing(self, at: _Point) -> float:
+    def _crossing(self, at: Point) -> float:
         """Determinant of the bordered Jacobian; it changes sign where another branch crosses."""
-        return float(np.linalg.det(_bordered(at.jacobian, at.tangent)))
+        return float(np.linalg.det(bordered(at.jacobian, at.tangent)))
 
-    def _locate(self, path: _Path, here: _Point, there: _Point, length: float, share: float | None) -> str | None:
+    def _locate(self, path: _Path, here: Point, there: Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, self.crossings]
         ends = [True, *(watch.ends_branch or watch.limit for watch in self.watches), False, False]
@@ -358,7 +278,7 @@ class Tracer:
         return None
 
     def _root_on_step(
-        self, here: _Point, there: _Point, known: dict[float, np.ndarray], which: int
+        self, here: Point, there: Point, known: dict[float, np.ndarray], which: int
     ) -> tuple[float, np.ndarray] | None:
         """Arclength and point of a zero of a watched function; the points ``known`` by arclength become more.
 
@@ -367,7 +287,7 @@ class Tracer:
         length = max(known)
         values = {0.0: float(here.watched[which]), length: float(there.watched[which])}
         of_fold = which == len(self.watches) + 1
-        near = self.near_fold if of_fold else self.near
+        near = self.equations.near_fold if of_fold else self.equations.near
 
         def value(distance: float) -> float:
             if distance not in known:
@@ -405,7 +325,7 @@ class Tracer:
             size = max(abs(values[end]) for end in bracket)
         return None if abs(rounded(distance)) > JUMP * size else (distance, known[distance])
 
-    def _return(self, path: _Path, here: _Point, there: _Point, heading: np.ndarray) -> float | None:
+    def _return(self, path: _Path, here: Point, there: Point, heading: np.ndarray) -> float | None:
         """Share of the step at which the branch passes its start again, in the initial direction."""
         if len(path.points) < 3 or there.tangent @ heading < np.cos(2.0 * self.steps.sharpest_turn):
             return None
@@ -416,7 +336,7 @@ class Tracer:
 
     def joined(self, behind: _Path, ahead: _Path) -> Branch:
         """Both directions as one branch."""
-        points = np.array(behind.points[:0:-1] + ahead.points) * self.scales
+        points = np.array(behind.points[:0:-1] + ahead.points) * self.equations.scales
         for end, stop in ((0, behind.stop), (-1, ahead.stop)):
             if stop == "parameter limit":
                 points[end, -1] = min(self.interval, key=lambda limit: abs(limit - points[end, -1]))
@@ -427,26 +347,8 @@ class Tracer:
             unknowns=points[:, :-1],
             parameters=points[:, -1],
             special=tuple(
-                SpecialPoint(kind, *self.plain(x), place)
+                SpecialPoint(kind, *self.equations.plain(x), place)
                 for kind, x, place in sorted(special, key=lambda item: item[2])
             ),
             stops=(behind.stop, ahead.stop),
         )
-
-
-def applied(
-    method: Callable[..., np.ndarray], jacobian: np.ndarray, normal: np.ndarray, *right: np.ndarray
-) -> np.ndarray | None:
-    """Solution or inverse of the bordered Jacobian; ``None`` if it is singular."""
-    try:
-        found = method(_bordered(jacobian, normal), *right)
-    except np.linalg.LinAlgError:
-        return None
-    return found if np.isfinite(found).all() else None
-
-
-def _bordered(jacobian: np.ndarray, normal: np.ndarray) -> np.ndarray:
-    """The Jacobian with one more row."""
-    matrix = np.empty((len(normal), len(normal)))
-    matrix[:-1], matrix[-1] = jacobian, normal
-    return matrix
