@@ -216,7 +216,7 @@ def test_start_on_the_edge_walks_inward_only(edge, other):
 
 
 def test_watch_that_ends_the_branch():
-    watch = Watch("wall", lambda u, p: 0.25 - u[0], ends_branch=True)
+    watch = Watch("wall", lambda u, p: 0.25 - u[0], at_zero="end")
     branch = continue_branch(lambda u, p: np.array([u[0] - p]), np.array([0.0]), 0.0, (-1.0, 1.0), watches=[watch])
     assert branch.stops == ("parameter limit", "wall")
     assert branch.parameters[-1] == pytest.approx(0.25, abs=1e-13)
@@ -324,7 +324,7 @@ def test_steps_may_grow_along_an_asymptote():
 
 @pytest.mark.parametrize("error", [-1e-12, 0.0, 1e-12])
 def test_a_branch_that_begins_on_a_limit_does_not_leave_it(error):
-    inside = Watch("edge", lambda u, p: 1.0 - u[0], limit=True)
+    inside = Watch("edge", lambda u, p: 1.0 - u[0], at_zero="limit")
 
     branch = continue_branch(lambda u, p: u - p, np.array([1.0 + error]), 1.0 + error, (0.0, 3.0), watches=[inside])
 

@@ -248,9 +248,10 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
 
     def watch(name: str) -> Watch:
         test = TESTS[name]
-        return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), name in definition.ends)
+        ends = name in definition.ends
+        return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), at_zero="end" if ends else "pass")
 
-    bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), ends_branch=True)] if definition.unknowns else []
+    bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), at_zero="end")] if definition.unknowns else []
     sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
     equations, jacobian = _system(kind, numbers_at)
     scales = np.array([*np.ones(definition.unknowns), *sizes])

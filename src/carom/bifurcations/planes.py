@@ -55,7 +55,7 @@ class Plane:
     def edge(self) -> Watch:
         """Limit of a curve whose last unknown is the first parameter: the edges of its range, in widths of the plane."""
         low, high = self.first_range
-        return Watch(EDGE, lambda u, _: min(u[-1] - low, high - u[-1]) / (high - low), limit=True)
+        return Watch(EDGE, lambda u, _: min(u[-1] - low, high - u[-1]) / (high - low), at_zero="limit")
 
     def place_of(self, at: Parameters | Numbers) -> tuple[float, float]:
         """Values of both parameters, whether inside the plane or outside."""

@@ -143,7 +143,7 @@ def _watches(equations: _CurveEquations, plane: Plane, start: np.ndarray) -> lis
             found = np.nan if at is None else at.pair_sum - RESONANCES[name] if name in RESONANCES else TESTS[name](at)
             return found if np.isfinite(found) else np.nan
 
-        return Watch(name, value, ends_branch=name in ENDING)
+        return Watch(name, value, at_zero="end" if name in ENDING else "pass")
 
     others = [name for name in TESTS if name != equations.kind]
     if equations.kind == "neimark-sacker":
@@ -151,7 +151,7 @@ def _watches(equations: _CurveEquations, plane: Plane, start: np.ndarray) -> lis
         others = [name for name in others if name not in ("fold", "period-doubling")] + list(RESONANCES)
     halves = halving(equations.word, start)
     # Beyond that point the curve would come back over itself, with the halves of the period exchanged.
-    ends = [] if halves is None else [Watch(HALVING, lambda u, _: halves(u[:-1]), ends_branch=True)]
+    ends = [] if halves is None else [Watch(HALVING, lambda u, _: halves(u[:-1]), at_zero="end")]
     return [plane.edge, *ends, *map(watch, others)]
 
 

@@ -263,18 +263,9 @@ class Family:
 
     def watches(self, start: np.ndarray, *, virtual: bool = True) -> list[Watch]:
         """Functions that vanish at the special points, and where the branch ends."""
+        return [*self._special_points(), *self._ends(start, virtual=virtual)]
 
-        def watch(kind: str, test: Callable[[FamilyPoint], float]) -> Watch:
-            def value(u: np.ndarray, p: float) -> float:
-                point = self.point(u, p)
-                found = np.nan if point is None else test(point)
-                return found if np.isfinite(found) else np.nan
-
-            # Where friction stops the slip before a slide, this ceases to be; other words go on among virtual orbits.
-            slides = (self.word.landed & (self.word.kinds != Kind.ROLL)).any()
-            ends = (kind == ONSET and not self.word.flies) or (kind == "slide-stop" and bool(slides))
-            return Watch(kind, value, ends_branch=ends)
-
+    def _special_points(self) -> list[Watch]:
         # The continuation finds folds itself.
         tests = {kind: test for kind, test in TESTS.items() if kind != "fold" and self._may_happen(kind)}
         if self.word.flies and self.word.impacts == 1:
@@ -283,22 +274,42 @@ class Family:
             tests["grazing"] = lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else 1.0
             if isinstance(self.rotor, Jeffcott):
                 tests[EXTREMUM] = lambda point: point.flattest
-        watched = [watch(*test) for test in tests.items()]
+        # Where friction stops the slip before a slide, this ceases to be; other words go on among virtual orbits.
+        slides = bool((self.word.landed & (self.word.kinds != Kind.ROLL)).any())
+        ends = {ONSET: not self.word.flies, "slide-stop": slides}
+        return [
+            Watch(kind, self._where_defined(test), at_zero="end" if ends.get(kind) else "pass")
+            for kind, test in tests.items()
+        ]
+
+    def _where_defined(self, test: Callable[[FamilyPoint], float]) -> Callable[[np.ndarray, float], float]:
+        """A test as a function of the unknowns and the parameter."""
+
+        def value(u: np.ndarray, p: float) -> float:
+            point = self.point(u, p)
+            found = np.nan if point is None else test(point)
+            return found if np.isfinite(found) else np.nan
+
+        return value
+
+    def _ends(self, start: np.ndarray, *, virtual: bool) -> list[Watch]:
+        """What ends the branch through a point beside special points: bounds, and parts of the orbit that vanish or become equal."""
+
+        def beyond(segments: np.ndarray, least: float) -> Callable[[np.ndarray, float], float]:
+            return lambda u, _: float(unpack_free(self.word, u).durations[segments].min()) - least
+
         fastest = max(FASTEST, 2.0 * self.fastest(start))
-        watched.append(Watch(BOUNDLESS, lambda u, _: fastest - self.fastest(u), ends_branch=True))
+        ends: dict[str, Callable[[np.ndarray, float], float]] = {BOUNDLESS: lambda u, _: fastest - self.fastest(u)}
         if not virtual:
-            watched.append(Watch(FAR, self._nearness, ends_branch=True))
-        touches = self.word.timed & (self.word.kinds > Kind.LAND)
+            ends[FAR] = self._nearness
+        touches, lifts = self.word.timed & (self.word.kinds > Kind.LAND), self.word.kinds == Kind.LIFT
         if touches.any():
-            watched.append(
-                Watch(GONE, lambda u, _: unpack_free(self.word, u).durations[touches].min() - LONG_GONE, True)
-            )
-        lifts = self.word.kinds == Kind.LIFT
+            ends[GONE] = beyond(touches, LONG_GONE)
         if lifts.any():
-            watched.append(Watch(LYING, lambda u, _: unpack_free(self.word, u).durations[lifts].min() - BRIEF, True))
+            ends[LYING] = beyond(lifts, BRIEF)
         if (halves := halving(self.word, start)) is not None:
-            watched.append(Watch(HALVING, lambda u, _: halves(u), ends_branch=True))
-        return watched
+            ends[HALVING] = lambda u, _: halves(u)
+        return [Watch(kind, function, at_zero="end") for kind, function in ends.items()]
 
 
 def halving(word: Word, start: np.ndarray) -> Callable[[np.ndarray], float] | None:

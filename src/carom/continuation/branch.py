@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -48,17 +48,14 @@ class Watch:
         Name of the special point.
     function : callable
         Of ``u`` and ``p``; ``nan`` where it is not defined.  A jump from one sign to the other is not a zero.
-    ends_branch : bool
-        Whether the branch ends there.
-    limit : bool
-        Whether it is followed only where the function is not negative: it ends there too, and at once if it begins on a
-        zero and leaves.
+    at_zero : {"pass", "end", "limit"}
+        Whether the branch goes on there or ends.  At a limit, too, it ends: it is followed only where the function is not
+        negative, and ends at once if it begins on a zero and leaves.
     """
 
     kind: str
     function: Callable[[np.ndarray, float], float]
-    ends_branch: bool = False
-    limit: bool = False
+    at_zero: Literal["pass", "end", "limit"] = "pass"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

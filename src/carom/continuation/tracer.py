@@ -130,7 +130,9 @@ class Tracer:
     @cached_property
     def limits(self) -> dict[int, str]:
         """Kinds of the limits, by their place among the watched values."""
-        return {0: "parameter limit"} | {i: watch.kind for i, watch in enumerate(self.watches, 1) if watch.limit}
+        return {0: "parameter limit"} | {
+            i: watch.kind for i, watch in enumerate(self.watches, 1) if watch.at_zero == "limit"
+        }
 
     def begin(self, guess: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """First point and the direction in which the parameter grows there."""
@@ -259,7 +261,7 @@ class Tracer:
     def _locate(self, path: _Path, here: Point, there: Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, self.crossings]
-        ends = [True, *(watch.ends_branch or watch.limit for watch in self.watches), False, False]
+        ends = [True, *(watch.at_zero != "pass" for watch in self.watches), False, False]
         reached: list[tuple[float, int, np.ndarray]] = []
         known = {0.0: here.x, length: there.x}
         changed = here.watched * there.watched < 0.0
