@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from carom.bifurcations.neighbours import CONTACT_CHANGES, NEIGHBOURS, is_other, neighbour, read_beside, setting_out
+from carom.bifurcations.neighbours import BORDERS, NEIGHBOURS, is_other, neighbour, read_beside, setting_out
 from carom.bifurcations.paths import Path
 from carom.bifurcations.points import Bifurcation
 from carom.models import Model
@@ -40,8 +40,6 @@ LARGEST_STEP, LEAST_JUMP = 0.3, 0.01
 
 LONG = 4
 """Number of equal segments in a row above which they are counted, not listed."""
-READ = ("contact-onset", "permanent-contact", *CONTACT_CHANGES)
-"""Borders beyond which the word is read from a simulated period."""
 STAYING = (Outcome.FORWARD_RUB, Outcome.BACKWARD_WHIRL, Outcome.ROLLING)
 """How motions end that do not leave the wall."""
 SETTLED = 8
@@ -60,28 +58,30 @@ Verdict = Literal["continuous", "chaotic band", "jump", "undecided", "unstable"]
 class Border(Result):
     """What was found on both sides of a special point at which the word of an orbit changes.
 
-    Everything here refers to five distances from the border.  Nothing is claimed beyond them, and a motion that was simulated for
-    20,000 impacts may go elsewhere later.
+    Everything here refers to five distances from the border.  Nothing is claimed beyond them, and a motion that was
+    simulated for 20,000 impacts may go elsewhere later.
 
     Attributes
     ----------
     point : Bifurcation
     inside : {1, -1, 0}
-        Side on which the orbit is a motion of the machine: where the parameter is above, or below, the border; 0 if not on exactly
-        one.
+        Side on which the orbit is a motion of the machine: where the parameter is above, or below, the border; 0 if not
+        on exactly one.
     word : Word or None
         The neighbouring word; ``None`` if none was seen.
     neighbours : tuple of Orbit or None
-        Orbits of the neighbouring word just below and just above the border, where they are motions: at the smallest of the distances at
-        which one is found.
+        Orbits of the neighbouring word just below and just above the border, where they are motions: at the smallest of
+        the distances at which one is found.
     distances : tuple of float
         From the border, in units of the parameter.
     departures : tuple of float
-        How far from the orbit on the border the impacts of motions are that were started beside it at these distances outside, or
-        all events of motions with lasting contact (:class:`~carom.bifurcations.paths.Path`); infinite for motions that no longer bounce, or
-        no longer touch the wall if the orbit never leaves it.  Empty if the orbit is unstable or has no outside.
+        How far from the orbit on the border the impacts of motions are that were started beside it at these distances
+        outside, or all events of motions with lasting contact (:class:`~carom.bifurcations.paths.Path`); infinite for
+        motions that no longer bounce, or no longer touch the wall if the orbit never leaves it.  Empty if the orbit is
+        unstable or has no outside.
     exponents : tuple of (float, float)
-        Largest Lyapunov exponent across each of these motions that is irregular, and its standard error; ``nan`` for the others.
+        Largest Lyapunov exponent across each of these motions that is irregular, and its standard error; ``nan`` for
+        the others.
     """
 
     point: Bifurcation
@@ -106,10 +106,11 @@ class Border(Result):
     def verdict(self) -> Verdict:
         """What simulated motions did when the orbit ceased to be a motion.
 
-        ``"continuous"``: they stay near, the nearer the smaller the distance; ``"chaotic band"``: they do so and are irregular at all
-        distances, with an exponent that is above zero by more than three standard errors; ``"jump"``: they go away at all distances,
-        no less at the smallest ones, or by more than 0.3 at each; ``"unstable"``: the orbit is unstable on its own side, so that
-        no motion can be followed from it.  With a chatter, departures below 1e-6 are not told apart.
+        ``"continuous"``: they stay near, the nearer the smaller the distance; ``"chaotic band"``: they do so and are
+        irregular at all distances, with an exponent that is above zero by more than three standard errors; ``"jump"``:
+        they go away at all distances, no less at the smallest ones, or by more than 0.3 at each; ``"unstable"``: the
+        orbit is unstable on its own side, so that no motion can be followed from it.  With a chatter, departures below
+        1e-6 are not told apart.
         """
         if not self.departures:
             return "unstable" if self.inside else "undecided"
@@ -176,24 +177,24 @@ class Border(Result):
 def examine_border(point: Bifurcation) -> Border:
     """Look at both sides of a special point at which the word of an orbit changes.
 
-    On both sides the orbits of both words next to the border are computed, with certified admissibility.  The neighbouring word follows
-    from the orbit where an impact grazes, vanishes or ceases to slip; at the borders of lasting contact it is that of a simulated
-    period that starts on the orbit, beside the border.  If the orbit is stable on its own side, motions are simulated that start
-    beside it on the other side.
+    On both sides the orbits of both words next to the border are computed, with certified admissibility.  The
+    neighbouring word follows from the orbit where an impact grazes, vanishes or ceases to slip; at the borders of
+    lasting contact it is that of a simulated period that starts on the orbit, beside the border.  If the orbit is
+    stable on its own side, motions are simulated that start beside it on the other side.
 
     Parameters
     ----------
     point : Bifurcation
-        Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``, or of orbits with lasting contact ``"contact-onset"``,
-        ``"permanent-contact"``, ``"cone-limit"``, ``"slide-stop"`` or ``"lift-off"``.
+        Of kind ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``, or of orbits with lasting contact
+        ``"contact-onset"``, ``"permanent-contact"``, ``"cone-limit"``, ``"slide-stop"`` or ``"lift-off"``.
 
     Raises
     ------
     InputError
         Another kind.
     """
-    if point.kind not in (*NEIGHBOURS, *READ):
-        raise InputError("border", point.kind, f"one of {', '.join((*NEIGHBOURS, *READ))}")
+    if point.kind not in BORDERS:
+        raise InputError("border", point.kind, f"one of {', '.join(BORDERS)}")
     orbit, sides = point.orbit, _Sides.of(point)
     contacts = orbit.nodes
     own = sides.own() if point.admissible else {}
@@ -268,7 +269,8 @@ class _Sides:
     def read(self) -> tuple[Word | None, tuple[Orbit | None, Orbit | None]]:
         """The word that a simulated period has beside the border where it is not that of the orbit, and the orbits of it.
 
-        They are those at the smallest distance at which one is found: close to permanent contact flights are lower than rounding.
+        They are those at the smallest distance at which one is found: close to permanent contact flights are lower than
+        rounding.
         """
         seen = None
         for distance in reversed(self.distances):
@@ -325,7 +327,10 @@ def _follow(orbit: Orbit, apart: Callable[[np.ndarray], np.ndarray], rotor: Mode
 
 
 def _settled_on(motion: Trajectory, period: float) -> np.ndarray:
-    """Amplitudes at the events of a motion with lasting contact after it has settled, which may take it but two periods, or at its last ones."""
+    """Amplitudes at the events of a motion with lasting contact after it has settled, or at its last ones.
+
+    It may settle within two periods.
+    """
     if motion.outcome is Outcome.TIME_REACHED or not motion.multiplicity:
         return motion.arrivals[-LATEST:]
     return simulate(motion.rotor, motion.final, SETTLED * period).arrivals

@@ -98,8 +98,9 @@ class Curve(Result):
     stops : tuple of two str
         Reason for its end at both ends: ``"edge of the plane"``, ``"closed loop"``, the codimension-2 point where the
         bifurcation ceases (``"resonance-1:1"`` or ``"resonance-1:2"`` of a Neimark–Sacker curve),
-        ``"period-halving"`` (both halves of the period become equal), ``"grazing meets the impact"`` (the time of grazing reaches
-        an end of the period), ``"period vanishes"``, ``"radial speed without bound"``, or why the continuation gave up (:class:`~carom.continuation.Branch`).
+        ``"period-halving"`` (both halves of the period become equal), ``"grazing meets the impact"`` (the time of grazing
+        reaches an end of the period), ``"period vanishes"``, ``"radial speed without bound"``, or why the continuation gave
+        up (:class:`~carom.continuation.Branch`).
     """
 
     rests_on: ClassVar[tuple[str, ...]] = ("mora2014", "keller1977", "squire1998")
@@ -194,8 +195,9 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     Parameters
     ----------
     bifurcation : Bifurcation
-        A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of :data:`KINDS`; for an orbit
-        with lasting contact also ``"permanent-contact"``, ``"cone-limit"``, ``"lift-off"`` or, without chatter, ``"slide-stop"``.
+        A special point of a branch or of a diagram, or :meth:`~carom.bifurcations.Bifurcation.near`; its kind is one of
+        :data:`KINDS`; for an orbit with lasting contact also ``"permanent-contact"``, ``"cone-limit"``, ``"lift-off"`` or,
+        without chatter, ``"slide-stop"``.
 
     Raises
     ------

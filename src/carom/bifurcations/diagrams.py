@@ -11,7 +11,7 @@ import numpy as np
 from carom.attractors import DisturbanceSet
 from carom.bifurcations.branches import OrbitBranch
 from carom.bifurcations.conditions import corrected
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.several import lies_on, several_impacts
 from carom.bifurcations.steady import (
@@ -136,8 +136,8 @@ def find_bifurcations(
     interval : tuple of float or str
         In SI units if the parameter is physical; text has a unit, ``("300 N s/m", "2000 N s/m")``.
     impacts : int
-        Follow orbits with up to so many impacts a period too: those born in period doublings, and those that a search at 9 values
-        finds.  Unlike the orbits with one impact, some may be missing.
+        Follow orbits with up to so many impacts a period too: those born in period doublings, and those that a search
+        at 9 values finds.  Unlike the orbits with one impact, some may be missing.
     virtual : bool
         Follow all orbits, including those of higher pairs that are virtual at all of these values.
     lasting : bool
@@ -151,8 +151,8 @@ def find_bifurcations(
     Raises
     ------
     InputError
-        Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` below 1, or another model than
-        the planar rotor without ``attractors``.
+        Empty interval, unknown parameter, values out of the range of the parameter, ``impacts`` below 1, or another
+        model than the planar rotor without ``attractors``.
 
     See Also
     --------
@@ -255,7 +255,7 @@ def _follow(
         *(point for branch in branches for point in branch.special),
     ]
     # A branch ends by halving its period in a doubling of another: one point.
-    points += [point for branch in several for point in branch.special if point.kind != "period-halving"]
+    points += [point for branch in several for point in branch.special if point.kind != HALVING]
     points += [point for branch in rubbing for point in branch.special]
     return _Followed(tuple(branches), several, tuple(rubbing), tuple(sorted(points, key=lambda point: point.value)))
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from carom.bifurcations.points import OF_CONTACT
 from carom.core.impact import set_on_wall
 from carom.core.margins import highest_point
 from carom.models import Model
@@ -18,7 +19,7 @@ from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import InputError, Phase
 
-READ = 3.3
+SIMULATED = 3.3
 """Periods that are simulated to read two."""
 SAME_TIME = 0.02
 """Relative difference of the period read from that on the border."""
@@ -32,7 +33,8 @@ def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
     Parameters
     ----------
     kind : str
-        ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``; beyond other borders a period is simulated (:func:`read_beside`).
+        ``"grazing"``, ``"vanishing-impact"`` or ``"slip-stop"``; beyond other borders a period is simulated
+        (:func:`read_beside`).
     orbit : Orbit
         The orbit on the border.
 
@@ -49,8 +51,8 @@ def neighbour(kind: str, orbit: Orbit) -> tuple[Word, Start]:
 def setting_out(orbit: Orbit) -> State:
     """State on an orbit from which motions beside it are simulated.
 
-    After the first impact if it only bounces; otherwise in the middle of its longest flight after a lift-off, or on the wall if it never
-    leaves it.
+    After the first impact if it only bounces; otherwise in the middle of its longest flight after a lift-off, or on the
+    wall if it never leaves it.
     """
     if orbit.word.flies:
         return orbit.departure
@@ -65,9 +67,10 @@ def setting_out(orbit: Orbit) -> State:
 
 
 def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
-    """Word, nodes and durations of the next two periods of a motion that starts on the orbit on a border, of a rotor beside the border.
+    """Read the next two periods of a motion, of a rotor beside a border, that starts on the orbit on it.
 
-    Where lasting contact begins, the word holds the impacts that a chatter becomes: the closer to the border, the more.
+    Each gives a word, nodes and durations.  Where lasting contact begins, the word holds the impacts that a chatter
+    becomes: the closer to the border, the more.
 
     Returns
     -------
@@ -76,7 +79,7 @@ def read_beside(orbit: Orbit, rotor: Model) -> list[tuple[Word, Start]]:
     """
     # The orbit of the same word there is no motion, but nearer to the one that is sought than that on the border.
     beside = orbit_near(rotor, orbit.word, Start(orbit.nodes, orbit.durations)) or orbit
-    motion = simulate(rotor, setting_out(beside), READ * orbit.period, max_events=MOST_EVENTS)
+    motion = simulate(rotor, setting_out(beside), SIMULATED * orbit.period, max_events=MOST_EVENTS)
     times, places = motion.segment_starts[1:], np.arange(len(motion.event_planes))
     before, after = (motion.segment_phases[places + later, motion.event_planes] for later in (0, 1))
     signs = np.stack([motion.event_planes, before, after], axis=1)
@@ -171,5 +174,5 @@ NEIGHBOURS: dict[str, Callable[[Orbit], tuple[Word, Start]]] = {
     "slip-stop": _with_other_slip,
 }
 """Borders beyond which the orbit of the neighbouring word is known."""
-CONTACT_CHANGES = ("cone-limit", "slide-stop", "lift-off")
-"""Borders at which lasting contact changes its kind."""
+BORDERS = (*NEIGHBOURS, *OF_CONTACT)
+"""Special points at which the word of a motion changes."""

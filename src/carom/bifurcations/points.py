@@ -20,6 +20,15 @@ if TYPE_CHECKING:
     from carom.models.axes import Ends
 
 MotionKind = Literal["orbit", "contact-free", "rub", "rolling", "rubbing"]
+HALVING = "period-halving"
+"""Where both halves of a period become equal: the orbit is one of half the period there, at its period doubling."""
+HOPF, EXTREMUM = "non-smooth-hopf", "radius-extremum"
+"""Special points of orbits with one impact alone: where it vanishes only a point on the wall is left of the orbit."""
+ONSET, PERMANENT = "contact-onset", "permanent-contact"
+CONTACT_CHANGES = ("cone-limit", "slide-stop", "lift-off")
+"""Special points at which lasting contact changes its kind."""
+OF_CONTACT = (ONSET, PERMANENT, *CONTACT_CHANGES)
+"""Special points of words with lasting contact; the first also of impacts without rebound."""
 _STEADY: dict[str, MotionKind] = {"boundary-equilibrium": "contact-free", "rub-fold": "rub", "rolling-limit": "rolling"}
 
 
@@ -30,21 +39,21 @@ class Bifurcation(Result):
     Attributes
     ----------
     kind : str
-        Of orbits: ``"fold"`` (of the closed form: two periods meet), ``"speed-fold"`` (two radial speeds of one period meet),
-        ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"`` (a maximum of the radius reaches the wall),
-        ``"non-smooth-hopf"`` (orbits with one impact shrink to a boundary equilibrium), ``"vanishing-impact"`` (the speed of an
-        impact vanishes: grazing of the orbit without this impact), ``"slip-stop"`` (friction begins or ceases to stop the slip in an
-        impact), ``"contact-onset"`` (lasting contact begins), ``"cone-limit"`` (friction just holds the rotor rolling, where this begins or
-        while it lasts), ``"slide-stop"`` (the slip vanishes while sliding, or with which a chatter lands), ``"lift-off"`` (the normal force
-        vanishes during lasting contact),
-        ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the period), or
-        ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).  Of steady motions:
-        ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl begins or ceases to hold at
-        every angle).  Of bouncing with rub also ``"permanent-contact"`` (the rotor no longer lifts off: the least
-        normal force of sliding that never leaves the wall vanishes).
+        Of orbits: ``"fold"`` (of the closed form: two periods meet), ``"speed-fold"`` (two radial speeds of one period
+        meet), ``"period-doubling"``, ``"neimark-sacker"``, ``"grazing"`` (a maximum of the radius reaches the wall),
+        ``"non-smooth-hopf"`` (orbits with one impact shrink to a boundary equilibrium), ``"vanishing-impact"`` (the
+        speed of an impact vanishes: grazing of the orbit without this impact), ``"slip-stop"`` (friction begins or
+        ceases to stop the slip in an impact), ``"contact-onset"`` (lasting contact begins), ``"cone-limit"`` (friction
+        just holds the rotor rolling, where this begins or while it lasts), ``"slide-stop"`` (the slip vanishes while
+        sliding, or with which a chatter lands), ``"lift-off"`` (the normal force vanishes during lasting contact),
+        ``"period-halving"`` (both halves of the period become equal: the branch ends on one of orbits of half the
+        period), or ``"radius-extremum"`` (the radius gains a maximum and a minimum between impacts: no bifurcation).
+        Of steady motions: ``"boundary-equilibrium"``, ``"rub-fold"`` or ``"rolling-limit"`` (rolling in backward whirl
+        begins or ceases to hold at every angle).  Of bouncing with rub also ``"permanent-contact"`` (the rotor no
+        longer lifts off: the least normal force of sliding that never leaves the wall vanishes).
     numbers : Numbers or None
-        Parameters there; with negative ``mu`` if the closed form gives it for orbits with backward slip.  ``None`` for other rotors
-        than the planar one.
+        Parameters there; with negative ``mu`` if the closed form gives it for orbits with backward slip.  ``None`` for
+        other rotors than the planar one.
     period, radial_speed : float
         Those of the orbit, in ``1/Ω`` and ``c_r Ω``; ``nan`` for steady motions.
     name : str
@@ -62,8 +71,8 @@ class Bifurcation(Result):
     place : float
         Position on the branch: index of the point before it plus the fraction of the step; ``nan`` without a branch.
     shot : Orbit or None
-        The orbit there; ``None`` for one with one impact a period, of which the closed form gives all from the numbers, the period and
-        the radial speed.
+        The orbit there; ``None`` for one with one impact a period, of which the closed form gives all from the numbers,
+        the period and the radial speed.
     """
 
     kind: str

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.words import continue_orbit, renamed, switched
 from carom.models import Model
 from carom.models.axes import Axis
@@ -41,8 +41,8 @@ def several_impacts(
 ) -> tuple[OrbitBranch, ...]:
     """Branches of orbits with 2 up to a number of impacts a period.
 
-    They are born in period doublings of known branches, or pass through orbits that a search finds at evenly spaced values.  What a
-    search does not come near to is missing.
+    They are born in period doublings of known branches, or pass through orbits that a search finds at evenly spaced
+    values.  What a search does not come near to is missing.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
 def _begins_at(branch: OrbitBranch, point: Bifurcation) -> bool:
     """Whether a branch is born in a period doubling."""
     return any(
-        end.kind == "period-halving"
+        end.kind == HALVING
         and branch.impacts == 2 * point.orbit.impacts
         and abs(end.value - point.value) < SAME * (1.0 + abs(point.value))
         and abs(end.orbit.period - 2.0 * point.orbit.period) < 1e-2 * end.orbit.period

@@ -12,8 +12,8 @@ import numpy as np
 
 from carom.bifurcations.curves import Codimension2Point, Curve
 from carom.bifurcations.planes import EDGE, Plane
-from carom.bifurcations.points import Bifurcation
-from carom.bifurcations.word_equations import HALVING, REMEMBERED, TESTS, FamilyPoint, halving, point_at
+from carom.bifurcations.points import HALVING, Bifurcation
+from carom.bifurcations.word_equations import REMEMBERED, TESTS, FamilyPoint, halving, point_at
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Model
 from carom.models.axes import axis

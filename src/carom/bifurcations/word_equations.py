@@ -14,6 +14,7 @@ import numpy as np
 
 from carom.bifurcations.branches import speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST, profile_at, with_slip
+from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, OF_CONTACT, ONSET, PERMANENT
 from carom.continuation import Watch
 from carom.core.rub import wall_push
 from carom.core.segments import LEAST_PUSH
@@ -44,11 +45,6 @@ LYING, BRIEF = "flights vanish", 0.03
 with the fourth power of it, so that there is nothing to be computed beyond."""
 GONE, LONG_GONE = "contact vanishes", -0.05
 """Where a branch ends beyond the value at which a stretch of lasting contact shrinks to nothing, and its duration there, in ``1/Ω``."""
-ONSET, PERMANENT = "contact-onset", "permanent-contact"
-HALVING = "period-halving"
-"""Where both halves of a period become equal: the orbit is one of half the period there, at its period doubling."""
-HOPF, EXTREMUM = "non-smooth-hopf", "radius-extremum"
-"""Special points of orbits with one impact alone: where it vanishes only a point on the wall is left of the orbit."""
 FAST = 3.0
 """Speed before an impact, in ``c_r Ω``, above which steps grow with it."""
 FAR_OUT, FAR_IN = -0.3, -0.1
@@ -146,8 +142,6 @@ TESTS: dict[str, Callable[[FamilyPoint], float]] = {
     "lift-off": lambda point: point.margins.pressing,
 }
 """Functions that vanish at special points; not finite where they are not defined."""
-OF_CONTACT = (ONSET, PERMANENT, "cone-limit", "slide-stop", "lift-off")
-"""Those of words with lasting contact alone."""
 
 
 class Family:

@@ -14,10 +14,10 @@ import numpy as np
 
 from carom.bifurcations.branches import OrbitBranch, orbit_at, speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, corrected, with_slip
-from carom.bifurcations.neighbours import CONTACT_CHANGES, NEIGHBOURS, is_other, neighbour, read_beside
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.neighbours import BORDERS, is_other, neighbour, read_beside
+from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, ONSET, PERMANENT, Bifurcation
 from carom.bifurcations.single_impact import special_orbit
-from carom.bifurcations.word_equations import BRIEF, EXTREMUM, FAR, GONE, HALVING, HOPF, LYING, ONSET, PERMANENT, Family
+from carom.bifurcations.word_equations import BRIEF, FAR, GONE, LYING, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
 from carom.models import Jeffcott
 from carom.models.axes import Axis, Ends, axis, interval_around
@@ -31,8 +31,6 @@ from carom.parameters import Numbers
 STEPS = Steps(first=0.02, largest=0.15, sharpest_turn=0.25, most_points=600, tolerance=1e-11)
 CLOSE_STEPS = replace(STEPS, largest=0.1)
 """For orbits with one impact, of which figures and documents show every orbit of a branch."""
-BORDERS = ("grazing", "vanishing-impact", "slip-stop", ONSET, PERMANENT, *CONTACT_CHANGES)
-"""Special points at which the word of a motion changes."""
 ON_BORDER = 1e-8
 """Margin that counts as zero at a border."""
 LEAVES = (PERMANENT, "lift-off")
@@ -64,7 +62,8 @@ def continue_orbit(
     Parameters
     ----------
     parameter : str
-        A parameter of the rotor: for the planar one dimensionless (``"gamma"``) or physical (``"speed"``, SI units; needs scales).
+        A parameter of the rotor: for the planar one dimensionless (``"gamma"``) or physical (``"speed"``, SI units;
+        needs scales).
     interval : tuple of float or str
         Range of the parameter; it must contain the orbit's own value.  ``("300 N s/m", "2000 N s/m")`` has units.
     virtual : bool
@@ -104,12 +103,12 @@ def switched(
 ) -> OrbitBranch:
     """Branch that crosses or continues another at a special point.
 
-    At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and where friction
-    begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the other slip.  Where contact becomes
-    permanent, it is that of the sliding that never leaves the wall.  At the onset of lasting contact it is that of the many impacts which the
-    interrupted chatter has at a small distance; the closer, the more they are.  Where lasting contact changes its kind it is that of the word which a
-    simulated period has beside the border.  Which of
-    its orbits are motions, and on which side, :func:`~carom.bifurcations.examine_border` tells.
+    At a period doubling it is that of orbits of twice the period.  Where a maximum of the radius or an impact grazes, and
+    where friction begins or ceases to stop the slip, it is that of the neighbouring word: one impact more, one less, or the
+    other slip.  Where contact becomes permanent, it is that of the sliding that never leaves the wall.  At the onset of
+    lasting contact it is that of the many impacts which the interrupted chatter has at a small distance; the closer, the
+    more they are.  Where lasting contact changes its kind it is that of the word which a simulated period has beside the
+    border.  Which of its orbits are motions, and on which side, :func:`~carom.bifurcations.examine_border` tells.
 
     Parameters
     ----------
@@ -130,9 +129,8 @@ def switched(
     CaromError
         No orbit is found next to it.
     """
-    known = (ONSET, PERMANENT, *CONTACT_CHANGES, *NEIGHBOURS)
-    if kind not in ("period-doubling", *known):
-        raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(known)}")
+    if kind not in ("period-doubling", *BORDERS):
+        raise InputError("special point", kind, f"a period doubling, or one of: {', '.join(BORDERS)}")
     along = axis(orbit.rotor, parameter)
     value = along.value(orbit.rotor)
     ends = (value - BEYOND * abs(value), value + BEYOND * abs(value)) if interval is None else interval
@@ -302,10 +300,11 @@ def _is_special(
 ) -> bool:
     """Whether a special point of the continuation is one of orbits.
 
-    Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an impact vanishes, a
-    maximum of the radius is at the wall: that impact; without rebound the force after it vanishes too, and extrema of the radius are only
-    rounding.  Where rolling between slides of one direction shrinks to nothing, their slip touches zero and the branch turns.  Two real multipliers with
-    the product one are no Neimark–Sacker bifurcation.
+    Where a period is halved, the branch turns and two multipliers pass through one: nothing of its own.  Where an
+    impact vanishes, a maximum of the radius is at the wall: that impact; without rebound the force after it vanishes
+    too, and extrema of the radius are only rounding.  Where rolling between slides of one direction shrinks to nothing,
+    their slip touches zero and the branch turns.  Two real multipliers with the product one are no Neimark–Sacker
+    bifurcation.
     """
     if point.kind == HALVING:
         return True
