@@ -79,7 +79,7 @@ CALLS = {
     "closed_forms.harmless_blade_loss": cm.closed_forms.harmless_blade_loss,
     "closed_forms.harmless_kick": cm.closed_forms.harmless_kick,
     "closed_forms.harmless_shock": lambda m: cm.closed_forms.harmless_shock(m, 0.5),
-    "closed_forms.harmless_step": cm.closed_forms.harmless_step,
+    "closed_forms.harmless_unbalance_step": cm.closed_forms.harmless_unbalance_step,
     "closed_forms.rolling": cm.closed_forms.rolling,
     "closed_forms.rub_limit": cm.closed_forms.rub_limit,
     "closed_forms.rub_neighbourhood": cm.closed_forms.rub_neighbourhood,

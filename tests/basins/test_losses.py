@@ -54,7 +54,7 @@ def models(machine):
     return {
         "kick": VelocityKick(0.4),
         "shock": carom.BaseShock(1.0, 0.9),
-        "step": carom.disturbances.UnbalanceStep(0.3),
+        "unbalance-step": carom.disturbances.UnbalanceStep(0.3),
         "release": carom.disturbances.ContactRelease("fixed"),
     }
 
@@ -67,7 +67,7 @@ def starts_of(kind, rotor, sizes, angles):
     if kind == "shock":
         found = carom.BaseShock(1.0, 0.9).starts(rotor, sizes, angles)
         return found.positions, found.velocities, found.exists & ~found.undecided
-    if kind == "step":
+    if kind == "unbalance-step":
         before = numbers.rho + sizes * np.exp(1j * angles)
         places = before * np.exp(1j * numbers.phi) / complex(numbers.omega**2 - 1.0, numbers.gamma)
         return places, np.zeros(sizes.shape, complex), np.abs(places) <= 1.0
@@ -75,7 +75,7 @@ def starts_of(kind, rotor, sizes, angles):
     return places, 1j * (sizes - 1.0) * places, np.ones(sizes.shape, bool)
 
 
-@pytest.mark.parametrize("kind", ["kick", "shock", "step"])
+@pytest.mark.parametrize("kind", ["kick", "shock", "unbalance-step"])
 @pytest.mark.parametrize("machine", [MACHINE, PAPER.replace(gamma=0.1521)], ids=["far", "example"])
 def test_fresh_samples_do_not_break_the_bracket(kind, machine):
     """What is said of the bracket, tried with starts that the search has not seen."""

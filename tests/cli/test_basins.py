@@ -89,8 +89,8 @@ def test_table_and_files(carom, machine, tmp_path):
         ("kick-plane", "--grid", "6x6", "--fastest", "30 mm/s"),
         ("shock", "--grid", "5x6", "--peak", "6 g", "--duration", "5 ms"),
         pytest.param(("shock", "--starts", "20", "--peak", "60 m/s^2", "--duration", "1"), marks=pytest.mark.deep),
-        ("unbalance", "--grid", "5x6", "--before", "0.1 mm"),
-        pytest.param(("unbalance", "--grid", "5x6"), marks=pytest.mark.deep),
+        ("unbalance-step", "--grid", "5x6", "--before", "0.1 mm"),
+        pytest.param(("unbalance-step", "--grid", "5x6"), marks=pytest.mark.deep),
         ("release", "--grid", "9", "--release", "rotating"),
         pytest.param(("slice", "--grid", "8x8"), marks=pytest.mark.deep),
         ("state", "--starts", "30", "--fastest", "0.5"),
@@ -113,7 +113,7 @@ def test_gravities_are_not_grams(carom, machine):
 
 
 def test_unbalance_by_default_up_to_where_the_clearance_is_filled(carom, machine):
-    _, out, _ = carom("basins", machine, "--disturbance", "unbalance", "--grid", "4x4", "--json")
+    _, out, _ = carom("basins", machine, "--disturbance", "unbalance-step", "--grid", "4x4", "--json")
     document = json.loads(out)
     assert document["starts"] == 16
     numbers = document["parameters"]
@@ -137,14 +137,19 @@ def test_no_kick_is_lost(carom, machine):
 
 
 @pytest.mark.parametrize(
-    ("words", "name", "unit"),
+    ("words", "name", "said", "unit"),
     [
-        (("shock", "--grid", "4x4", "--peak", "1 g", "--duration", "5 ms"), "shock", 0.7e-3 * 184.2**2),
-        (("unbalance", "--grid", "4x4", "--before", "0.3 mm"), "step", 0.7e-3),
-        (("release", "--grid", "9"), "release_speed", 0.7e-3 * 184.2),
+        (("shock", "--grid", "4x4", "--peak", "1 g", "--duration", "5 ms"), "shock", "shock", 0.7e-3 * 184.2**2),
+        (
+            ("unbalance-step", "--grid", "4x4", "--before", "0.3 mm"),
+            "unbalance_step",
+            "step of the unbalance",
+            0.7e-3,
+        ),
+        (("release", "--grid", "9"), "release_speed", "release", 0.7e-3 * 184.2),
     ],
 )
-def test_smallest_loss_is_that_of_the_disturbances(carom, machine, words, name, unit):
+def test_smallest_loss_is_that_of_the_disturbances(carom, machine, words, name, said, unit):
     """A bracket in the unit of the disturbance, and not a word of kicks."""
     called = ("basins", machine, "--disturbance", *words)
     document, shown = json.loads(carom(*called, "--json")[1]), carom(*called)[1]
@@ -159,7 +164,7 @@ def test_smallest_loss_is_that_of_the_disturbances(carom, machine, words, name, 
         return
     assert document[f"harmless_{name}"] < back < lost < back * 1.002
     assert document[f"smallest_unrecovered_{name}_bracket_si"] == pytest.approx([back * unit, lost * unit])
-    assert f"Smallest {name}" in shown
+    assert f"Smallest {said} found" in shown
     # Against the grid of the basin: what is lost there is not smaller.
     assert document["touching"] >= round(document["starts"] * (1.0 - document["recovered"]["fraction"]))
 
@@ -253,7 +258,7 @@ def test_which_unbalances_are_survived(carom, machine, tmp_path):
         (("--after", "3 kg"), "--after = 3 kg: must be a length"),
         (("--after", "-2 g mm"), "--after = -2 g mm: must be an eccentricity or an unbalance above 0"),
         (("--after", "0.1 mm"), "eccentricity_after = 0.142857: more than the present one, 0.428571"),
-        (("--after", "0.5 mm", "--before", "1 mm"), "allowed only with --disturbance unbalance"),
+        (("--after", "0.5 mm", "--before", "1 mm"), "allowed only with --disturbance unbalance-step"),
     ],
 )
 def test_unbalances_that_cannot_be_tried(carom, machine, options, words):

@@ -18,7 +18,7 @@ from carom.closed_forms.thresholds import (
     happens_to_rubs,
     harmless_kick,
     harmless_shock,
-    harmless_step,
+    harmless_unbalance_step,
     has_stable_rub,
     ranges_of,
     rolling_condition,
@@ -356,9 +356,9 @@ def test_harmless_shocks_do_not_bring_the_rotor_to_the_wall(duration):
 @pytest.mark.parametrize("gamma", [0.0, 0.1, 1.0, 4.0])
 def test_harmless_steps_do_not_bring_the_rotor_to_the_wall(gamma):
     machine = PAPER.replace(gamma=gamma, rho=0.2)
-    size = harmless_step(Jeffcott(machine))
+    size = harmless_unbalance_step(Jeffcott(machine))
     times = np.linspace(0.0, 15.0, 3001)
     for angle in np.linspace(0.0, 2.0 * math.pi, 25):
         before = rest_position(machine) * (1.0 + size / machine.rho * np.exp(1j * angle))
         assert np.abs(path(machine, complex(before), 0j, times)).max() <= 1.0
-    assert harmless_step(Jeffcott(PAPER.replace(gamma=0.05))) == 0.0
+    assert harmless_unbalance_step(Jeffcott(PAPER.replace(gamma=0.05))) == 0.0

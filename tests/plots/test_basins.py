@@ -111,6 +111,14 @@ def test_kicks_by_size_and_direction(rotor):
     assert "smallest kick found that is lost" in words(figure)
 
 
+def test_a_change_of_the_eccentricity_is_not_marked_among_eccentricities(rotor):
+    step = UnbalanceStep.of(MACHINE, "0.2 mm")
+    smallest = smallest_loss(rotor, step, directions=24, sizes=24)
+    round_ = plots.basin(map_basins(rotor, Grid(step, (6, 8))), smallest).axes[0]
+    assert smallest.size is not None
+    assert [line.get_gid() for line in round_.lines] == []
+
+
 def test_shares_at_each_size_are_stacked_to_a_hundred(rotor):
     basin = map_basins(rotor, Grid(VelocityKick(1.0), (12, 16)))
     steps = plots.basin(basin).axes[1].patches

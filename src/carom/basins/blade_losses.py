@@ -71,7 +71,7 @@ class _Search:
 
     def __init__(self, rotor: Jeffcott, model: BladeLoss, threads: int | None) -> None:
         self.rotor, self.model, self.threads = rotor, model, threads
-        self.base = SmallestLoss("blade_loss", None, None, None, False, 0.0, None, 0, 0.0, 0.0, TOLERANCE, 0)
+        self.base = SmallestLoss(model.kind, None, None, None, False, 0.0, None, 0, 0.0, 0.0, TOLERANCE, 0)
         self.back = 0.0
 
     def result(self, all_back: float | None, fresh: int) -> SmallestLoss:

@@ -18,7 +18,7 @@ from carom.basins.gains import GainMap
 from carom.basins.integrity_measures import integrity
 from carom.basins.losses import SmallestLoss, size_coordinate
 from carom.basins.shares import Share, starts_enough
-from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, harmless_step
+from carom.closed_forms.thresholds import harmless_blade_loss, harmless_shock, harmless_unbalance_step
 from carom.disturbances import BaseShock, BladeLoss, Sample, UnbalanceStep
 from carom.outcome import InputError
 from carom.results import fields_of
@@ -65,7 +65,7 @@ def basin_document(
         document |= _loss(smallest, basin, smallest.kind)
     proven: dict[str, tuple[float, str]] = {}
     if isinstance(model, UnbalanceStep):
-        proven["harmless_step"] = harmless_step(basin.rotor), "length"
+        proven["harmless_unbalance_step"] = harmless_unbalance_step(basin.rotor), "length"
     if isinstance(model, BladeLoss):
         proven["harmless_blade_loss"] = harmless_blade_loss(basin.rotor), "length"
     if isinstance(model, BaseShock):
@@ -82,8 +82,9 @@ def basin_document(
 def _loss(smallest: SmallestLoss | None, basin: Basin, kind: str) -> dict[str, Any]:
     """Entries of the smallest loss of a kind; all ``None`` if it was not searched."""
     found = smallest if smallest is not None and smallest.kind == kind else None
-    size = "release_speed" if kind == "release" else kind
-    name, several = f"smallest_unrecovered_{size}", "blade_losses" if kind == "blade_loss" else f"{kind}s"
+    key = kind.replace("-", "_")
+    name = f"smallest_unrecovered_{'release_speed' if kind == 'release' else key}"
+    several = f"{key}es" if key.endswith("s") else f"{key}s"
     bracket = [found.all_back, found.size] if found else None
     document: dict[str, Any] = {
         name: found.size if found else None,

@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from carom.basins.shares import CONFIDENCE
-from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_step
+from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_unbalance_step
 from carom.disturbances import (
     FASTEST,
     BaseShock,
@@ -54,7 +54,8 @@ class SmallestLoss:
     Attributes
     ----------
     kind : str
-        ``"kick"``, ``"shock"``, ``"step"`` of the unbalance, ``"blade_loss"``, ``"release"``, or that of another model.
+        Kind of the disturbance: ``"kick"``, ``"shock"``, ``"unbalance-step"``, ``"blade-loss"``, ``"release"``, or that of
+        another model; of a kick plane ``"kick"``.
     size : float or None
         Smallest lost size found: change of velocity in ``c_r Ω``, peak acceleration in ``c_r Ω²``, change of the
         eccentricity in ``c_r`` (for the loss of a blade: eccentricity after it), speed along the wall in ``c_r Ω`` (fixed
@@ -227,7 +228,7 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             x, y = now + sizes * np.cos(angles), sizes * np.sin(angles)
             return step.starts(rotor, np.hypot(x, y), np.arctan2(y, x))
 
-        return _Family("step", step.largest + now, harmless_step(rotor), changed)
+        return _Family(step.kind, step.largest + now, harmless_unbalance_step(rotor), changed)
     if type(model) is ContactRelease:
 
         def released(sizes: np.ndarray, places: np.ndarray) -> Starts:
@@ -238,7 +239,7 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             velocities.real, velocities.imag = -rate * sine, rate * cosine
             return Starts.of(positions, velocities, True)
 
-        return _Family("release", FASTEST, 0.0, released, turns=2)
+        return _Family(model.kind, FASTEST, 0.0, released, turns=2)
     if not _by_size(model):
         raise InputError("disturbance", model.kind, "one with a size from 0 and a direction, or a release from contact")
     harmless = 0.0  # nothing is proven of a subclass, which may start anywhere

@@ -24,7 +24,7 @@ _OPTIONS = {
     "kick": ("fastest",),
     "kick-plane": ("fastest",),
     "shock": ("peak", "duration"),
-    "unbalance": ("before",),
+    "unbalance-step": ("before",),
     "blade-loss": ("after",),
     "release": ("release",),
     "slice": (),

@@ -21,7 +21,7 @@ _NAMES = {
     "kick": "velocity kicks out of levitation",
     "kick-plane": "velocity kicks out of levitation",
     "shock": "half-sine shocks of the base",
-    "unbalance": "steps of the unbalance to what it is",
+    "unbalance-step": "steps of the unbalance to what it is",
     "blade-loss": "losses of a blade at levitation",
     "release": "releases from the wall",
     "slice": "positions at one velocity",
@@ -114,7 +114,7 @@ def _tried(basin: Basin) -> str:
     cells = getattr(plan, "shape", None)
     how = f"a grid of {' x '.join(map(str, cells))}" if cells else f"a sample (seed {getattr(plan, 'seed', 0)})"
     text = f"{basin.starts} {_NAMES[plan.model.kind]}, {how}"
-    if plan.model.kind in ("kick", "kick-plane", "shock", "unbalance"):
+    if plan.model.kind in ("kick", "kick-plane", "shock", "unbalance-step"):
         text += f", {size.words} up to {_size(size, size.high, basin.scales)}"
     if plan.model.kind == "blade-loss":
         text += f", {size.words}: all around; {_after(basin)}"
@@ -134,7 +134,12 @@ def _touching(basin: Basin) -> str:
     return f"Touched the wall: {met} of {basin.starts}; of these {back or 'none'} came back."
 
 
-_LOSSES = {"kick": "kick", "shock": "shock of this duration", "step": "step of the unbalance", "release": "release"}
+_LOSSES = {
+    "kick": "kick",
+    "shock": "shock of this duration",
+    "unbalance-step": "step of the unbalance",
+    "release": "release",
+}
 
 
 def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> list[str]:
@@ -150,7 +155,7 @@ def _losses(basin: Basin, smallest: SmallestLoss | None, harmless: float) -> lis
     def shown(value: float) -> str:
         return _size(size, value, basin.scales, 5)
 
-    if smallest.kind == "blade_loss":
+    if smallest.kind == "blade-loss":
         return _blade_losses(basin, smallest)
     noun = _LOSSES[smallest.kind]
     lines = []
@@ -209,7 +214,7 @@ def _blade_losses(basin: Basin, smallest: SmallestLoss) -> list[str]:
         )
     if smallest.all_back is None and smallest.size is not None:
         lines.append(
-            "A change of the phase alone is already lost: search with --disturbance unbalance for the smallest change."
+            "A change of the phase alone is already lost: search with --disturbance unbalance-step for the smallest change."
         )
     elif smallest.all_back is not None and smallest.fresh:
         lines.append(
@@ -232,7 +237,7 @@ def _where(basin: Basin, smallest: SmallestLoss) -> str:
     if smallest.kind == "release":
         whirl = "backward" if smallest.backward else "forward"
         return f"{'in ' + whirl + ' whirl ' if smallest.size else ''}at {angle:.4f} rad on the wall"
-    if smallest.kind == "step":
+    if smallest.kind == "unbalance-step":
         return f"from an eccentricity that differs by it at {math.degrees(angle):+.0f} deg from the heavy side"
     heavy = math.degrees(math.remainder(angle - basin.parameters.phi, 2.0 * math.pi))
     return f"in direction {angle:.4f} rad ({heavy:+.0f} deg from the heavy side)"

@@ -18,7 +18,13 @@ from carom.closed_forms.absorbing import RubNeighbourhood, rub_neighbourhood
 from carom.closed_forms.equilibria import Equilibrium, EquilibriumSet, find_equilibria
 from carom.closed_forms.local import ContactSystem, LocalCycle, NonSmoothHopf, cycle_determinant, non_smooth_hopf
 from carom.closed_forms.periods import PeriodCondition, PeriodRoots
-from carom.closed_forms.thresholds import harmless_blade_loss, harmless_kick, harmless_shock, harmless_step, rub_limit
+from carom.closed_forms.thresholds import (
+    harmless_blade_loss,
+    harmless_kick,
+    harmless_shock,
+    harmless_unbalance_step,
+    rub_limit,
+)
 from carom.closed_forms.unbalance import SpeedResponse, speed_response
 from carom.closed_forms.whirl import Rolling, Runaway, rolling, runaway_speed
 
@@ -39,7 +45,7 @@ __all__ = [
     "harmless_blade_loss",
     "harmless_kick",
     "harmless_shock",
-    "harmless_step",
+    "harmless_unbalance_step",
     "non_smooth_hopf",
     "rolling",
     "rub_limit",

@@ -319,7 +319,7 @@ def harmless_shock(machine: Subject, duration: float) -> float:
     return harmless_kick(rotor) * math.pi / (2.0 * duration)
 
 
-def harmless_step(machine: Subject) -> float:
+def harmless_unbalance_step(machine: Subject) -> float:
     """Change of the eccentricity up to which a step of the unbalance provably never brings the rotor to the wall.
 
     A change ``Δ`` shifts the levitation whirl by ``u₀ = Δ/(ω² − 1 + iγ)`` in the co-rotating frame.  This is the
@@ -336,14 +336,14 @@ def harmless_step(machine: Subject) -> float:
 def harmless_blade_loss(machine: Subject) -> float:
     """Change of the unbalance up to which the loss of a blade provably never brings the rotor to the wall.
 
-    As in :func:`harmless_step` the deviation from the levitation whirl after the loss stays below ``|u₀|√(1 + 1/ω²)``,
+    As in :func:`harmless_unbalance_step` the deviation from the levitation whirl after the loss stays below ``|u₀|√(1 + 1/ω²)``,
     but that whirl itself is displaced from the one before by ``u₀``.  This bound is not sharp.  The change, in ``c_r``, is the modulus of that
     of the complex eccentricity; zero where the rotor cannot levitate inside the wall or
     its levitation is unstable.
     """
     at = jeffcott_of(machine).parameters
     deviation = math.hypot(1.0, 1.0 / at.omega)
-    return harmless_step(machine) * deviation / (1.0 + deviation)
+    return harmless_unbalance_step(machine) * deviation / (1.0 + deviation)
 
 
 def _room(rotor: Jeffcott) -> float:

@@ -43,7 +43,7 @@ class UnbalanceStep(Disturbance):
 
     See Also
     --------
-    carom.closed_forms.harmless_step : change up to which contact is impossible
+    carom.closed_forms.harmless_unbalance_step : change up to which contact is impossible
     carom.map_basins : follow steps of all sizes and phases
 
     Examples
@@ -56,7 +56,7 @@ class UnbalanceStep(Disturbance):
     """
 
     largest: float
-    kind: ClassVar[str] = "unbalance"
+    kind: ClassVar[str] = "unbalance-step"
     measured_in: ClassVar[dict[str, str]] = {"largest": "length"}
 
     @property
