@@ -139,7 +139,12 @@ def test_no_kick_is_lost(carom, machine):
 @pytest.mark.parametrize(
     ("words", "name", "said", "unit"),
     [
-        (("shock", "--grid", "4x4", "--peak", "1 g", "--duration", "5 ms"), "shock", "shock", 0.7e-3 * 184.2**2),
+        (
+            ("shock", "--grid", "4x4", "--peak", "1 g", "--duration", "5 ms"),
+            "shock",
+            "shock of this duration",
+            0.7e-3 * 184.2**2,
+        ),
         (
             ("unbalance-step", "--grid", "4x4", "--before", "0.3 mm"),
             "unbalance_step",
