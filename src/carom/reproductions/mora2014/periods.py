@@ -95,7 +95,14 @@ def period_functions() -> tuple[PeriodFunction, ...]:
 
 def period_pairs() -> tuple[PeriodPair, ...]:
     """Follow all pairs of roots of ``F₁`` with periods up to 30/Ω from ``γ = 0.005`` to their folds and back, in ascending order."""
-    base = Numbers.of(machine_at(DAMPINGS[0]))
+    gamma = DAMPINGS[0]
+    shorter = PeriodCondition.planar(machine_at(gamma)).roots(LONGEST).periods[::2]
+    return tuple(period_pair(gamma, period, pair) for pair, period in enumerate(shorter.tolist(), start=1))
+
+
+def period_pair(gamma: float, period: float, pair: int) -> PeriodPair:
+    """Follow a pair of roots of ``F₁`` from the shorter period at a damping to their fold and back."""
+    base = Numbers.of(machine_at(gamma))
 
     def closing(u: np.ndarray, gamma: float) -> np.ndarray:
         if u[0] <= 0.0:
@@ -105,26 +112,22 @@ def period_pairs() -> tuple[PeriodPair, ...]:
     def jacobian(u: np.ndarray, gamma: float) -> np.ndarray:
         return orbit_jacobian(lambda x: base._replace(gamma=x), (gamma,), float(u[0]), 0.0)[:1, [0, 2]]
 
-    roots = PeriodCondition.planar(machine_at(DAMPINGS[0])).roots(LONGEST).periods
-    pairs = []
-    for pair, start in enumerate(roots[::2].tolist(), start=1):
-        branch = continue_branch(
-            closing,
-            np.array([start]),
-            DAMPINGS[0],
-            DAMPINGS,
-            jacobian=jacobian,
-            steps=Steps(0.005, largest=0.04),
-            scales=np.array([1, 0.1]),
-        )
-        (fold,) = branch.of_kind("fold")
-        at = float(fold.unknowns[0])
-        # The fold itself is drawn too: it is where both halves meet.
-        place = int(np.ceil(fold.place))
-        gammas = np.insert(branch.parameters, place, fold.parameter)
-        periods = np.insert(branch.unknowns[:, 0], place, at)
-        pairs.append(PeriodPair(pair, gammas, periods, periods >= at, (fold.parameter, at)))
-    return tuple(pairs)
+    branch = continue_branch(
+        closing,
+        np.array([period]),
+        gamma,
+        (gamma, DAMPINGS[1]),
+        jacobian=jacobian,
+        steps=Steps(0.005, largest=0.04),
+        scales=np.array([1, 0.1]),
+    )
+    (fold,) = branch.of_kind("fold")
+    at = float(fold.unknowns[0])
+    # The fold itself is drawn too: it is where both halves meet.
+    place = int(np.ceil(fold.place))
+    gammas = np.insert(branch.parameters, place, fold.parameter)
+    periods = np.insert(branch.unknowns[:, 0], place, at)
+    return PeriodPair(pair, gammas, periods, periods >= at, (fold.parameter, at))
 
 
 def birth() -> tuple[Birth, ...]:

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.orbits.orbit import Orbit
 from carom.orbits.single_impact import find_orbits
 from carom.reproductions.mora2014.branches import FirstPair
+from carom.reproductions.mora2014.periods import period_pair
 from carom.reproductions.mora2014.plane import DampingStiffnessPlane
 from carom.reproductions.mora2014.propositions import fixed_points, simultaneous_folds
 from carom.reproductions.mora2014.source import machine_at
@@ -21,8 +23,8 @@ WEAKEST = 0.005
 """Smallest damping at which the longer pairs are examined; there are 30 of them at this damping."""
 DAMPINGS = 24
 """Number of dampings, in geometric progression, from there to the fold at which the last longer pair vanishes."""
-PLACES = 2000
-"""Number of points examined on each orbit between its impacts."""
+PLACES = 200
+"""Number of points examined on each orbit between its impacts: enough for three digits of the least distance."""
 
 
 @dataclass(frozen=True)
@@ -81,8 +83,8 @@ def _propositions(branches: FirstPair) -> tuple[Claim, ...]:
 def _longer_pairs() -> Claim:
     """Examine the pairs n > 1 along the damping, up to the fold of the last of them."""
     last = WEAKEST
-    while _longer(beyond := last * (1.0 + SAME_FOLD)):
-        last = simultaneous_folds(machine_at(beyond), pair=2).lower.value
+    while len(periods := PeriodCondition.planar(machine_at(beyond := last * (1.0 + SAME_FOLD))).roots().periods) > 2:
+        last, _ = period_pair(beyond, float(periods[2]), 2).fold
     counts, possible, nearest = [], 0, math.inf
     for gamma in np.geomspace(WEAKEST, last * (1.0 - SAME_FOLD), DAMPINGS):
         longer = _longer(float(gamma))
