@@ -64,7 +64,8 @@ def name_motions(
         note_rubs(chosen, name)
     periodic = np.isin(outcomes, REPEATING) & (endings.multiplicities > 0)
     if periodic.any():
-        for chosen, name in _periodic(rotor, endings, np.flatnonzero(periodic), orbits or _orbits(rotor)):
+        known = orbits_of(rotor) if orbits is None else orbits
+        for chosen, name in _periodic(rotor, endings, np.flatnonzero(periodic), known):
             note(chosen, name)
     return named, tuple(names)
 
@@ -147,8 +148,8 @@ def _alike(*features: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return first, groups
 
 
-def _orbits(rotor: Model) -> Sequence[Orbit]:
-    """Orbits known in closed form; empty where their search fails."""
+def orbits_of(rotor: Model) -> Sequence[Orbit]:
+    """Orbits known in closed form; empty for rotors without, and where their search fails."""
     try:
         return orbits_within_reach(rotor)
     except CaromError:

@@ -10,14 +10,14 @@ import numpy as np
 
 from carom.attractors.following import SLOWER, Ending, follow_in_stages
 from carom.attractors.groups import Attractor, attractor_of
-from carom.attractors.naming import name_motions
+from carom.attractors.naming import name_motions, orbits_of
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
+from carom.closed_forms.known import known_of
 from carom.disturbances import FASTEST, Disturbance, Grid, Plan, Sample, Starts
-from carom.models import Jeffcott, Model, Subject, model_of
+from carom.models import Model, Subject, model_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
-from carom.orbits.single_impact import orbits_within_reach
 from carom.outcome import InputError, Outcome
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
@@ -134,7 +134,7 @@ class AttractorSet(Result):
     def argument(self) -> str:
         """The evidence for the list, in a sentence or two."""
         known = len(self.endings) - len(self.disturbances)
-        general = "" if isinstance(self.rotor, Jeffcott) else f" {RECOGNISED}"
+        general = "" if known_of(self.rotor).rubs else f" {RECOGNISED}"
         return (
             f"{self.words()}, and {known} starts next to motions known in closed form, which are left out of the shares, were "
             "simulated to where they settle. This is evidence, not proof: an attractor that none of them reaches is not listed."
@@ -205,7 +205,7 @@ def find_attractors(
     tried, starts = disturbances_of(rotor, given)
     if isinstance(given, Grid | Sample):
         rotor = given.model.machine_after(rotor)
-    orbits = tuple(orbits_within_reach(rotor)) if isinstance(rotor, Jeffcott) else ()
+    orbits = orbits_of(rotor)
     nearby = known_starts(rotor, orbits) if known else ()
     if nearby:
         tried += nearby

@@ -10,8 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from carom.closed_forms.whirl import rolling
-from carom.models import Jeffcott
+from carom.closed_forms.known import known_of
 from carom.motions.settling import REPEATING
 from carom.motions.trajectories import Trajectory
 from carom.orbits.orbit import Orbit, same_orbit
@@ -147,8 +146,8 @@ def forces_on(settled: SettledMotion) -> tuple[float, float]:
     motion = settled.motion
     if settled.outcome is Outcome.LEVITATED:
         return 0.0, 0.0
-    if settled.outcome is Outcome.ROLLING and isinstance(motion.rotor, Jeffcott):
-        return 0.0, rolling(motion.rotor).largest_force
+    if settled.outcome is Outcome.ROLLING and (force := known_of(motion.rotor).rolling_force):
+        return 0.0, force
     impulses = motion.log_of(motion.is_impact).normal_impulse
     # Of irregular bouncing only the later half is used: the first half may be a transient.
     last = impulses[first_of_period(motion, settled.multiplicity) if settled.multiplicity else len(impulses) // 2 :]

@@ -11,11 +11,11 @@ from typing import Literal
 import numpy as np
 
 from carom.closed_forms.equilibria import find_equilibria
-from carom.closed_forms.whirl import runaway_speed
+from carom.closed_forms.known import known_of
 from carom.disturbances import FASTEST, AnyState, KickPlane, Plan, Starts, VelocityKick
 from carom.disturbances.coordinates import ON_WALL
 from carom.disturbances.following import require_start
-from carom.models import Jeffcott, Model, Subject, model_of
+from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
@@ -185,8 +185,8 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
     -------
     tuple of Start
         Two next to every admissible orbit and synchronous rub, stable or not, one on each side.  With friction: one in
-        rolling at each plane that can roll while the others stay inside.  For the planar rotor, if sliding can reach it:
-        one in backward whirl just above the speed from which it is certain to run away.
+        rolling at each plane that can roll while the others stay inside.  Where the speed is known from which backward whirl
+        is certain to run away to rolling: one in such a whirl just above it.
     """
     rotor, starts = model_of(machine), []
     for orbit in orbits:
@@ -200,12 +200,10 @@ def known_starts(machine: Subject, orbits: Sequence[Orbit]) -> tuple[Start, ...]
             words = f"a start next to the {'stable' if rub.stable else 'unstable'} synchronous rub"
             speeds = (-NUDGE, NUDGE) if rub.stable else (-PUSH, PUSH)
             starts += [Start("rub", State(rub.position, 1j * speed * rub.position), words) for speed in speeds]
-    if isinstance(rotor, Jeffcott):
-        runaway = runaway_speed(rotor)
-        if runaway.reaches_rolling:
-            speed = min(1.001 * runaway.certain, runaway.rolling_speed)
-            starts.append(_whirling(rotor, 0, 1.0 + speed, "beyond the runaway speed"))
-    arrays = rotor.system.arrays
+    arrays, runaway = rotor.system.arrays, known_of(rotor).runaway
+    if runaway < math.inf:
+        speed = min(1.0 + 1.001 * runaway, float(arrays.drive[0]))
+        starts.append(_whirling(rotor, 0, speed, "beyond the runaway speed"))
     for plane in np.flatnonzero(
         (arrays.friction > 0.0) & (np.abs(arrays.mobility) <= 1.0 + ON_WALL).all(axis=0)
     ).tolist():

@@ -20,9 +20,8 @@ SAMPLES = 9
 
 def passes(curve: Curve, point: Bifurcation) -> bool:
     """Whether a bifurcation lies on a curve: the curve must pass close by with the same orbit."""
-    return curve.kind == point.kind and _lies_on(
-        curve, curve.plane.place_of(point.numbers), point.period, point.radial_speed
-    )
+    place = curve.plane.place_of(point.numbers if point.shot is None else point.shot.rotor)
+    return curve.kind == point.kind and _lies_on(curve, place, point.period, point.radial_speed)
 
 
 def _lies_on(curve: Curve, place: Sequence[float], period: float, speed: float) -> bool:

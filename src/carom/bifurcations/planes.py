@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.continuation import Watch
+from carom.models import Model
 from carom.models.axes import Axis, Ends, axis, read_interval
 from carom.outcome import InputError
 from carom.parameters import Numbers, Parameters
@@ -57,7 +58,7 @@ class Plane:
         low, high = self.first_range
         return Watch(EDGE, lambda u, _: min(u[-1] - low, high - u[-1]) / (high - low), at_zero="limit")
 
-    def place_of(self, at: Parameters | Numbers) -> tuple[float, float]:
+    def place_of(self, at: Model | Parameters | Numbers) -> tuple[float, float]:
         """Values of both parameters, whether inside the plane or outside."""
         return at.value(self.first), at.value(self.second)
 

@@ -52,8 +52,8 @@ class Bifurcation(Result):
         begins or ceases to hold at every angle).  Of bouncing with rub also ``"permanent-contact"`` (the rotor no
         longer lifts off: the least normal force of sliding that never leaves the wall vanishes).
     numbers : Numbers or None
-        Parameters there; with negative ``mu`` if the closed form gives it for orbits with backward slip.  ``None`` for
-        other rotors than the planar one.
+        Parameters there, if the closed form gives it; with negative ``mu`` for orbits with backward slip.  ``None`` where
+        ``shot`` holds the orbit and its rotor.
     period, radial_speed : float
         Those of the orbit, in ``1/Ω`` and ``c_r Ω``; ``nan`` for steady motions.
     name : str

@@ -19,7 +19,6 @@ from carom.bifurcations.points import CONTACT_CHANGES, EXTREMUM, HALVING, HOPF, 
 from carom.bifurcations.single_impact import special_orbit
 from carom.bifurcations.word_equations import BRIEF, FAR, GONE, LYING, Family
 from carom.continuation import Branch, SpecialPoint, Steps, continue_branch
-from carom.models import Jeffcott
 from carom.models.axes import Axis, Ends, axis, interval_around
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit, orbit_near
@@ -244,7 +243,7 @@ def _special_point(
     orbit = orbit_at(rotor, family.word, unknowns, name)
     return Bifurcation(
         point.kind,
-        Numbers.of(rotor.parameters) if isinstance(rotor, Jeffcott) else None,
+        None,
         orbit.period,
         orbit.radial_speed if orbit.word[0].kind.is_impact else math.nan,
         name,

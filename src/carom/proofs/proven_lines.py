@@ -10,9 +10,8 @@ from math import pi
 import numpy as np
 
 from carom.bifurcations import Diagram, RegionMap
-from carom.models import Jeffcott, Model
+from carom.models import Model, jeffcott_of
 from carom.outcome import InputError, shown
-from carom.parameters import Parameters
 from carom.proofs.claims import Claim, Proof
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
 from carom.proofs.lines import line_of
@@ -106,9 +105,7 @@ def _proven(proof: Proof, allowed: tuple[str, ...], model_at: Callable[[float], 
 
 def _check_machine(hypotheses: Hypotheses, model: Model) -> None:
     """Compare the numbers of the equations."""
-    if not isinstance(model, Jeffcott):
-        raise InputError("proof", None, "proofs are of the planar rotor, and this is another model")
-    parameters: Parameters = model.parameters
+    parameters = jeffcott_of(model).parameters
     for name in NUMBERS:
         number = hypotheses.numbers[name]
         scale = pi**number.turns
