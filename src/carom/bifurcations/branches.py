@@ -17,7 +17,7 @@ from carom.models.axes import Axis
 from carom.orbits.admissibility import SLIPS
 from carom.orbits.names import CountedName, OrbitName
 from carom.orbits.orbit import Orbit
-from carom.orbits.shooting import Start, converged, links_of, unpack
+from carom.orbits.shooting import Start, closed_flights, converged, links_of, unpack
 from carom.orbits.word import Word
 from carom.outcome import CaromError
 from carom.parameters import Numbers
@@ -170,13 +170,19 @@ class OrbitBranch(Result):
         """Which orbits have all multipliers inside the unit circle, bool, shape (m,)."""
         return np.abs(self.multipliers).max(axis=1) < 1.0
 
-    def starts_at(self, value: float) -> list[Start]:
-        """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there."""
-        found = []
+    def starts_at(self, value: float, rotor: Model | None = None) -> list[Start]:
+        """Nodes and durations of its orbits at a value of the parameter, one for each time it passes there.
+
+        A ``rotor`` with this value need not be made again.
+        """
+        rotor, found = rotor or self.axis.move(self.rotor, value), []
         for i, share in _passing(self.values, value):
             guess = unpack((1.0 - share) * self.unknowns[i] + share * self.unknowns[i + 1], len(self.word))
-            links = converged(self.axis.move(self.rotor, value), self.word, guess)
-            found.append(guess if links is None else links.start)
+            start = closed_flights(rotor, self.word, guess) if self.word.flies else None
+            if start is None:
+                links = converged(rotor, self.word, guess)
+                start = guess if links is None else links.start
+            found.append(start)
         return found
 
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from carom.attractors import DisturbanceSet
 from carom.bifurcations.branches import OrbitBranch
-from carom.bifurcations.conditions import corrected
 from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.samples import AttractorSample, sample_attractors
 from carom.bifurcations.several import lies_on, several_impacts
@@ -29,14 +28,12 @@ from carom.orbits.orbit import Orbit
 from carom.orbits.rubbing import rubbing_orbits
 from carom.orbits.single_impact import find_orbits
 from carom.outcome import InputError
-from carom.parameters import Numbers, Parameters
+from carom.parameters import Parameters
 from carom.progress import Reporter, ShowProgress, shows_progress
 from carom.results import Result, in_a_line
 
 SAMPLES = 13
 """Number of values of the parameter at which all orbits are searched."""
-SAME = 1e-6
-"""Distance in period and radial speed below which an orbit lies on a known branch."""
 FOLLOWING_SHARE = 0.2
 """Fraction of the progress for following branches, if attractors are searched too."""
 SINGLE_SHARE = 0.2
@@ -239,7 +236,7 @@ def _follow(
         here = parameters.replace(**{along.name: value})
         for orbit in _orbits(here):
             wanted = chosen.virtual or orbit.admissible or orbit.name.pair == 1
-            if wanted and not any(_lies_on(orbit, value, branch) for branch in branches):
+            if wanted and not any(lies_on(orbit, value, branch) for branch in branches):
                 branches.append(continue_orbit(orbit, along.name, limits))
         for motion in rubbing_orbits(here) if chosen.lasting else ():
             if not any(lies_on(motion, value, branch) for branch in rubbing):
@@ -265,23 +262,3 @@ def _orbits(parameters: Parameters) -> Iterator[Orbit]:
     if parameters.gamma > 0.0 and parameters.rho > 0.0:
         longest = LONGEST_PERIOD if parameters.gamma < 0.05 else None
         yield from (orbit for orbit in find_orbits(Jeffcott(parameters), longest) if orbit.slip > 0)
-
-
-def _steps_at(values: np.ndarray, value: float) -> list[int]:
-    """Steps of a branch that pass a value of the parameter; each by the index of its first point."""
-    slack = 1e-9 * float(np.ptp(values))
-    low, high = np.sort([values[:-1], values[1:]], axis=0) - value
-    return np.flatnonzero((low <= slack) & (high >= -slack)).tolist()
-
-
-def _lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
-    """Whether a branch passes through an orbit.
-
-    Where the branch passes the value, its orbit there is found by Newton's method from both neighbouring points.
-    """
-    numbers = Numbers.of(orbit.rotor.parameters)
-    for end in (end for i in _steps_at(branch.values, value) for end in (i, i + 1)):
-        found = corrected(numbers, float(branch.period[end]), float(branch.radial_speed[end]))
-        if max(abs(found[0] - orbit.period), abs(found[1] - orbit.radial_speed)) < SAME * (1.0 + orbit.period):
-            return True
-    return False

@@ -101,7 +101,7 @@ def lies_on(orbit: Orbit, value: float, branch: OrbitBranch) -> bool:
     turns = [k for k in range(len(orbit.word)) if orbit.word.turned(k) == branch.word]
     if len(orbit.word) != len(branch.word) or not turns:
         return False
-    for start in branch.starts_at(value):
+    for start in branch.starts_at(value, orbit.rotor):
         for k in turns:
             turned = Start(np.roll(orbit.nodes, -k, axis=0), np.roll(orbit.durations, -k))
             apart = np.abs(pack_free(branch.word, turned) - pack_free(branch.word, start)).max()
