@@ -10,7 +10,7 @@ import numpy as np
 from carom.bifurcations.conditions import TESTS, conditions_at, is_admissible
 from carom.bifurcations.motions import Motions, forward_orbits, motions_at
 from carom.bifurcations.planes import Plane
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.points import STEADY, Bifurcation
 from carom.parameters import Numbers, Parameters
 
 NARROW = 1e-9
@@ -91,8 +91,7 @@ def causes_between(parameters: Parameters, plane: Plane, low: PlanePoint, high: 
 
 
 def _of_steady_motions(low: Numbers, high: Numbers) -> list[Bifurcation]:
-    kinds = ("boundary-equilibrium", "rub-fold", "rolling-limit")
-    return [Bifurcation(kind, low) for kind in kinds if _changes_sign(kind, low, high)]
+    return [Bifurcation(kind, low) for kind in STEADY if _changes_sign(kind, low, high)]
 
 
 def _changes_sign(kind: str, low: Numbers, high: Numbers) -> bool:

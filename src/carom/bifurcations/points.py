@@ -29,7 +29,8 @@ CONTACT_CHANGES = ("cone-limit", "slide-stop", "lift-off")
 """Special points at which lasting contact changes its kind."""
 OF_CONTACT = (ONSET, PERMANENT, *CONTACT_CHANGES)
 """Special points of words with lasting contact; the first also of impacts without rebound."""
-_STEADY: dict[str, MotionKind] = {"boundary-equilibrium": "contact-free", "rub-fold": "rub", "rolling-limit": "rolling"}
+STEADY: dict[str, MotionKind] = {"boundary-equilibrium": "contact-free", "rub-fold": "rub", "rolling-limit": "rolling"}
+"""Special points of steady motions, and the motion of each."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -107,7 +108,7 @@ class Bifurcation(Result):
         """Kind of the motion: an orbit, a steady motion, or bouncing with rub."""
         if self.shot is not None and not self.shot.word.flies:
             return "rubbing"
-        return _STEADY.get(self.kind, "orbit")
+        return STEADY.get(self.kind, "orbit")
 
     @cached_property
     def orbit(self) -> Orbit:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations.conditions import TESTS
-from carom.bifurcations.points import Bifurcation
+from carom.bifurcations.points import STEADY, Bifurcation
 from carom.closed_forms.equilibria import find_equilibria
 from carom.closed_forms.thresholds import boundary_kind, happens_to_rubs
 from carom.closed_forms.whirl import rolling
@@ -71,8 +71,7 @@ def steady_points(parameters: Parameters, along: Axis, interval: tuple[float, fl
     base = Numbers.of(parameters)
     grid = np.linspace(*interval, SAMPLES).tolist()
     points = []
-    kinds = (("boundary-equilibrium", "contact-free"), ("rub-fold", "rub"), ("rolling-limit", "rolling"))
-    for kind, name in kinds:
+    for kind, name in STEADY.items():
 
         def function(value: float, kind: str = kind) -> float:
             return TESTS[kind](base.moved(along.name, value), 1.0, 0.0)
