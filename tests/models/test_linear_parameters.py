@@ -139,3 +139,36 @@ def test_modes_change_with_the_speed():
     model = bending().model
     faster = model.replace(scales=SCALES).replace(speed=2.0 * SCALES.speed)
     assert not np.allclose(np.sort(faster.system.exponents.real), np.sort(model.system.exponents.real))
+
+
+@pytest.mark.parametrize("name", [*planar(PAPER.replace(scales=SCALES)).varied])
+def test_rates_of_one_coordinate_are_those_of_the_planar_rotor(name):
+    machine = Jeffcott(PAPER.replace(scales=SCALES))
+    found, expected = planar(machine.parameters).rates(name), machine.rates(name)
+    assert found is not None
+    for got, want in zip(found, expected, strict=True):
+        np.testing.assert_allclose(got, want, rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.parametrize("name", rotor().varied)
+def test_rates_are_the_slopes_of_the_equations_of_motion(name):
+    along, here = axis(rotor(), name), rotor(restitution=[0.9, 0.9], friction=[0.1, 0.1], drive=[30, 30])
+    step = 1e-5 * along.value(here)
+    before, after = (along.move(here, along.value(here) + side) for side in (-step, step))
+    found = here.rates(name)
+    assert found is not None
+
+    def slope(of) -> np.ndarray:
+        return (of(after) - of(before)) / (2.0 * step)
+
+    # Central differences leave 1e-10 of third derivatives, and 1e-11 of rounding.
+    near = {"rtol": 1e-8, "atol": 1e-9}
+    by_coordinate = slope(lambda one: -np.linalg.solve(one.mass, np.hstack([one.stiffness, one.damping])))
+    np.testing.assert_allclose(found.accelerations, by_coordinate, **near)
+    np.testing.assert_allclose(found.force, slope(lambda one: np.linalg.solve(one.mass, one.forcing)), **near)
+    by_law = slope(lambda one: np.array([one.friction, one.restitution, one.drive]))
+    np.testing.assert_allclose([found.friction, found.restitution, found.drive], by_law, **near)
+
+
+def test_no_rates_where_there_is_nothing_to_multiply():
+    assert rotor(damping=np.zeros((2, 2)), gyroscopic=None).rates("gamma") is None

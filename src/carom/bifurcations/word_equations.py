@@ -22,14 +22,13 @@ from carom.models import Jeffcott, Model
 from carom.models.axes import Axis
 from carom.orbits.admissibility import SLIPS, departure
 from carom.orbits.orbit import Margins, margins_of
-from carom.orbits.shooting import Links, closed_flights, links_of, pack, unpack, unpack_free
+from carom.orbits.shooting import Links, by_parameter, closed_flights, links_of, pack, unpack, unpack_free
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 from carom.parameters import Numbers
 
-DIFFERENCE, COARSE = 1e-7, 1e-6
-"""Step of the differences by the parameter, relative to its size, and that for words with lasting contact, whose chatter is simulated;
-they only bend the predicted direction."""
+DIFFERENCE = 1e-6
+"""Step of the differences by the parameter, relative to its size, where there is no exact derivative; they only bend the predicted direction."""
 REMEMBERED = 64
 """Points whose segments are kept: each is asked for by the equations, their derivative and all watches."""
 SHORTEST, ALONE = 1e-6, 1e-3
@@ -206,9 +205,11 @@ class Family:
         return None if found is None else pack(found)
 
     def _by_parameter(self, point: FamilyPoint, p: float) -> np.ndarray:
-        """Derivative of the equations by the parameter, by a difference to a side where the rotor exists."""
-        step = (DIFFERENCE if self.word.flies else COARSE) * self.size
-        here = point.links.reduced[0]
+        """Derivative of the equations by the parameter: exact, or by a difference to a side where the rotor exists."""
+        exact = by_parameter(point.rotor, self.word, point.links.start, self.along.name)
+        if exact is not None:
+            return exact
+        step, here = DIFFERENCE * self.size, point.links.reduced[0]
         rotor = self.rotor_at(p + step)
         if rotor is None:
             step = -step

@@ -27,6 +27,7 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``planar``           single-impact orbits in closed form
 ``segments``         maps of the segments of an orbit, with derivatives
 ``closure``          equations of multiple shooting, and Newton's method
+``sensitivity``      how these equations change with a parameter
 ``margins``          how far an orbit is from a change of its word
 ``variation``        how small changes of a state propagate
 ``growth``           growth of small changes along a motion

@@ -15,7 +15,7 @@
 from carom.models.axes import Axis, axis
 from carom.models.jeffcott import Jeffcott
 from carom.models.linear import LinearRotor
-from carom.models.model import Matrices, Model
+from carom.models.model import Matrices, Model, Rates
 from carom.models.subjects import Subject, case_of, jeffcott_of, model_from, model_of
 from carom.models.system import System, second_order_system
 
@@ -25,6 +25,7 @@ __all__ = [
     "LinearRotor",
     "Matrices",
     "Model",
+    "Rates",
     "Subject",
     "System",
     "axis",

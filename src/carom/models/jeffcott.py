@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from carom.core.planar import planar_exponents
-from carom.models.model import Matrices
+from carom.models.model import Matrices, Rates
 from carom.models.system import System, second_order_system
 from carom.outcome import InputError, shown
-from carom.parameters import Field, Parameters, Scales
+from carom.parameters import Field, Numbers, Parameters, Scales
 
 
 @dataclass(frozen=True)
@@ -94,6 +94,16 @@ class Jeffcott:
     def replace(self, **changes: Any) -> Jeffcott:
         """Return the rotor with other parameters (:meth:`carom.parameters.Parameters.replace`)."""
         return Jeffcott(self.parameters.replace(**changes))
+
+    def rates(self, name: str) -> Rates:
+        """Return the derivatives of the equations of motion by a parameter."""
+        at = self.parameters
+        gamma, omega, rho, phi, mu, d, radius_ratio = Numbers.of(at).rates(name)
+        return Rates(
+            np.array([[complex(-2.0 * at.omega * omega, -gamma), -gamma]]),
+            np.array([complex(rho, at.rho * phi) * cmath.exp(1j * at.phi)]),
+            *np.array([[mu], [d], [radius_ratio]]),
+        )
 
     def attributes(self) -> dict[str, str]:
         """Return the parameters and the scales as attributes of a dataset, exact to the last bit."""

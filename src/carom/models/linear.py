@@ -13,7 +13,7 @@ import numpy as np
 
 from carom.core.layout import rotor_record
 from carom.models import linear_parameters
-from carom.models.model import Matrices
+from carom.models.model import Matrices, Rates
 from carom.models.modes import modes_of
 from carom.models.system import System, second_order_system
 from carom.outcome import InputError
@@ -206,6 +206,10 @@ class LinearRotor(Result):
         for name in sorted(set(changes) - given, key=lambda name: (name != "speed", list(changes).index(name))):
             rotor = dataclasses.replace(rotor, **linear_parameters.moved(rotor, name, changes[name]))
         return rotor
+
+    def rates(self, name: str) -> Rates | None:
+        """Return the derivatives of the equations of motion by a parameter; ``None`` if there is nothing to multiply."""
+        return linear_parameters.rates_of(self, name)
 
     def attributes(self) -> dict[str, str]:
         """Return the numbers and the scales as attributes of a dataset, exact to the last bit."""

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from carom.models.model import Rates
 from carom.outcome import InputError, shown
 from carom.parameters import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, Field, Numbers, read_quantity
 from carom.parameters.terms import no_such_parameter
@@ -119,3 +120,28 @@ def moved(rotor: LinearRotor, name: str, given: float | str) -> dict[str, Any]:
         return {"stiffness": rotor.stiffness + (factor * factor - 1.0) * stiffness}
     more = (factor - 1.0) * damping
     return {"damping": rotor.damping + more, "stiffness": rotor.stiffness + 1j * more}
+
+
+def rates_of(rotor: LinearRotor, name: str) -> Rates | None:
+    """Derivatives of the equations of motion by a parameter: those of :func:`moved`; ``None`` if there is nothing to multiply."""
+    own, plane = _planes(rotor).get(name, (SAME.get(name, name), None))
+    of_law = {attribute: np.zeros(len(rotor.planes)) for attribute, _ in _AT_PLANES.values()}
+    stiffer, more, pull = np.zeros_like(rotor.stiffness), np.zeros_like(rotor.damping), np.zeros_like(rotor.forcing)
+    if own in _AT_PLANES:
+        of_law[_AT_PLANES[own][0]][slice(None) if plane is None else plane] = 1.0
+    elif own == "phi":
+        pull = 1j * rotor.forcing
+    else:
+        _, damping, _, stiffness, _ = rotor.matrices
+        value = value_of(rotor, own)
+        if not value:
+            return None
+        if own == "rho":
+            pull = rotor.forcing / value
+        if own in ("gamma", "speed"):
+            more = damping / (value if own == "gamma" else -value)
+        if own in ("omega", "speed"):
+            stiffer = stiffness * (2.0 if own == "omega" else -2.0) / value
+    changes = -np.concatenate([stiffer + 1j * more, more, -pull[:, None]], axis=1)
+    accelerations = np.linalg.solve(rotor.mass, changes)
+    return Rates(accelerations[:, :-1], accelerations[:, -1], **of_law)

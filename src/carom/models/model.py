@@ -30,6 +30,26 @@ class Matrices(NamedTuple):
     forcing: np.ndarray
 
 
+class Rates(NamedTuple):
+    """Derivatives of the equations of motion in the co-rotating frame by a parameter, with masses and contact planes that stay.
+
+    Attributes
+    ----------
+    accelerations : ndarray of complex, shape (n, 2n)
+        Of the accelerations of the coordinates, per coordinate, then per rate of a coordinate.
+    force : ndarray of complex, shape (n,)
+        Of their constant part.
+    friction, restitution, drive : ndarray, shape (P,)
+        Of the contact law of each plane.
+    """
+
+    accelerations: np.ndarray
+    force: np.ndarray
+    friction: np.ndarray
+    restitution: np.ndarray
+    drive: np.ndarray
+
+
 @runtime_checkable
 class Model(Protocol):
     """A rotor: a value with named parameters that makes a :class:`~carom.models.system.System`.
@@ -63,6 +83,9 @@ class Model(Protocol):
 
     def replace(self, **changes: Any) -> Self:
         """Return the rotor with other values of named parameters; what depends on them changes too."""
+
+    def rates(self, name: str) -> Rates | None:
+        """Derivatives of the equations of motion by a named parameter; ``None`` where differences have to do."""
 
     def attributes(self) -> dict[str, Any]:
         """Numbers and texts from which :func:`~carom.models.subjects.model_from` makes the same model again."""

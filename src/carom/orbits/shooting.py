@@ -25,6 +25,7 @@ from carom.core.fate import memory
 from carom.core.layout import rub_workspace
 from carom.core.rub import wall_push
 from carom.core.segments import carry_through_chatter, follow_contact, follow_flights, strike
+from carom.core.sensitivity import sensitivity_of_flights
 from carom.models import Model
 from carom.motions.trajectories import EventLog, follow
 from carom.orbits.landings import NO_RETURN, distance_from_onset, slip_at_landing
@@ -174,6 +175,20 @@ def links_of(rotor: Model, word: Word, start: Start) -> Links:
         at = word.kinds, word.planes, word.conditions, nodes, durations, rub_workspace(modes, len(arrays.rows))
         follow_contact(arrays, *coordinates, *at, arrivals, values, slopes)
     return Links(Start(nodes, durations), arrivals, values, slopes, landings, slips)
+
+
+def by_parameter(rotor: Model, word: Word, start: Start, name: str) -> np.ndarray | None:
+    """Exact derivative of the left sides of the equations by a parameter of the rotor, shape (m (2N + 1),).
+
+    ``None`` for words with lasting contact, and where the rotor does not give the derivatives of its equations of motion.
+    """
+    rates = rotor.rates(name) if word.flies else None
+    if rates is None:
+        return None
+    system = rotor.system
+    at = word.kinds, word.planes, word.targets, *start
+    changes: np.ndarray = sensitivity_of_flights(system.arrays, *system.coordinates, *rates, *at)
+    return changes
 
 
 def _room(m: int, modes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

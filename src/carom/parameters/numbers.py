@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from carom.parameters.scaling import Parameters
 
 
+_STEP = 1e-30
+"""Its square is far below the rounding error of any parameter."""
+
+
 class Units(NamedTuple):
     """Mass, clearance and rotational speed, the units of the equations, as plain numbers."""
 
@@ -106,6 +110,11 @@ class Numbers(NamedTuple):
         other physical ones stay: the shaft speed ``Ω`` moves ``γ = c/(mΩ)`` and ``ω = √(k/m)/Ω``, and not ``ρ``.
         """
         return _MOVES[name](self, value)
+
+    def rates(self, name: str) -> list[float]:
+        """Derivatives of the seven numbers by a parameter: imaginary parts after a tiny imaginary step, exact but for rounding."""
+        moved = self.moved(name, complex(self.value(name), _STEP))  # type: ignore[arg-type]
+        return [complex(number).imag / _STEP for number in moved[:7]]
 
 
 def _with_speed(numbers: Any, speed: float) -> Numbers:
