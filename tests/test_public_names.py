@@ -3,6 +3,7 @@
 import ast
 import importlib.metadata
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -55,6 +56,11 @@ def test_import_loads_nothing_heavy():
     heavy = ("h5netcdf", "matplotlib", "numba", "numpy", "pandas", "pint", "pydantic", "rich", "typer", "xarray")
 
     assert run(f"import sys, carom; print([name for name in {heavy} if name in sys.modules])") == "[]"
+
+
+def test_only_packages_list_their_names():
+    modules = [path for path in Path(carom.__file__).parent.rglob("*.py") if path.name != "__init__.py"]
+    assert [path for path in modules if re.search("^__all__", path.read_text(encoding="utf-8"), re.MULTILINE)] == []
 
 
 def test_no_function_shadows_a_module():

@@ -25,8 +25,6 @@ from carom.core.rub import (
 from carom.core.rub_step import NOWHERE, leading_plane, rub_step
 from carom.outcome import Outcome
 
-__all__ = ["advance"]
-
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 LANDING = -1
 TIME_REACHED, EVENT_LIMIT = int(Outcome.TIME_REACHED), int(Outcome.EVENT_LIMIT)

@@ -8,18 +8,6 @@ from __future__ import annotations
 from carom.core.flow import squared_modulus
 from carom.core.layout import DEGREE, NODES, TERMS, part
 
-__all__ = [
-    "basis_amplitudes",
-    "derivatives",
-    "load_polynomial",
-    "load_products",
-    "look_at_node",
-    "move_to",
-    "nearest_node",
-    "rough_root",
-    "sign_changes",
-]
-
 
 @part
 def load_products(rotor, plane, origin, work):

@@ -27,8 +27,6 @@ from numba.core.serialize import dumps
 from carom.core.cache_directory import cache_directory, tell_once
 from carom.files import write_whole
 
-__all__ = ["KernelCache", "keep"]
-
 CHECKSUM = 32
 """Length of the checksum at the start of a file, in bytes."""
 

@@ -14,8 +14,6 @@ from platformdirs import user_cache_path
 
 from carom.outcome import CaromWarning
 
-__all__ = ["VARIABLE", "cache_directory", "tell_once"]
-
 VARIABLE = "CAROM_CACHE_DIR"
 """Environment variable that sets the cache directory."""
 TRIAL = 65_536

@@ -29,8 +29,6 @@ from carom.core.layout import NEAR, kernel, part, shared
 from carom.core.variation import section_jacobian, set_amplitude_change
 from carom.outcome import Outcome
 
-__all__ = ["ATTRACTS", "CLOSES", "OPEN", "PASSES", "REPELS", "close", "least_period"]
-
 EVENT_LIMIT = int(Outcome.EVENT_LIMIT)
 OPEN, CLOSES, ATTRACTS, REPELS = 0, 1, 2, 3
 """No orbit was found; an orbit that closes and is not known to attract or repel; one that attracts; one that repels."""

@@ -7,8 +7,6 @@ import numpy as np
 from carom.core.layout import kernel, part
 from carom.core.segments import follow_flights
 
-__all__ = ["carry_through_segments", "close_flights", "eliminate", "shooting_equations"]
-
 LAST = 1e-6
 """Longest last step, relative to one plus the size of the nodes; a longer one comes from the singular derivative at a fold."""
 

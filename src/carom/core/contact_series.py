@@ -24,8 +24,6 @@ from __future__ import annotations
 from carom.core.layout import ORDER, kernel, part
 from carom.outcome import Phase
 
-__all__ = ["AWAY", "BACKWARD_SLIP", "FLIGHT", "FORWARD_SLIP", "ROLLING", "rub_series"]
-
 FLIGHT, FORWARD_SLIP, BACKWARD_SLIP, ROLLING = (
     int(Phase.FLIGHT),
     int(Phase.FORWARD_SLIP),

@@ -11,8 +11,6 @@ from numba.extending import lower_builtin, type_callable
 
 from carom.core.layout import record
 
-__all__ = ["fresh_counter", "next_number"]
-
 _LOCK = threading.Lock()
 
 

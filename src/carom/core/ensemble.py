@@ -24,8 +24,6 @@ from carom.core.layout import LANES, NEAR, kernel, part, passage
 from carom.core.planar_proofs import stays_inside
 from carom.outcome import Outcome
 
-__all__ = ["MOTION", "Task", "Tools", "follow_each"]
-
 EVENT_LIMIT, GRAZING, TIME_REACHED = int(Outcome.EVENT_LIMIT), int(Outcome.GRAZING), int(Outcome.TIME_REACHED)
 BOUNCING, LEVITATED, MIXED = int(Outcome.BOUNCING), int(Outcome.LEVITATED), int(Outcome.MIXED)
 GOES_ON, SINGLY, NONE_YET = -1, -2, -3

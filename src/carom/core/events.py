@@ -33,8 +33,6 @@ from carom.core.flow import copy, displacement, nudge, squared_modulus
 from carom.core.layout import LEVELS, kernel, part, passage
 from carom.outcome import Outcome
 
-__all__ = ["INSIDE", "LEAVING", "first_crossing", "householder_step", "search"]
-
 CLEAR, CONTACT, GRAZING = int(Outcome.CLEAR), int(Outcome.CONTACT), int(Outcome.GRAZING)
 
 INSIDE, LEAVING = 0, 1

@@ -25,20 +25,6 @@ from carom.core.flow import squared_modulus
 from carom.core.layout import NEAR, kernel, record
 from carom.core.planar_proofs import planar_proofs
 
-__all__ = [
-    "approaches_turn",
-    "at_rest",
-    "doubt",
-    "forget",
-    "forget_rub",
-    "impacts_until_noted",
-    "levitates",
-    "memory",
-    "near_rub",
-    "recurs",
-    "same_state",
-]
-
 NO_TURN, SET_OUT, ROUND = 0, 1, 2
 
 

@@ -12,18 +12,6 @@ import numpy as np
 
 from carom.core.layout import kernel, part
 
-__all__ = [
-    "acceleration",
-    "complex_expm1",
-    "displacement",
-    "flight_increments",
-    "fly_all",
-    "nudge",
-    "squared_modulus",
-    "velocity",
-]
-
-
 THIRD = 1.0 / 3.0
 
 

@@ -8,8 +8,6 @@ import numpy as np
 
 from carom.core.layout import kernel
 
-__all__ = ["carry_orthogonal"]
-
 
 @kernel
 def carry_orthogonal(passages, directions, factors):

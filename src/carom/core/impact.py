@@ -7,8 +7,6 @@ import math
 from carom.core.flow import displacement, squared_modulus
 from carom.core.layout import part
 
-__all__ = ["move_plane", "rebound", "set_on_wall", "strike", "strike_variation", "unit"]
-
 
 @part
 def unit(z):

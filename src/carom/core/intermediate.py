@@ -20,8 +20,6 @@ from numba.core.types import unliteral  # type: ignore[attr-defined]
 
 from carom.core.steps import KernelCompiler
 
-__all__ = ["CallerPipeline", "SharedPipeline", "serve_kernels", "share_machine_code"]
-
 
 def serve_kernels(kernel: Any) -> None:
     """Make a kernel provide intermediate code only to the kernels that call it."""

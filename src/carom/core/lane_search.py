@@ -11,8 +11,6 @@ from carom.core.flow import squared_modulus
 from carom.core.layout import DEGREE, LANE_NODES, LEVELS, part
 from carom.core.vector import choose, fma, join, lanes_of, load, sqrt, store, take, truncate, where
 
-__all__ = ["departure", "examine", "halley_ratio", "look_up", "travel"]
-
 BINOMIALS = tuple(float(math.comb(DEGREE, j)) for j in range(DEGREE + 1))
 DIAGONAL = 1.5
 """Upper bound of the ratio of ``|Re z| + |Im z|`` to ``|z|``."""

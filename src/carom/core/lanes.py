@@ -20,8 +20,6 @@ from carom.core.lane_search import departure, examine, halley_ratio, look_up, tr
 from carom.core.layout import DEGREE, LANES, LEVELS, WIDTH, kernel, part, record
 from carom.core.vector import align_stack, fma, join, lanes_of, load, store, where
 
-__all__ = ["CLEARED", "LATE", "NOTED", "OPEN", "STRUCK", "fly_lanes", "lanes_record", "surely_flies"]
-
 CLEARED, STRUCK, NOTED, LATE, OPEN = 0.0, 1.0, 2.0, 3.0, 4.0
 """What happened to a lane.
 

@@ -14,30 +14,6 @@ from numba.core.registry import cpu_target
 from carom.core.cache import keep
 from carom.core.intermediate import CallerPipeline, SharedPipeline, serve_kernels, share_machine_code
 
-__all__ = [
-    "DEGREE",
-    "LANES",
-    "LANE_NODES",
-    "LANE_TERMS",
-    "LEVELS",
-    "NEAR",
-    "NODES",
-    "OCTET",
-    "ORDER",
-    "TERMS",
-    "WIDE",
-    "WIDTH",
-    "kernel",
-    "part",
-    "passage",
-    "record",
-    "rotor_record",
-    "rub_workspace",
-    "shared",
-    "table_record",
-    "workspace",
-]
-
 Kernel = TypeVar("Kernel", bound=Callable[..., object])
 
 NEAR = 1e-9

@@ -19,8 +19,6 @@ from numba.core.typed_passes import BaseNativeLowering
 from numba.core.types import Array, BaseTuple, Integer, NestedArray  # type: ignore[attr-defined]
 from numba.np.arrayobj import fix_integer_index, load_item, store_item
 
-__all__ = ["KernelLowering"]
-
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 class KernelLowering(BaseNativeLowering):  # type: ignore[misc]

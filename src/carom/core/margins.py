@@ -13,8 +13,6 @@ from carom.core.layout import ORDER, kernel, part
 from carom.core.segments import IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, strike
 from carom.core.taylor import series_step, sum_series
 
-__all__ = ["contact_margins", "highest_point", "least_margins", "local_motion"]
-
 SAMPLES, PER_RADIAN = 32, 10.0
 """Samples of a flight in the search for its highest point: at least, and per ``|λ|T``."""
 FINE = 10

@@ -34,8 +34,6 @@ import numpy as np
 from carom.core.flow import complex_expm1, squared_modulus
 from carom.core.layout import kernel, part
 
-__all__ = ["curvature_bound", "flight_return", "isolate", "longest_period", "propagator", "returns", "roots_on"]
-
 # B₂ₖ/(2k)! with the Bernoulli numbers B₂ₖ: g̃(z) = −1/2 − Σ B₂ₖ z^{2k−1}/(2k)!.
 _BERNOULLI = (
     1 / 12, -1 / 720, 1 / 30240, -1 / 1209600, 1 / 47900160, -691 / 1307674368000, 1 / 74724249600,

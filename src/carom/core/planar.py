@@ -14,8 +14,6 @@ from carom.core.flow import squared_modulus
 from carom.core.layout import kernel
 from carom.core.periods import propagator, returns
 
-__all__ = ["impact_jacobian", "orbit_conditions", "planar_exponents", "radial_course", "radial_profile"]
-
 _NEWTON_STEPS = 60
 
 

@@ -16,8 +16,6 @@ import numpy as np
 from carom.core.flow import squared_modulus
 from carom.core.layout import NEAR, kernel, record
 
-__all__ = ["absorbed", "planar_proofs", "rub_potentials", "runs_away", "stays_inside"]
-
 TURNS = 32
 """Largest number of turns of the faster mode tried as a period after which the slower mode nearly repeats too."""
 SLACK = 2e-4

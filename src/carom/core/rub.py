@@ -17,24 +17,6 @@ from carom.core.impact import set_on_wall, unit
 from carom.core.layout import ORDER, kernel, part
 from carom.core.taylor import first_fall, series_step, sum_series
 
-__all__ = [
-    "RESTING",
-    "first_contact",
-    "first_transition",
-    "fly_or_rub_all",
-    "forces_all",
-    "lift_off",
-    "meets_wall",
-    "next_phase",
-    "press",
-    "push_rounding",
-    "rest_on_wall",
-    "speed_rounding",
-    "turn_ahead",
-    "wall_push",
-]
-
-
 ROUNDING = 64 * 2.220446049250313e-16
 """Rounding error of a sum over the modes, relative to the moduli of its terms."""
 RESTING = 4.0

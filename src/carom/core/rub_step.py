@@ -13,8 +13,6 @@ from carom.core.rub import first_contact, first_transition, next_phase, rest_on_
 from carom.core.taylor import series_step, sum_series
 from carom.outcome import Outcome
 
-__all__ = ["NOWHERE", "leading_plane", "rub_step"]
-
 CONTACT, TIME_REACHED = int(Outcome.CONTACT), int(Outcome.TIME_REACHED)
 FORWARD_RUB, BACKWARD_WHIRL, ROLLS_ON = (
     int(Outcome.FORWARD_RUB),

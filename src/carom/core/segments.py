@@ -25,28 +25,6 @@ from carom.core.layout import ORDER, kernel, part
 from carom.core.taylor import series_step, sum_series
 from carom.core.variation import carry_through_impact, carry_to_wall
 
-__all__ = [
-    "CONE_BACKWARD",
-    "CONE_FORWARD",
-    "IMPACT_BACKWARD",
-    "IMPACT_FORWARD",
-    "IMPACT_STOPPED",
-    "LAND",
-    "LEAST_PUSH",
-    "LIFT",
-    "MEETS_WALL",
-    "NO_CONDITION",
-    "NO_PUSH",
-    "NO_SLIP",
-    "ROLL",
-    "SLIDE_BACKWARD",
-    "SLIDE_FORWARD",
-    "carry_through_chatter",
-    "follow_contact",
-    "follow_flights",
-    "strike",
-]
-
 IMPACT_FORWARD, IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, LAND, SLIDE_FORWARD, SLIDE_BACKWARD, ROLL = range(8)
 """Kinds of segments; the first four are flights."""
 NO_CONDITION, MEETS_WALL, NO_PUSH, NO_SLIP, CONE_FORWARD, CONE_BACKWARD, LEAST_PUSH = range(7)

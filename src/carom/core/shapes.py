@@ -12,8 +12,6 @@ from numba.core import ir, types
 from numba.core.compiler_machinery import FunctionPass, register_pass
 from numba.core.ir_utils import build_definitions, find_const, get_definition, guard
 
-__all__ = ["RecordShapes"]
-
 
 @register_pass(mutates_CFG=False, analysis_only=False)
 class RecordShapes(FunctionPass):  # type: ignore[misc]

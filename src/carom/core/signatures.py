@@ -12,8 +12,6 @@ from typing import Any, ClassVar
 
 from numba.core import types
 
-__all__ = ["RecallingContext"]
-
 
 class RecallingContext:
     """Numba's typing context that recalls the types of operations; calls of kernels are not operations.

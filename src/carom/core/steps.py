@@ -12,8 +12,6 @@ from carom.core.lowering import KernelLowering
 from carom.core.shapes import RecordShapes
 from carom.core.signatures import RecallingContext
 
-__all__ = ["KernelCompiler"]
-
 LEFT_OUT = InlineClosureLikes, InlineOverloads, NopythonRewrites
 """Steps that change nothing in kernels: for closures, for overloads that are inlined, and for expressions of whole arrays."""
 

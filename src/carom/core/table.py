@@ -23,8 +23,6 @@ import numpy as np
 
 from carom.core.layout import DEGREE, LANE_NODES, LANE_TERMS, LEVELS, NODES, OCTET, table_record
 
-__all__ = ["flight_table"]
-
 LONGEST_BLOCK = 3.0
 """Longest time of a block.
 

@@ -6,8 +6,6 @@ import os
 import platform
 from functools import cache
 
-__all__ = ["processor"]
-
 _VECTORS = ("sse", "ssse", "avx", "fma", "f16c", "neon", "fullfp16", "sve", "altivec", "vsx", "lsx", "lasx")
 """Prefixes of the names of processor features for vectors and fused operations."""
 _CHOSEN = ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES")

@@ -9,8 +9,6 @@ import math
 
 from carom.core.layout import ORDER, kernel
 
-__all__ = ["first_fall", "series_step", "sum_series"]
-
 STEP_FRACTION = 0.135
 """Ratio of step to radius of convergence: ``0.135^ORDER`` is below rounding."""
 NEWTON_STEPS = 8

@@ -8,8 +8,6 @@ from carom.core.flow import displacement, flight_increments, velocity
 from carom.core.impact import strike_variation, unit
 from carom.core.layout import kernel, part
 
-__all__ = ["carry_through_impact", "carry_to_wall", "section_jacobian", "set_amplitude_change", "shift"]
-
 
 @kernel
 def carry_through_impact(rotor, plane, before, directions):

@@ -23,8 +23,6 @@ from carom.core.vector.kinds import (
 from carom.core.vector.parts import FREEDOM, complex_of, constant, each, minus, negative, parts, plus, times
 from carom.core.vector.uncompiled import fma, join, sqrt, truncate, where
 
-__all__ = ["register"]
-
 SCALARS = (types.Float, types.Integer, types.Complex)
 COMPARISONS = {operator.lt: "<", operator.le: "<=", operator.gt: ">", operator.ge: ">=", operator.eq: "=="}
 

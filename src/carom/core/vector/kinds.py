@@ -10,20 +10,6 @@ from numba.extending import make_attribute_wrapper, overload_method, register_mo
 from carom.core.layout import OCTET, WIDTH
 from carom.core.vector.uncompiled import join
 
-__all__ = [
-    "BITS",
-    "COMPLEX",
-    "CONDITION",
-    "COUNT",
-    "DOUBLES",
-    "REAL",
-    "ComplexLanes",
-    "Condition",
-    "RealLanes",
-    "are_numbers",
-    "common",
-]
-
 COUNT = WIDTH // OCTET
 DOUBLES, BITS = ir.VectorType(ir.DoubleType(), OCTET), ir.VectorType(ir.IntType(1), OCTET)
 

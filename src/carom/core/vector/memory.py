@@ -11,8 +11,6 @@ from carom.core.vector.kinds import COUNT, DOUBLES, REAL, Condition, RealLanes, 
 from carom.core.vector.parts import all_of, each, parts, spread
 from carom.core.vector.uncompiled import align_stack, choose, lanes_of, load, store, take
 
-__all__ = ["register"]
-
 INTEGERS = ir.VectorType(ir.IntType(64), OCTET)
 WORD = ir.IntType(64)
 

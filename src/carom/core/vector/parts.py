@@ -11,20 +11,6 @@ from numba.core import types
 from carom.core.layout import OCTET
 from carom.core.vector.kinds import COMPLEX, COUNT, DOUBLES, ComplexLanes, RealLanes
 
-__all__ = [
-    "FREEDOM",
-    "all_of",
-    "complex_of",
-    "constant",
-    "each",
-    "minus",
-    "negative",
-    "parts",
-    "plus",
-    "spread",
-    "times",
-]
-
 FREEDOM = ("contract", "nsz")
 """Compiler flags of all kernels: a product and a sum may be fused (rounded once); the sign of zero is ignored."""
 

@@ -6,8 +6,6 @@ import numpy as np
 
 from carom.core.layout import WIDTH
 
-__all__ = ["align_stack", "choose", "fma", "join", "lanes_of", "load", "sqrt", "store", "take", "truncate", "where"]
-
 
 def load(array, first):
     """WIDTH numbers of an array, from an entry on."""
