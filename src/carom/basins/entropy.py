@@ -81,9 +81,14 @@ def basin_entropy(basin: Basin, side: int | None = None) -> BasinEntropy:
     return entropies(basin.dataset["motion"].values, side)
 
 
+def usual_side(dimensions: int) -> int:
+    """Starts along the side of a box, where it is not chosen."""
+    return max(2, round(IN_A_BOX ** (1.0 / dimensions)))
+
+
 def entropies(labels: np.ndarray, side: int | None = None) -> BasinEntropy:
     """Basin entropy of labels on a grid with room for a box; boxes with a negative label are left out."""
-    side = side or max(2, round(IN_A_BOX ** (1.0 / labels.ndim)))
+    side = side or usual_side(labels.ndim)
     counts = [cells // side for cells in labels.shape]
     if side < 2 or not all(counts):
         raise InputError("side", side, f"2 to {min(labels.shape)}, the smallest side of the grid")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from carom.basins.dataset import Mapped, provenance
-from carom.basins.entropy import entropies
+from carom.basins.entropy import entropies, usual_side
 from carom.basins.integrity_measures import safe_size
 from carom.basins.losses import smallest_lost
 from carom.basins.shares import Share
@@ -215,9 +215,8 @@ def _measures(plan: Plan, outcomes: np.ndarray) -> dict[str, Any]:
         if isinstance(plan.model, VelocityKick | BaseShock):
             size = plan.model.coordinates[0]
             measures["integrity"] = safe_size(size, exists & ~back) / size.high
-        side = max(2, round(25 ** (1.0 / len(plan.shape))))
-        if min(plan.shape) >= side:
-            entropy = entropies(outcomes, side)
+        if min(plan.shape) >= usual_side(len(plan.shape)):
+            entropy = entropies(outcomes)
             measures |= {"basin_entropy": entropy.whole, "boundary_basin_entropy": entropy.boundary}
     return measures
 

@@ -45,18 +45,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )
-app.command("study", help=study.__doc__)(study)
-app.command("simulate", help=simulate.__doc__)(simulate)
-app.command("orbits", help=orbits.__doc__)(orbits)
-app.command("attractors", help=attractors.__doc__)(attractors)
-app.command("prove", help=prove.__doc__)(prove)
-app.command("response", help=response.__doc__)(response)
-app.command("bifurcations", help=bifurcations.__doc__)(bifurcations)
-app.command("regions", help=regions.__doc__)(regions)
-app.command("basins", help=basins.__doc__)(basins)
-app.command("sweep", help=sweep.__doc__)(sweep)
-app.command("paper", help=paper.__doc__)(paper)
-app.command("explore", help=explore.__doc__)(explore)
+for each in study, simulate, orbits, attractors, prove, response, bifurcations, regions, basins, sweep, paper, explore:
+    app.command(each.__name__, help=each.__doc__)(each)
 
 
 def _print_version(wanted: bool) -> None:

@@ -97,7 +97,7 @@ def touchdown_loads(trajectory: Trajectory) -> TouchdownLoads:
     landings = trajectory.log_of(trajectory.is_landing & at_plane)
     heat, force, power = _lasting(trajectory)
     if trajectory.outcome is Outcome.ROLLING:
-        force = max(force, _rolling_force(trajectory))
+        force = max(force, known_of(trajectory.rotor).rolling_force)
     return TouchdownLoads(
         outcome=trajectory.outcome,
         impacts=len(log),
@@ -150,8 +150,3 @@ def _lasting_power(trajectory: Trajectory, log: ContactLog) -> float:
     recent = slice(-max(RECENT, 2 * trajectory.multiplicity) - 1, None)
     times, works = log.time[recent], _friction_work(log)[recent]
     return float(works[1:].sum() / (times[-1] - times[0]))
-
-
-def _rolling_force(trajectory: Trajectory) -> float:
-    """Largest force of a planar rotor that goes on rolling; 0 for others, of which only what was followed is known."""
-    return known_of(trajectory.rotor).rolling_force

@@ -106,10 +106,6 @@ def _ranges(diagram: Diagram) -> dict[str, tuple[list[Interval], list[Interval]]
     return found
 
 
-def _interval(first: float, second: float) -> Interval:
-    return min(first, second), max(first, second)
-
-
 def _on_grid(values: np.ndarray, there: np.ndarray, marks: list[float]) -> list[Interval]:
     """Return the intervals of an ascending grid where a motion exists, up to the special points at which it ends."""
     steps = []
@@ -137,7 +133,7 @@ def _on_orbits(branches: Sequence[OrbitBranch]) -> tuple[list[Interval], list[In
             orbit = min(int(places[i + 1] if whole[i + 1] else np.floor(places[i])), len(branch) - 1)
             if branch.admissible[orbit]:
                 group = stable if branch.stable[orbit] else unstable
-                group.append(_interval(values[i], values[i + 1]))
+                group.append((min(values[i : i + 2]), max(values[i : i + 2])))
     return stable, unstable
 
 

@@ -5,6 +5,7 @@ Conventions of the field: stable solid, unstable dashed, virtual faint; every ki
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -54,25 +55,24 @@ POINTS = MappingProxyType(
 )
 """Markers of special points (read-only)."""
 
-CURVES = MappingProxyType(
-    {
-        "fold": Look("#1a1a1a", "fold of two orbits", line="-", width=1.1),
-        "speed-fold": Look("#1a1a1a", "fold of two radial speeds", line="-.", width=0.9),
-        "period-doubling": Look("#d55e00", "period doubling", line="--", width=1.1),
-        "neimark-sacker": Look("#56b4e9", "Neimark–Sacker bifurcation", line="-.", width=1.1),
-        "grazing": Look("#0072b2", "grazing", line=(0.0, (6.0, 1.5, 1.0, 1.5)), width=1.1),
-        "slip-stop": Look("#e69f00", "friction stops the slip", line=":", width=1.1),
-        "boundary-equilibrium": Look("#009e73", "levitation meets the wall", line="-", width=1.2),
-        "non-smooth-hopf": Look("#a3dcca", "non-smooth Hopf bifurcation", line="-", width=4.5),
-        "rub-fold": Look("#cc79a7", "fold of synchronous rubs", line="--", width=1.4),
-        "contact-onset": Look("#7a4fa3", "lasting contact begins", line="-", width=1.1),
-        "permanent-contact": Look("#7a4fa3", "contact becomes permanent", line="--", width=1.1),
-        "cone-limit": Look("#882255", "rolling begins at the limit of friction", line=":", width=1.1),
-        "slide-stop": Look("#882255", "friction stops sliding", line="--", width=1.1),
-        "lift-off": Look("#7a4fa3", "the rotor lifts off in between", line=":", width=1.1),
-        "rolling-limit": Look("#882255", "rolling no longer holds", line="-.", width=1.1),
-    }
-)
+_LINES: dict[str, dict[str, Any]] = {
+    "fold": {"line": "-", "width": 1.1},
+    "speed-fold": {"line": "-.", "width": 0.9},
+    "period-doubling": {"line": "--", "width": 1.1},
+    "neimark-sacker": {"line": "-.", "width": 1.1},
+    "grazing": {"line": (0.0, (6.0, 1.5, 1.0, 1.5)), "width": 1.1},
+    "slip-stop": {"line": ":", "width": 1.1},
+    "boundary-equilibrium": {"line": "-", "width": 1.2},
+    "non-smooth-hopf": {"line": "-", "width": 4.5, "colour": "#a3dcca"},
+    "rub-fold": {"line": "--", "width": 1.4},
+    "contact-onset": {"line": "-", "width": 1.1},
+    "permanent-contact": {"line": "--", "width": 1.1},
+    "cone-limit": {"line": ":", "width": 1.1},
+    "slide-stop": {"line": "--", "width": 1.1},
+    "lift-off": {"line": ":", "width": 1.1},
+    "rolling-limit": {"line": "-.", "width": 1.1},
+}
+CURVES = MappingProxyType({kind: replace(POINTS[kind], marker="none", **look) for kind, look in _LINES.items()})
 """Lines of curves in two parameters (read-only)."""
 
 BOUNDARIES = MappingProxyType(

@@ -24,7 +24,7 @@ from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.lines import Line, line_of
 from carom.proofs.rotor import Rotor
 from carom.proofs.series import hull
-from carom.proofs.slip import out_of_clearance, time_out
+from carom.proofs.slip import slip_claim
 
 _LONGEST = 300
 """Characters of a reason."""
@@ -95,7 +95,8 @@ def _claims_along(line: Line, evidence: Evidence, most: int, narrowest: Fraction
     cuts = evidence.take("blocks", lambda: _cuts(line, most, narrowest, evidence.tell.part(0.0, 0.5)))
     tell = evidence.tell if evidence.reading else evidence.tell.part(0.5, 1.0)
     stretches = _stretches(_pieces(line, cuts, most, tell))
-    slip = _slip_claim(line, evidence)
+    words = f"For all {line.words}, no orbit with one impact a period stops its slip or slips backward."
+    slip = slip_claim(line.at(line.ball), evidence, words)
     claims = [slip, _all_claim(line, stretches, slip)]
     for name in sorted({fact.name for stretch in stretches for fact in stretch.facts or ()}):
         claims += _orbit_claims(line, name, stretches)
@@ -212,20 +213,6 @@ def _stretches(pieces: Sequence[Stretch]) -> list[Stretch]:
 
 
 # ------------------------------------------------------------------------------------------------ claims
-
-
-def _slip_claim(line: Line, evidence: Evidence) -> Claim:
-    """Claim that no orbit with one impact a period stops its slip or slips backward, for all values."""
-    numbers = line.at(line.ball)
-    statement = f"For all {line.words}, no orbit with one impact a period stops its slip or slips backward."
-    if numbers.mu.is_zero():
-        return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
-    time = evidence.take("out of the clearance after", lambda: time_out(numbers))
-    shown = time is not None
-    if time is not None and not out_of_clearance(numbers, rational_of(time)):
-        raise NotShownError(f"the certificate does not show that the rotor is out of the clearance after {time}")
-    reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
-    return claim_of("machine", "slip", statement, int(shown), reason=reason, limited=False)
 
 
 def _all_claim(line: Line, stretches: Sequence[Stretch], slip: Claim) -> Claim:

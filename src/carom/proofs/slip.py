@@ -24,17 +24,16 @@ from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
 
 STEPS = 64
+STATEMENT = (
+    "No periodic motion with one impact a period, inside the clearance in between, has an impact that stops the slip "
+    "or that begins with backward slip."
+)
 
 
-def slip_claim(rotor: Rotor, evidence: Evidence) -> Claim:
-    """Claim that no orbit with one impact a period stops its slip or slips backward."""
-    statement = (
-        "No periodic motion with one impact a period, inside the clearance in between, has an impact that stops the slip "
-        "or that begins with backward slip."
-    )
-    if rotor.hypotheses.rational("mu") == (Fraction(0),):
-        statement = "There is no friction: slip changes nothing."
-        return claim_of("machine", "slip", statement, 1)
+def slip_claim(rotor: Rotor | Numbers, evidence: Evidence, statement: str = STATEMENT) -> Claim:
+    """Claim that no orbit with one impact a period stops its slip or slips backward; of one machine, or all that balls hold."""
+    if rotor.mu.is_zero():
+        return claim_of("machine", "slip", "There is no friction: slip changes nothing.", 1)
     found = evidence.take("out of the clearance after", lambda: time_out(rotor))
     if found is None:
         reason = "the rotor is so small or so strongly held that it may stay inside after such an impact"
