@@ -228,10 +228,7 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
     if base.mu < 0.0:
         raise InputError("bifurcation", f"{kind} of {bifurcation.name}", "one of an orbit with forward slip")
     plane.axes(base.parameters)
-    start = np.array(plane.place_of(base))
-    lows, highs = np.transpose([plane.first_range, plane.second_range])
-    if not ((lows <= start) & (start <= highs)).all():
-        raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
+    start, sizes = plane.start_at(base)
     if kind not in KINDS:
         raise InputError("kind", kind, f"one of: {', '.join(KINDS)}")
     definition, guess = KINDS[kind], [bifurcation.period, bifurcation.radial_speed]
@@ -254,7 +251,6 @@ def continue_curve(bifurcation: Bifurcation, plane: Plane, steps: Steps | None =
         return Watch(name, lambda u, p: test(numbers(u, p), *_orbit(kind, u)), at_zero="end" if ends else "pass")
 
     bounds = [Watch(BOUNDLESS, lambda u, _: FASTEST - abs(u[1]), at_zero="end")] if definition.unknowns else []
-    sizes = np.maximum(np.abs(start), 0.1 * (highs - lows))
     equations, jacobian = _system(kind, numbers_at)
     scales = np.array([*np.ones(definition.unknowns), *sizes])
     branch = continue_branch(

@@ -62,6 +62,19 @@ class Plane:
         """Values of both parameters, whether inside the plane or outside."""
         return at.value(self.first), at.value(self.second)
 
+    def start_at(self, at: Model | Numbers) -> tuple[np.ndarray, np.ndarray]:
+        """Place of a point from which a curve is followed, and typical sizes of both parameters there, shape (2,).
+
+        Raises
+        ------
+        InputError
+            It lies outside the plane.
+        """
+        start, (lows, highs) = np.array(self.place_of(at)), np.transpose([self.first_range, self.second_range])
+        if not ((lows <= start) & (start <= highs)).all():
+            raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
+        return start, np.maximum(np.abs(start), 0.1 * (highs - lows))
+
     def holds(self, x: float, y: float) -> bool:
         """Whether a point lies in the plane, within rounding."""
         return all(

@@ -16,7 +16,6 @@ from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.word_equations import REMEMBERED, TESTS, FamilyPoint, halving, point_at
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Model
-from carom.models.axes import axis
 from carom.orbits.shooting import pack_free
 from carom.outcome import InputError
 
@@ -112,12 +111,9 @@ def continue_word_curve(special: Bifurcation, plane: Plane, steps: Steps | None 
         # Its function has a slope that depends on the number of the bounce in which friction stops the slip.
         raise InputError("kind", f"slide-stop of {special.orbit.word}", "a slide-stop of an orbit without chatter")
     rotor = special.orbit.rotor
-    start = np.array([axis(rotor, name).value(rotor) for name in (plane.first, plane.second)])
-    lows, highs = np.transpose([plane.first_range, plane.second_range])
-    if not ((lows <= start) & (start <= highs)).all():
-        raise InputError("parameters", tuple(start.tolist()), "a point of the plane")
+    start, typical = plane.start_at(rotor)
     unknowns = pack_free(special.orbit.word, special.orbit.links.start)
-    sizes = np.concatenate([np.ones(len(unknowns)), np.maximum(np.abs(start), 0.1 * (highs - lows))])
+    sizes = np.concatenate([np.ones(len(unknowns)), typical])
     equations = _CurveEquations(special, plane, sizes)
     equations.weigh(np.concatenate([unknowns, start]))
     branch = continue_branch(
