@@ -96,7 +96,7 @@ class DisturbanceSet:
 
     def kicks(self, rotor: Model) -> int:
         """Number of kicks in the set; they come first."""
-        levitates = np.abs(rotor.system.arrays.offsets).max() < 1.0
+        levitates = rotor.system.rest_radius < 1.0
         return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if levitates else 0
 
     def starts(self, rotor: Model) -> Starts:

@@ -188,7 +188,7 @@ def measured(
 def _machine(rotor: Model, plan: Plan, axes: tuple[Axis, Axis], node: tuple[float, ...]) -> tuple[Model, Starts]:
     """Machine of a node and its starts; none of them exists if it cannot levitate."""
     moved = rotor.replace(**{varied.name: value for varied, value in zip(axes, node, strict=True)})
-    if np.abs(moved.system.arrays.offsets).max() >= 1.0:
+    if moved.system.rest_radius >= 1.0:
         nowhere = np.zeros((plan.count, *moved.system.rest.shape)[: 1 + (moved.system.rest.size > 1)], complex)
         return moved, Starts.of(np.zeros(plan.count), 0j, False)._replace(positions=nowhere, velocities=nowhere)
     return moved, plan.rescaled(rotor.scales, moved.scales).starts(moved)

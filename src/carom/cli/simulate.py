@@ -162,7 +162,7 @@ def _follow(rotor: Model, start: State | Kick, kick: str | None, end: float | No
     from carom.motions.starts import Kick
     from carom.motions.trajectories import simulate as follow
 
-    radius = float(abs(rotor.system.arrays.offsets[0]))
+    radius = rotor.system.rest_radius
     if isinstance(start, Kick) and radius > 1.0:
         words = f"needs levitation, but |U*| = {radius:.6g} is outside the wall; use --start"
         raise InputError("--kick", kick, words)

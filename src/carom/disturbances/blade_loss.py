@@ -60,7 +60,7 @@ class BladeLoss(Disturbance):
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
         """Levitation of the machine before the loss, in the frame in which the phase of the unbalance stays the same."""
         (phase,) = values
-        levitates = bool((np.abs(rotor.system.arrays.offsets) < 1.0).all())
+        levitates = rotor.system.rest_radius < 1.0
         cosine, sine, rest = np.cos(phase), np.sin(phase), rotor.system.rest * levitates
         if len(rest) > 1:
             cosine, sine = cosine[..., None], sine[..., None]
@@ -91,8 +91,8 @@ class BladeLoss(Disturbance):
         rotor = model_of(machine)
         starts = self.starts(rotor, np.array(float(phase)))
         if not starts.exists:
-            radius = float(np.abs(rotor.system.arrays.offsets).max())
-            raise InputError("disturbance", f"|U*| = {radius:.6g}", "needs levitation inside the wall before the loss")
+            radius = f"|U*| = {rotor.system.rest_radius:.6g}"
+            raise InputError("disturbance", radius, "needs levitation inside the wall before the loss")
         return self.machine_after(rotor), State.of(starts.positions, starts.velocities)
 
     def lost(self, rotor: Model, phase: float) -> float:

@@ -144,7 +144,7 @@ class BaseShock(Disturbance):
         from carom.disturbances.shocks import states_after_shocks
 
         peaks, directions = np.broadcast_arrays(*values)
-        if not _levitates(rotor):
+        if rotor.system.rest_radius >= 1.0:
             return displaced(rotor, np.zeros(peaks.shape, complex), np.zeros(peaks.shape), False)
         positions, velocities, undecided, touched = states_after_shocks(rotor, peaks, self.duration, directions)
         return Starts(positions, velocities, np.ones(peaks.shape, bool), undecided, touched)
@@ -165,8 +165,4 @@ def _kicked(rotor: Model, velocity: np.ndarray) -> Starts:
     if len(rotor.system.rest) == 1:
         positions, velocities = positions[..., 0], velocities[..., 0]
     none = np.zeros(velocity.shape, bool)
-    return Starts(positions, velocities, none | _levitates(rotor), none, none)
-
-
-def _levitates(rotor: Model) -> bool:
-    return bool((np.abs(rotor.system.arrays.offsets) < 1.0).all())
+    return Starts(positions, velocities, none | (rotor.system.rest_radius < 1.0), none, none)

@@ -65,6 +65,6 @@ def require_start(rotor: Model, starts: Starts) -> None:
     if not starts.exists.any():
         raise InputError(
             "disturbance",
-            f"|U*| = {np.abs(rotor.system.arrays.offsets).max():.6g}",
+            f"|U*| = {rotor.system.rest_radius:.6g}",
             "one that is possible: out of levitation inside the wall (|U*| < 1), or a start inside the wall",
         )

@@ -174,6 +174,11 @@ class System(Result):
         planes: np.ndarray = self.arrays.rows @ self.to_modes[:, : len(self.rest)]
         return planes
 
+    @property
+    def rest_radius(self) -> float:
+        """Largest distance of a contact plane from its centre at the contact-free equilibrium: there is levitation below 1."""
+        return float(np.abs(self.arrays.offsets).max())
+
     @cached_property
     def carried(self) -> np.ndarray:
         """Distance by which each contact plane moves when the rotor as a whole moves by one, shape (P,)."""

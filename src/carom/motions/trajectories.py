@@ -25,7 +25,6 @@ from carom.results import Result
 if TYPE_CHECKING:
     import xarray
 
-"""Outcomes of motions that keep hitting the wall: periodic, or irregular."""
 ROUNDING = 1e-12
 """Excess over the range of times, relative to its length, that counts as rounding."""
 CHUNK = 4096

@@ -14,6 +14,7 @@ from matplotlib.patches import Circle
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
+from carom.disturbances import outward_from
 from carom.outcome import InputError
 from carom.plots.cells import CHORDS, MotionLook, finish, ink, motion_looks, paint
 from carom.plots.figure import StyledFigure
@@ -169,15 +170,10 @@ def _plane(basin: Basin, motions: list[MotionLook], smallest: SmallestLoss | Non
             axes.set_aspect("equal")
             axes.plot([0.0], [0.0], "+", ms=6.0, mew=0.7, color="white")
         if smallest is not None and smallest.size is not None:
-            turned = smallest.size * np.exp(1j * (smallest.angle or 0.0)) * np.conj(_outward(basin))
+            turned = smallest.size * np.exp(1j * (smallest.angle or 0.0)) * np.conj(outward_from(basin.rotor))
             axes.plot([factor * turned.real], [factor * turned.imag], ls="none", gid="smallest", **_LOST)
             handles = [_lost_handle(smallest)]
     return finish(figure, motions, title, handles, columns=2)
-
-
-def _outward(basin: Basin) -> complex:
-    rest = complex(basin.rotor.system.arrays.offsets[0])
-    return rest / abs(rest) if rest else complex(np.exp(1j * basin.rotor.unbalance_phase))
 
 
 def _bars(basin: Basin, motions: list[MotionLook], title: str | None) -> Figure:

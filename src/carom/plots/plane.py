@@ -274,10 +274,10 @@ def key(figure: Figure, drawn: Iterable[Axes], columns: int) -> Legend:
     return figure.legend(handles, words, loc="outside lower center", ncols=min(columns, len(words)))
 
 
-def legend_below(axes: Axes, columns: int = 2) -> Legend:
+def legend_below(axes: Axes) -> Legend:
     """Add the same legend below one axes that belongs to a figure of the user."""
     handles, words = _unique([axes])
-    return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(columns, len(words)))
+    return axes.legend(handles, words, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=min(2, len(words)))
 
 
 def legend_above(axes: Axes, handles: Sequence[Artist], columns: int) -> Legend:

@@ -7,8 +7,8 @@ import platform
 import secrets
 import shutil
 import warnings
-from collections.abc import Sequence
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -141,10 +141,12 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
 
     names = [axis.name for axis in plan.axes]
     group = zarr.create_group(path, zarr_format=3, attributes=description_of(plan))
+    add = partial(group.create_array, compressors=Crc32cCodec())
     for name, (values, words) in coordinates_of(plan).items():
-        _add(group, name, values, [name], words)
+        size = values.shape
+        add(name, shape=size, chunks=size, dtype=values.dtype, dimension_names=[name], attributes=words)[:] = values
     for variable in plan.variables:
-        group.create_array(
+        add(
             variable.name,
             shape=plan.shape + variable.shape,
             chunks=plan.chunk_shape + variable.shape,
@@ -152,25 +154,9 @@ def _lay_out(path: Path, plan: SweepPlan) -> None:
             fill_value=variable.fill,
             dimension_names=[*names, variable.along.name] if variable.along else names,
             attributes=variable.attributes,
-            compressors=Crc32cCodec(),
             filters=None,
         )
     with warnings.catch_warnings():
         # Zarr warns that its specification 3 does not describe consolidated metadata yet, which spare readers a search.
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)
-
-
-def _add(group: Any, name: str, values: np.ndarray, dimensions: Sequence[str], attributes: dict[str, Any]) -> None:
-    from zarr.codecs import Crc32cCodec
-
-    array = group.create_array(
-        name,
-        shape=values.shape,
-        chunks=values.shape,
-        dtype=values.dtype,
-        dimension_names=dimensions,
-        attributes=attributes,
-        compressors=Crc32cCodec(),
-    )
-    array[:] = values
