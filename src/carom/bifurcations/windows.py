@@ -124,8 +124,8 @@ def orbit_windows(
 
     Parameters
     ----------
-    parameters : Parameters
-        With positive damping at all values.
+    machine : Machine, Case, Parameters or model
+        The planar rotor, with positive damping at all values.
     parameter : str
         Dimensionless, or physical (in SI units; needs scales).
     values : sequence of float

@@ -20,8 +20,6 @@ from carom.core.impact import unit
 from carom.core.layout import kernel, part
 from carom.core.segments import IMPACT_FORWARD, IMPACT_STOPPED, strike
 
-__all__ = ["sensitivity_of_flights"]
-
 NEGLIGIBLE, MOST_TERMS = 1e-17, 30
 """Size of the first term left out of the power series, relative to the sum, and more terms than that takes."""
 
