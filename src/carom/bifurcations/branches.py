@@ -12,7 +12,7 @@ import numpy as np
 from carom.bifurcations.conditions import is_admissible, jacobian_at, name_of, with_slip
 from carom.bifurcations.points import Bifurcation
 from carom.bifurcations.solutions import Solution
-from carom.models import Jeffcott, Model
+from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.admissibility import SLIPS
 from carom.orbits.names import CountedName, OrbitName
@@ -128,8 +128,7 @@ class OrbitBranch(Result):
     def _at_wall(self) -> np.ndarray:
         """:func:`speeds_at` of each orbit, shape (m, segments)."""
         nodes = [unpack(unknowns, len(self.word)).nodes for unknowns in self.unknowns]
-        if isinstance(self.rotor, Jeffcott):
-            # The displacement of its plane is its coordinate, whatever the parameters.
+        if self.rotor.rates(self.parameter) is not None:  # the contact planes stay
             planes = np.tile(self.word.planes, len(self))
             return speeds_at(self.rotor, planes, np.concatenate(nodes)).reshape(len(self), -1)
         pairs = zip(self.values.tolist(), nodes, strict=True)
@@ -193,7 +192,9 @@ def orbit_at(rotor: Model, word: Word, unknowns: np.ndarray, name: OrbitName | C
 
 def speeds_at(rotor: Model, planes: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` at nodes (m, 2n), as real and imaginary part, shape (m,)."""
-    position, velocity = rotor.system.at_planes(rotor.system.amplitudes_of(nodes), planes)
+    n = nodes.shape[1] // 2
+    rows = rotor.system.planes[planes]
+    position, velocity = np.einsum("mn,mn->m", rows, nodes[:, :n]), np.einsum("mn,mn->m", rows, nodes[:, n:])
     speeds: np.ndarray = velocity / position
     return speeds.real * np.abs(position) + 1j * speeds.imag
 

@@ -13,19 +13,20 @@ from typing import Any
 import numpy as np
 
 from carom.bifurcations.branches import speeds_at
-from carom.bifurcations.conditions import BOUNDLESS, FASTEST, profile_at, with_slip
+from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, OF_CONTACT, ONSET, PERMANENT
 from carom.continuation import Watch
+from carom.core.margins import local_motion
+from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
-from carom.core.segments import LEAST_PUSH
-from carom.models import Jeffcott, Model
+from carom.core.segments import LEAST_PUSH, strike
+from carom.models import Model
 from carom.models.axes import Axis
-from carom.orbits.admissibility import SLIPS, departure
+from carom.orbits.admissibility import departure
 from carom.orbits.orbit import Margins, margins_of
 from carom.orbits.shooting import Links, by_parameter, closed_flights, links_of, pack, unpack, unpack_free
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
-from carom.parameters import Numbers
 
 DIFFERENCE = 1e-6
 """Step of the differences by the parameter, relative to its size, where there is no exact derivative; they only bend the predicted direction."""
@@ -81,10 +82,14 @@ class FamilyPoint:
 
     @property
     def flattest(self) -> float:
-        """What changes its sign where the radius between impacts of the planar rotor gains a maximum and a minimum."""
-        start, numbers = self.links.start, with_slip(Numbers.of(self.rotor.parameters), SLIPS[self.word[0].kind])
-        speed = speeds_at(self.rotor, self.word.planes, start.nodes)[0].real
-        return profile_at(numbers, float(start.durations[0]), float(speed)).flattest
+        """What changes its sign where the radius between impacts of a planar rotor gains a maximum and a minimum."""
+        system, (nodes, durations) = self.rotor.system, self.links.start
+        amplitudes = system.amplitudes_of(nodes)
+        (before,) = local_motion(system.arrays, self.word.planes, amplitudes)
+        strike(system.arrays, 0, self.word.kinds[0], amplitudes[0], np.empty((0, 2), complex))
+        (slow, fast), (driving, driven) = system.exponents.tolist(), amplitudes[0].tolist()
+        at = system.arrays["offsets"][0], driven, driving, system.arrays["restitution"][0]
+        return float(flight_profile(slow, fast, *at, durations[0], before[1])[2])
 
     @property
     def least_push(self) -> float:
@@ -96,7 +101,7 @@ class FamilyPoint:
     def multipliers(self) -> list[complex]:
         """Non-trivial multipliers; ``nan`` where an impact grazes."""
         monodromy = self.links.monodromy
-        if not np.isfinite(monodromy).all():
+        if not isfinite(monodromy.sum()):
             return [complex(np.nan)] * (len(monodromy) - 1)
         found: list[complex] = np.linalg.eigvals(monodromy).astype(complex).tolist()
         # The derivative of the return to the wall has a zero of its own.
@@ -119,10 +124,10 @@ def point_at(rotor: Model, word: Word, unknowns: np.ndarray) -> FamilyPoint | No
     start = unpack_free(word, unknowns)
     # The contact after a chatter may vanish: lasting contact begins there.  Contact that shrinks to nothing goes on with negative duration.
     shortest = ALONE if word.flies and len(word) == 1 else SHORTEST
-    if start.durations.min(where=word.timed & (word.kinds <= Kind.LIFT), initial=np.inf) < shortest:
+    if min(start.durations[word.timed_flights].tolist(), default=np.inf) < shortest:
         return None
     links = links_of(rotor, word, start)
-    return FamilyPoint(rotor, word, links) if isfinite(links.residual.sum()) else None
+    return FamilyPoint(rotor, word, links) if all(map(isfinite, links.residual.tolist())) else None
 
 
 TESTS: dict[str, Callable[[FamilyPoint], float]] = {
@@ -150,6 +155,7 @@ class Family:
         self.rotor, self.along, self.word, self.limits = rotor, along, word, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
         self.struck = np.array([segment.kind.is_impact for segment in word])
+        self.known_speeds = b"", np.empty(0, complex)
         self.points: OrderedDict[bytes, FamilyPoint | None] = OrderedDict()
         self.rotors: OrderedDict[float, Model | None] = OrderedDict()
 
@@ -194,7 +200,9 @@ class Family:
         point = self.point(u, p)
         if point is None:
             return np.full((len(u), len(u) + 1), np.nan)
-        return np.column_stack([point.links.reduced[1], self._by_parameter(point, p)])
+        slopes = np.empty((len(u), len(u) + 1))
+        slopes[:, :-1], slopes[:, -1] = point.links.reduced[1], self._by_parameter(point, p)
+        return slopes
 
     def solved(self, u: np.ndarray, p: float) -> np.ndarray | None:
         """Orbit of a word without lasting contact next to a point at the same parameter; ``None`` where the iteration fails."""
@@ -235,7 +243,11 @@ class Family:
 
     def speeds(self, u: np.ndarray) -> np.ndarray:
         """:func:`~carom.bifurcations.branches.speeds_at` before each impact."""
-        return speeds_at(self.rotor, self.word.planes[self.struck], unpack_free(self.word, u).nodes[self.struck])
+        key = u.tobytes()
+        if key != self.known_speeds[0]:
+            nodes = unpack_free(self.word, u).nodes[self.struck]
+            self.known_speeds = key, speeds_at(self.rotor, self.word.planes[self.struck], nodes)
+        return self.known_speeds[1]
 
     def fastest(self, u: np.ndarray) -> float:
         """Largest radial speed before an impact."""
@@ -267,7 +279,7 @@ class Family:
             tests[HOPF] = tests.pop("vanishing-impact")
             # Beyond that point the orbit meets the wall from outside, and its maxima lie outside from the first.
             tests["grazing"] = lambda point: min(point.margins.radius, 1.0) if point.margins.approach >= 0.0 else 1.0
-            if isinstance(self.rotor, Jeffcott):
+            if self.rotor.system.is_planar:
                 tests[EXTREMUM] = lambda point: point.flattest
         # Where friction stops the slip before a slide, this ceases to be; other words go on among virtual orbits.
         slides = bool((self.word.landed & (self.word.kinds != Kind.ROLL)).any())
@@ -283,7 +295,7 @@ class Family:
         def value(u: np.ndarray, p: float) -> float:
             point = self.point(u, p)
             found = np.nan if point is None else test(point)
-            return found if np.isfinite(found) else np.nan
+            return found if isfinite(found) else np.nan
 
         return value
 

@@ -100,8 +100,10 @@ class Equations:
 
     def tangent(self, jacobian: np.ndarray, along: np.ndarray) -> np.ndarray | None:
         """Unit tangent on the side of ``along``."""
-        direction = applied(np.linalg.solve, jacobian, along, np.append(np.zeros(len(along) - 1), 1.0))
-        return None if direction is None else direction / np.linalg.norm(direction)
+        ahead = np.zeros(len(along))
+        ahead[-1] = 1.0
+        direction = applied(np.linalg.solve, jacobian, along, ahead)
+        return None if direction is None else direction / math.sqrt(direction @ direction)
 
 
 def applied(
@@ -112,7 +114,7 @@ def applied(
         found = method(bordered(jacobian, normal), *right)
     except np.linalg.LinAlgError:
         return None
-    return found if np.isfinite(found).all() else None
+    return found if all(map(math.isfinite, found.ravel().tolist())) else None
 
 
 def bordered(jacobian: np.ndarray, normal: np.ndarray) -> np.ndarray:

@@ -183,7 +183,7 @@ class Tracer:
                 path.stop = ending or "closed loop"
                 return path
             path.points.append(there.x)
-            if here.tangent @ there.tangent > np.cos(0.5 * self.steps.sharpest_turn):
+            if here.tangent @ there.tangent > math.cos(0.5 * self.steps.sharpest_turn):
                 length *= 1.5
             length = min(length, self._largest(there.x))
             here = there
@@ -218,7 +218,7 @@ class Tracer:
             return None
         jacobian = self.equations.jacobian(x)
         tangent = self.equations.tangent(jacobian, here.tangent)
-        if tangent is None or here.tangent @ tangent < np.cos(self.steps.sharpest_turn):
+        if tangent is None or here.tangent @ tangent < math.cos(self.steps.sharpest_turn):
             return None
         return Point(x, jacobian, tangent)
 
@@ -260,12 +260,14 @@ class Tracer:
 
     def _locate(self, path: _Path, here: Point, there: Point, length: float, share: float | None) -> str | None:
         """Add the special points of a step, up to a share of it, to the path, up to the first that ends the branch."""
+        changed = (here.watched * there.watched < 0.0) | (np.isnan(here.watched) != np.isnan(there.watched))
+        if not changed.any():
+            return None
         kinds = ["", *(watch.kind for watch in self.watches), self.folds, self.crossings]
         ends = [True, *(watch.at_zero != "pass" for watch in self.watches), False, False]
         reached: list[tuple[float, int, np.ndarray]] = []
         known = {0.0: here.x, length: there.x}
-        changed = here.watched * there.watched < 0.0
-        for i in np.flatnonzero(changed | (np.isnan(here.watched) != np.isnan(there.watched))):
+        for i in np.flatnonzero(changed):
             if i in self.limits and there.watched[i] > 0.0:
                 continue  # It began beyond the limit by a rounding error, and comes in.
             place = self._root_on_step(here, there, known, int(i))
@@ -329,7 +331,7 @@ class Tracer:
 
     def _return(self, path: _Path, here: Point, there: Point, heading: np.ndarray) -> float | None:
         """Share of the step at which the branch passes its start again, in the initial direction."""
-        if len(path.points) < 3 or there.tangent @ heading < np.cos(2.0 * self.steps.sharpest_turn):
+        if len(path.points) < 3 or there.tangent @ heading < math.cos(2.0 * self.steps.sharpest_turn):
             return None
         step, back = there.x - here.x, path.points[0] - here.x
         share = float(back @ step / (step @ step))

@@ -148,12 +148,23 @@ def radial_course(gamma, omega, mu, d, period, speed, time):
 
 @kernel
 def radial_profile(gamma, omega, mu, d, period, speed):
-    """Course of the radius between the impacts of a single-impact orbit.
+    """:func:`flight_profile` of a single-impact orbit; its parameters are those of :func:`orbit_conditions`."""
+    first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
+    return flight_profile(first, second, rest, driven, driving, d, period, speed)
+
+
+@kernel
+def flight_profile(first, second, rest, driven, driving, d, period, speed):
+    """Course of the radius between the impacts of an orbit with one impact a period.
 
     Parameters
     ----------
-    gamma, omega, mu, d, period, speed : float
-        As in :func:`orbit_conditions`.
+    first, second : complex
+        Exponents ``λ₋, λ₊``.
+    rest, driven, driving : complex
+        Contact-free equilibrium, and amplitudes just after the impact.
+    d, period, speed : float
+        Restitution, period, and radial speed before the impact.
 
     Returns
     -------
@@ -164,7 +175,6 @@ def radial_profile(gamma, omega, mu, d, period, speed):
         there.  It passes through zero where a maximum and a minimum of the radius are born.  Its sign is such that it does not change where
         an inflection passes an end of the flight; without rebound it may jump where one passes the impact.
     """
-    first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
     fastest = max(abs(first), abs(second))
     count = 48 + int(10.0 * fastest * period)
     step = period / count

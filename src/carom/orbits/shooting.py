@@ -110,7 +110,7 @@ class Links:
         """Derivative of the residual, shape (m (2N + 1), m (2N + 1))."""
         return self._equations[:, :-1]
 
-    @property
+    @cached_property
     def reduced(self) -> tuple[np.ndarray, np.ndarray]:
         """Residual and its derivative by the free unknowns alone, on which the others depend."""
         lands = ~np.isposinf(self.landings)
@@ -302,7 +302,9 @@ def unpack(unknowns: np.ndarray, segments: int) -> Start:
     """Nodes and durations from the unknowns of :func:`pack`."""
     rows = unknowns.reshape(segments, -1)
     modes = rows.shape[1] // 2
-    return Start(rows[:, :modes] + 1j * rows[:, modes:-1], rows[:, -1].copy())
+    nodes = np.empty((segments, modes), complex)
+    nodes.real, nodes.imag = rows[:, :modes], rows[:, modes:-1]
+    return Start(nodes, rows[:, -1].copy())
 
 
 def free_entries(lands: np.ndarray, width: int) -> np.ndarray:

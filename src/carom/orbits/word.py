@@ -177,6 +177,12 @@ class Word(Sequence[Segment]):
         return timed
 
     @cached_property
+    def timed_flights(self) -> np.ndarray:
+        """Which of these are flights, bool, shape (m,)."""
+        flights: np.ndarray = self.timed & (self.kinds <= Kind.LIFT)
+        return flights
+
+    @cached_property
     def planes(self) -> np.ndarray:
         """Contact planes, shape (m,)."""
         return np.fromiter((segment.plane for segment in self), np.int64, len(self))

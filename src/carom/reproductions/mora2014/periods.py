@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.bifurcations.conditions import conditions_at
-from carom.bifurcations.derivatives import orbit_jacobian
+from carom.bifurcations.derivatives import Direction, OrbitChange, OrbitValues
 from carom.closed_forms.periods import PeriodCondition
 from carom.continuation import Steps, continue_branch
 from carom.models import Jeffcott
@@ -110,7 +110,11 @@ def period_pair(gamma: float, period: float, pair: int) -> PeriodPair:
         return np.array([conditions_at(base._replace(gamma=gamma), float(u[0]), 0.0).closing])
 
     def jacobian(u: np.ndarray, gamma: float) -> np.ndarray:
-        return orbit_jacobian(lambda x: base._replace(gamma=x), (gamma,), float(u[0]), 0.0)[:1, [0, 2]]
+        if u[0] <= 0.0:
+            return np.full((1, 2), np.nan)
+        at = base._replace(gamma=gamma), float(u[0]), 0.0
+        by_gamma, _ = OrbitChange(OrbitValues(*at), Direction(gamma=1.0)).equations()
+        return np.array([[conditions_at(*at).period_fold, by_gamma]])
 
     branch = continue_branch(
         closing,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carom.bifurcations.branches import speeds_at
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Jeffcott
 from carom.orbits.orbit import Orbit
@@ -90,7 +91,7 @@ def _longer_pairs() -> Claim:
         longer = _longer(float(gamma))
         counts.append(len(longer))
         possible += sum(orbit.admissible for orbit in longer)
-        nearest = min(nearest, *(_beyond_wall(orbit) for orbit in longer if orbit.radial_speed > 0.0))
+        nearest = min(nearest, _beyond_wall(longer))
     return Claim(
         "section 4, below Proposition 4.3",
         "fixed points of the pairs n > 1 are virtual",
@@ -107,9 +108,16 @@ def _longer(gamma: float) -> list[Orbit]:
     return [orbit for orbit in found if orbit.name.pair > 1]
 
 
-def _beyond_wall(orbit: Orbit) -> float:
-    """Return a lower bound of how far an orbit passes beyond the wall, examined at ``PLACES`` points."""
-    return float(np.abs(orbit.path(np.linspace(0.0, orbit.period, PLACES)[1:-1])).max()) - 1.0
+def _beyond_wall(orbits: list[Orbit]) -> float:
+    """Return a lower bound of how far orbits of one rotor that meet the wall from inside pass beyond it, each examined at ``PLACES`` points."""
+    rotor = orbits[0].rotor
+    speeds = speeds_at(rotor, np.zeros(len(orbits), int), np.concatenate([orbit.nodes for orbit in orbits]))
+    inside = [orbit for orbit, speed in zip(orbits, speeds.real.tolist(), strict=True) if speed > 0.0]
+    departures = [orbit.departure for orbit in inside]
+    starts = rotor.system.amplitudes_of(np.array([(each.position, each.velocity) for each in departures]))
+    times = np.linspace(0.0, [orbit.period for orbit in inside], PLACES)[1:-1]
+    positions, _ = rotor.system.state(rotor.system.fly(starts, times))
+    return float(np.abs(positions).max(axis=0).min()) - 1.0
 
 
 def _stability(branches: FirstPair) -> Claim:
