@@ -12,11 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from carom.bifurcations.branches import speeds_at
 from carom.bifurcations.conditions import BOUNDLESS, FASTEST
 from carom.bifurcations.points import EXTREMUM, HALVING, HOPF, OF_CONTACT, ONSET, PERMANENT
 from carom.continuation import Watch
-from carom.core.margins import local_motion
 from carom.core.planar import flight_profile
 from carom.core.rub import wall_push
 from carom.core.segments import LEAST_PUSH, strike
@@ -24,7 +22,16 @@ from carom.models import Model
 from carom.models.axes import Axis
 from carom.orbits.admissibility import departure
 from carom.orbits.orbit import Margins, margins_of
-from carom.orbits.shooting import Links, by_parameter, closed_flights, links_of, pack, unpack, unpack_free
+from carom.orbits.shooting import (
+    Links,
+    by_parameter,
+    closed_flights,
+    free_entries,
+    links_of,
+    pack,
+    unpack,
+    unpack_free,
+)
 from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 
@@ -84,12 +91,11 @@ class FamilyPoint:
     def flattest(self) -> float:
         """What changes its sign where the radius between impacts of a planar rotor gains a maximum and a minimum."""
         system, (nodes, durations) = self.rotor.system, self.links.start
-        amplitudes = system.amplitudes_of(nodes)
-        (before,) = local_motion(system.arrays, self.word.planes, amplitudes)
-        strike(system.arrays, 0, self.word.kinds[0], amplitudes[0], np.empty((0, 2), complex))
-        (slow, fast), (driving, driven) = system.exponents.tolist(), amplitudes[0].tolist()
+        (after,) = system.amplitudes_of(nodes)
+        strike(system.arrays, 0, self.word.kinds[0], after, np.empty((0, 2), complex))
+        (slow, fast), (driving, driven) = system.exponents.tolist(), after.tolist()
         at = system.arrays["offsets"][0], driven, driving, system.arrays["restitution"][0]
-        return float(flight_profile(slow, fast, *at, durations[0], before[1])[2])
+        return float(flight_profile(slow, fast, *at, durations[0], self.margins.approach)[2])
 
     @property
     def least_push(self) -> float:
@@ -154,9 +160,8 @@ class Family:
     def __init__(self, rotor: Model, along: Axis, word: Word, limits: tuple[float, float]) -> None:
         self.rotor, self.along, self.word, self.limits = rotor, along, word, limits
         self.size = max(abs(along.value(rotor)), 0.1 * (limits[1] - limits[0]))
-        self.struck = np.array([segment.kind.is_impact for segment in word])
-        self.known_speeds = b"", np.empty(0, complex)
-        self.points: OrderedDict[bytes, FamilyPoint | None] = OrderedDict()
+        self.at_walls = _at_walls(rotor, word)
+        self.points: OrderedDict[tuple[bytes, float], FamilyPoint | None] = OrderedDict()
         self.rotors: OrderedDict[float, Model | None] = OrderedDict()
 
     def rotor_at(self, p: float) -> Model | None:
@@ -172,7 +177,7 @@ class Family:
 
     def point(self, u: np.ndarray, p: float) -> FamilyPoint | None:
         """The segments at a point; ``None`` where they are not defined."""
-        key = u.tobytes() + np.float64(p).tobytes()
+        key = u.tobytes(), p
         if key not in self.points:
             self.points[key] = self._evaluated(u, p)
             if len(self.points) > REMEMBERED:
@@ -241,21 +246,19 @@ class Family:
                 return u, min(max(p, self.limits[0]), self.limits[1])
         raise CaromError("no orbit of twice the period was found beside the period doubling")
 
-    def speeds(self, u: np.ndarray) -> np.ndarray:
-        """:func:`~carom.bifurcations.branches.speeds_at` before each impact."""
-        key = u.tobytes()
-        if key != self.known_speeds[0]:
-            nodes = unpack_free(self.word, u).nodes[self.struck]
-            self.known_speeds = key, speeds_at(self.rotor, self.word.planes[self.struck], nodes)
-        return self.known_speeds[1]
+    def speeds(self, u: np.ndarray) -> list[complex]:
+        """``ṙ`` in ``c_r Ω`` and ``θ̇`` in ``Ω`` before each impact, as real and imaginary part."""
+        positions, velocities = (self.at_walls @ u).tolist()
+        ratios = [(abs(y), v / y) for y, v in zip(positions, velocities, strict=True)]
+        return [complex(radius * ratio.real, ratio.imag) for radius, ratio in ratios]
 
     def fastest(self, u: np.ndarray) -> float:
         """Largest radial speed before an impact."""
-        return float(np.abs(self.speeds(u).real).max(initial=0.0))
+        return max((abs(speed.real) for speed in self.speeds(u)), default=0.0)
 
     def reach(self, u: np.ndarray) -> float:
         """Factor by which steps may grow: a branch whose speeds grow without bound becomes straight."""
-        return max(1.0, float(np.abs(self.speeds(u)).max(initial=0.0)) / FAST)
+        return max([1.0, *(abs(speed) / FAST for speed in self.speeds(u))])
 
     def _may_happen(self, kind: str) -> bool:
         """Whether orbits of the word can have special points of a kind."""
@@ -317,6 +320,21 @@ class Family:
         if (halves := halving(self.word, start)) is not None:
             ends[HALVING] = lambda u, _: halves(u)
         return [Watch(kind, function, at_zero="end") for kind, function in ends.items()]
+
+
+def _at_walls(rotor: Model, word: Word) -> np.ndarray:
+    """Displacement at its contact plane before each of the k impacts, and its rate, per free unknown, complex, shape (2, k, unknowns)."""
+    struck = np.flatnonzero(word.kinds <= Kind.IMPACT_STOPPED)
+    rows = rotor.system.planes[word.planes[struck]]
+    k, n = rows.shape
+    # Of each segment: real and imaginary parts of the coordinates and their rates, and the duration.
+    each = np.zeros((2, k, len(word), 4 * n + 1), complex)
+    for rate, impact in np.ndindex(2, k):
+        for imaginary in (0, 1):
+            begins = n * (2 * imaginary + rate)
+            each[rate, impact, struck[impact], begins : begins + n] = rows[impact] * 1j**imaginary
+    whole = each.reshape(2, k, -1)
+    return whole[:, :, free_entries(word.lands, 4 * n + 1)]
 
 
 def halving(word: Word, start: np.ndarray) -> Callable[[np.ndarray], float] | None:

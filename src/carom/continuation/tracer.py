@@ -214,7 +214,7 @@ class Tracer:
         """Next point, on request at the parameter to which the tangent leads; ``None`` if the step is too long."""
         guess = here.x + length * here.tangent
         x = self.equations.near(guess, here, fixed)
-        if x is None or np.linalg.norm(x - guess) > STRAY * length:
+        if x is None or math.dist(x, guess) > STRAY * length:
             return None
         jacobian = self.equations.jacobian(x)
         tangent = self.equations.tangent(jacobian, here.tangent)

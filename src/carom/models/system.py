@@ -97,8 +97,10 @@ class System(Result):
     @cached_property
     def basis(self) -> np.ndarray:
         """Coordinates, then their rates, per amplitude, shape (2n, N)."""
-        basis = np.concatenate([self.shapes, self.shapes * self.exponents])
-        basis[len(self.rest) :, :-1] += self.shapes[:, 1:] * self.arrays["driven"][1:]
+        n = len(self.rest)
+        basis = np.empty((2 * n, self.shapes.shape[1]), complex)
+        basis[:n], basis[n:] = self.shapes, self.shapes * self.exponents
+        basis[n:, :-1] += self.shapes[:, 1:] * self.arrays["driven"][1:]
         return basis
 
     @cached_property
@@ -108,7 +110,9 @@ class System(Result):
 
     @cached_property
     def _whole_rest(self) -> np.ndarray:
-        return np.concatenate([self.rest, np.zeros(len(self.rest), complex)])
+        whole = np.zeros(2 * len(self.rest), complex)
+        whole[: len(self.rest)] = self.rest
+        return whole
 
     @cached_property
     def coordinates(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -13,6 +13,7 @@ equations hold beyond the onset too.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -113,9 +114,9 @@ class Links:
     @cached_property
     def reduced(self) -> tuple[np.ndarray, np.ndarray]:
         """Residual and its derivative by the free unknowns alone, on which the others depend."""
-        lands = ~np.isposinf(self.landings)
-        if not lands.any():
+        if all(each == math.inf for each in self.landings.tolist()):
             return self.residual, self.jacobian
+        lands = ~np.isposinf(self.landings)
         width = self.slopes.shape[1]
         free, rows = free_entries(lands, width), np.repeat(~lands, width)
         whole = self.jacobian.copy()
