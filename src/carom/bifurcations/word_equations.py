@@ -328,13 +328,13 @@ def _at_walls(rotor: Model, word: Word) -> np.ndarray:
     rows = rotor.system.planes[word.planes[struck]]
     k, n = rows.shape
     # Of each segment: real and imaginary parts of the coordinates and their rates, and the duration.
-    each = np.zeros((2, k, len(word), 4 * n + 1), complex)
+    width = 4 * n + 1
+    each = np.zeros((2, k, len(word), width), complex)
     for rate, impact in np.ndindex(2, k):
         for imaginary in (0, 1):
             begins = n * (2 * imaginary + rate)
             each[rate, impact, struck[impact], begins : begins + n] = rows[impact] * 1j**imaginary
-    whole = each.reshape(2, k, -1)
-    return whole[:, :, free_entries(word.lands, 4 * n + 1)]
+    return each.reshape(2, k, len(word) * width)[:, :, free_entries(word.lands, width)]
 
 
 def halving(word: Word, start: np.ndarray) -> Callable[[np.ndarray], float] | None:
