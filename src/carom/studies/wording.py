@@ -94,15 +94,11 @@ class Wording:
 
     def energy(self, value: float) -> str:
         """An energy given in ``m c_r² Ω²``."""
-        if self.scales is None:
-            return f"{number(value, 3)} m c_r² Ω²"
-        return _with_prefix(value * self.scales.energy, "J", least=1.0)
+        return self._quantity(value, "energy", "J", "m c_r² Ω²", least=1.0)
 
     def power(self, value: float) -> str:
         """A power given in ``m c_r² Ω³``."""
-        if self.scales is None:
-            return f"{number(value, 3)} m c_r² Ω³"
-        return _with_prefix(value * self.scales.power, "W", least=1.0)
+        return self._quantity(value, "power", "W", "m c_r² Ω³", least=1.0)
 
     def per_second(self, period: float) -> str:
         """Write the frequency of an event with this period, in ``1/Ω``."""
@@ -160,10 +156,10 @@ class Wording:
             return ""
         return f" searched ({self.gain(gain, searched.low.value)} to {self.gain(gain, searched.high.value)})"
 
-    def _quantity(self, value: float, scale: str, unit: str, own_unit: str) -> str:
+    def _quantity(self, value: float, scale: str, unit: str, own_unit: str, least: float = 0.1) -> str:
         if self.scales is None:
             return f"{number(value, 3)} {own_unit}"
-        return _with_prefix(value * getattr(self.scales, scale), unit)
+        return _with_prefix(value * getattr(self.scales, scale), unit, least)
 
     def _plain(self, value: float, scale: str, unit: str, own_unit: str) -> str:
         if self.scales is None:
@@ -188,7 +184,7 @@ def machine_heading(case: Case) -> str:
     return f"{case.name}: {present_values(case)}"
 
 
-def _with_prefix(value: float, unit: str, least: float = 0.1) -> str:
+def _with_prefix(value: float, unit: str, least: float) -> str:
     """Write three digits with the largest prefix that leaves at least ``least``: ``0.668 mm``, not ``668 µm``."""
     size = abs(value)
     if size == 0:
