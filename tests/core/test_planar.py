@@ -9,7 +9,7 @@ from compilation import sized
 from machines import PAPER, ExactMotion, random_parameters
 
 from carom import find_orbits
-from carom.core.planar import orbit_conditions, radial_course, radial_profile
+from carom.core.planar import orbit_conditions, radial_course, radial_profile, radial_rates
 from carom.models import Jeffcott
 
 
@@ -79,6 +79,9 @@ def test_radial_profile_agrees_with_dense_sampling():
             numbers = (parameters.gamma, parameters.omega, parameters.mu, parameters.d, orbit.period, speed)
             height, top, _ = radial_profile(*numbers)
             outward, excess = radial_course(*numbers, 0.4 * orbit.period)
+            assert radial_rates(*numbers, np.array([0.4 * orbit.period])) == pytest.approx(
+                [outward], rel=1e-12, abs=1e-14
+            )
             times = np.linspace(0.0, orbit.period, sized(20_001, 5_001))[1:-1]
             square = np.abs(orbit.path(times)) ** 2
             assert excess == pytest.approx(np.interp(0.4 * orbit.period, times, square) - 1.0, abs=1e-5 * square.max())
@@ -138,7 +141,7 @@ def test_its_sign_tells_the_number_of_extrema_also_where_inflections_pass_an_end
             if orbit.radial_speed < 1e-3:
                 continue
             numbers = gamma, PAPER.omega, PAPER.mu, d, orbit.period, orbit.radial_speed
-            outward = [radial_course(*numbers, time)[0] for time in np.linspace(0.0, orbit.period, 2001)]
+            outward = radial_rates(*numbers, np.linspace(0.0, orbit.period, 2001))
             bends = np.diff(outward)
             inflections.add(int((bends[1:] * bends[:-1] < 0.0).sum()))
             extrema = int((np.diff(np.sign(outward)) != 0).sum())

@@ -94,32 +94,30 @@ def rotor_record(
         times as fast as with a tuple of arrays.
     """
     modes, planes = len(exponents), len(rows)
-    generator, gaps, inverse_gaps = (
-        np.zeros((modes, modes), COMPLEX),
-        np.zeros(modes, COMPLEX),
-        np.zeros(modes, COMPLEX),
-    )
+    generator = np.zeros((modes, modes), COMPLEX)
     generator.ravel()[:: modes + 1] = exponents
+    values: list[complex] = exponents.tolist()
+    gaps = [0j] * modes
     for k, follows in enumerate(np.asarray(driven).tolist()):
         if follows:
             generator[k, k - 1] = 1.0
-            gaps[k] = exponents[k] - exponents[k - 1]
-    np.divide(1.0, gaps, out=inverse_gaps, where=gaps != 0)
-    rate_rows = rows @ generator
-    acceleration_rows = rate_rows @ generator
+            gaps[k] = values[k] - values[k - 1]
+    # For so few numbers, dot takes half the time of @.
+    rate_rows = rows.dot(generator)
+    acceleration_rows = rate_rows.dot(generator)
     fields = {
         "exponents": exponents,
         "driven": driven,
         "gaps": gaps,
-        "inverse_gaps": inverse_gaps,
-        "largest_response": _largest_response(exponents, gaps),
+        "inverse_gaps": [1.0 / np.complex128(gap) if gap else 0j for gap in gaps],
+        "largest_response": _largest_response(values, gaps),
         "offsets": offsets,
         "rows": rows,
         "rate_rows": rate_rows,
         "acceleration_rows": acceleration_rows,
-        "jerk_rows": acceleration_rows @ generator,
+        "jerk_rows": acceleration_rows.dot(generator),
         "columns": columns,
-        "mobility": rate_rows @ columns,
+        "mobility": rate_rows.dot(columns),
         "weights": (np.abs(rows) ** 2).sum(axis=1),
         "friction": friction,
         "restitution": restitution,
@@ -153,10 +151,10 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
     )
 
 
-def _largest_response(exponents: np.ndarray, gaps: np.ndarray) -> list[float]:
+def _largest_response(exponents: list[complex], gaps: list[complex]) -> list[float]:
     """Bound of a pair's ``|φ(t)|`` for all later time: it is at most ``t e^{−xt} ≤ 1/(ex)`` and at most ``2/|gap|``."""
     bounds = []
-    for exponent, gap in zip(exponents.tolist(), gaps.tolist(), strict=True):
+    for exponent, gap in zip(exponents, gaps, strict=True):
         slow = -1.0 / (math.e * exponent.real) if exponent.real < 0.0 else math.inf
         apart = 2.0 / abs(gap) if gap != 0.0 else math.inf
         bounds.append(min(slow, apart) if exponent.real <= 0.0 else math.inf)

@@ -147,6 +147,16 @@ def radial_course(gamma, omega, mu, d, period, speed, time):
 
 
 @kernel
+def radial_rates(gamma, omega, mu, d, period, speed, times):
+    """``Re(Ū U̇)`` of a single-impact orbit at times (m,) since the impact, shape (m,)."""
+    first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)
+    rates = np.empty(times.shape[0])
+    for i in range(times.shape[0]):
+        rates[i], _, _, _ = _radial(first, second, rest, driven, driving, times[i])
+    return rates
+
+
+@kernel
 def radial_profile(gamma, omega, mu, d, period, speed):
     """:func:`flight_profile` of a single-impact orbit; its parameters are those of :func:`orbit_conditions`."""
     first, second, rest, driven, driving = _flight(gamma, omega, mu, d, period, speed)

@@ -11,6 +11,7 @@ import numpy as np
 from carom.bifurcations import Bifurcation, OrbitBranch
 from carom.bifurcations.conditions import grazing_equations
 from carom.continuation.roots import bracketed_root
+from carom.core.planar import radial_rates
 from carom.models import Jeffcott
 from carom.parameters import Numbers
 from carom.reproductions.mora2014.branches import DAMPINGS, FirstPair
@@ -99,7 +100,7 @@ def radius_extrema(numbers: Numbers, period: float, speed: float) -> list[Extrem
         return grazing_equations(numbers, period, speed, time)[0]
 
     times = np.linspace(0.0, period, SAMPLES + 1)
-    rates = np.array([outward(time) for time in times.tolist()])
+    rates = _rates(numbers, period, speed, times)
     found = []
     for i in np.flatnonzero(rates[:-1] * rates[1:] < 0.0):
         time = bracketed_root(outward, float(times[i]), float(times[i + 1]))
@@ -141,7 +142,7 @@ def flattest(point: Bifurcation) -> Extremum:
     """Return the point of an orbit at which two extrema of the radius are born: its rate is zero but keeps its sign."""
     times = np.linspace(0.0, point.period, 8 * SAMPLES + 1)
     at = point.numbers, point.period, point.radial_speed
-    rates = np.array([grazing_equations(*at, time)[0] for time in times.tolist()])
+    rates = _rates(*at, times)
     size = np.abs(rates)
     # The rate touches zero without a change of sign; where the sign changes, there is a proper extremum.
     touching = np.flatnonzero(
@@ -161,6 +162,13 @@ def _meeting(turn: Bifurcation, count: int) -> list[Extremum]:
     passing = [entry for entry in found if abs(entry.time - newborn.time) > SAME_TIME * turn.period]
     twice = [newborn, newborn] if count > len(passing) else []
     return sorted([*passing, *twice], key=lambda entry: entry.time)
+
+
+def _rates(numbers: Numbers, period: float, speed: float, times: np.ndarray) -> np.ndarray:
+    """Return ``Re(Ū U̇)`` at times since the impact."""
+    gamma, omega, _, _, mu, d, *_ = numbers
+    rates: np.ndarray = radial_rates(gamma, omega, mu, d, period, speed, times)
+    return rates
 
 
 def _radius(numbers: Numbers, period: float, speed: float, time: float) -> float:
