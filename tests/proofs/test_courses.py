@@ -15,13 +15,59 @@ from carom.proofs.balls import at_precision
 from carom.proofs.courses import Course, Return, period_condition
 from carom.proofs.hypotheses import hypotheses_of
 from carom.proofs.lines import Numbers
-from carom.proofs.rotor import Impact, Rotor
+from carom.proofs.rotor import Rotor, real_of_product, squared_modulus
 from carom.proofs.series import hyperbolic, imaginary, real, short_return, terms
 
 
 def balls(parameters) -> Numbers:
-    rotor = Rotor(hypotheses_of(parameters))
-    return Numbers(rotor.gamma, rotor.omega_squared, rotor.rho, rotor.mu, rotor.d, rotor.radius_ratio)
+    return Rotor(hypotheses_of(parameters)).numbers
+
+
+class Written:
+    """An impact at a period and a radial speed by the response to an impulse, ``f`` of :mod:`carom.proofs.rotor`."""
+
+    def __init__(self, rotor, period, speed) -> None:
+        self.rotor, self.period, self.speed = rotor, period, speed
+        numerator, determinant = rotor.return_series(period, 1)
+        self.lever = rotor.q * rotor.turned_response(period)[0] / determinant[0]
+        self.turn = rotor.q * numerator[0] / determinant[0]
+        self.velocity = acb(1, -self.turn.imag)
+
+    def discriminant(self):
+        return self.lever.real**2 - squared_modulus(self.lever) * (1 - self.rotor.levitation_squared)
+
+    def moved(self, place, rate, time):
+        """Place and rate after a flight from a deviation from the contact-free equilibrium and its rate."""
+        rotor, (f, slope) = self.rotor, self.rotor.turned_response(time)
+        # The solution with the value 1 and no slope at first is f' + (γ + 2i) f.
+        return place * (slope + rotor.drag * f) + rate * f, -rotor.chi * place * f + rate * slope
+
+    def radius_series(self, time, length):
+        """Taylor coefficients of ``|U|² − 1``."""
+        place, rate = -self.lever * self.speed, self.speed * (self.velocity - self.rotor.q)
+        coefficients = self.rotor.continued(*self.moved(place, rate, time), length)
+        coefficients[0] = coefficients[0] + 1 - place
+        excess = real_of_product(coefficients, coefficients)
+        return [excess[0] - 1, *excess[1:]]
+
+    def jacobian(self):
+        """Derivative of the impact map over ``(θ, ṙ, θ̇)``, as in :mod:`carom.core.planar`."""
+        rotor, turned_by = self.rotor, acb(0, 1)
+        force = rotor.chi * self.lever - rotor.drag * self.velocity
+        starts = (
+            (turned_by, turned_by * self.speed * (self.velocity - rotor.q)),
+            (acb(0), 1 - rotor.q),
+            (acb(0), turned_by),
+        )
+        columns = []
+        for place, rate in starts:
+            moved, change = self.moved(place, rate, self.period)
+            late = -moved.real
+            turned = (moved + self.velocity * late).imag
+            change = change + force * late
+            spin = turned * self.speed
+            columns.append((turned, change.real + spin * self.velocity.imag, change.imag - spin))
+        return [[columns[j][i] for j in range(3)] for i in range(3)]
 
 
 def machines(seed: int, count: int):
@@ -37,16 +83,20 @@ def test_values_agree_with_closed_forms_written_a_second_time():
     with at_precision(120):
         for parameters, random in machines(1, sized(30, 5, 2000)):
             rotor, period = Rotor(hypotheses_of(parameters)), arb(random.uniform(0.05, 12.0))
-            back, (lever, turn) = Return(balls(parameters), period), rotor.levers(period)
-            assert back.lever.overlaps(lever)
-            assert back.turn.overlaps(turn)
-            assert back.discriminant.overlaps(rotor.discriminant(lever))
+            back, speed = Return(rotor.numbers, period), arb(random.uniform(-1.0, 2.0))
+            written = Written(rotor, period, speed)
+            assert back.lever.overlaps(written.lever)
+            assert back.turn.overlaps(written.turn)
+            assert back.discriminant.overlaps(written.discriminant())
             # Anywhere, also off the orbits, both are derivatives of the same map only where F1 = 0.
-            assert back.closing.overlaps(1 + turn.real)
-            speed = arb(random.uniform(-1.0, 2.0))
-            ours, theirs = Course(back, speed), rotor.jacobian(Impact(period, speed, lever, turn))
-            for row, other in zip(ours.jacobian(), theirs, strict=True):
+            assert back.closing.overlaps(1 + written.turn.real)
+            course = Course(back, speed)
+            for row, other in zip(course.jacobian(), written.jacobian(), strict=True):
                 assert all(a.overlaps(b) and a.rad() < 1e-15 * (1 + abs(a)) for a, b in zip(row, other, strict=True))
+            time = arb(random.uniform(0.0, 1.0)) * period
+            for ours, theirs in zip(course.heights(time, 8), written.radius_series(time, 8), strict=True):
+                assert (ours * speed).overlaps(theirs)
+                assert ours.rad() < 1e-15 * (1 + abs(ours))
 
 
 def test_tests_of_orbits_agree_with_the_kernels():

@@ -15,11 +15,11 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from flint import acb, arb
+from flint import acb, arb, arb_series
 
 from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Invariants
-from carom.proofs.series import I, first, hyperbolic, imaginary, real, short_return, squared
+from carom.proofs.series import I, first, hyperbolic, imaginary, real, short_return, squared, terms
 
 _SHORT = 2.7
 """Bound of ``|λ T|`` below which the period condition is summed: less than the reach of the sum, for its derivatives."""
@@ -203,6 +203,12 @@ class Course:
         height = across * 2 + squared(place) * self.speed
         return height, real(rate) + (across * real(rate) + imaginary(place) * imaginary(rate)) * self.speed
 
+    def heights(self, time: Any, length: int) -> list[Any]:
+        """Taylor coefficients of ``(|U|² − 1)/ṙ`` about every point of a ball of times after the impact."""
+        with terms(length):
+            found = self.height(arb_series([time, 1]))[0]
+            return [found[k] for k in range(length)]
+
     def jacobian(self) -> list[list[Any]]:
         """Derivative of the impact map over ``(θ, ṙ, θ̇)``, by rows; regular for ``ṙ = 0``."""
         back, speed = self.back, self.speed
@@ -222,5 +228,4 @@ class Course:
     @cached_property
     def invariants(self) -> Invariants:
         """Invariants of the derivative of the impact map."""
-        (a, b, c), (d, e, f), (g, h, i) = self.jacobian()
-        return Invariants(a + e + i, a * e - b * d + a * i - c * g + e * i - f * h, self.back.determinant)
+        return Invariants.of(self.jacobian(), self.back.determinant)

@@ -214,7 +214,7 @@ def _roots_on(rotor: Rotor, condition: Analytic, cells: Cells, start: int, evide
         period = interval(near, far)
         if rotor.pole_in(period):
             continue
-        if not rotor.gamma > 0 and rotor.return_series(period, 1)[2][0].contains(0):
+        if not rotor.gamma > 0 and rotor.return_series(period, 1)[1][0].contains(0):
             unclear.append((near, far))
         else:
             roots.append(Root(near, far, count // 2 + 1, bool(count % 2)))

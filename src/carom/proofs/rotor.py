@@ -21,7 +21,6 @@ the levers of the source paper's (4.1) are ``a₁₂ = f/D`` and ``a₂₂ = (f'
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -30,8 +29,8 @@ from flint import acb, arb, arb_series, ctx
 
 from carom.proofs.balls import ball_of, squared
 from carom.proofs.hypotheses import NUMBERS, Hypotheses
+from carom.proofs.lines import Numbers
 
-_I = acb(0, 1)
 TOO_LARGE = "the product of its multipliers is 1 or more in modulus"
 
 
@@ -81,29 +80,6 @@ class Invariants(NamedTuple):
         }
 
 
-@dataclass(frozen=True)
-class Impact:
-    """Impact of an orbit with one impact a period, at ``U = 1``.
-
-    Attributes
-    ----------
-    period, speed : arb
-        ``T`` and ``ṙ`` before the impact.
-    lever, turn : acb
-        ``q a₁₂`` and ``q a₂₂`` at ``T``.
-    """
-
-    period: Any
-    speed: Any
-    lever: Any
-    turn: Any
-
-    @property
-    def angular_speed(self) -> Any:
-        """``θ̇`` before the impact."""
-        return -self.turn.imag * self.speed
-
-
 class Rotor:
     """Planar rotor whose numbers are balls at the precision at hand.
 
@@ -130,6 +106,11 @@ class Rotor:
         self.split = squared(self.gamma) - 4 * self.omega_squared
         self.chi, self.drag = acb(self.omega_squared - 1, self.gamma), acb(self.gamma, 2)
         self.q = (1 + self.d) * acb(1, self.mu)
+
+    @property
+    def numbers(self) -> Numbers:
+        """The numbers of the equations."""
+        return Numbers(*(getattr(self, name) for name in NUMBERS))
 
     @cached_property
     def levitation_squared(self) -> Any:
@@ -191,8 +172,8 @@ class Rotor:
 
     # ------------------------------------------------------------------------------------------- return of the flight
 
-    def return_series(self, time: Any, length: int) -> tuple[Any, Any, Any]:
-        """Taylor series of ``f``, ``f' − δ`` and ``D`` about a time."""
+    def return_series(self, time: Any, length: int) -> tuple[Any, Any]:
+        """Taylor series of ``f' − δ`` and ``D`` about a time."""
         f = self.continued(*self.turned_response(time), length + 1)
         shrink = (-self.drag * time).exp()
         delta = [shrink]
@@ -206,7 +187,7 @@ class Rotor:
             # What cancels at once: both vanish with their slopes.
             head = [(acb(0), acb(0)), (acb(0), acb(0)), (-self.chi / 2, self.chi)][:length]
             numerator[: len(head)], determinant[: len(head)] = (list(terms) for terms in zip(*head, strict=True))
-        return f[:length], numerator, determinant
+        return numerator, determinant
 
     def pole_in(self, period: Any) -> bool:
         """Whether ``D`` is known to vanish once, inside a ball: at a resonance, without damping."""
@@ -223,63 +204,8 @@ class Rotor:
 
     def closing_series(self, time: Any, length: int) -> list[Any]:
         """Taylor coefficients of ``P = |D|²F₁`` about a time."""
-        _, numerator, determinant = self.return_series(time, length)
+        numerator, determinant = self.return_series(time, length)
         return real_of_product([d + self.q * n for d, n in zip(determinant, numerator, strict=True)], determinant)
-
-    def levers(self, period: Any) -> tuple[Any, Any]:
-        """``q a₁₂`` and ``q a₂₂``."""
-        f, numerator, determinant = self.return_series(period, 2)
-        return self.q * f[0] / determinant[0], self.q * numerator[0] / determinant[0]
-
-    def discriminant(self, lever: Any) -> Any:
-        """``Re(q a₁₂)² − |q a₁₂|²(1 − |U*|²)``: a quarter of the discriminant of the equation of the radial speeds."""
-        return squared(lever.real) - squared_modulus(lever) * (1 - self.levitation_squared)
-
-    # ------------------------------------------------------------------------------------------- orbits
-
-    def departure(self, impact: Impact) -> tuple[Any, Any]:
-        """Deviation from the contact-free equilibrium just after the impact, and its rate, in the co-rotating frame."""
-        return -impact.lever * impact.speed, impact.speed * (acb(1, -impact.turn.imag) - self.q)
-
-    def radius_series(self, impact: Impact, time: Any, length: int) -> list[Any]:
-        """Taylor coefficients of ``|U|² − 1`` about a time after the impact."""
-        place, rate = self.departure(impact)
-        f, slope = self.turned_response(time)
-        # The solution with the value 1 and no slope at first is f' + (γ + 2i) f.
-        steady = slope + self.drag * f
-        value = place * steady + rate * f
-        terms = self.continued(value, -self.chi * place * f + rate * slope, length)
-        terms[0] = terms[0] + 1 - place
-        excess = real_of_product(terms, terms)
-        excess[0] = excess[0] - 1
-        return excess
-
-    def jacobian(self, impact: Impact) -> list[list[Any]]:
-        """Derivative of the impact map over ``(θ, ṙ, θ̇)``, as in :mod:`carom.core.planar`; rows of arb."""
-        velocity = acb(1, -impact.turn.imag)
-        force = self.chi * impact.lever - self.drag * velocity
-        f, slope = self.turned_response(impact.period)
-        steady = slope + self.drag * f
-        starts = (
-            (_I, _I * impact.speed * (velocity - self.q)),
-            (acb(0), 1 - self.q),
-            (acb(0), _I),
-        )
-        columns = []
-        for place, rate in starts:
-            moved = place * steady + rate * f
-            change = -self.chi * place * f + rate * slope
-            late = -moved.real
-            turned = (moved + velocity * late).imag
-            change = change + force * late
-            spin = turned * impact.speed
-            columns.append((turned, change.real + spin * velocity.imag, change.imag - spin))
-        return [[columns[j][i] for j in range(3)] for i in range(3)]
-
-    def invariants(self, impact: Impact) -> Invariants:
-        """Invariants of the derivative of the impact map; its determinant is ``d² e^{−2γT}``."""
-        determinant = squared(self.d) * (-2 * self.gamma * impact.period).exp()
-        return Invariants.of(self.jacobian(impact), determinant)
 
 
 def response_of(gamma: Any, split: Any, time: Any) -> tuple[Any, Any]:

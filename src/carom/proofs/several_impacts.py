@@ -11,9 +11,7 @@ from flint import ctx
 from carom.proofs.balls import decided, enclosure_of, exact_ends, rational
 from carom.proofs.claims import Claim, claim_of
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
-from carom.proofs.hypotheses import NUMBERS
 from carom.proofs.krawczyk import enclosed_zero, newton
-from carom.proofs.lines import Numbers
 from carom.proofs.rotor import Rotor
 from carom.proofs.seeds import shooting_seeds
 from carom.proofs.words import UNKNOWNS, Flights, ShootingOrbit
@@ -24,7 +22,7 @@ MOST_IMPACTS = 24
 
 def several_impact_claims(rotor: Rotor, evidence: Evidence, options: Any) -> list[Claim]:
     """Claims about periodic motions with 2 to ``impacts`` impacts a period, an option."""
-    flights = Flights(Numbers(*(getattr(rotor, name) for name in NUMBERS)))
+    flights = Flights(rotor.numbers)
     found = evidence.take("orbits", lambda: list(_searched(rotor, flights, int(options["impacts"]))))
     if any(len(entry["centre"]) > 4 * int(options["impacts"]) for entry in found):
         raise NotShownError("the certificate has an orbit with more impacts than its options")

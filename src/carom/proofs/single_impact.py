@@ -27,9 +27,10 @@ from flint import arb
 from carom.proofs.balls import decided, enclosures_of, exact_ends
 from carom.proofs.cells import NEGATIVE, Analytic, Cells, cells_of, power_of_two_below, show
 from carom.proofs.claims import Claim, Status, claim_of
+from carom.proofs.courses import Course, Return
 from carom.proofs.evidence import Evidence, NotShownError, rational_of
 from carom.proofs.periods import Periods
-from carom.proofs.rotor import TOO_LARGE, Impact, Rotor, squared_modulus
+from carom.proofs.rotor import TOO_LARGE, Rotor
 
 MOST_CELLS = 1000
 """Cells of one flight after which the search ends."""
@@ -40,64 +41,52 @@ class Candidate:
     """A solution of the closing conditions of an orbit."""
 
     name: str
-    impact: Impact
+    course: Course
 
 
 def candidates(rotor: Rotor, periods: Periods) -> Iterator[tuple[str, list[Candidate] | None]]:
     """Both solutions at each root, or none, or ``None`` where this is undecided, with the names they would have."""
     for root in periods.roots:
-        lever, turn = rotor.levers(root.ball)
+        back = Return(rotor.numbers, root.ball)
         letters = "bd" if root.longer else "ac"
         names = [f"B{root.pair},{letter}" for letter in letters]
-        speeds = _radial_speeds(rotor, lever)
-        found = (
-            None
-            if speeds is None
-            else [
-                Candidate(name, Impact(root.ball, speed, lever, turn))
-                for name, speed in zip(names, speeds, strict=False)
-            ]
-        )
+        found, speeds = None, _radial_speeds(rotor, back)
+        if speeds is not None:
+            found = [Candidate(name, Course(back, speed)) for name, speed in zip(names, speeds, strict=False)]
         yield f"B{root.pair},{'/'.join(letters)}", found
 
 
-def _radial_speeds(rotor: Rotor, lever: Any) -> list[Any] | None:
+def _radial_speeds(rotor: Rotor, back: Return) -> list[Any] | None:
     """Both radial speeds, the lower first; empty if there is none, ``None`` if that is undecided."""
-    discriminant = rotor.discriminant(lever)
-    if discriminant < 0:
+    if back.discriminant < 0:
         return []
-    if not discriminant > 0:
+    if not back.discriminant > 0:
         return None
-    half, square, constant = lever.real, squared_modulus(lever), 1 - rotor.levitation_squared
     if rotor.on_the_wall:
-        return [arb(0), -2 * half / square] if half < 0 else [-2 * half / square, arb(0)]
-    root = discriminant.sqrt()
-    lower, upper = (-half - root) / square, (-half + root) / square
-    # The form without cancellation.
-    if half > 0:
-        upper = constant / (-half - root)
-    elif half < 0:
-        lower = constant / (-half + root)
-    return [lower, upper]
+        other = -2 * back.lever.real / back.lever_squared
+        return [arb(0), other] if other > 0 else [other, arb(0)]
+    return list(back.speeds())
 
 
 def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[list[Claim], Status]:
     """Claims about one orbit, and whether it is a motion of the machine."""
-    impact, name = orbit.impact, orbit.name
+    course, name = orbit.course, orbit.name
     solution = claim_of(
         name,
         "solution",
         "The closing conditions of an orbit with one impact a period and forward slip have a solution with a period and a "
         "radial speed in these intervals; it is simple, so no other is next to it.",
         1,
-        enclosures=enclosures_of(period=impact.period, radial_speed=impact.speed, angular_speed=impact.angular_speed),
+        enclosures=enclosures_of(
+            period=course.back.period, radial_speed=course.speed, angular_speed=course.angular_speed
+        ),
     )
     outward = claim_of(
         name,
         "outward",
         "Its radial speed before the impact is positive: it meets the wall from inside.",
-        decided(impact.speed) or (-1 if impact.speed.is_zero() else 0),
-        reason="its radial speed is not above 0" if impact.speed <= 0 else "the sign of its radial speed is open",
+        decided(course.speed) or (-1 if course.speed.is_zero() else 0),
+        reason="its radial speed is not above 0" if course.speed <= 0 else "the sign of its radial speed is open",
         limited=rotor.hypotheses.exact,
     )
     claims = [solution, outward]
@@ -121,9 +110,7 @@ def orbit_claims(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> tuple[li
 
 def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
     """Claim that the slip stays forward throughout the impact."""
-    impact = orbit.impact
-    before = rotor.radius_ratio + 1 + impact.angular_speed
-    after = before - rotor.mu * (1 + rotor.d) * impact.speed
+    after = orbit.course.slip_after
     free = rotor.hypotheses.rational("mu") == (Fraction(0),)
     words = "friction would stop its slip, or its slip is backward"
     return claim_of(
@@ -143,10 +130,10 @@ def _slip_claim(rotor: Rotor, orbit: Candidate) -> Claim:
 def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
     """Claim that the orbit stays inside the wall strictly between its impacts."""
     statement = "It stays inside the wall, |U| < 1, strictly between its impacts."
-    radius = Analytic(lambda time, length: rotor.radius_series(orbit.impact, time, length))
+    period, radius = orbit.course.back.period, Analytic(orbit.course.heights)
     # Without rebound the rotor leaves with no radial speed, and the push decides.
     order = 2 if rotor.hypotheses.rational("d") == (Fraction(0),) else 1
-    found = evidence.take(f"flight of {orbit.name}", lambda: _flight(rotor, orbit.impact, radius, order))
+    found = evidence.take(f"flight of {orbit.name}", lambda: _flight(rotor, period, radius, order))
     if found is None:
         reason = (
             "neither could be shown: it comes too close to the wall for the precision or the width of the given numbers"
@@ -158,37 +145,37 @@ def _inside_claim(rotor: Rotor, orbit: Candidate, evidence: Evidence) -> Claim:
             shown = order == 2 and radius.series(arb(0), 3)[2] > 0
             reason = "it would stay on the wall: it does not rebound and is pressed outward"
         else:
-            shown = 0 < time < exact_ends(orbit.impact.period)[0] and radius.sign(time) > 0
+            shown = 0 < time < exact_ends(period)[0] and radius.sign(time) > 0
             reason = f"it would be outside the wall at t = {float(time):.6g} after the impact"
         if not shown:
             raise NotShownError(f"the certificate does not show that {orbit.name} leaves the wall at {time}")
         return claim_of(orbit.name, "inside", statement, -1, reason=reason)
     cells = Cells.from_document(found)
-    if set(cells.kinds) - {NEGATIVE} or not _ends_inside(orbit.impact, radius, cells.cuts[0], cells.cuts[-1], order):
+    if set(cells.kinds) - {NEGATIVE} or not _ends_inside(period, radius, cells.cuts[0], cells.cuts[-1], order):
         raise NotShownError(f"the certificate does not show that {orbit.name} stays inside the wall")
     show(radius, cells)
     return claim_of(orbit.name, "inside", statement, 1)
 
 
-def _ends_inside(impact: Impact, radius: Analytic, first: Fraction, last: Fraction, order: int) -> bool:
+def _ends_inside(period: Any, radius: Analytic, first: Fraction, last: Fraction, order: int) -> bool:
     """Whether the radius is below one from the impact to ``first``, and from ``last`` to the next impact."""
     return (
-        0 < first <= last < exact_ends(impact.period)[0]
+        0 < first <= last < exact_ends(period)[0]
         and radius.sign_next_to(arb(0), first, order, 1) < 0
-        and radius.sign_next_to(impact.period, exact_ends(impact.period)[1] - last, 1, -1) < 0
+        and radius.sign_next_to(period, exact_ends(period)[1] - last, 1, -1) < 0
     )
 
 
-def _flight(rotor: Rotor, impact: Impact, radius: Analytic, order: int) -> dict[str, Any] | None:
+def _flight(rotor: Rotor, period: Any, radius: Analytic, order: int) -> dict[str, Any] | None:
     """Cells on which the radius is below one, or a time at which it is not; ``None`` if neither is found."""
     if order == 2 and radius.series(arb(0), 3)[2] > 0:
         return {"outside": "0"}
-    low, high = exact_ends(impact.period)
+    low, high = exact_ends(period)
     width = power_of_two_below(min(1 / Fraction(rotor.fastest), low / 4))
     least = width / 2 ** max(rotor.bits // 2, 20)
     # Both ends are tried from the widest interval on; a point outside ends the search.
     ends = []
-    for place, side in ((arb(0), 1), (impact.period, -1)):
+    for place, side in ((arb(0), 1), (period, -1)):
         reach = width
         while not radius.sign_next_to(place, reach + (high - low), order if side > 0 else 1, side) < 0:
             near = reach if side > 0 else low - reach
@@ -200,7 +187,7 @@ def _flight(rotor: Rotor, impact: Impact, radius: Analytic, order: int) -> dict[
         ends.append(reach)
     first, grid = ends[0], ends[1] / 256
     last = ceil((low - ends[1]) / grid) * grid
-    if not _ends_inside(impact, radius, first, last, order):
+    if not _ends_inside(period, radius, first, last, order):
         return None
     if first == last:
         return Cells((first,), "").document()
@@ -215,7 +202,7 @@ def _flight(rotor: Rotor, impact: Impact, radius: Analytic, order: int) -> dict[
 
 def _stability_claim(rotor: Rotor, orbit: Candidate) -> Claim:
     """Claim that all multipliers lie inside the unit circle."""
-    found = rotor.invariants(orbit.impact)
+    found = orbit.course.invariants
     conserved = rotor.hypotheses.rational("d", "gamma") == (Fraction(1), Fraction(0))
     signs = {words: decided(ball) for words, ball in found.conditions.items()}
     if conserved:
