@@ -17,8 +17,9 @@ DAMPINGS = (0.002, 0.2)
 """Range of the damping; without damping there are infinitely many orbits."""
 NEGATIVE = -0.52
 """Lowest damping to which the branch at negative damping, which no machine has, is followed."""
-STEPS = Steps(first=0.005, largest=0.03)
-"""Straight lines between the points are closer to the branches than 3e-4 of the width of a figure."""
+STEPS = Steps(first=0.005, largest=0.033)
+"""Straight lines between the points are closer to the branches than 3e-4 of the width of a figure; they cut the one kink of the largest multiplier
+of ``B1,b`` by 3e-3."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

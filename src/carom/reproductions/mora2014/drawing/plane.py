@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullLocator
 
+from carom.bifurcations.conditions import spectral_radii
 from carom.plots.diagrams import CURVES, branch_line, curve_line, mark_point
 from carom.plots.figure import StyledFigure
 from carom.plots.style import TWO_COLUMNS, styled
@@ -56,10 +57,10 @@ def _multipliers(axes: Axes, pair: FirstPair) -> None:
     axes.axhline(1.0, color=INK, lw=0.5)
     for branch in (pair.slow, pair.fast):
         sizes = np.abs(branch.multipliers).max(axis=1)
-        branch_line(axes, branch, np.arange(len(branch)), branch.values, sizes)
-        for point in branch.special:
+        at_points = spectral_radii([(point.numbers, point.period, point.radial_speed) for point in branch.special])
+        branch_line(axes, branch, np.arange(len(branch)), branch.values, sizes, np.array(at_points))
+        for point, size in zip(branch.special, at_points, strict=True):
             if point.kind in MARKED:
-                size = float(np.abs(point.orbit.multipliers.values).max())
                 mark_point(axes, point.kind, point.value, size, point.admissible)
     axes.set_yscale("log")
     axes.set_ylim(0.72, 16.0)
