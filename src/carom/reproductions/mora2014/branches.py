@@ -17,9 +17,8 @@ DAMPINGS = (0.002, 0.2)
 """Range of the damping; without damping there are infinitely many orbits."""
 NEGATIVE = -0.52
 """Lowest damping to which the branch at negative damping, which no machine has, is followed."""
-STEPS = Steps(first=0.005, largest=0.033)
-"""Straight lines between the points are closer to the branches than 3e-4 of the width of a figure; they cut the one kink of the largest multiplier
-of ``B1,b`` by 3e-3."""
+STEPS = Steps(first=0.005, largest=0.035)
+"""Straight lines between the points are closer to the branches than 5e-4 of the width of a figure, a tenth of the width of a line."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
