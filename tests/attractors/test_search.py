@@ -13,8 +13,8 @@ from carom.motions import ensembles, trajectories
 from carom.motions.ensembles import Endings
 from carom.motions.starts import State, kick
 from carom.motions.trajectories import simulate
-from carom.orbits.single_impact import find_orbits
-from carom.outcome import InputError, Outcome
+from carom.orbits.single_impact import find_orbits, orbits_within_reach
+from carom.outcome import CaromError, InputError, Outcome
 from carom.parameters import Parameters
 from carom.progress import Reporter
 
@@ -233,6 +233,16 @@ def test_kicks_out_of_no_levitation_are_an_error():
 
 
 @pytest.mark.jit_only
+def test_where_orbits_cannot_be_listed_disturbances_are_followed_all_the_same():
+    """Without damping, at a resonance of flight and shaft, the closed form has no list; there are no starts next to orbits then."""
+    undamped = SOURCE.replace(gamma=0.0, omega=2 / 3)
+    with pytest.raises(CaromError, match="too near resonance"):
+        orbits_within_reach(undamped)
+    found = find_attractors(undamped, count=30)
+    assert len(found.disturbances) == 30
+    assert {ending.start.kind for ending in found.endings} & {"orbit"} == set()
+
+
 def test_motion_given_up_is_listed_last_with_its_reason(monkeypatch):
     for module in (ensembles, trajectories):
         monkeypatch.setattr(module, "longest_time", lambda rotor: 5.0)
