@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from carom.bifurcations.conditions import orbit_of
+from carom.closed_forms.thresholds import FOLD, ROLLING, WALL
 from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
 from carom.orbits.orbit import Orbit
@@ -29,7 +30,7 @@ CONTACT_CHANGES = ("cone-limit", "slide-stop", "lift-off")
 """Special points at which lasting contact changes its kind."""
 OF_CONTACT = (ONSET, PERMANENT, *CONTACT_CHANGES)
 """Special points of words with lasting contact; the first also of impacts without rebound."""
-STEADY: dict[str, MotionKind] = {"boundary-equilibrium": "contact-free", "rub-fold": "rub", "rolling-limit": "rolling"}
+STEADY: dict[str, MotionKind] = {WALL: "contact-free", FOLD: "rub", ROLLING: "rolling"}
 """Special points of steady motions, and the motion of each."""
 
 

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from carom.closed_forms.thresholds import Gain
+from carom.closed_forms.thresholds import FOLD, ROLLING, WALL, Gain
 from carom.closed_forms.whirl import Runaway, rolling, runaway_speed
 from carom.models import Jeffcott
 from carom.parameters.numbers import CONVERSIONS
@@ -26,7 +26,7 @@ Evidence = Literal["closed form", "searched", "sampled"]
 
 _SAME = 1e-8
 """Relative distance up to which two edges are one."""
-_CLOSED_FORMS = ("boundary-equilibrium", "rub-fold", "rolling-limit")
+_CLOSED_FORMS = (WALL, FOLD, ROLLING)
 
 
 @dataclass(frozen=True)
