@@ -101,23 +101,25 @@ def test_values_agree_with_closed_forms_written_a_second_time():
 
 def test_tests_of_orbits_agree_with_the_kernels():
     compared = 0
-    for parameters, _ in machines(2, sized(15, 3, 500)):
-        for orbit in list(find_orbits(parameters))[:4] if parameters.gamma > 0.05 else ():
-            if orbit.slip < 0 or abs(orbit.radial_speed) > 20.0:
-                continue
-            at = Doubles.of(parameters), orbit.period, orbit.radial_speed
-            known, course = conditions_at(*at), Course(Return(balls(parameters), arb(at[1])), arb(at[2]))
-            scale = 1.0 + np.abs(jacobian_at(*at)).max() ** 3
-            assert float(course.invariants.at_minus_one) == pytest.approx(known.period_doubling, abs=1e-9 * scale)
-            assert float(course.invariants.of_pairs) == pytest.approx(-known.neimark_sacker, abs=1e-9 * scale)
-            assert float(course.speed_fold) == pytest.approx(known.speed_fold, rel=1e-9, abs=1e-9)
-            assert float(course.back.closing_rate) == pytest.approx(known.period_fold, rel=1e-8, abs=1e-9)
-            assert float(course.slip_after) == pytest.approx(known.slip_stop, rel=1e-9, abs=1e-9)
-            top = profile_at(*at)
-            if np.isfinite(top.height):
-                touch = course.height(arb(top.top))[0] * course.speed
-                assert float(touch) == pytest.approx(top.height, abs=1e-9 * (1.0 + abs(top.height)))
-            compared += 1
+    # At 53 bits balls near critical damping are wider than the rounding of the kernels.
+    with at_precision(120):
+        for parameters, _ in machines(2, sized(15, 3, 500)):
+            for orbit in list(find_orbits(parameters))[:4] if parameters.gamma > 0.05 else ():
+                if orbit.slip < 0 or abs(orbit.radial_speed) > 20.0:
+                    continue
+                at = Doubles.of(parameters), orbit.period, orbit.radial_speed
+                known, course = conditions_at(*at), Course(Return(balls(parameters), arb(at[1])), arb(at[2]))
+                scale = 1.0 + np.abs(jacobian_at(*at)).max() ** 3
+                assert float(course.invariants.at_minus_one) == pytest.approx(known.period_doubling, abs=1e-9 * scale)
+                assert float(course.invariants.of_pairs) == pytest.approx(-known.neimark_sacker, abs=1e-9 * scale)
+                assert float(course.speed_fold) == pytest.approx(known.speed_fold, rel=1e-9, abs=1e-9)
+                assert float(course.back.closing_rate) == pytest.approx(known.period_fold, rel=1e-8, abs=1e-9)
+                assert float(course.slip_after) == pytest.approx(known.slip_stop, rel=1e-9, abs=1e-9)
+                top = profile_at(*at)
+                if np.isfinite(top.height):
+                    touch = course.height(arb(top.top))[0] * course.speed
+                    assert float(touch) == pytest.approx(top.height, abs=1e-9 * (1.0 + abs(top.height)))
+                compared += 1
     assert compared > 5
 
 
@@ -147,7 +149,8 @@ def test_characteristic_polynomial_at_one_is_a_product_of_slopes():
 
 
 def test_series_are_derivatives():
-    with at_precision(200):
+    # A difference over 2^-60 leaves 60 bits fewer, and critical damping takes some more.
+    with at_precision(300):
         step = arb(2) ** -60
         for parameters, random in machines(4, sized(10, 2, 300)):
             numbers, period = balls(parameters), arb(random.uniform(0.3, 6.0))
