@@ -10,7 +10,7 @@ import pytest
 
 from carom.bifurcations import Bifurcation, OrbitBranch, continue_orbit
 from carom.bifurcations.conditions import TESTS, conditions_at
-from carom.models import Jeffcott
+from carom.models import Jeffcott, LinearRotor
 from carom.motions import State, simulate
 from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
@@ -224,6 +224,20 @@ def test_a_rotor_with_two_coordinates_is_continued_in_its_own_parameters():
     for at in branch.orbits[::4]:
         motion = at.trajectory(3.0)
         assert abs(motion.at_plane(np.array([motion.time]))[0][0] - at.position) < 1e-8
+
+
+def test_the_planar_rotor_by_its_matrices_has_the_same_special_points():
+    """Extrema of the radius too: it is the system that has them, not the description of the rotor."""
+    matrices = {"mass": [[1.0]], "damping": [[PAPER.gamma]], "stiffness": [[PAPER.omega**2]], "planes": [[1.0]]}
+    law = {"friction": [PAPER.mu], "restitution": [PAPER.d], "drive": [PAPER.radius_ratio + 1.0]}
+    linear = LinearRotor.in_fixed_frame(**matrices, **law, forcing=[PAPER.rho * np.exp(1j * PAPER.phi)])
+    start = find_orbits(PAPER)["B1,d"]
+    orbit = orbit_near(linear, start.word, Start(start.nodes, start.durations))
+    assert orbit is not None
+    known = {point.kind: point.value for point in single().special}
+    found = {point.kind: point.value for point in continue_orbit(orbit, "gamma", (0.075, 0.11)).special}
+    assert set(found) == {"radius-extremum", "period-doubling"}
+    assert found == pytest.approx(known, rel=1e-11)
 
 
 def test_neimark_sacker_points_have_a_pair_of_multipliers_on_the_unit_circle():

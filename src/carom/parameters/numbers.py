@@ -113,6 +113,8 @@ class Numbers(NamedTuple):
 
     def rates(self, name: str) -> list[float]:
         """Derivatives of the seven numbers by a parameter: imaginary parts after a tiny imaginary step, exact but for rounding."""
+        if name in self._fields:  # it moves alone
+            return [float(name == field) for field in self._fields[:7]]
         moved = self.moved(name, complex(self.value(name), _STEP))  # type: ignore[arg-type]
         return [complex(number).imag / _STEP for number in moved[:7]]
 
