@@ -168,12 +168,12 @@ def find_equilibria(machine: Subject) -> EquilibriumSet:
     system = model.system
     rubs = [_rub(system, *balance) for balance in rub_forces(system)]
     found = (_contact_free(model), *sorted(rubs, key=lambda rub: (not rub.stable, rub.status)))
-    return EquilibriumSet(model, found, complete=len(system.arrays.rows) <= COUNTED)
+    return EquilibriumSet(model, found, complete=len(system.arrays["rows"]) <= COUNTED)
 
 
 def _contact_free(model: Model) -> Equilibrium:
     system = model.system
-    places = np.asarray(system.arrays.offsets)
+    places = np.asarray(system.arrays["offsets"])
     # The exponents of the planar rotor are exact, others have rounding errors.
     margin = 0.0 if isinstance(model, Jeffcott) else NEUTRAL
     return Equilibrium(
@@ -197,14 +197,14 @@ def _status(margin: float) -> Status:
 def _rub(system: System, planes: tuple[int, ...], forces: np.ndarray, touching: np.ndarray) -> Equilibrium:
     arrays, chosen = system.arrays, list(planes)
     amplitudes = static_state(system, planes, forces, touching)
-    places, pushes = arrays.rows @ amplitudes + arrays.offsets, np.zeros(len(arrays.rows))
+    places, pushes = arrays["rows"] @ amplitudes + arrays["offsets"], np.zeros(len(arrays["rows"]))
     places[chosen], pushes[chosen] = touching, forces
     contact = np.full(len(places), Phase.FLIGHT)
     contact[chosen] = Phase.FORWARD_SLIP
     eigenvalues = sliding_rates(system, amplitudes, contact)
     position, _ = system.state(amplitudes)
     # At several planes bounces are not judged.
-    lands = len(planes) > 1 or bool(arrays.restitution[planes[0]] < 1.0)
+    lands = len(planes) > 1 or bool(arrays["restitution"][planes[0]] < 1.0)
     margin = min(forces.min(), *(1.0 - np.abs(np.delete(places, chosen))), np.inf)
     stable = _dies_out(eigenvalues) and bool(forces.min() > 0.0) and lands
     return Equilibrium(

@@ -30,21 +30,21 @@ def sliding_rates(system: System, amplitudes: np.ndarray, contact: np.ndarray) -
     """
     arrays = system.arrays
     rubs = np.flatnonzero(contact == Phase.FORWARD_SLIP)
-    rows, columns = arrays.rows[rubs], arrays.columns[:, rubs]
-    grip = 1.0 + 1j * arrays.friction[rubs]
+    rows, columns = arrays["rows"][rubs], arrays["columns"][:, rubs]
+    grip = 1.0 + 1j * arrays["friction"][rubs]
     modes = len(amplitudes)
     # Real and imaginary parts of all amplitudes are changed by one, in turn.
     changes = np.concatenate([np.eye(modes), 1j * np.eye(modes)])
-    y, a = rows @ amplitudes + arrays.offsets[rubs], arrays.acceleration_rows[rubs] @ amplitudes
-    mobility = arrays.mobility[np.ix_(rubs, rubs)] * grip
+    y, a = rows @ amplitudes + arrays["offsets"][rubs], arrays["acceleration_rows"][rubs] @ amplitudes
+    mobility = arrays["mobility"][np.ix_(rubs, rubs)] * grip
     matrix = (y.conj()[:, None] * mobility * y).real
     push = np.linalg.solve(matrix, (y.conj() * a).real)
-    dy, da = changes @ rows.T, changes @ arrays.acceleration_rows[rubs].T
+    dy, da = changes @ rows.T, changes @ arrays["acceleration_rows"][rubs].T
     turned = dy.conj()[:, :, None] * mobility * y + y.conj()[:, None] * mobility * dy[:, None, :]
     right = (dy.conj() * a + y.conj() * da).real - turned.real @ push
     force = -grip * (np.linalg.solve(matrix, right.T).T * y + push * dy)
     rates = changes @ system.generator.T + force @ columns.T
     jacobian = np.concatenate([rates.real, rates.imag], axis=1).T
-    across = np.concatenate([(y.conj() * dy).real, (y.conj() * (changes @ arrays.rate_rows[rubs].T)).real], axis=1)
+    across = np.concatenate([(y.conj() * dy).real, (y.conj() * (changes @ arrays["rate_rows"][rubs].T)).real], axis=1)
     along = np.linalg.svd(across.T)[2][2 * len(rubs) :]
     return np.linalg.eigvals(along @ jacobian @ along.T)

@@ -41,12 +41,12 @@ def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.nda
 
     Rubs that are not isolated, such as those of a balanced rotor, are left out.
     """
-    receptance = -system.arrays.rows @ np.linalg.solve(system.generator, system.arrays.columns)
-    lever = receptance * (1.0 + 1j * system.arrays.friction)
+    receptance = -system.arrays["rows"] @ np.linalg.solve(system.generator, system.arrays["columns"])
+    lever = receptance * (1.0 + 1j * system.arrays["friction"])
     found = []
     for count in range(1, len(lever) + 1):
         for planes in combinations(range(len(lever)), count):
-            rest, h = system.arrays.offsets[list(planes)], lever[np.ix_(planes, planes)]
+            rest, h = system.arrays["offsets"][list(planes)], lever[np.ix_(planes, planes)]
             if count == 1:
                 pairs = _one_plane(complex(h[0, 0]), complex(rest[0]))
             else:
@@ -62,8 +62,8 @@ def rub_forces(system: System) -> list[tuple[tuple[int, ...], np.ndarray, np.nda
 def static_state(system: System, planes: tuple[int, ...], forces: np.ndarray, places: np.ndarray) -> np.ndarray:
     """Amplitudes of the rotor at rest under contact forces at some planes, shape (N,)."""
     chosen = list(planes)
-    pushes = (1.0 + 1j * system.arrays.friction[chosen]) * forces * places
-    amplitudes: np.ndarray = np.linalg.solve(system.generator, system.arrays.columns[:, chosen] @ pushes)
+    pushes = (1.0 + 1j * system.arrays["friction"][chosen]) * forces * places
+    amplitudes: np.ndarray = np.linalg.solve(system.generator, system.arrays["columns"][:, chosen] @ pushes)
     return amplitudes
 
 

@@ -44,7 +44,8 @@ class System(Result):
     Attributes
     ----------
     arrays : numpy.record
-        Of :func:`~carom.core.layout.rotor_record`, with ``N = 2n`` modes and ``P`` contact planes.
+        Of :func:`~carom.core.layout.rotor_record`, with ``N = 2n`` modes and ``P`` contact planes.  Its fields as attributes take four
+        times as long as in brackets.
     rest : ndarray of complex, shape (n,)
         Coordinates at the contact-free equilibrium.
     shapes : ndarray of complex, shape (n, N)
@@ -67,13 +68,12 @@ class System(Result):
 
         Rotors with the same modes, such as all with the same damping and stiffness, share them.
         """
-        return _table(self.exponents.tobytes(), self.arrays.driven.tobytes())
+        return _table(self.exponents.tobytes(), self.arrays["driven"].tobytes())
 
     @cached_property
     def contacts(self) -> tuple[Contact, ...]:
         """The contact planes."""
         arrays = self.arrays
-        # Fields as attributes take four times as long.
         numbers = (arrays[name].tolist() for name in ("friction", "restitution", "drive"))
         rows = arrays["rows"], arrays["rate_rows"], arrays["columns"].T
         fields = arrays["offsets"].tolist(), *rows, *numbers
@@ -87,7 +87,7 @@ class System(Result):
     @cached_property
     def generator(self) -> np.ndarray:
         """Matrix ``M`` of free flight ``ċ = M c``, shape (N, N)."""
-        return np.diag(self.exponents) + np.diag(self.arrays.driven[1:].astype(complex), -1)
+        return np.diag(self.exponents) + np.diag(self.arrays["driven"][1:].astype(complex), -1)
 
     @property
     def rates(self) -> np.ndarray:
@@ -183,7 +183,7 @@ class System(Result):
     @property
     def rest_radius(self) -> float:
         """Largest distance of a contact plane from its centre at the contact-free equilibrium: there is levitation below 1."""
-        return float(np.abs(self.arrays.offsets).max())
+        return float(np.abs(self.arrays["offsets"]).max())
 
     @cached_property
     def carried(self) -> np.ndarray:
@@ -203,9 +203,9 @@ class System(Result):
         """Whether it is a :func:`second_order_system`: lanes and the closing of orbits are made for these."""
         arrays = self.arrays
         return (
-            arrays.columns.tolist() == [[1.0], [0.0]]
-            and arrays.rows.tolist() == [[0.0, 1.0]]
-            and bool(arrays.driven[1])
+            arrays["columns"].tolist() == [[1.0], [0.0]]
+            and arrays["rows"].tolist() == [[0.0, 1.0]]
+            and bool(arrays["driven"][1])
         )
 
     def at_planes(self, amplitudes: np.ndarray, planes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
