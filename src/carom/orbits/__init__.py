@@ -9,6 +9,7 @@
 ``search``          orbits with any number of impacts, from simulated starts
 ``recognising``     the orbit that a simulated motion repeats
 ``rubbing``         periodic motions with lasting contact, from one lift-off to the next
+``chatter``         a chatter as one segment
 ``landings``        how far a chatter is from the onset of lasting contact
 ``exponents``       Lyapunov exponents of motions and of orbits
 ``names``           names of orbits

@@ -13,7 +13,8 @@ from carom.core.rub_step import NOWHERE
 from carom.models import Jeffcott, Model
 from carom.models.system import Contact
 from carom.motions.trajectories import EventLog, follow
-from carom.orbits.shooting import LONGEST, MOST_BOUNCES, TOLERANCE, Start
+from carom.orbits.chatter import LONGEST, MOST_BOUNCES
+from carom.orbits.shooting import TOLERANCE, Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import Outcome, Phase
 

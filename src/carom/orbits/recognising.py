@@ -9,8 +9,9 @@ import numpy as np
 from carom.core.advance import SHORTEST_LAP
 from carom.models import Model
 from carom.motions.trajectories import Trajectory, simulate
+from carom.orbits.chatter import slow_departures
 from carom.orbits.orbit import Orbit, orbit_near
-from carom.orbits.shooting import Start, slow_departures
+from carom.orbits.shooting import Start
 from carom.orbits.word import Kind, Segment, Word
 from carom.outcome import InputError, Outcome, Phase
 
