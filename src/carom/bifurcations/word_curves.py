@@ -1,7 +1,7 @@
 """Curves of special points of orbits of any word in the plane of two parameters.
 
 The unknowns are nodes, durations and the first parameter; the equations are those of the orbit and the function that vanishes at
-the special point.  The derivatives of the orbit's equations by nodes and durations are exact, the others differences.
+the special point.  The derivatives of the orbit's equations are exact, by the parameters only without lasting contact; the others are differences.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from carom.bifurcations.points import HALVING, Bifurcation
 from carom.bifurcations.word_equations import REMEMBERED, TESTS, FamilyPoint, halving, point_at
 from carom.continuation import Branch, Steps, Watch, continue_branch
 from carom.models import Model
-from carom.orbits.shooting import pack_free
+from carom.orbits.shooting import by_parameter, pack_free
 from carom.outcome import InputError
 
 STEPS = Steps(first=0.01, largest=0.08, sharpest_turn=0.25, most_points=400, tolerance=1e-10, iterations=12)
@@ -85,7 +85,9 @@ class _CurveEquations:
             column = (self.left_sides(x + change) - self.left_sides(x - change)) / (2.0 * change[k])
             whole[-1, k] = column[-1]
             if k >= len(x) - 2:
-                whole[:-1, k] = column[:-1]
+                name = self.plane.second if k == len(x) - 1 else self.plane.first
+                exact = by_parameter(at.rotor, self.word, at.links.start, name)
+                whole[:-1, k] = column[:-1] if exact is None else exact
         return whole
 
     def weigh(self, x: np.ndarray) -> None:
