@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from carom.core.contact_series import AWAY, BACKWARD_SLIP, FORWARD_SLIP, ROLLING, rub_series
-from carom.core.flow import acceleration, displacement, flight_increments, squared_modulus, velocity
+from carom.core.flow import acceleration, copy, displacement, flight_increments, squared_modulus, velocity
 from carom.core.impact import unit
 from carom.core.layout import ORDER, kernel, part
 from carom.core.segments import IMPACT_BACKWARD, IMPACT_STOPPED, LIFT, ROLL, SLIDE_BACKWARD, SLIDE_FORWARD, strike
@@ -87,7 +87,7 @@ def least_margins(rotor, kinds, planes, nodes, durations, landings):
         elif kinds[i] != LIFT:
             approach = min(approach, radial)
         if kinds[i] <= LIFT:
-            after[:] = nodes[i]
+            copy(nodes[i], after)
             if kinds[i] < LIFT:
                 strike(rotor, planes[i], kinds[i], after, still)
             for plane in range(rotor.rows.shape[0]):
@@ -122,7 +122,7 @@ def contact_margins(rotor, kinds, planes, nodes, durations, rub):
         friction = rotor.friction[plane]
         contact[:] = AWAY
         contact[plane] = ROLLING if rolls else BACKWARD_SLIP if backward else FORWARD_SLIP
-        state[:] = nodes[i]
+        copy(nodes[i], state)
         elapsed = 0.0
         while elapsed < durations[i]:
             rub_series(rotor, contact, state, rub)
@@ -185,7 +185,8 @@ def highest_point(rotor, plane, start, duration):
 
     A flight from rest on the wall begins at such a maximum, which is left out as it lies before the first sample.
     """
-    starts, increments = start.reshape(1, -1), np.empty((1, start.shape[0]), np.complex128)
+    starts, increments = np.empty((1, start.shape[0]), np.complex128), np.empty((1, start.shape[0]), np.complex128)
+    copy(start, starts[0])
     fastest = 0.0
     for k in range(start.shape[0]):
         fastest = max(fastest, math.sqrt(squared_modulus(rotor.exponents[k])))
