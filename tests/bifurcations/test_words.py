@@ -16,6 +16,7 @@ from carom.orbits import find_orbits, impact_map
 from carom.orbits.orbit import Orbit, orbit_near, same_orbit
 from carom.orbits.recognising import orbit_of_motion
 from carom.orbits.shooting import Start, closed_flights, links_of
+from carom.orbits.word import Kind, Word
 from carom.outcome import CaromError, InputError
 from tests.machines import PAPER
 from tests.orbits.test_orbit import exact_arrival, exact_matrix, exact_rebound, exact_state, tilting_too
@@ -238,6 +239,24 @@ def test_the_planar_rotor_by_its_matrices_has_the_same_special_points():
     found = {point.kind: point.value for point in continue_orbit(orbit, "gamma", (0.075, 0.11)).special}
     assert set(found) == {"radius-extremum", "period-doubling"}
     assert found == pytest.approx(known, rel=1e-11)
+
+
+def test_extrema_of_the_radius_where_friction_stops_the_slip():
+    """The number of extrema changes at the special point and nowhere else; the formula for forward slip had none there."""
+    machine = PAPER.replace(gamma=0.25, omega=0.55, rho=0.576, phi=0.0, mu=1.7, d=0.9, radius_ratio=0.91)
+    start = Start(np.array([[0.876 - 0.482j, 0.121 - 1.596j]]), np.array([3.047]))
+    orbit = orbit_near(machine, Word.of(Kind.IMPACT_STOPPED), start)
+    assert orbit is not None
+    branch = continue_orbit(orbit, "gamma", (0.12, 0.3))
+    (point,) = [point for point in branch.special if point.kind == "radius-extremum"]
+
+    def extrema(each: Orbit) -> int:
+        radii = np.abs(each.path(np.linspace(0.0, each.period, 8001)[1:-1]))
+        return int((np.diff(np.sign(np.diff(radii))) != 0).sum())
+
+    for value, each in zip(branch.values.tolist(), branch.orbits, strict=True):
+        assert extrema(each) == (3 if value < point.value else 1)
+    assert 0.13 < point.value < 0.2
 
 
 def test_neimark_sacker_points_have_a_pair_of_multipliers_on_the_unit_circle():

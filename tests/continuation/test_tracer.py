@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import numpy as np
@@ -239,6 +240,14 @@ def test_most_points_and_step_too_small():
     corner = continue_branch(lambda u, p: np.array([u[0] - abs(p - 0.2)]), np.array([0.2]), 0.0, (-1, 1))
     assert corner.stops == ("parameter limit", "step too small")
     assert corner.parameters[-1] == pytest.approx(0.2, abs=1e-5)
+
+
+def test_a_pole_is_no_zero_where_rounding_makes_it_one():
+    pole = Watch("pole", lambda u, p: 1.0 / (p - 0.123) if abs(p - 0.123) > 1e-13 else 0.0)
+    steep = Watch("steep", lambda u, p: math.copysign(abs(p - 0.3) ** 0.5, p - 0.3))
+    branch = continue_branch(lambda u, p: np.array([u[0] - p]), np.array([0.0]), 0.0, (-1, 1), watches=[pole, steep])
+    (point,) = branch.special
+    assert (point.kind, point.parameter) == ("steep", pytest.approx(0.3, abs=1e-13))
 
 
 def test_jumps_and_missing_values_are_no_zeros():

@@ -308,6 +308,7 @@ class Tracer:
             return values[distance]
 
         smaller, size = sorted(map(abs, values.values()))
+        largest = size
         if smaller < JUMP * size:
             # One end is all but a zero, or the other a pole.
             size = min(size, abs(value(0.5 * length)))
@@ -326,8 +327,10 @@ class Tracer:
         except CaromError:
             return None
         if math.isnan(smaller + size):
-            size = max(abs(values[end]) for end in bracket)
-        return None if abs(rounded(distance)) > JUMP * size else (distance, known[distance])
+            size = largest = max(abs(values[end]) for end in bracket)
+        # A pole may be a zero by rounding, but next to it the function is largest.
+        beside = values[min(values.keys() - {distance}, key=lambda each: abs(each - distance))]
+        return None if abs(rounded(distance)) > JUMP * size or abs(beside) > largest else (distance, known[distance])
 
     def _return(self, path: _Path, here: Point, there: Point, heading: np.ndarray) -> float | None:
         """Share of the step at which the branch passes its start again, in the initial direction."""
