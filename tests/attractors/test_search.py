@@ -112,15 +112,18 @@ def test_irregular_bouncing_at_gamma_0_082_lasts():
 @pytest.mark.jit_only
 @pytest.mark.parametrize(("gamma", "half_life"), [(0.079, 640.0), (0.080, 1880.0)])
 def test_irregular_bouncing_that_dies_is_no_attractor_however_short_the_patience(gamma, half_life):
-    """Half-lives counted over 1500 fresh starts every 250 impacts, to 4 %."""
-    found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000)
+    """Half-lives counted over 1500 fresh starts every 250 impacts, to 4 %; one interval of 95 % in twenty misses them."""
+    intervals = []
+    for seed in range(3):
+        found = find_attractors(Jeffcott(SOURCE.replace(gamma=gamma)), count=60, patience=4000, seed=seed)
+        assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling backward whirl"}
+        transient = found.transient
+        assert transient is not None
+        low, high = transient.interval
+        assert low < transient.half_life < high
+        intervals.append((low, high))
 
-    assert {member.name for member in found} == {"levitation", "synchronous rub", "rolling backward whirl"}
-    transient = found.transient
-    assert transient is not None
-    low, high = transient.interval
-    assert low < transient.half_life < high
-    assert low < half_life < high
+    assert sum(low < half_life < high for low, high in intervals) >= 2
 
 
 @pytest.mark.jit_only

@@ -146,7 +146,7 @@ def test_intervals_hold_all_roots_and_tell_the_doubtful():
     doubtful = intervals[intervals[:, 2] != 0.0]
     assert len(doubtful) == 1
     assert 0.0 < doubtful[0, 1] - doubtful[0, 0] < 1e-4
-    found, starts_below = roots_on(modes, factor, intervals)
+    found, _, starts_below = roots_on(modes, factor, intervals)
     np.testing.assert_allclose(found, 1.6408219835, atol=1e-6)
     assert len(found) == 2
     assert not starts_below
@@ -162,7 +162,7 @@ def test_a_root_at_zero_is_told_apart():
         parameters = PAPER.replace(d=1.0, gamma=gamma)
         modes, factor = pair_of(parameters), factor_of(parameters)
         with np.errstate(all="ignore"):  # without the compiler, the pole of a₁₂ at T = 0 is noticed
-            found, starts_below = roots_on(modes, factor, isolate(modes, factor, 30.0, 120, 1000)[0])
+            found, _, starts_below = roots_on(modes, factor, isolate(modes, factor, 30.0, 120, 1000)[0])
         assert starts_below == below
         assert len(found) == int(below)
 

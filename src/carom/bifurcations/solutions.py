@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from carom.bifurcations.conditions import conditions_at
 from carom.closed_forms.periods import PeriodCondition
 from carom.models import Subject, jeffcott_of
 from carom.orbits.names import OrbitName
@@ -37,6 +36,5 @@ def orbit_solutions(machine: Subject, longest_period: float | None = None, *, ba
         numbers = numbers._replace(mu=-numbers.mu)
     roots = PeriodCondition.planar(rotor.parameters, -1 if backward else 1).roots(longest_period)
     periods: list[float] = roots.periods.tolist()
-    levers = [conditions_at(numbers, period, 0.0).lever for period in periods]
-    orbits = orbits_of_roots(rotor, roots, levers, -1 if backward else 1)
+    orbits = orbits_of_roots(rotor, roots, -1 if backward else 1)
     return [Solution(name, numbers, periods[root], speed) for name, root, speed in orbits if speed > 0.0]

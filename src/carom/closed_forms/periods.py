@@ -26,6 +26,8 @@ class PeriodRoots(Result):
     ----------
     periods : ndarray
         The roots in ascending order, a double root twice.
+    returns : ndarray of complex, shape (N, 2)
+        ``q a₁₂`` and ``q a₂₂`` there.
     longest_period : float
         End of the searched range.
     proven : bool
@@ -35,6 +37,7 @@ class PeriodRoots(Result):
     """
 
     periods: np.ndarray
+    returns: np.ndarray
     longest_period: float
     proven: bool
     starts_below: bool
@@ -126,5 +129,5 @@ class PeriodCondition:
         intervals, complete = periods.isolate(self.modes, self.factor, float(end), count, MOST_INTERVALS + 2 * count)
         if not complete:
             raise CaromError(f"periods up to {end:.3g}/Omega are too near resonance; give a shorter longest_period")
-        found, starts_below = periods.roots_on(self.modes, self.factor, intervals)
-        return PeriodRoots(found, end, end >= bound, starts_below)
+        found, values, starts_below = periods.roots_on(self.modes, self.factor, intervals)
+        return PeriodRoots(found, self.factor * values, end, end >= bound, starts_below)

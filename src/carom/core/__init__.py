@@ -34,10 +34,13 @@ Nothing here knows units, files or results.  A kernel sees a rotor as the arrays
 ``cache``            the disk cache of compiled kernels
 ``cache_directory``  where that cache is
 ``intermediate``     kernels that only other kernels call
+``libraries``        what is linked into a kernel, and where it is optimised
 ``steps``            Numba's steps of compilation, as kernels need them
 ``shapes``           shapes of arrays as constants of the compiler
 ``signatures``       types of operations, inferred once
 ``lowering``         the code of a kernel for LLVM, without what kernels do not need
+``instructions``     complex numbers, ranges and items of arrays as instructions
+``calls``            calls from one kernel to another
 ``target``           the processor that kernels are compiled for
 ``processors``       number of available processor cores
 ===================  ===========================================================

@@ -8,16 +8,19 @@ called by kernels only, so most of their machine code would never run.
 from __future__ import annotations
 
 import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from hashlib import sha256
 from typing import Any
 
-from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompileResult
 from numba.core.dispatcher import _FunctionCompiler  # type: ignore[attr-defined]
 from numba.core.funcdesc import default_mangler
+from numba.core.ir import Scope
 from numba.core.registry import CPUDispatcher
 from numba.core.types import unliteral  # type: ignore[attr-defined]
 
+from carom.core.libraries import CallerLibrary, IntermediateLibrary
 from carom.core.steps import KernelCompiler
 
 
@@ -56,107 +59,38 @@ class _IntermediateKernel(CPUDispatcher):  # type: ignore[misc]
         self.overloads[tuple(cres.signature.args)] = cres
 
 
-class _IntermediateLibrary(JITCodeLibrary):  # type: ignore[misc]
-    """Intermediate code for callers, without machine code.
-
-    A kernel that is not inlined is linked only into the outermost caller, which Python calls.  Otherwise each caller in
-    between would contain a copy and optimise it again.
-    """
-
-    apart = False
-    """Whether this is the code of a kernel that is not inlined."""
-
-    def finalize(self) -> None:
-        """Link the callees that are inlined, and optimise."""
-        self._left_out = self.left_out()
-        self._linking_libraries[:] = [library for library in self._linking_libraries if library not in self._left_out]
-        super().finalize()
-        self.defined, self.called = _functions(self, True), _functions(self, False)
-
-    def left_out(self) -> list[Any]:
-        """Code of callees that the outermost caller has to link."""
-        if self._finalized:
-            return self._left_out
-        return list({library: None for library in self._linking_libraries if _is_left_out(library)})
-
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()
-        self._finalized = True
-
-
-class _CallerLibrary(JITCodeLibrary):  # type: ignore[misc]
-    """Code of a kernel that Python calls, with that of all kernels it reaches except those that share theirs."""
-
-    def __init__(self, *args: Any) -> None:
-        super().__init__(*args)
-        self.needs: dict[Any, None] = {}
-        """Versions of kernels whose machine code this one calls."""
-
-    def add_linking_library(self, library: Any) -> None:
-        """Add the code of a callee, unless it shares its machine code."""
-        version = getattr(library, "version", None)
-        if version is None:
-            super().add_linking_library(library)
-        else:
-            self.needs[version] = None
-
-    def finalize(self) -> None:
-        """Link the callees that are inlined, then the others, and optimise."""
-        self._apart = [library for library in self._linking_libraries if getattr(library, "apart", False)]
-        self._linking_libraries[:] = [library for library in self._linking_libraries if library not in self._apart]
-        super().finalize()
-
-    def _optimize_final_module(self) -> None:
-        for library in _callers_first(_functions(self, False), self._apart):
-            self._final_module.link_in(library._get_module_for_linking(), preserve=True)
-        super()._optimize_final_module()
-
-
-def _is_left_out(library: Any) -> bool:
-    return getattr(library, "apart", False) or hasattr(library, "version")
-
-
-def _callers_first(called: set[str], libraries: list[_IntermediateLibrary]) -> list[_IntermediateLibrary]:
-    """The libraries that functions of these names reach, each after all its callers.
-
-    The linker drops a function that nothing linked before it calls, and Numba does not link it a second time.
-    """
-    makers = {name: library for library in libraries for name in library.defined}
-    ordered: dict[_IntermediateLibrary, None] = {}
-
-    def visit(names: set[str]) -> None:
-        for name in sorted(names & makers.keys()):
-            if makers[name] not in ordered:
-                visit(makers[name].called)
-                ordered[makers[name]] = None
-
-    visit(called)
-    return list(reversed(ordered))
-
-
-def _functions(library: Any, defined: bool) -> set[str]:
-    """Names of the functions that a library defines, or of those that it only declares."""
-    return {function.name for function in library._final_module.functions if function.is_declaration != defined}
-
-
 class CallerPipeline(KernelCompiler):
     """Numba's compiler pipeline for kernels that Python calls."""
 
     def compile_extra(self, func: Any) -> Any:
-        """Compile a version; garbage is collected afterwards, which saves a seventh of the time."""
-        collecting = gc.isenabled()
-        gc.disable()
-        try:
+        """Compile a version."""
+        with _without_detours():
             return super().compile_extra(func)
-        finally:
-            if collecting:
-                gc.enable()
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""
-        self.state.library = _CallerLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
+        self.state.library = CallerLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
         self.state.library.enable_object_caching()
         return super().define_pipelines()
+
+
+@contextmanager
+def _without_detours() -> Iterator[None]:
+    """Collect no garbage while compiling (a seventh of the time), and let all copies of a block of code share its names.
+
+    Numba copies the code of a passage twice before it inserts it, and with each block all names of the function.
+    """
+    collecting, copied = gc.isenabled(), hasattr(Scope, "__deepcopy__")
+    gc.disable()
+    if not copied:
+        Scope.__deepcopy__ = lambda scope, memo: scope
+    try:
+        yield
+    finally:
+        if not copied:
+            del Scope.__deepcopy__
+        if collecting:
+            gc.enable()
 
 
 class SharedPipeline(CallerPipeline):
@@ -179,7 +113,7 @@ class _Pipeline(KernelCompiler):
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""
-        self.state.library = _IntermediateLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
+        self.state.library = IntermediateLibrary(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
         return super().define_pipelines()
 
 

@@ -324,7 +324,7 @@ def isolate(modes, factor, end, count, most):
 
 @kernel
 def roots_on(modes, factor, intervals):
-    """Roots on the intervals of :func:`isolate`, a double root twice, and whether ``F₁ < 0`` next to ``T = 0``."""
+    """Roots on the intervals of :func:`isolate`, a double root twice; ``a₁₂`` and ``a₂₂`` there; whether ``F₁ < 0`` next to ``T = 0``."""
     found, roots, starts_below = 0, np.empty(2 * len(intervals)), False
     for i in range(len(intervals)):
         left, right = intervals[i, 0], intervals[i, 1]
@@ -340,7 +340,10 @@ def roots_on(modes, factor, intervals):
             share = slope / (slope - end_slope) if slope * end_slope < 0.0 else 0.5
             roots[found] = roots[found + 1] = left + share * (right - left)
             found += 2
-    return roots[:found], starts_below
+    values = np.empty((found, 2), np.complex128)
+    for i in range(found):
+        values[i, 0], values[i, 1], _, _ = flight_return(modes, roots[i])
+    return roots[:found], values, starts_below
 
 
 @part

@@ -7,10 +7,14 @@ numbers, arrays, strings, lists, dates.  Kernels repeat the same few hundred ope
 from __future__ import annotations
 
 import operator
-from collections import defaultdict
 from typing import Any, ClassVar
 
 from numba.core import types
+from numba.core.targetconfig import ConfigStack
+from numba.core.types import unliteral  # type: ignore[attr-defined]
+from numba.core.typing import signature
+
+from carom.core.instructions import EXTREMES
 
 
 class RecallingContext:
@@ -20,14 +24,15 @@ class RecallingContext:
     ----------
     context : Numba's typing context
     flags : Numba's flags of the function that is compiled
-        Definitions that Numba compiles from Python source inherit some of them, so each set of flags has its own types.
+        Operations that Numba compiles from Python source inherit some of them; here they are the same for all kernels, inlined or not.
     """
 
-    _known: ClassVar[dict[str, dict[Any, Any]]] = defaultdict(dict)
+    _known: ClassVar[dict[Any, Any]] = {}
 
     def __init__(self, context: Any, flags: Any) -> None:
         self._context = context
-        self._found = self._known[flags.summary()]
+        self._flags = flags.copy()
+        self._flags.forceinline = False
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._context, name)
@@ -38,10 +43,18 @@ class RecallingContext:
             function = self._context._lookup_global(function) or function
         if keywords or not isinstance(function, types.BaseFunction | types.BoundFunction):
             return self._context.resolve_function_type(function, args, keywords)
-        key = function, args
-        if key not in self._found:
-            self._found[key] = self._context.resolve_function_type(function, args, keywords)
-        return self._found[key]
+        return self._recalled(function, args)
+
+    def _recalled(self, function: Any, args: tuple[Any, ...]) -> Any:
+        if (function, args) not in self._known:
+            plain = tuple(map(unliteral, args))
+            if function.typing_key in EXTREMES and len(plain) > 1 and set(plain) in ({types.float64}, {types.int64}):
+                found = signature(plain[0], *plain)
+            else:
+                with ConfigStack().enter(self._flags):
+                    found = self._context.resolve_function_type(function, args, {})
+            self._known[function, args] = found
+        return self._known[function, args]
 
     def resolve_setitem(self, target: Any, index: Any, value: Any) -> Any:
         """The signature of an assignment to an item, None if there is none."""
@@ -51,7 +64,6 @@ class RecallingContext:
 
     def resolve_getattr(self, kind: Any, name: str) -> Any:
         """The type of an attribute of a value of this type, None if there is none."""
-        key = kind, name
-        if key not in self._found:
-            self._found[key] = self._context.resolve_getattr(kind, name)
-        return self._found[key]
+        if (kind, name) not in self._known:
+            self._known[kind, name] = self._context.resolve_getattr(kind, name)
+        return self._known[kind, name]

@@ -8,6 +8,7 @@ from numba.core.compiler import Compiler
 from numba.core.typed_passes import InlineOverloads, NativeLowering, NopythonRewrites
 from numba.core.untyped_passes import InlineClosureLikes, InlineInlinables, RewriteSemanticConstants
 
+from carom.core.calls import KernelContext
 from carom.core.lowering import KernelLowering
 from carom.core.shapes import RecordShapes
 from carom.core.signatures import RecallingContext
@@ -24,6 +25,7 @@ class KernelCompiler(Compiler):  # type: ignore[misc]
 
     def define_pipelines(self) -> Any:
         """The steps of compilation."""
+        self.state.targetctx.__class__ = KernelContext  # of the copy that Numba makes for each compilation
         self.state.typingctx = RecallingContext(self.state.typingctx, self.state.flags)
         (pipeline,) = super().define_pipelines()
         for step in RewriteSemanticConstants, InlineInlinables:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, overload
 
@@ -158,11 +158,11 @@ def find_orbits(
     rotor = jeffcott_of(machine)
     condition = PeriodCondition.planar(rotor.parameters)
     roots = condition.roots(longest_period)
-    orbits = _orbits_at(rotor, condition, roots, 1)
+    orbits = _orbits_at(rotor, roots, 1)
     forward_only = slip_stays_forward(rotor)
     if not forward_only:
         backward = PeriodCondition.planar(rotor.parameters, slip=-1)
-        reversed_orbits = _orbits_at(rotor, backward, backward.roots(longest_period), -1)
+        reversed_orbits = _orbits_at(rotor, backward.roots(longest_period), -1)
         orbits += [
             orbit
             for orbit in reversed_orbits
@@ -190,13 +190,12 @@ def longest_within_reach(rotor: Jeffcott) -> float | None:
     return None if condition.longest_period() <= limit else limit
 
 
-def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, slip: Slip) -> list[Orbit]:
+def _orbits_at(rotor: Jeffcott, roots: PeriodRoots, slip: Slip) -> list[Orbit]:
     """Orbits at all roots, in the order of their pairs and letters."""
     parameters, periods = rotor.parameters, roots.periods.tolist()
     gamma, omega, friction, d = parameters.gamma, parameters.omega, slip * parameters.mu, parameters.d
-    levers = (condition.factor * condition.a12(roots.periods)).tolist()
-    turns = (condition.factor * condition.a22(roots.periods)).tolist()
-    found = list(orbits_of_roots(rotor, roots, levers, slip))
+    levers, turns = roots.returns.T.tolist()
+    found = list(orbits_of_roots(rotor, roots, slip))
     stability = multipliers_of_all(
         [impact_jacobian(gamma, omega, friction, d, periods[root], speed) for _, root, speed in found]
     )
@@ -208,11 +207,9 @@ def _orbits_at(rotor: Jeffcott, condition: PeriodCondition, roots: PeriodRoots, 
     return sorted(orbits, key=lambda orbit: orbit.name.place)
 
 
-def orbits_of_roots(
-    rotor: Jeffcott, roots: PeriodRoots, levers: Sequence[complex], slip: Slip = 1
-) -> Iterator[tuple[OrbitName, int, float]]:
-    """Name, index of the root and radial speed of each orbit; ``levers`` are the values of ``q a₁₂`` at the roots."""
-    for root, lever in enumerate(levers):
+def orbits_of_roots(rotor: Jeffcott, roots: PeriodRoots, slip: Slip = 1) -> Iterator[tuple[OrbitName, int, float]]:
+    """Name, index of the root and radial speed of each orbit."""
+    for root, lever in enumerate(roots.returns[:, 0].tolist()):
         # F₁ starts positive unless d = 1, when T = 0 may be the shorter root of the first pair.
         pair, longer = divmod(root + int(roots.starts_below), 2)
         for faster, speed in enumerate(_radial_speeds(rotor, lever)):
