@@ -1,7 +1,7 @@
 """Calls from one kernel to another, as code for LLVM.
 
-A kernel that is called returns zero, or anything else if Numba has raised an exception in it, such as for want of memory. Numba
-takes a call apart into all that may come of it, and looks for a ``try`` around it; kernels have none.
+A compiled function returns zero; any other number stands for an exception in it, such as for want of memory.  Numba tells six
+outcomes of a call apart, and looks for a ``try`` around it; kernels have none.
 """
 
 from __future__ import annotations
@@ -44,14 +44,14 @@ class _Calls(CPUCallConv):  # type: ignore[misc]
 
 
 def _status(builder: Any, code: Any) -> Any:
-    """What the call of a function that always returns a value has come to."""
+    """Outcome of the call of a function that always returns a value."""
     failed = builder.icmp_signed("!=", code, RETCODE_OK)
     known = dict.fromkeys(Status._fields)
     return Status(**{**known, "code": code, "is_error": failed, "is_none": Constant(IntType(1), 0)})
 
 
 class KernelContext(CPUContext):  # type: ignore[misc]
-    """Numba's knowledge of the processor, with these calls."""
+    """What Numba knows of the processor and of types, with these calls."""
 
     @property
     def call_conv(self) -> Any:

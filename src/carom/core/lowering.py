@@ -1,7 +1,7 @@
 """The code of a kernel for LLVM, without what kernels do not need.
 
-Numba looks up the implementation of an operation by inferring its types again, copies the description of an array to memory
-before it reads an item, clears variables that own nothing, and describes variables to debuggers.
+Numba looks up the implementation of an operation by inferring its types again, copies complex numbers, ranges and the
+descriptions of arrays to memory before it reads their parts, clears variables that own nothing, and describes variables to debuggers.
 """
 
 from __future__ import annotations
@@ -169,8 +169,9 @@ class _Lower(Lower):  # type: ignore[misc]
 
     def _iterator(self, resty: Any, expr: Any) -> Any:
         """Iterator over a range in steps of one."""
-        definition = guard(get_definition, self.func_ir, expr.value)
-        if not isinstance(self.typeof(expr.value.name), RangeType) or len(getattr(definition, "args", "...")) > 2:
+        made = guard(get_definition, self.func_ir, expr.value)
+        called = isinstance(made, ir.Expr) and made.op == "call" and len(made.args) < 3
+        if not (called and isinstance(self.typeof(expr.value.name), RangeType)):
             return None
         kind = self.context.get_value_type(resty)
         return begin_range(self.builder, kind, self.loadvar(expr.value.name))
