@@ -14,6 +14,7 @@
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
 ``indentation``           whether a rigid wall is a valid model under a load
+``requirement``           what a machine must survive, and the usual kick
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
 """
@@ -31,6 +32,7 @@ from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load
 from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
+from carom.parameters.requirement import GRAVITY, usual_kick
 from carom.parameters.scaling import UNITS, Parameters, Scales
 from carom.parameters.sizes import Size, own_size, read_size
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
@@ -38,6 +40,7 @@ from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS
 __all__ = [
     "DIMENSIONLESS_FIELDS",
     "ENTRIES",
+    "GRAVITY",
     "HELPER_FIELDS",
     "LIMIT_FIELDS",
     "MACHINE_FIELDS",
@@ -63,4 +66,5 @@ __all__ = [
     "read_quantity",
     "read_size",
     "unknown_name",
+    "usual_kick",
 ]
