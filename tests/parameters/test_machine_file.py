@@ -1,13 +1,14 @@
 """Machine files, settings, cases and zones."""
 
 import math
+import warnings
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carom.outcome import InputError
+from carom.outcome import CaromWarning, InputError
 from carom.parameters import Case, Machine, Scales, Zones, load
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -139,6 +140,34 @@ def test_si_numbers_and_text_with_units_are_the_same_machine(write):
     plain = {**dict.fromkeys(ENTRIES), **{name: getattr(Machine.load(REAL), name) for name in ENTRIES}}
 
     assert Machine.load(write(text_of("machine", plain))) == Machine.load(REAL)
+
+
+@pytest.mark.parametrize(
+    ("changes", "settings", "told"),
+    [
+        (
+            {"clearance": "0.25", "rotor_radius": '"55 mm"'},
+            (),
+            "clearance = 0.25, rotor_radius = 55 mm: a rotor radius of 0.22",
+        ),
+        ({}, ["clearance=8.1 mm"], "clearance = 8.1 mm, rotor_radius = 40 mm: a rotor radius of 4.94 clearances"),
+        ({}, ["radius_ratio=4.9"], None),
+        ({}, ["clearance=8 mm"], None),
+        ({"clearance": "0.25"}, ["clearance=0.25 mm"], None),
+    ],
+)
+def test_a_clearance_that_leaves_no_shaft_brings_a_warning(write, changes, settings, told):
+    path = write(text_of("machine", ENTRIES | changes))
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        load(path, settings)
+
+    assert [entry.category for entry in caught] == [CaromWarning] * (told is not None)
+    assert all(str(entry.message).startswith(told) for entry in caught)
+    if not settings:
+        with pytest.warns(CaromWarning, match="check the units"):
+            Machine.load(path)
 
 
 def test_a_byte_order_mark_and_windows_line_ends_do_no_harm(write):

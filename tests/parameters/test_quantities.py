@@ -4,6 +4,7 @@ import decimal
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from fractions import Fraction
 
 import mpmath
@@ -17,6 +18,7 @@ from carom.parameters import (
     DIMENSIONLESS_FIELDS,
     ENTRIES,
     MACHINE_FIELDS,
+    SETTABLE,
     Machine,
     Scales,
     Size,
@@ -26,7 +28,9 @@ from carom.parameters import (
     unknown_name,
 )
 from carom.parameters.common_units import COMMON_UNITS
+from carom.parameters.exact import read_exact
 from carom.parameters.quantities import read_decimal, without_separators
+from carom.studies import Wording
 
 ALLOWED = {
     "mass": "must be a mass in kg, > 0 (1e-09 to 1e+09)",
@@ -282,17 +286,64 @@ def test_a_comma_separates_thousands_of_turns_a_minute(text):
 
 
 @pytest.mark.parametrize(
-    ("name", "text"),
+    ("name", "text", "number"),
     [
-        *[("speed", "12,000 rad/s"), ("speed", "12,00 rpm"), ("speed", "12,0000 rpm"), ("speed", "1,5 rpm")],
-        *[("mass", "1,500 kg"), ("clearance", "0,7 mm"), ("clearance", "1,400 mm"), ("friction", "0,15")],
-        *[("balance_grade", "G 2,5"), ("unbalance", "1,500 g mm"), ("natural_frequency", "1,500 Hz")],
+        *[("damping", "50,540 N s/m", 50540.0), ("stiffness", "2,495,000 N/m", 2495000.0)],
+        *[("proportional_gain", "20,000 A/m", 20000.0), ("force_limit", "1,500 N", 1500.0)],
+        *[("mass", "1,234,567 kg", 1234567.0), ("clearance", "1,234.5 mm", 1.2345), ("damping", "50,540.5", 50540.5)],
     ],
 )
-def test_any_other_comma_is_refused(name, text):
-    error = error_of(lambda: read_decimal(ENTRIES[name], text))
+def test_commas_separate_thousands_where_no_other_reading_is_left(name, text, number):
+    assert read_quantity(ENTRIES[name], text) == number
+    assert float(read_exact(ENTRIES[name], text).rational) == number
 
-    assert "a comma may mark decimals or thousands" in error.allowed
+
+@pytest.mark.parametrize("value", [1234.0, 50540.0, 98765.4, 2495000.0, 9.8e6, 2.5e9, 7e-7])
+@pytest.mark.parametrize("name", ["damping", "stiffness", "speed", "proportional_gain"])
+def test_what_carom_writes_can_be_read(name, value):
+    text = Wording(None).field(name, value, 8)
+
+    assert "," in text or "×" in text
+    assert read_quantity(replace(ENTRIES[name], lowest=0.0, highest=1e30), text) == pytest.approx(
+        value, rel=1e-5
+    )  # six digits before a power of ten
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "advice"),
+    [
+        ("speed", "12,000 rad/s", "a comma may mark decimals or thousands: write 12.000 rad/s or 12 000 rad/s"),
+        ("mass", "1,500 kg", "a comma may mark decimals or thousands: write 1.500 kg or 1 500 kg"),
+        ("clearance", "1,400 mm", "a comma may mark decimals or thousands: write 1.400 mm or 1 400 mm"),
+        ("unbalance", "1,500 g mm", "a comma may mark decimals or thousands: write 1.500 g mm or 1 500 g mm"),
+        ("natural_frequency", "1,500 Hz", "a comma may mark decimals or thousands: write 1.500 Hz or 1 500 Hz"),
+        ("damping", "50,540", "a comma may mark decimals or thousands: write 50.540 or 50 540"),
+        ("speed", "12,00 rpm", "decimals take a point, not a comma: write 12.00 rpm"),
+        ("speed", "12,0000 rpm", "decimals take a point, not a comma: write 12.0000 rpm"),
+        ("speed", "1,5 rpm", "decimals take a point, not a comma: write 1.5 rpm"),
+        ("clearance", "0,7 mm", "decimals take a point, not a comma: write 0.7 mm"),
+        ("mass", "1 234,5 kg", "decimals take a point, not a comma: write 1234.5 kg"),
+        ("friction", "0,15", "decimals take a point, not a comma: write 0.15"),
+        ("friction", ",15", "decimals take a point, not a comma: write 0.15"),
+        ("balance_grade", "G 2,5", "decimals take a point, not a comma: write 2.5"),
+        ("mass", "1.234,5 kg", "decimals take a point, and spaces separate thousands: 12 345.6"),
+        ("mass", "1,234,56 kg", "decimals take a point, and spaces separate thousands: 12 345.6"),
+    ],
+)
+def test_any_other_comma_is_refused(name, text, advice):
+    for read in (read_decimal, read_exact):
+        error = error_of(lambda read=read: read(ENTRIES[name], text))
+
+        assert error.allowed.endswith(advice) or text.startswith("G")
+        assert "\n" not in str(error)
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [("3/4 in", "381/20000"), ("0.01 inch", "127/500000"), ("10 thou", "127/500000"), ("10 mil", "127/500000")],
+)
+def test_an_inch_is_exact(text, metres):
+    assert read_exact(ENTRIES["clearance"], text).rational == Fraction(metres)
 
 
 @pytest.mark.parametrize(
@@ -323,6 +374,28 @@ def test_unknown_names_suggest_the_nearest(written, meant):
 
     assert error.field == written
     assert f"did you mean {meant}?" in error.allowed
+
+
+@pytest.mark.parametrize(
+    ("written", "advice"),
+    [
+        ("bearing_stiffness", "stiffness and damping are those of the levitation; the touchdown bearing is rigid"),
+        ("contact-damping", "stiffness and damping are those of the levitation; the touchdown bearing is rigid"),
+        ("gravity", "gravity is not modelled"),
+        ("integral_gain", "an integral gain is not modelled"),
+        ("polar_inertia", "moments of inertia are not modelled"),
+        ("bearing_force", "allowed: "),
+        ("voltage_limit", "allowed: "),
+        ("mount_mass", "allowed: "),
+        ("unbalance_mass", "allowed: "),
+    ],
+)
+def test_no_name_is_suggested_that_means_something_else(written, advice):
+    error = unknown_name(written, 3, SETTABLE, "[machine]")
+
+    assert "did you mean" not in error.allowed
+    assert error.allowed.startswith(f"unknown name in [machine]; {advice}")
+    assert "allowed: gamma, omega" in error.allowed
 
 
 def test_several_unknown_names_list_those_allowed_once():

@@ -8,7 +8,7 @@ from decimal import Context, Decimal, localcontext
 from fractions import Fraction
 
 from carom.parameters.fields import Field
-from carom.parameters.quantities import read_quantity, unit_factor, without_separators
+from carom.parameters.quantities import comma_advice, read_quantity, unit_factor, without_separators
 
 _NUMBER = re.compile(
     r"(?P<number>[+-]?[0-9]+ */ *[0-9]+|[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(?P<unit>.*)"
@@ -79,7 +79,10 @@ def read_exact(field: Field, text: str) -> ExactNumber:
 
 
 def _from_text(field: Field, text: str) -> ExactNumber:
-    match = _NUMBER.fullmatch(without_separators(text))
+    plain = without_separators(text)
+    match = _NUMBER.fullmatch(plain)
+    if advice := comma_advice(plain):
+        raise field.error(text, advice)
     if not match:
         raise field.error(text, "this is not a decimal number or a fraction")
     number, unit = match["number"].replace(" ", ""), match["unit"].strip()
@@ -105,7 +108,7 @@ def _exact_factor(field: Field, unit: str, text: str) -> tuple[Fraction, int]:
     if not unit:
         return Fraction(1), 0
     with localcontext(Context(prec=_DIGITS)):
-        factor = unit_factor(field, unit, text)
+        factor = unit_factor(field, unit, text).normalize()  # without zeros at the end, as of an inch from pint
     if unit in _TURNS:
         return _TURNS[unit], 1
     if len(factor.as_tuple().digits) > _MOST_DIGITS:

@@ -214,9 +214,15 @@ _PARTNERS = {**PHYSICAL_PARTNER, **{physical: name for name, physical in PHYSICA
 _SYNONYMS = {
     "bearing_count": "magnetic_bearings",
     "clearance_diameter": "diametral_clearance",
+    "coefficient_of_friction": "friction",
+    "coefficient_of_restitution": "restitution",
     "current_stiffness": "force_current_factor",
     "d_gain": "derivative_gain",
+    "damping_coefficient": "damping",
+    "diameter": "rotor_diameter",
     "displacement_stiffness": "negative_stiffness",
+    "frequency": "natural_frequency",
+    "friction_coefficient": "friction",
     "grade": "balance_grade",
     "imbalance": "unbalance",
     "k_i": "force_current_factor",
@@ -233,22 +239,46 @@ _SYNONYMS = {
     "position_stiffness": "negative_stiffness",
     "quality_grade": "balance_grade",
     "radial_clearance": "clearance",
+    "radius": "rotor_radius",
+    "restitution_coefficient": "restitution",
+    "rotational_speed": "speed",
+    "rotor_mass": "mass",
+    "rotor_speed": "speed",
     "rpm": "speed",
+    "shaft_speed": "speed",
     "zeta": "damping_ratio",
 }
 """Other names in use; none of them is accepted, but errors suggest the right one."""
+_MISSPELT = 0.66
+"""Likeness from which a name counts as misspelt: one wrong letter of three."""
+_OTHER_WORDS = 0.2
+"""Taken off the likeness of names with more or fewer words: a word more mostly says something else."""
+_CONSTANTS = {"stiffness", "damping"}
+_NOT_MODELLED = (
+    (({"gravity", "weight"},), "gravity is not modelled"),
+    (({"integral", "i"}, {"gain", "action", "time"}), "an integral gain is not modelled"),
+    (({"delay", "filter", "bandwidth"},), "of the controller only P and D gain are modelled"),
+    (({"inertia", "gyroscopic"},), "moments of inertia are not modelled"),
+    (
+        ({"bearing", "touchdown", "contact", "wall", "mount", "housing", "stator"}, _CONSTANTS),
+        "stiffness and damping are those of the levitation; the touchdown bearing is rigid",
+    ),
+)
+"""What is not modelled: words of its name, one of each set, and what to say."""
 
 
 def unknown_name(name: str, given: object, known: Mapping[str, object], where: str, listed: bool = True) -> InputError:
     """Error for a name that does not exist, with the nearest name that does.
 
-    ``where`` says where the name stood, for example ``"[machine]"``.  Of the known names, those allowed there, the symbol or the
+    ``where`` says where the name stood, for example ``"[machine]"``.  Where none means the same, but the name is one of something
+    that is not modelled, that is said.  Of the known names, those allowed there, the symbol or the
     partner (``gamma`` for ``damping``) is recognised too; ``listed`` adds all of them to the message.
     """
     best = nearest_name(name, known)
-    advice = [f"did you mean {best}?"] if best else []
+    missing = None if best else _not_modelled(name)
+    advice = [f"did you mean {best}?"] if best else [f"{missing};"] if missing else []
     names = [f"allowed: {', '.join(known)}"] if listed else []
-    remedy = " ".join(advice + names)
+    remedy = " ".join(advice + names).removesuffix(";")
     return InputError(shown(name), shown(given), f"unknown name in {where}" + (f"; {remedy}" if remedy else ""))
 
 
@@ -281,10 +311,27 @@ def name_errors(
 
 
 def nearest_name(name: str, known: Mapping[str, object]) -> str | None:
-    """Return the known name that was probably meant, if there is one."""
+    """Return the known name that was probably meant, if there is one: a misspelling, a symbol or another name of the same number.
+
+    A name that merely looks alike may mean something else: ``bearing_stiffness`` is not ``negative_stiffness``.
+    """
     symbols = {field.symbol: key for key, field in known.items() if isinstance(field, Field)}
-    lookup = {key.lower(): key for key in known}
-    wanted = name[:_LONGEST_NAME].strip().lower().replace("-", "_").replace(" ", "_")
-    near = difflib.get_close_matches(wanted, lookup, n=1, cutoff=0.6)
+    wanted = "_".join(name[:_LONGEST_NAME].strip().lower().replace("-", " ").replace("_", " ").split())
     other = next((other for other in (_PARTNERS.get(wanted), _SYNONYMS.get(wanted)) if other in known), None)
-    return symbols.get(name) or other or (lookup[near[0]] if near else None)
+    likeness = {key: _likeness(wanted, key.lower()) for key in known}
+    nearest = max(likeness, key=likeness.__getitem__, default=None)
+    return symbols.get(name) or other or (nearest if nearest and likeness[nearest] >= _MISSPELT else None)
+
+
+def _likeness(one: str, other: str) -> float:
+    """Likeness of two names, 0 to 1: of their least similar words; a name of another number of words must be more alike as a whole."""
+    words, others = one.split("_"), other.split("_")
+    if len(words) == len(others):
+        return min(difflib.SequenceMatcher(None, *pair).ratio() for pair in zip(words, others, strict=True))
+    return difflib.SequenceMatcher(None, "".join(words), "".join(others)).ratio() - _OTHER_WORDS
+
+
+def _not_modelled(name: str) -> str | None:
+    """Say so if a name means something that no number of the model stands for."""
+    words = set(name[:_LONGEST_NAME].lower().replace("-", "_").replace(" ", "_").split("_"))
+    return next((words_of for needed, words_of in _NOT_MODELLED if all(words & choice for choice in needed)), None)

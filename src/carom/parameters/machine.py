@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping
 from typing import Any, cast
 
 import pydantic
 
-from carom.outcome import InputError, Problems, shown
+from carom.outcome import CaromWarning, InputError, Problems, shown
 from carom.parameters.fields import DIMENSIONLESS_FIELDS, MACHINE_FIELDS, PHYSICAL_PARTNER
 from carom.parameters.numbers import CONVERSIONS
 from carom.parameters.resolution import Resolved, resolve, solved
 from carom.parameters.scaling import Parameters, Scales
 from carom.parameters.terms import DEFAULTS, ENTRIES
 from carom.parameters.toml_reader import read_machine_tables
+
+LEAST_RADIUS = 5.0
+"""Rotor radius in clearances below which a machine file probably has a wrong unit; touchdown bearings have 20 to 1000."""
 
 
 class Machine(pydantic.BaseModel):
@@ -139,6 +143,11 @@ class Machine(pydantic.BaseModel):
         ------
         InputError
             If the file cannot be read, is not TOML, holds no ``[machine]`` table, or a value is not allowed.
+
+        Warns
+        -----
+        CaromWarning
+            The rotor radius is less than 5 clearances: a unit was probably forgotten.
         """
         problems = Problems()
         tables = read_machine_tables(path, problems)
@@ -147,6 +156,7 @@ class Machine(pydantic.BaseModel):
             raise InputError("machine file", shown(path), remedy)
         machine = problems.attempt(cls, **tables.values)
         problems.raise_all()
+        warn_of_proportions(machine)
         return cast("Machine", machine)
 
     @classmethod
@@ -248,6 +258,25 @@ class Machine(pydantic.BaseModel):
             same = False
         entries = written if same else dict(self._resolved.values)
         return "\n".join(["[machine]", *(_line(name, value) for name, value in entries.items())]) + "\n"
+
+
+def warn_of_proportions(machine: Machine | None) -> None:
+    """Warn of a clearance that leaves no shaft: a number without a unit is in metres, not in millimetres."""
+    if machine is None or machine.rotor_radius >= LEAST_RADIUS * machine.clearance:
+        return
+    given = machine.given_texts
+    if "radius_ratio" in given["rotor_radius"]:  # set on purpose, and has no unit
+        return
+    written = ", ".join(
+        f"{entry} = {text}" for name in ("clearance", "rotor_radius") for entry, text in given[name].items()
+    )
+    ratio = machine.rotor_radius / machine.clearance
+    warnings.warn(
+        f"{written}: a rotor radius of {ratio:.3g} clearances; touchdown bearings have 20 to 1000: check the units "
+        "(a number without a unit is in m)",
+        CaromWarning,
+        stacklevel=3,
+    )
 
 
 def _line(name: str, value: Any) -> str:

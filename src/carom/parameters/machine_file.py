@@ -18,7 +18,7 @@ from carom.parameters.fields import (
     unknown_name,
 )
 from carom.parameters.load_limits import LoadLimits
-from carom.parameters.machine import Machine
+from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.quantities import read_quantity
 from carom.parameters.scaling import Parameters
 from carom.parameters.terms import SETTABLE, check_names, set_by
@@ -130,6 +130,11 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         sets the same quantity as another one, or sets a physical value of a file without scales.  It reports all
         errors at once.
 
+    Warns
+    -----
+    CaromWarning
+        The rotor radius is less than 5 clearances: a unit was probably forgotten.
+
     See Also
     --------
     carom.parameters.Machine : the same values, given in Python
@@ -159,7 +164,9 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     name = printable(Path(path).stem)
     zones = zones or Zones()
     if isinstance(base, Machine):
-        return Case(name, base.parameters, base, zones, limits).replace(**texts)
+        case = Case(name, base.parameters, base, zones, limits).replace(**texts)
+        warn_of_proportions(case.machine)
+        return case
     return Case(name, cast("Parameters", base), None, zones, limits).replace(**numbers)
 
 

@@ -11,6 +11,7 @@ from numbers import Real
 from tokenize import TokenError
 from typing import Any
 
+from carom.outcome import shown
 from carom.parameters.common_units import COMMON_UNITS, Roots
 from carom.parameters.fields import Field
 
@@ -25,8 +26,15 @@ _UNIT = re.compile(
 _LONGEST_UNIT = 60
 _SPACES = str.maketrans(dict.fromkeys("\u00a0\u2007\u2009\u202f", " ") | {"’": "'"})
 _GROUPS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?P<gap>[ '])[0-9]{3}(?:(?P=gap)[0-9]{3})*(?![0-9'])")
-_COMMAS = re.compile(r"([+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]*)?) *(rpm|RPM|rev/min|r/min)")
-_DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]")
+_COMMAS = re.compile(
+    r"(?P<number>[+-]?[1-9][0-9]{0,2}(?P<groups>(?:,[0-9]{3})+)(?P<decimals>\.[0-9]*)?)\s*(?P<unit>(?![0-9.,]).*)",
+    re.DOTALL,
+)
+_POWER = re.compile(r"(?<=[0-9]) ?× ?10(⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+_LOWERED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+_WITH_COMMAS = frozenset(("rpm", "RPM", "rev/min", "r/min", "N s/m", "N/m", "A/m", "N"))
+"""Units in which carom writes large numbers and nobody three decimals, so that one comma can only separate thousands."""
+_COMMA = re.compile(r"(?P<before>[+-]?[0-9. ']*),(?P<after>[0-9].*)", re.DOTALL)
 _HYPHEN = re.compile(r"(?<=[A-Za-z])-(?=[A-Za-z])")
 _MEANT = {
     "rad/s": {"Hz": "rev/s", "kHz": "krev/s", "U/min": "rpm"},
@@ -91,17 +99,35 @@ def read_decimal(field: Field, given: object) -> Decimal:
 
 
 def without_separators(text: str) -> str:
-    """Text of a number without the separators of its thousands, and with plain spaces.
+    """Text of a number as programs write it: without the separators of its thousands, and with plain spaces.
 
-    Thousands may be separated by spaces or apostrophes.  Commas separate them before ``rpm`` only: in many countries
-    ``1,500 mm`` is a millimetre and a half.
+    Thousands may be separated by spaces or apostrophes.  Commas separate them where no other reading is left: if there are
+    several, before a decimal point, and before the units in which carom itself writes large numbers, as in ``50,540 N s/m``.
+    Powers of ten as carom writes them, ``1.2×10⁹``, become ``1.2e9``.  Elsewhere one comma may mark decimals: in many countries ``1,500 mm`` is a millimetre and a half.
     """
-    text = text.translate(_SPACES).strip()
+    text = _POWER.sub(lambda power: f"e{power[1].translate(_LOWERED)}", text.translate(_SPACES).strip())
     groups = _GROUPS.match(text)
     if groups:
         return text[: groups.end()].replace(groups["gap"], "") + text[groups.end() :]
     commas = _COMMAS.fullmatch(text)
-    return f"{commas[1].replace(',', '')} {commas[2]}" if commas else text
+    if commas and (commas["decimals"] or len(commas["groups"]) > 4 or commas["unit"].strip() in _WITH_COMMAS):
+        return f"{commas['number'].replace(',', '')} {commas['unit']}".strip()
+    return text
+
+
+def comma_advice(text: str) -> str:
+    """Say how to write a number with a comma that cannot be read; nothing if the text does not begin with one."""
+    plain = text.translate(_SPACES).strip()
+    comma = _COMMA.fullmatch(plain)
+    if not comma:
+        return ""
+    if not set(".' ").isdisjoint(comma["before"]) or "," in comma["after"]:
+        return "decimals take a point, and spaces separate thousands: 12 345.6"
+    decimal = shown(f"{comma['before'] or '0'}.{comma['after']}")
+    if _COMMAS.fullmatch(plain):
+        thousands = shown(f"{comma['before']} {comma['after']}")
+        return f"a comma may mark decimals or thousands: write {decimal} or {thousands}"
+    return f"decimals take a point, not a comma: write {decimal}"
 
 
 def _from_text(field: Field, text: str) -> float | Decimal:
@@ -109,10 +135,8 @@ def _from_text(field: Field, text: str) -> float | Decimal:
     lettered = bool(field.letter) and plain.startswith(field.letter)
     plain = without_separators(plain.removeprefix(field.letter) if lettered else plain)
     match = _TEXT.fullmatch(plain)
-    if _DECIMAL_COMMA.match(plain):
-        raise field.error(
-            text, "a comma may mark decimals or thousands: write a decimal point, and thousands with spaces"
-        )
+    if advice := comma_advice(plain):
+        raise field.error(text, advice)
     if not match:
         raise field.error(text, "this does not start with a number" if text.strip() else "this is empty")
     number, unit = float(match["number"]), match["unit"].strip()
