@@ -518,6 +518,47 @@ def test_a_root_is_certified_where_its_slope_proves_it_the_first_and_only_there(
     assert tried >= 15
 
 
+def flights_that_turn_back_where_a_step_is_zero(seed, count):
+    """Flights to a maximum of ``f`` just below zero that start where ``f f'' = 2f'²``: a Householder step is zero there."""
+    for rotor, rng in rotors(seed, count):
+        depth, direction = 10.0 ** rng.uniform(-9.0, -4.0), complex(np.exp(1j * rng.uniform(0.0, 6.0)))
+        spin = 1j * rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-1.0, 1.0) * direction
+        flight = task_from_state(rotor, math.sqrt(1.0 - depth) * direction, spin).flight
+        bend = float(flight.level(0.0)[2])
+        if bend > -1e-1:
+            continue
+        early, late = -2.0 * math.sqrt(2.0 * depth / (-3.0 * bend)), 0.0
+        for _ in range(80):
+            middle = 0.5 * (early + late)
+            value, slope, bend = flight.level(middle)
+            early, late = (middle, late) if value * bend < 2 * slope * slope else (early, middle)
+        position, speed, _ = flight.state(late)
+        yield task_from_state(rotor, complex(position), complex(speed))
+
+
+def test_a_short_step_is_no_root():
+    tried = 0
+    for task in flights_that_turn_back_where_a_step_is_zero(1103, 60):
+        work, origin, level, _, _ = at_start(task)
+        measured = events._measure(task.arrays, task.table, task.plane, origin, level, 0.0, work)
+        assert abs(events.householder_step(*measured)) < 1e-3 * abs(measured[0] / measured[1])
+        assert not polish(task, 0.0, 0.0, 0.0)[0][0]
+        tried += 1
+    assert tried >= 20
+
+
+def test_no_impact_is_invented_where_a_step_happens_to_be_zero(record_property):
+    """The flight on which that was seen, among 1.84 million, and others like it."""
+    rotor = Jeffcott(parameters(0.0030054630001825683, 2.2353614960095, rho=0.0, phi=0.590663075529207))
+    start = 0.6664892755162684 - 0.7428473474126268j, 0.11154170556637309 - 0.06737417390679983j
+    tally = Tally("steps of length zero")
+    assert compare(task_from_state(rotor, *start), HORIZON, tally) is None
+    for task in flights_that_turn_back_where_a_step_is_zero(1104, sized(100, 10, 10_000)):
+        compare(task, HORIZON, tally)
+    record_property("flights", tally.as_property())
+    tally.check()
+
+
 def test_a_root_on_a_block_is_certified_by_the_error_at_its_time():
     """The error grows in proportion to time, to its bound at the end of the block; nothing is certified past that."""
     for _, _, task, crossing in flights_that_cross(1105, 10):

@@ -8,11 +8,23 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from compilation import sized
-from flights import Tally, Task, by_kernel, compare, inside_task, near_grazing_task, random_wall_task, rotors
+from flights import (
+    Tally,
+    Task,
+    by_kernel,
+    compare,
+    inside_task,
+    near_grazing_task,
+    parameters,
+    random_wall_task,
+    rotors,
+    task_from_state,
+)
 
 from carom.core import events
 from carom.core.lanes import CLEARED, LATE, OPEN, fly_lanes, lanes_record
 from carom.core.layout import LANES, LEVELS
+from carom.models import Jeffcott
 from carom.outcome import Outcome
 
 HORIZON = 15.0
@@ -86,6 +98,16 @@ def test_near_grazing_flights(record_property):
     tally.check()
     assert tally.tried >= count(2_000)
     assert len(undecided) < 0.9 * tally.tried
+
+
+@pytest.mark.parametrize("lane", [0, LANES - 1])
+def test_no_impact_is_invented_just_below_the_wall(lane):
+    """A flight on which the kernel for single motions once took a short step for a root."""
+    rotor = Jeffcott(parameters(0.0030054630001825683, 2.2353614960095, rho=0.0, phi=0.590663075529207))
+    start = 0.6664892755162684 - 0.7428473474126268j, 0.11154170556637309 - 0.06737417390679983j
+    tally = Tally("just below the wall, in a lane")
+    assert compare(task_from_state(rotor, *start), HORIZON, tally, by_lane(lane, [])) is None
+    tally.check()
 
 
 @pytest.mark.parametrize("seed", range(3))

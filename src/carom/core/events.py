@@ -4,8 +4,13 @@ The search moves only over times that are proven free of a crossing.  Two proofs
 
 1. *Block.*  The Bernstein coefficients of ``f = |y|² − 1`` on a block, plus the bound of their error, are those of a
    polynomial ``q ≥ f``.  If all are negative, there is no crossing.  If the positive ones are consecutive, ``q`` has at
-   most two roots.  A root of ``f`` is then polished on the exact flight and accepted if ``f'² > 4 R M₂`` (``R`` error
-   bound of the polynomial up to there, ``M₂ ≥ |f''|``).  This proves that it is the first one: ``f`` rises during the
+   most two roots.  A root of ``f`` is then polished on the exact flight and accepted on two conditions.
+
+   *It is a root:* ``|f| M₂ < POLISHED f'²`` at the last time looked at, with ``M₂ ≥ |f''|``.  By Newton and Kantorovich
+   there is then a root within ``2|f|/f'``, to which the step that follows leads.  That this step is short proves
+   nothing: a Householder step is zero also where ``f f'' = 2f'²``, a little before a maximum below the wall.
+
+   *It is the first:* ``f'² > 4 R M₂`` (``R`` error bound of the polynomial up to there).  ``f`` rises during the
    whole time ``w = f'/M₂`` before the root; ``q(root − w) ≤ f + 2R`` is negative and ``q(root)`` is not, so ``q`` has a
    root in between; if ``q`` had been positive before, it would have three roots.  What a block leaves undecided is
    tried again on shorter blocks, whose polynomials approximate more closely.
@@ -42,9 +47,17 @@ MARGIN = 4.4
 """The 4 of the acceptance test with a margin for the rounding of both sides."""
 ROUNDING = 16 * 2.220446049250313e-16
 POLISHED = 1e-4
-"""Correction, in units of ``f'/M₂``, below which a Householder step and the cubic nudge are exact to rounding.
+"""Value of ``|f| M₂/f'²`` below which a root is proven to be near.
 
-With ``M₂ ≥ 2|ẏ|²`` and ``f' ≤ 2|ẏ|`` the error this leaves in ``f`` is of the order of ``POLISHED⁴`` at any speed.
+There ``|y|² < 1 + 2 POLISHED |y|²``, since ``f' ≤ 2|y||ẏ|`` and ``M₂ ≥ 2|ẏ|²``, and so it stays within ``2|f|/f'``:
+``M₂``, a bound for ``|y| ≤ 1``, holds but for a thousandth, which MARGIN covers.  A Householder step from there errs by
+the third power of POLISHED relative to its length, and so in ``f`` by the fourth, at any speed.
+"""
+BRIEF = 1e-3
+"""Length of that last step, in spacings of the nodes, below which it and the cubic nudge are exact to rounding.
+
+A spacing is at most ``5.3/64`` of the time ``1/|λ|`` of the fastest mode, so the fourth power of ``λ`` times the step is
+below rounding, however stiff that mode is.
 """
 SIXTH = 1.0 / 6.0
 
@@ -167,7 +180,7 @@ def _root_on_block(rotor, table, plane, origin, level, guess, curvature, floor, 
 
 @part
 def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, work):
-    """Householder steps to a root, from the node nearest to a time; certified by ``f'²``.
+    """Householder steps to a root, from the node nearest to a time; certified by ``|f|`` and ``f'²``.
 
     The error of the polynomial up to that time is at most ``floor + doubt time``.
     """
@@ -183,7 +196,7 @@ def _polish(rotor, table, plane, origin, level, time, curvature, floor, doubt, w
             return False, time
         step = householder_step(value, slope, bend, third)
         time += step
-        if abs(step) * curvature < POLISHED * slope:
+        if abs(value) * curvature < POLISHED * (slope * slope) and abs(step) < BRIEF * table.spacing:
             nudge(rotor, work.arrival, step)
             return True, time
     return False, time

@@ -36,9 +36,14 @@ REACH = 0.75
 ROUGH_TERMS = 6
 """Number of terms that suffice for the first step to the root."""
 STEADY = 2e-6
-"""Correction, in units of ``f'/M₂``, below which a Halley step and the quadratic nudge are exact to rounding.
+"""Value of ``|f| M₂/f'²`` below which a root is proven to be near (:data:`carom.core.events.POLISHED`).
 
-Their errors are of third order in it.
+A Halley step from there errs by the third power of it, in ``f``.
+"""
+BRIEF = 1e-4
+"""Length of that step, in spacings of the nodes for lanes, below which it and the quadratic nudge are exact to rounding.
+
+A spacing is at most ``5.3/31`` of the time ``1/|λ|`` of the faster mode.
 """
 
 _STATE = ("lower_re", "lower_im", "upper_re", "upper_im", "level", "clock", "depth")
@@ -100,10 +105,11 @@ def _fly(rotor, table, until, first, lanes):
     lower, upper, rates, (value, slope, bend) = travel(rotor, table, start, node, rest, table.terms)
     step = _halley_step(value, slope, bend)
     time = node.time + (rest + step)
-    error = start.floor + search.doubt * time
+    error, square = start.floor + search.doubt * time, slope * slope
     certified = (
-        (slope > 0.0) & (slope * slope > error * start.curvature * MARGIN) & (abs(rest) <= reach)
-        & (abs(step) * start.curvature < STEADY * slope) & (time > 0.0) & (time <= search.duration)
+        (slope > 0.0) & (square > error * start.curvature * MARGIN) & (abs(rest) <= reach)
+        & (abs(value) * start.curvature < STEADY * square) & (abs(step) < table.lane_spacing * BRIEF)
+        & (time > 0.0) & (time <= search.duration)
     )  # fmt: skip
     free, strikes = search.decides & search.free, search.decides & ~search.free & certified
     lower, upper = _nudged(where(strikes, step, 0.0), lower, upper, rates, rotor.exponents[0])
