@@ -226,6 +226,12 @@ def test_study_as_json(carom, machine):
     assert value["name"] == "keogh-cole"
 
 
+def test_study_refuses_a_kick_without_a_unit(carom, machine):
+    code, out, err = carom("study", machine, "--kick", "60")
+    assert (code, out) == (2, "")
+    assert "--kick = 60: must be a velocity above 0 with its unit" in err
+
+
 def test_study_for_people(carom, machine):
     code, out, err = carom("study", machine)
 

@@ -1,15 +1,16 @@
 """Starts, kicks and times from text."""
 
 import math
+from pathlib import Path
 
 import pytest
 
 from carom.cli import main
-from carom.cli.starts import read_kick, read_range, read_start, read_time
+from carom.cli.starts import read_kick, read_range, read_start, read_time, with_requirement
 from carom.models import axis
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError
-from carom.parameters import Parameters, Scales
+from carom.parameters import Parameters, Requirement, Scales, Shock, load
 
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 
@@ -75,3 +76,29 @@ def test_from_may_be_above_to(monkeypatch, dimensionless, ends):
     main(["bifurcations", dimensionless, "--along", "gamma", "--from", ends[0], "--to", ends[1]])
 
     assert given == [("gamma", (0.1, 0.4))]
+
+
+def test_options_state_what_must_be_survived_in_place_of_the_file(tmp_path):
+    path = tmp_path / "machine.toml"
+    text = Path("examples/keogh-cole.toml").read_text(encoding="utf-8")
+    path.write_text(f'{text}\n[survive]\nkick = "100 mm/s"\nshock = "50 m/s^2"\n', encoding="utf-8")
+    case = load(path)
+    assert with_requirement(case, kick=None, shock=None, blade_loss=None) == case
+    given = with_requirement(case, kick="0.2 m/s", shock=None, blade_loss="2000 g mm")
+    assert given.requirement == Requirement(0.2, Shock(50.0, 0.011), 0.002, "option")
+    assert given.parameters == case.parameters
+
+
+@pytest.mark.parametrize(
+    ("option", "text", "words"),
+    [
+        ("kick", "60", "--kick = 60: must be a velocity above 0 with its unit"),
+        ("shock", "5 g, 3", "--shock = 5 g, 3: must be an acceleration above 0 with its unit"),
+        ("blade_loss", "1", "--blade-loss = 1: must be an unbalance above 0 with its unit"),
+        ("blade_loss", "50 kg m", "--blade-loss = 50.0: gives an eccentricity of 1428.57 clearances"),
+    ],
+)
+def test_bad_requirements_name_the_option(option, text, words):
+    with pytest.raises(InputError) as refused:
+        with_requirement(load("examples/keogh-cole.toml"), **{option: text})
+    assert words in str(refused.value)

@@ -1,10 +1,16 @@
 """What a machine must survive: the table ``[survive]``, options and defaults."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 
-from carom.parameters import Scales, load, usual_kick
+from carom.models import Jeffcott
+from carom.outcome import InputError
+from carom.parameters import GRAVITY, Required, Requirement, Scales, Shock, load, usual_kick
 
-REAL = "examples/keogh-cole.toml"
+REAL, PAPER = "examples/keogh-cole.toml", "examples/source-paper.toml"
+FIVE_G = 49.03325
 
 
 def test_usual_kick_is_a_fall_through_the_diametral_clearance():
@@ -21,3 +27,155 @@ def test_usual_kick_in_si_units_does_not_depend_on_speed_and_mass(factor):
     slow, fast = Scales(2.0, 0.25e-3, 300.0), Scales(2.0 * factor, 0.25e-3, 300.0 * factor)
     kicks = [usual_kick(scales) * scales.velocity for scales in (slow, fast)]
     assert kicks[0] == pytest.approx(kicks[1], rel=1e-15)  # a few roundings
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(survive: str, base: str = REAL):
+        path = tmp_path / "machine.toml"
+        path.write_text(f"{Path(base).read_text(encoding='utf-8')}\n{survive}\n", encoding="utf-8")
+        return path
+
+    return written
+
+
+def test_table_is_in_si_units(write):
+    case = load(write('[survive]\nkick = "100 mm/s"\nshock = "5 g, 6 ms"\nblade_loss_after = "20 kg mm"'))
+    assert case.requirement == Requirement(0.1, Shock(FIVE_G, 0.006), 0.02, "file")
+    assert load(write('[survive]\nshock = "50 m/s²"')).requirement == Requirement(
+        None, Shock(50.0, 0.011), None, "file"
+    )
+    # The rotor weighs 50 kg; the decimals are multiplied exactly: 50 * 0.0001 in doubles would do here, 50 * 0.0007 not.
+    assert load(write('[survive]\nblade_loss_after = "0.7 mm"')).requirement.blade_loss == 0.035
+    assert load(REAL).requirement == Requirement() == Requirement(source="file")
+    assert Requirement().source == "default"
+
+
+def test_dimensionless_table_has_plain_numbers(write):
+    case = load(write('[survive]\nkick = 0.4\nshock = "0.5, 3"\nblade_loss_after = 0.6', PAPER))
+    assert case.requirement == Requirement(0.4, Shock(0.5, 3.0), 0.6, "file")
+    assert case.requirement.own(None) == Required(0.4, Shock(0.5, 3.0), 0.6)
+    assert load(PAPER).requirement.own(None) == Required(1.0, None, None)
+
+
+def test_changes_of_the_machine_are_checked():
+    case = replace(load(REAL), requirement=Requirement(blade_loss=1.0))
+    with pytest.raises(InputError, match=r"blade_loss = 1\.0: gives an eccentricity of 2000 clearances, which must be"):
+        case.replace(clearance=1e-5)
+
+
+def test_sizes_in_si_units_stay_when_the_machine_changes(write):
+    text = '[survive]\nkick = "100 mm/s"\nshock = "5 g"\nblade_loss_after = "0.4 mm"'
+    settings = ["speed=600 rpm", "clearance=0.5 mm", "mass=20 kg", "gamma=0.2"]
+    for case in (load(write(text)), load(write(text), settings), load(write(text)).replace(speed="600 rpm", mass=20)):
+        scales = case.parameters.scales
+        own = case.requirement.own(scales)
+        assert case.requirement == Requirement(0.1, Shock(FIVE_G, 0.011), 0.02, "file")
+        back = own.kick * scales.velocity, own.shock.peak * scales.acceleration, own.shock.duration * scales.time
+        assert back == pytest.approx((0.1, FIVE_G, 0.011), rel=1e-15)  # two roundings each
+        assert own.blade_loss * scales.unbalance == pytest.approx(0.02, rel=1e-15)
+    assert load(write(text), settings).requirement.own(scales).blade_loss == pytest.approx(0.02 / 20 / 0.7e-3)
+
+
+def test_default_kick_stays_beside_other_requirements():
+    scales = load(REAL).parameters.scales
+    only = Requirement(blade_loss=0.02, source="file")
+    assert only.own(scales).kick == usual_kick(scales)
+    assert only.complete(scales).kick == pytest.approx((4 * GRAVITY * 0.7e-3) ** 0.5)
+    assert only.complete(scales).source == "file"
+    assert Requirement().complete(None) == Requirement(1.0, source="default")
+    assert Requirement(kick=0.2).complete(scales) == Requirement(kick=0.2)
+
+
+def test_other_requirements_replace_single_entries():
+    stated = Requirement(0.1, Shock(50.0, 0.011), None, "file")
+    assert stated.changed_by(Requirement()) == stated
+    assert stated.changed_by(Requirement(0.2)) == Requirement(0.2, Shock(50.0, 0.011), None, "option")
+
+
+def test_written_requirements_are_read_as_the_same(write):
+    one = Requirement(0.1 + 0.2, Shock(49.03325000000001, 1 / 3), 1e-7 / 3, "file")
+    assert load(write(one.to_toml())).requirement == one
+    other = Requirement(0.1 + 0.2, Shock(1 / 3, 1e5 / 3), 2 / 3, "file")
+    assert load(write(other.to_toml(has_scales=False), PAPER)).requirement == other
+    assert Requirement().to_toml() == ""
+
+
+@pytest.mark.parametrize(
+    ("survive", "words"),
+    [
+        ('shocks = "5 g"', "shocks = 5 g: unknown name in [survive]; did you mean shock?"),
+        ("kick = 0.1", '[survive] kick = 0.1: must be a velocity above 0 with its unit, such as "100 mm/s"'),
+        ('kick = "100 mm"', "[survive] kick = 100 mm: must be a velocity above 0"),
+        ('kick = "0 mm/s"', "[survive] kick = 0 mm/s: must be a velocity above 0"),
+        ('kick = "0,06 m/s"', "[survive] kick = 0,06 m/s: must be a velocity above 0"),
+        ("kick = true", "[survive] kick = true: must be a velocity above 0"),
+        ('shock = "5, 11 ms"', "[survive] shock = 5, 11 ms: must be an acceleration"),
+        ('shock = "5 g, 11"', "[survive] shock = 5 g, 11: must be an acceleration"),
+        ('shock = "5 g,"', "[survive] shock = 5 g,: must be an acceleration"),
+        ('shock = "5 g, 11 ms, 3"', "[survive] shock = 5 g, 11 ms, 3: must be an acceleration"),
+        ('shock = "1,5 g, 11 ms"', "[survive] shock = 1,5 g, 11 ms: must be an acceleration"),
+        ('shock = ["5 g", "11 ms"]', "must be an acceleration"),
+        ('blade_loss_after = "2 kg"', "[survive] blade_loss_after = 2 kg: must be an unbalance above 0"),
+        (
+            'blade_loss_after = "50 kg m"',
+            "[survive] blade_loss_after = 50.0: gives an eccentricity of 1428.57 clearances, which must be",
+        ),
+    ],
+)
+def test_bad_tables_are_refused_in_one_line(write, survive, words):
+    with pytest.raises(InputError) as refused:
+        load(write(f"[survive]\n{survive}"))
+    assert words in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("survive", "words"),
+    [
+        ('kick = "100 mm/s"', "[survive] kick = 100 mm/s: must be a number above 0 in c_r Omega, such as 0.4"),
+        (
+            'shock = "0.5"',
+            '[survive] shock = 0.5: must be a number above 0 in c_r Omega^2 and 1/Omega, such as "0.5, 3"',
+        ),
+        ("blade_loss_after = -1", "[survive] blade_loss_after = -1: must be a number above 0 in c_r"),
+    ],
+)
+def test_bad_dimensionless_tables_are_refused(write, survive, words):
+    with pytest.raises(InputError) as refused:
+        load(write(f"[survive]\n{survive}", PAPER))
+    assert words in str(refused.value)
+
+
+def test_all_errors_are_told_at_once(tmp_path):
+    text = Path(REAL).read_text(encoding="utf-8").replace('mass = "50 kg"', 'mass = "heavy"')
+    path = tmp_path / "machine.toml"
+    path.write_text(f'{text}\n[survive]\nkick = 1\nother = 3\nblade_loss_after = "0.1 mm"', encoding="utf-8")
+    with pytest.raises(InputError) as refused:
+        load(path)
+    assert [error.field for error in refused.value.errors] == ["mass", "other", "[survive] kick"]
+
+
+def test_python_reads_text_for_any_machine():
+    case = load(REAL)
+    for subject in (case, case.machine, case.parameters, Jeffcott(case.parameters)):
+        assert Requirement.of(subject, kick="100 mm/s", blade_loss="0.1 mm") == Requirement(0.1, None, 0.005, "option")
+    with pytest.raises(InputError, match="a Machine, a Case"):
+        Requirement.of(case.parameters.scales)
+    assert Requirement.of(load(PAPER), kick=0.3) == Requirement(0.3)
+    with pytest.raises(InputError, match=r"kick = 0\.1: must be a velocity above 0 with its unit"):
+        Requirement.of(case, kick=0.1)
+
+
+@pytest.mark.parametrize("bad", [-1.0, 0.0, float("nan"), float("inf"), True, "100 mm/s", [1.0], 10**400])
+def test_bad_numbers_are_refused(bad):
+    for make in (
+        lambda: Requirement(kick=bad),
+        lambda: Requirement(blade_loss=bad),
+        lambda: Requirement(shock=bad),
+        lambda: Shock(bad, 1.0),
+        lambda: Shock(1.0, bad),
+        lambda: Requirement(kick=1.0, source=bad),
+    ):
+        with pytest.raises(InputError):
+            make()

@@ -6,10 +6,11 @@ What cannot be read raises an :class:`~carom.outcome.InputError` that names the 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from carom.outcome import InputError
-from carom.parameters import Scales, read_quantity, read_size
+from carom.outcome import InputError, together
+from carom.parameters import Case, Requirement, Scales, read_quantity, read_size
 
 if TYPE_CHECKING:
     from carom.disturbances import BladeLoss
@@ -52,6 +53,15 @@ def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]
     from carom.disturbances import BladeLoss
 
     return BladeLoss(size), turned
+
+
+def with_requirement(case: Case, **given: str | None) -> Case:
+    """Return the case with what ``--kick``, ``--shock`` and ``--blade-loss`` state in place of what its file states."""
+    try:
+        return replace(case, requirement=case.requirement.changed_by(Requirement.of(case, **given)))
+    except InputError as problem:
+        named = [(f"--{error.field.replace('_', '-')}", error) for error in problem.errors]
+        raise together([InputError(option, error.value, error.allowed) for option, error in named]) from None
 
 
 def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:

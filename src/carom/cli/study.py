@@ -12,6 +12,24 @@ from carom.cli.terminal import AsJson, MachineFile, Settings, check_output, cons
 def study(
     machine: MachineFile,
     settings: Settings = None,
+    kick: Annotated[
+        str | None,
+        typer.Option(metavar="SPEED", help="A velocity kick that the machine must survive, such as '100 mm/s'."),
+    ] = None,
+    shock: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PEAK,DURATION",
+            help="A half-sine shock of the base that it must survive, such as '5 g, 11 ms'; 11 ms if left out.",
+        ),
+    ] = None,
+    blade_loss: Annotated[
+        str | None,
+        typer.Option(
+            metavar="AFTER",
+            help="The unbalance after a loss of a blade that it must survive, such as '2000 g mm', or an eccentricity.",
+        ),
+    ] = None,
     out: Annotated[
         str | None, typer.Option(metavar="DIR", help="Write figures, study.json and report.html to this directory.")
     ] = None,
@@ -24,11 +42,13 @@ def study(
     """Study a machine: the verdict in words and numbers, and a report.
 
     Finds every simple motion of the machine with its stability, the damping and stiffness at which each appears or
-    vanishes, and where 200 simulated disturbances end. With --out it also writes figures, study.json and report.html.
+    vanishes, and where 200 simulated disturbances end. --kick, --shock and --blade-loss say what the machine must survive,
+    in place of the table [survive] of its file. With --out it also writes figures, study.json and report.html.
     """
+    from carom.cli.starts import with_requirement
     from carom.parameters import load
 
-    case = load(machine, settings or ())
+    case = with_requirement(load(machine, settings or ()), kick=kick, shock=shock, blade_loss=blade_loss)
     with progress("loading") as tell:
         check_output(out)
         from carom.studies import study as study_case

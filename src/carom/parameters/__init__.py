@@ -14,7 +14,7 @@
 ``machine``               :class:`Machine`, conversion to parameters and back
 ``load_limits``           :class:`LoadLimits` of a touchdown bearing
 ``indentation``           whether a rigid wall is a valid model under a load
-``requirement``           what a machine must survive, and the usual kick
+``requirement``           :class:`Requirement`: what a machine must survive
 ``machine_file``          :func:`load`: file and settings -> :class:`Case`
 ========================  =================================================================
 """
@@ -32,7 +32,15 @@ from carom.parameters.machine import Machine
 from carom.parameters.machine_file import Case, Zones, load
 from carom.parameters.numbers import Numbers
 from carom.parameters.quantities import read_quantity
-from carom.parameters.requirement import GRAVITY, usual_kick
+from carom.parameters.requirement import (
+    GRAVITY,
+    SHOCK_DURATION,
+    SURVIVE_FIELDS,
+    Required,
+    Requirement,
+    Shock,
+    usual_kick,
+)
 from carom.parameters.scaling import UNITS, Parameters, Scales
 from carom.parameters.sizes import Size, own_size, read_size
 from carom.parameters.terms import ENTRIES, HELPER_FIELDS, SETTABLE, TERM_FIELDS, TERMS, field_to_set, field_to_vary
@@ -47,6 +55,8 @@ __all__ = [
     "PARAMETERS",
     "PHYSICAL_PARTNER",
     "SETTABLE",
+    "SHOCK_DURATION",
+    "SURVIVE_FIELDS",
     "TERMS",
     "TERM_FIELDS",
     "UNITS",
@@ -56,7 +66,10 @@ __all__ = [
     "Machine",
     "Numbers",
     "Parameters",
+    "Required",
+    "Requirement",
     "Scales",
+    "Shock",
     "Size",
     "Zones",
     "field_to_set",

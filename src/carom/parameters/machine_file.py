@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from numbers import Real
 from pathlib import Path
 from typing import Any, cast
@@ -20,7 +20,8 @@ from carom.parameters.fields import (
 from carom.parameters.load_limits import LoadLimits
 from carom.parameters.machine import Machine, warn_of_proportions
 from carom.parameters.quantities import read_quantity
-from carom.parameters.scaling import Parameters
+from carom.parameters.requirement import Requirement
+from carom.parameters.scaling import Parameters, Scales
 from carom.parameters.terms import SETTABLE, check_names, set_by
 from carom.parameters.toml_reader import MachineTables, read_machine_tables
 
@@ -80,6 +81,13 @@ class Case:
         Limits of the amplitude zones.
     limits : LoadLimits
         Largest loads that are stated for the touchdown bearing.
+    requirement : Requirement
+        What the machine must survive, in the SI units of `parameters` if these have scales.
+
+    Raises
+    ------
+    InputError
+        The unbalance after the loss of a blade is out of range for the mass and clearance of the machine.
     """
 
     name: str
@@ -87,6 +95,10 @@ class Case:
     machine: Machine | None
     zones: Zones
     limits: LoadLimits = field(default_factory=LoadLimits)
+    requirement: Requirement = field(default_factory=Requirement)
+
+    def __post_init__(self) -> None:
+        self.requirement.own(self.parameters.scales)
 
     def replace(self, /, **changes: Any) -> Case:
         """Return the case with other parameters of the machine, bit for bit the same as with ``--set``.
@@ -102,12 +114,12 @@ class Case:
             If a name is unknown or a value not allowed.
         """
         if self.machine is None:
-            return Case(self.name, self.parameters.replace(**changes), None, self.zones, self.limits)
+            return replace(self, parameters=self.parameters.replace(**changes))
         machine = self.machine.replace(**changes)
         numbers = {
             name: read_quantity(field, changes[name]) for name, field in DIMENSIONLESS_FIELDS.items() if name in changes
         }
-        return Case(self.name, machine.parameters.replace(**numbers), machine, self.zones, self.limits)
+        return replace(self, parameters=machine.parameters.replace(**numbers), machine=machine)
 
 
 def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
@@ -116,7 +128,8 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     Parameters
     ----------
     path : path
-        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]`` and ``[limits]``.
+        TOML file with a ``[machine]`` or a ``[dimensionless]`` table, and perhaps ``[zones]``, ``[limits]`` and
+        ``[survive]``.
     settings : iterable of str
         Texts ``"name=value"`` as in ``--set``; the name is a machine field or a dimensionless parameter.
         Physical values are set first. A dimensionless one set on a machine keeps mass, speed and clearance and
@@ -155,6 +168,7 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
     base: Machine | Parameters | None = (
         problems.attempt(Machine, **tables.values) if of_machine else problems.attempt(_read_dimensionless, tables)
     )
+    requirement = problems.attempt(Requirement.of_table, tables.survive, _scales(base, of_machine))
     texts = _split(settings, problems)
     numbers = _read_settings(texts, SETTABLE if of_machine else DIMENSIONLESS_FIELDS, problems)
     if not of_machine:
@@ -162,12 +176,19 @@ def load(path: str | os.PathLike[str], settings: Iterable[str] = ()) -> Case:
         problems.attempt(_refuse_physical, physical)
     problems.raise_all()
     name = printable(Path(path).stem)
-    zones = zones or Zones()
+    rest = (zones or Zones(), limits, requirement or Requirement())
     if isinstance(base, Machine):
-        case = Case(name, base.parameters, base, zones, limits).replace(**texts)
+        case = Case(name, base.parameters, base, *rest).replace(**texts)
         warn_of_proportions(case.machine)
         return case
-    return Case(name, cast("Parameters", base), None, zones, limits).replace(**numbers)
+    return Case(name, cast("Parameters", base), None, *rest).replace(**numbers)
+
+
+def _scales(base: Machine | Parameters | None, of_machine: bool) -> Scales | None:
+    """Scales that the other tables are read with; any do if the machine cannot be read, so that all errors are told."""
+    if isinstance(base, Machine):
+        return base.scales
+    return Scales(1.0, 1.0, 1.0) if of_machine else None
 
 
 def _split(settings: Iterable[str], problems: Problems) -> dict[str, str]:

@@ -1,13 +1,238 @@
-"""What a machine must survive."""
+"""What a machine must survive: the table ``[survive]`` of a machine file, and options in its place."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Any, Literal, get_args
 
+from carom.outcome import InputError, Problems, shown
+from carom.parameters.fields import DIMENSIONLESS_FIELDS, Field, by_name, unknown_name
+from carom.parameters.quantities import read_decimal, read_quantity
 from carom.parameters.scaling import Scales
+from carom.parameters.sizes import in_gravities, is_plain
 
 GRAVITY = 9.80665
 """Standard acceleration of free fall, m/s²."""
+SHOCK_DURATION = 0.011
+"""Duration of a shock for which none is stated, s: that of the usual test pulse (IEC 60068-2-27)."""
+Source = Literal["file", "option", "default"]
+
+SURVIVE_FIELDS: Mapping[str, Field] = by_name(
+    Field("kick", "", "velocity kick out of levitation", "a velocity", "m/s", 1e-12, 1e9, '"100 mm/s"'),
+    Field("shock", "", "half-sine shock of the base", "an acceleration", "m/s^2", 1e-12, 1e12, '"5 g, 11 ms"'),
+    Field(
+        "blade_loss_after",
+        "",
+        "unbalance after the loss of a blade",
+        "an unbalance",
+        "kg m",
+        1e-30,
+        1e12,
+        '"2000 g mm" or, as an eccentricity, "0.1 mm"',
+    ),
+)
+"""Entries of a ``[survive]`` table, in SI units; each may be left out."""
+_DURATION = Field("", "", "duration", "a time", "s", 1e-12, 1e6, '"5 g, 11 ms"')
+_ECCENTRICITY = Field("", "", "eccentricity", "a length", "m", 1e-30, 1e6, '"0.1 mm"')
+_PLAIN = {
+    "kick": ("c_r Omega", "0.4"),
+    "shock": ("c_r Omega^2 and 1/Omega", '"0.5, 3"'),
+    "blade_loss_after": ("c_r", "0.6"),
+}
+"""Units and an example of each entry of a machine without scales."""
+_NUMBER = Field("", "", "", "a number", "", 1e-12, 1e12, "0.4")
+
+
+@dataclass(frozen=True)
+class Shock:
+    """A half-sine shock of the base.
+
+    Parameters
+    ----------
+    peak : float
+        Largest acceleration, m/s² (or ``c_r Ω²``).
+    duration : float
+        In s (or ``1/Ω``).
+
+    Raises
+    ------
+    InputError
+        One of them is not a finite number above 0.
+    """
+
+    peak: float
+    duration: float
+
+    def __post_init__(self) -> None:
+        _check(self, "peak", "duration")
+
+
+@dataclass(frozen=True)
+class Required:
+    """What a machine must survive, in units of the equations; speeds and accelerations are those of the fixed frame.
+
+    Attributes
+    ----------
+    kick : float
+        Size of a velocity kick out of levitation, in ``c_r Ω``.
+    shock : Shock or None
+        Peak in ``c_r Ω²``, duration in ``1/Ω``.
+    blade_loss : float or None
+        Eccentricity after the loss of a blade, in ``c_r``.
+    """
+
+    kick: float
+    shock: Shock | None
+    blade_loss: float | None
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """What a machine must survive; ``None`` where nothing is stated.
+
+    For a machine with SI units these are numbers in SI units, which stay when its speed or clearance changes; for one
+    without scales they are in the units of the equations.  :meth:`of` reads text.
+
+    Parameters
+    ----------
+    kick : float, optional
+        Size of a velocity kick out of levitation in the fixed frame, m/s (or ``c_r Ω``).  Where none is stated
+        :func:`usual_kick` stands for it, also beside a shock or the loss of a blade.
+    shock : Shock, optional
+        Half-sine shock of the base, in m/s² and s (or ``c_r Ω²`` and ``1/Ω``).
+    blade_loss : float, optional
+        Unbalance after the loss of a blade, kg m (or eccentricity in ``c_r``).
+    source : {"file", "option", "default"}
+        Where the numbers come from; ``"default"`` if none is given.
+
+    Raises
+    ------
+    InputError
+        A value is not of this kind, or not a finite number above 0.
+
+    Examples
+    --------
+    >>> import carom as cm
+    >>> case = cm.load("examples/keogh-cole.toml")
+    >>> needed = cm.parameters.Requirement.of(case, shock="5 g, 11 ms")
+    >>> f"{needed.complete(case.parameters.scales).kick:.4f} m/s"
+    '0.1657 m/s'
+    """
+
+    kick: float | None = None
+    shock: Shock | None = None
+    blade_loss: float | None = None
+    source: Source = "option"
+
+    def __post_init__(self) -> None:
+        _check(self, *(name for name in ("kick", "blade_loss") if getattr(self, name) is not None))
+        if not isinstance(self.shock, Shock | None):
+            raise InputError("shock", shown(self.shock), f"must be a carom.parameters.Shock, or None; {_TEXT}")
+        if self.source not in get_args(Source):
+            raise InputError("source", shown(self.source), f"must be one of: {', '.join(get_args(Source))}")
+        if (self.kick, self.shock, self.blade_loss) == (None, None, None):
+            object.__setattr__(self, "source", "default")
+
+    def changed_by(self, other: Requirement) -> Requirement:
+        """Return this requirement with what another one states in its place."""
+        stated = {name: value for name, value in vars(other).items() if value is not None}
+        return self if other.source == "default" else dataclasses.replace(self, **stated)
+
+    def complete(self, scales: Scales | None) -> Requirement:
+        """Return this requirement with the usual kick, in its own units, where no kick is stated."""
+        if self.kick is not None:
+            return self
+        return dataclasses.replace(self, kick=_fall_speed(scales) if scales else usual_kick(None))
+
+    def own(self, scales: Scales | None) -> Required:
+        """Return what is required in units of the equations.
+
+        Parameters
+        ----------
+        scales : Scales or None
+            Those of the machine.  Without them the numbers are in units of the equations already.
+
+        Raises
+        ------
+        InputError
+            The unbalance after the loss of a blade gives an eccentricity that is out of range.
+        """
+        kick = usual_kick(scales) if self.kick is None else self.kick / (scales.velocity if scales else 1.0)
+        shock, after = self.shock, self.blade_loss
+        if scales and shock:
+            shock = Shock(shock.peak / scales.acceleration, shock.duration / scales.time)
+        if after is not None:
+            after /= scales.unbalance if scales else 1.0
+            rho = DIMENSIONLESS_FIELDS["rho"]
+            if not rho.contains(after):
+                gives = f"gives an eccentricity of {after:.6g} clearances, which {rho.allowed}"
+                name = "[survive] blade_loss_after" if self.source == "file" else "blade_loss"
+                raise InputError(name, self.blade_loss, gives)
+        return Required(kick, shock, after)
+
+    def to_toml(self, has_scales: bool = True) -> str:
+        """Return the text of a table that is read as this requirement; nothing if nothing is stated."""
+        velocity, acceleration, time, unbalance = (" m/s", " m/s^2", " s", " kg m") if has_scales else ("",) * 4
+        lines = []
+        if self.kick is not None:
+            lines.append(f'kick = "{self.kick!r}{velocity}"')
+        if self.shock is not None:
+            lines.append(f'shock = "{self.shock.peak!r}{acceleration}, {self.shock.duration!r}{time}"')
+        if self.blade_loss is not None:
+            lines.append(f'blade_loss_after = "{self.blade_loss!r}{unbalance}"')
+        return "\n".join(["[survive]", *lines]) + "\n" if lines else ""
+
+    @classmethod
+    def of(cls, machine: Any, *, kick: Any = None, shock: Any = None, blade_loss: Any = None) -> Requirement:
+        """Read what a machine must survive from text with units.
+
+        Parameters
+        ----------
+        machine : Machine, Case, Parameters or model
+            Its mass turns an eccentricity into an unbalance.  Without scales all values are numbers in units of the
+            equations.
+        kick : str or float, optional
+            Such as ``"100 mm/s"``.
+        shock : str, optional
+            Peak and duration, such as ``"5 g, 11 ms"``; 11 ms if the duration is left out.
+        blade_loss : str or float, optional
+            Unbalance after the loss, such as ``"2000 g mm"``, or eccentricity, such as ``"0.1 mm"``.
+
+        Raises
+        ------
+        InputError
+            A value is not of this kind or has no unit, or it has one and the machine has no scales.
+        """
+        numbers = getattr(machine, "parameters", machine)
+        if not hasattr(numbers, "scales"):
+            raise InputError("machine", shown(machine), "a Machine, a Case, Parameters or a model")
+        names = {"kick": "kick", "shock": "shock", "blade_loss_after": "blade_loss"}
+        entries = {"kick": kick, "shock": shock, "blade_loss_after": blade_loss}
+        return _read(entries, names, numbers.scales, "option")
+
+    @classmethod
+    def of_table(cls, table: Mapping[str, Any], scales: Scales | None) -> Requirement:
+        """Read a table ``[survive]``.
+
+        Raises
+        ------
+        InputError
+            An unknown name, or a value that :meth:`of` would refuse.
+        """
+        problems = Problems()
+        problems.errors += [
+            unknown_name(name, value, SURVIVE_FIELDS, "[survive]")
+            for name, value in table.items()
+            if name not in SURVIVE_FIELDS
+        ]
+        names = {name: f"[survive] {name}" for name in SURVIVE_FIELDS}
+        found = problems.attempt(_read, table, names, scales, "file")
+        problems.raise_all()
+        return found or cls()
 
 
 def usual_kick(scales: Scales | None) -> float:
@@ -16,4 +241,79 @@ def usual_kick(scales: Scales | None) -> float:
     It is the speed of a fall through the diametral clearance, ``sqrt(4 g c_r)`` in m/s whatever the running speed; 1
     where the scales are not known.
     """
-    return math.sqrt(4.0 * GRAVITY * scales.clearance) / scales.velocity if scales else 1.0
+    return _fall_speed(scales) / scales.velocity if scales else 1.0
+
+
+def _fall_speed(scales: Scales) -> float:
+    return math.sqrt(4.0 * GRAVITY * scales.clearance)
+
+
+_TEXT = "text with units is for Requirement.of(machine, …)"
+
+
+def _check(values: object, *names: str) -> None:
+    """Check numbers of a frozen dataclass and store them as floats."""
+    problems = Problems()
+    for name in names:
+        given = getattr(values, name)
+        field = dataclasses.replace(_NUMBER, name=name, lowest=1e-300, highest=1e300)
+        if isinstance(given, str):
+            problems.errors.append(InputError(name, shown(given), f"must be a number; {_TEXT}"))
+        else:
+            object.__setattr__(values, name, problems.attempt(read_quantity, field, given))
+    problems.raise_all()
+
+
+def _read(entries: Mapping[str, Any], names: Mapping[str, str], scales: Scales | None, source: Source) -> Requirement:
+    """Read the entries that are given; ``names`` are what errors call them."""
+    problems, found = Problems(), dict[str, Any]()
+    for name, read in (("kick", _read_kick), ("shock", _read_shock), ("blade_loss_after", _read_unbalance)):
+        if entries.get(name) is not None:
+            found[name] = problems.attempt(read, names[name], entries[name], scales)
+    problems.raise_all()
+    return Requirement(found.get("kick"), found.get("shock"), found.get("blade_loss_after"), source)
+
+
+def _read_kick(name: str, given: object, scales: Scales | None) -> float:
+    return float(_number(name, given, "kick", scales))
+
+
+def _read_shock(name: str, given: object, scales: Scales | None) -> Shock:
+    parts = [part.strip() for part in given.split(",")] if isinstance(given, str) else [given]
+    if len(parts) > 2 or (len(parts) == 1 and not scales):
+        raise _refused(name, given, "shock", scales)
+    try:
+        peak = _number(name, in_gravities(parts[0]), "shock", scales)
+        duration = _number(name, parts[1], "shock", scales, _DURATION) if len(parts) == 2 else SHOCK_DURATION
+    except InputError:
+        raise _refused(name, given, "shock", scales) from None
+    return Shock(float(peak), float(duration))
+
+
+def _read_unbalance(name: str, given: object, scales: Scales | None) -> float:
+    try:
+        return float(_number(name, given, "blade_loss_after", scales))
+    except InputError:
+        if scales is None:
+            raise
+        eccentricity = _number(name, given, "blade_loss_after", scales, _ECCENTRICITY)
+        return float(eccentricity * Decimal(repr(scales.mass)))
+
+
+def _number(name: str, given: object, entry: str, scales: Scales | None, field: Field | None = None) -> Decimal:
+    """Read a number with a unit, or without one if there are no scales."""
+    field = field or SURVIVE_FIELDS[entry]
+    if is_plain(given) == (scales is None):
+        try:
+            return read_decimal(field if scales else _NUMBER, given)
+        except InputError:
+            pass
+    raise _refused(name, given, entry, scales)
+
+
+def _refused(name: str, given: object, entry: str, scales: Scales | None) -> InputError:
+    field, (unit, example) = SURVIVE_FIELDS[entry], _PLAIN[entry]
+    if scales:
+        return InputError(name, shown(given), f"must be {field.kind} above 0 with its unit, such as {field.example}")
+    words = f"must be a number above 0 in {unit}, such as {example}: this machine has no SI units"
+    return InputError(name, shown(given), words)

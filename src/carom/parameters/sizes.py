@@ -75,11 +75,10 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Siz
     """
     words, unit, own, example = _KINDS[kind]
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
-    if not isinstance(given, str) or _PLAIN.fullmatch(without_separators(given)):
+    if is_plain(given):
         return Size(read_quantity(field, given), False, kind)
-    gravities = _GRAVITIES.fullmatch(given) if kind == "acceleration" else None
     try:
-        number = read_quantity(replace(field, unit=unit), f"{gravities[1]} standard_gravity" if gravities else given)
+        number = read_quantity(replace(field, unit=unit), in_gravities(given) if kind == "acceleration" else given)
     except InputError as problem:
         raise InputError(name, shown(given), problem.allowed) from None
     if kind == "angle":
@@ -88,6 +87,17 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Siz
         words = f"must be a number without a unit, in {own}: the machine file is dimensionless and has no scales"
         raise InputError(name, shown(given), words)
     return Size(number, True, kind)
+
+
+def is_plain(given: object) -> bool:
+    """Whether this is a number without a unit, in quotes or not; also what is no text at all."""
+    return not isinstance(given, str) or bool(_PLAIN.fullmatch(without_separators(given)))
+
+
+def in_gravities(given: object) -> object:
+    """Text of an acceleration in which ``g``, alone after a number, has become the standard gravity."""
+    gravities = _GRAVITIES.fullmatch(given) if isinstance(given, str) else None
+    return f"{gravities[1]} standard_gravity" if gravities else given
 
 
 def own_size(name: str, given: float | str, kind: str, scales: Scales | None) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from carom.explorer.computing.controls import controls_of, with_settings
 from carom.explorer.computing.exports import Kick, Origin, as_options, as_python, as_toml
 from carom.explorer.computing.kicks import rest_of
 from carom.models import Jeffcott
+from carom.parameters import Requirement, Shock
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 KEOGH, PAPER, RIG = (str(EXAMPLES / name) for name in ("keogh-cole.toml", "source-paper.toml", "tum-test-rig.toml"))
@@ -56,6 +58,13 @@ def test_options_and_file_lead_to_the_same_machine(given, changes, tmp_path):
     assert again.zones == case.zones
     if case.machine is None:
         assert again.parameters == case.parameters
+
+
+@pytest.mark.parametrize("path", [KEOGH, PAPER])
+def test_the_file_says_what_must_be_survived(path, tmp_path):
+    case = replace(carom.load(path), requirement=Requirement(0.3, Shock(50.0, 0.02), 0.01, "file"))
+    (tmp_path / "machine.toml").write_text(as_toml(case), encoding="utf-8")
+    assert carom.load(tmp_path / "machine.toml").requirement == case.requirement
 
 
 @pytest.mark.jit_only

@@ -76,12 +76,12 @@ def as_toml(case: Case) -> str:
     """A machine file that is read as the machine on the page, bit for bit."""
     zones = f"\n[zones]\nlimits = {list(case.zones.limits)}\n"
     if case.machine is not None:
-        return f"{case.machine.to_toml()}{zones}\n{case.limits.to_toml()}"
+        return f"{case.machine.to_toml()}{zones}\n{case.limits.to_toml()}\n{case.requirement.to_toml()}"
     lines = [
         f"{name} = {getattr(case.parameters, name)!r}  # {field.symbol}: {field.words}"
         for name, field in DIMENSIONLESS_FIELDS.items()
     ]
-    return "\n".join(["[dimensionless]", *lines]) + "\n" + zones
+    return "\n".join(["[dimensionless]", *lines]) + f"\n{zones}\n{case.requirement.to_toml(has_scales=False)}"
 
 
 def as_python(origin: Origin, changes: Mapping[str, str], rest: Rest, kick: Kick, along: Control) -> str:
