@@ -19,6 +19,7 @@ def test_rotor_record():
         friction=np.array([0.1, 0.2]),
         restitution=np.array([0.9, 0.8]),
         drive=np.array([50.0, 20.0]),
+        masses=np.array([0.4, 3.0]),
     )
     matrix = np.array([[exponents[0], 0, 0], [1, exponents[1], 0], [0, 0, exponents[2]]])
     assert np.array_equal(arrays.rate_rows, rows @ matrix)
@@ -27,6 +28,7 @@ def test_rotor_record():
     assert arrays.inverse_gaps[1] == 1.0 / (exponents[1] - exponents[0])
     assert np.array_equal(arrays.weights, [5.0, 1.25])
     assert arrays.columns.shape == (3, 2)
+    assert arrays.masses.tolist() == [0.4, 3.0]
 
 
 def test_largest_response_bounds_the_response():

@@ -36,7 +36,7 @@ class Equilibrium(Result):
     places : ndarray of complex, shape (P,)
         Displacement at each contact plane, in the clearance there.
     normal_forces : ndarray, shape (P,)
-        ``N`` at each plane, in ``m c_r Ω²`` with the mass that an impulse there moves; zero where it does not rub.
+        ``N`` at each plane, in ``m c_r Ω²``; zero where it does not rub.
     planes : tuple of int
         Planes that rub.
     status : {"admissible", "boundary", "virtual"}
@@ -198,7 +198,8 @@ def _rub(system: System, planes: tuple[int, ...], forces: np.ndarray, touching: 
     arrays, chosen = system.arrays, list(planes)
     amplitudes = static_state(system, planes, forces, touching)
     places, pushes = arrays["rows"] @ amplitudes + arrays["offsets"], np.zeros(len(arrays["rows"]))
-    places[chosen], pushes[chosen] = touching, forces
+    # The balance is that of unit effective masses.
+    places[chosen], pushes[chosen] = touching, forces * arrays["masses"][chosen]
     contact = np.full(len(places), Phase.FLIGHT)
     contact[chosen] = Phase.FORWARD_SLIP
     eigenvalues = sliding_rates(system, amplitudes, contact)

@@ -57,6 +57,7 @@ def rotor_record(
     friction: np.ndarray,
     restitution: np.ndarray,
     drive: np.ndarray,
+    masses: np.ndarray | None = None,
 ) -> np.record:
     """A linear rotor with ``N`` moving modes and ``P`` contact planes, as the kernels see it.
 
@@ -82,6 +83,8 @@ def rotor_record(
         Coulomb friction coefficient and coefficient of restitution of the planes.
     drive : ndarray, shape (P,)
         Slip velocity of a rotor at rest in this frame, in clearances per unit time.
+    masses : ndarray, shape (P,), optional
+        Effective mass ``1/(W M⁻¹ Wᴴ)`` of each plane: the impulse that changes its velocity by one.  Ones by default.
 
     Returns
     -------
@@ -122,6 +125,7 @@ def rotor_record(
         "friction": friction,
         "restitution": restitution,
         "drive": drive,
+        "masses": np.ones(planes) if masses is None else masses,
     }
     layout = _rotor_layout(modes, planes)
     # All fields at once: to set one takes as long as to compute it.
@@ -146,7 +150,7 @@ def _rotor_layout(modes: int, planes: int) -> np.dtype:
             ("columns", COMPLEX, (modes, planes)),
             ("mobility", COMPLEX, (planes, planes)),
             ("weights", REAL, (planes,)),
-            *((name, REAL, (planes,)) for name in ("friction", "restitution", "drive")),
+            *((name, REAL, (planes,)) for name in ("friction", "restitution", "drive", "masses")),
         )
     )
 

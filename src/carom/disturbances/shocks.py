@@ -62,6 +62,7 @@ def shaken(rotor: Model, duration: float) -> tuple[System, np.ndarray]:
         friction=arrays.friction,
         restitution=arrays.restitution,
         drive=arrays.drive,
+        masses=arrays.masses,
     )
     shapes = np.concatenate([system.shapes, system.shapes @ shares], axis=1)
     return System(shaken_arrays, system.rest, shapes), shares

@@ -38,7 +38,8 @@ class LinearRotor(Result):
     forcing : array_like of complex, shape (n,)
         ``F``, constant: unbalance.
     planes : array_like of complex, shape (P, n)
-        Displacement at each contact plane per coordinate.
+        Displacement at each contact plane per coordinate.  A plane resists impulses with the effective mass
+        ``m_p = 1/(W M⁻¹ Wᴴ)`` of its row ``W``.
     friction, restitution : array_like, shape (P,)
         Coulomb friction coefficient and coefficient of restitution of each plane.
     drive : array_like, shape (P,)
@@ -46,7 +47,7 @@ class LinearRotor(Result):
     translation : array_like of complex, shape (n,), optional
         Coordinates when the rotor as a whole is displaced by one: the direction of kicks.  Ones by default.
     scales : Scales, optional
-        Mass, clearance and speed that convert results to SI units.
+        Unit of the mass matrix, clearance of the planes, and speed: they convert results to SI units.
 
     Raises
     ------
@@ -150,6 +151,7 @@ class LinearRotor(Result):
             friction=self.friction,
             restitution=self.restitution,
             drive=self.drive,
+            masses=1.0 / mobilities.real,
         )
         return System(arrays, rest, found.basis[:n], inverse, self.translation)
 
@@ -158,7 +160,12 @@ class LinearRotor(Result):
         slow, fast = sorted((complex(value) for value in exponents), key=lambda value: -value.real)
         friction, restitution, drive = (float(getattr(self, name)[0]) for name in _REAL)
         system = second_order_system(
-            exponents=(fast, slow), equilibrium=equilibrium, friction=friction, restitution=restitution, drive=drive
+            exponents=(fast, slow),
+            equilibrium=equilibrium,
+            friction=friction,
+            restitution=restitution,
+            drive=drive,
+            mass=float(self.mass[0, 0].real),
         )
         return dataclasses.replace(system, translation=self.translation)
 

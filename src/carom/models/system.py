@@ -246,6 +246,7 @@ def second_order_system(
     friction: float,
     restitution: float,
     drive: float,
+    mass: float = 1.0,
 ) -> System:
     """System of ``ü + αu̇ + βu = Γ`` with one coordinate ``u``, which is also its displacement at the wall.
 
@@ -260,6 +261,8 @@ def second_order_system(
         ``K = Γ/β``.
     friction, restitution, drive : float
         As in :func:`~carom.core.layout.rotor_record`.
+    mass : float
+        Effective mass at the wall, in the unit of masses.
     """
     offsets, rows = np.array([equilibrium], np.complex128), np.array([[0.0, 1.0]], np.complex128)
     arrays = rotor_record(
@@ -271,5 +274,6 @@ def second_order_system(
         friction=np.array([friction]),
         restitution=np.array([restitution]),
         drive=np.array([drive]),
+        masses=np.array([mass]),
     )
     return System(arrays, offsets, rows, np.array([[-exponents[1], 1.0], [1.0, 0.0]], np.complex128))

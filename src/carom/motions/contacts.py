@@ -90,9 +90,9 @@ def _units(quantity: str) -> tuple[str, str]:
 class ContactLog(Table):
     """Impacts of a motion, one entry per impact, in chronological order; all arrays have shape (n,).
 
-    In the units ``m`` is the mass that an impulse at the contact plane moves, and ``c_r`` the clearance there.  The slip
-    velocity of the contact point is ``v = s + 1 + θ̇``.  The work on the contact point follows from the mean of the
-    velocities before and after; that of the drive is the kinetic energy gained without it.
+    The normal impulse is ``m_p (1 + d) ṙ`` with the effective mass ``m_p = 1/(W M⁻¹ Wᴴ)`` of the plane, which is the whole
+    mass for the planar rotor.  The slip velocity of the contact point is ``v = s + 1 + θ̇``.  The work on the contact point
+    follows from the mean of the velocities before and after; that of the drive is the kinetic energy gained without it.
     """
 
     time: np.ndarray = field(metadata=column("time", "time of impact"))
@@ -130,9 +130,9 @@ class ContactLog(Table):
         angle, radial, angular = polar(*before)
         _, radial_after, angular_after = polar(*after)
         arrays = rotor.system.arrays
-        drive = arrays.drive[planes]
-        normal = radial - radial_after
-        tangential = angular_after - angular
+        drive, mass = arrays.drive[planes], arrays.masses[planes]
+        normal = mass * (radial - radial_after)
+        tangential = mass * (angular_after - angular)
         slip, slip_after = drive + angular, drive + angular_after
         normal_work = -0.5 * normal * (radial + radial_after)
         return cls(
@@ -147,7 +147,7 @@ class ContactLog(Table):
             tangential_impulse=tangential,
             slip_before=slip,
             slip_after=slip_after,
-            sticks=arrays.friction[planes] * normal >= np.abs(slip),
+            sticks=arrays.friction[planes] * normal >= mass * np.abs(slip),
             contact_work=normal_work + 0.5 * tangential * (slip + slip_after),
             drive_work=-(drive - 1.0) * tangential,
             scales=rotor.scales,

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.models import Matrices, Model
+from carom.models import Matrices
 from carom.motions.contacts import Table, column
 from carom.motions.trajectories import Trajectory
 from carom.outcome import InputError, Phase
@@ -106,14 +106,11 @@ def energy_ledger(trajectory: Trajectory) -> EnergyLedger:
 
     def at_events(events: np.ndarray, values: np.ndarray) -> np.ndarray:
         shares = np.zeros(len(ends))
-        shares[1:-1][events] = masses[trajectory.event_planes[events]] * values
+        shares[1:-1][events] = values
         return np.cumsum(shares)
 
-    masses = _effective_masses(trajectory.rotor, matrices)
-    slides, drives = np.zeros(times.shape), np.zeros(times.shape)
-    for plane, mass in enumerate(masses):
-        friction, drive = contact_power(trajectory.seen_at(plane), times)
-        slides, drives = slides + mass * friction, drives + mass * drive
+    powers = [contact_power(trajectory.seen_at(plane), times) for plane in range(trajectory.segment_phases.shape[1])]
+    slides, drives = np.sum(powers, axis=0)
     skew = 0.5 * (matrices.stiffness - matrices.stiffness.conj().T)
     if np.abs(skew).max() <= HERMITIAN * np.abs(matrices.stiffness).max():
         skew = np.zeros_like(skew)
@@ -148,14 +145,8 @@ def _in_fixed_frame(position: np.ndarray, velocity: np.ndarray, coordinates: int
     return position, velocity + 1j * position
 
 
-def _effective_masses(rotor: Model, matrices: Matrices) -> np.ndarray:
-    """Effective mass at each plane, which an impulse there moves, shape (P,): twice the energy of a rotor at rest that it gives speed one."""
-    given = rotor.system.rates @ rotor.system.arrays.columns
-    return _form(given.T, matrices.mass, given.T)
-
-
 def contact_power(motion: Trajectory, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Powers of friction on the contact point of a plane and of the drive, per effective mass there."""
+    """Powers of friction on the contact point of a plane and of the drive."""
     position, velocity = motion.at_plane(times)
     drive = float(motion.rotor.system.arrays.drive[motion.plane])
     _, grip = motion.forces(times)

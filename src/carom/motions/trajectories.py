@@ -225,8 +225,6 @@ class Trajectory(Result):
     def forces(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Normal and friction force of lasting contact at the plane at given times, in ``m c_r Ω²``; zero in flight.
 
-        ``m`` is the mass that an impulse at the plane moves, and ``c_r`` the clearance there.
-
         Returns
         -------
         normal, friction : ndarray
@@ -234,8 +232,10 @@ class Trajectory(Result):
         """
         amplitudes, phases = self._amplitudes_at(np.asarray(times, float))
         flat, shape = amplitudes.reshape(-1, amplitudes.shape[-1]), amplitudes.shape[:-1]
-        found = forces_all(self.rotor.system.arrays, flat, phases.reshape(len(flat), -1), self._workspace())
-        return found[:, self.plane, 0].reshape(shape), found[:, self.plane, 1].reshape(shape)
+        arrays = self.rotor.system.arrays
+        found = forces_all(arrays, flat, phases.reshape(len(flat), -1), self._workspace())[:, self.plane]
+        normal, friction = arrays.masses[self.plane] * found.T
+        return normal.reshape(shape), friction.reshape(shape)
 
     def history(self, times: np.ndarray | None = None) -> ContactHistory:
         """Forces, slip and powers of lasting contact at given times, by default those of :meth:`sample`."""
