@@ -13,5 +13,5 @@ entropy = cm.basins.basin_entropy(basin)
 print(f"S_b = {entropy.whole:.3f}, at the boundaries {entropy.boundary:.3f}; fractal: {entropy.fractal}")
 
 # %%
-# All positions in which the rotor may be released at rest in the turning frame.
+# All positions in which the rotor may be released at rest, as seen in the room.
 figure = basin.plot()

@@ -87,13 +87,14 @@ def test_a_slice_keeps_to_the_clearance(rotor):
     starts = Grid(StateSlice(0.3j), (20, 20)).starts(rotor)
     x, y = np.meshgrid(*Grid(StateSlice(), (20, 20)).values(), indexing="ij")
     np.testing.assert_array_equal(starts.exists, np.hypot(x, y) <= 1.0)
-    assert (starts.velocities == 0.3j).all()
+    room = starts.velocities + 1j * starts.positions
+    assert room == pytest.approx(np.full(room.shape, 0.3j), abs=1e-15)
 
 
 def test_states_are_even_over_both_discs():
     sample = Sample(AnyState(1.5), 20_000, seed=4)
     starts = sample.starts(carom.models.Jeffcott(QUIET))
-    for values, radius in ((starts.positions, 1.0), (starts.velocities, 1.5)):
+    for values, radius in ((starts.positions, 1.0), (starts.velocities + 1j * starts.positions, 1.5)):
         assert np.abs(values).max() <= radius
         # A quarter of the area lies within half the radius; five standard errors.
         share = (np.abs(values) < radius / 2).mean()

@@ -235,7 +235,7 @@ def measure_lifetimes(
     check_whole("discarded", discarded, 0)
     if discarded >= impacts:
         raise InputError("discarded", discarded, f"less than the impacts followed, {impacts}")
-    _, whole = disturbances_of(rotor, DisturbanceSet(count, seed) if starts is None else starts)
+    _, whole = disturbances_of(rotor, DisturbanceSet.of(rotor, count, seed) if starts is None else starts)
     ends = settle(rotor, whole.positions, whole.velocities, patience=impacts, threads=threads)
     ends = ends.reshaped(ends.outcomes.size)
     order = np.argsort(ends.impacts, kind="stable")

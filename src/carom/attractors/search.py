@@ -14,7 +14,7 @@ from carom.attractors.naming import name_motions, orbits_of
 from carom.attractors.starts import DISTURBANCES, DisturbanceSet, disturbances_of, known_starts, starts_at
 from carom.attractors.survival import Survival
 from carom.closed_forms.known import known_of
-from carom.disturbances import FASTEST, Disturbance, Grid, Plan, Sample, Starts
+from carom.disturbances import Disturbance, Grid, Plan, Sample, Starts
 from carom.models import Model, Subject, model_of
 from carom.motions.settling import PATIENCE
 from carom.motions.starts import Kick, State
@@ -118,7 +118,7 @@ class AttractorSet(Result):
 
     @property
     def fastest(self) -> float:
-        """Largest speed of the disturbances (of kicks: size), in ``c_r Ω``."""
+        """Largest speed of the disturbances in the fixed frame (of kicks: size), in ``c_r Ω``."""
         if isinstance(self.sample, DisturbanceSet):
             return self.sample.fastest
         return max((entry.start.speed for entry in self.disturbances), default=0.0)
@@ -149,7 +149,7 @@ def find_attractors(
     *,
     seed: int = 0,
     count: int = DISTURBANCES,
-    fastest: float = FASTEST,
+    fastest: float | str | None = None,
     known: bool = True,
     patience: int = PATIENCE,
     threads: int | None = None,
@@ -167,8 +167,11 @@ def find_attractors(
         Disturbances to follow instead of the standard set (:class:`~carom.attractors.DisturbanceSet`): a plan, a model
         of :mod:`carom.disturbances`, of which a sample is drawn, or single starts.  Those that are not possible are
         left out.
-    seed, count, fastest : int, int, float
-        Seed and size of the standard set or of the sample; largest speed of the standard set.
+    seed, count : int
+        Seed and size of the standard set or of the sample.
+    fastest : float or str, optional
+        Largest speed of the standard set in the fixed frame: in ``c_r Ω``, or text with a unit; by default the
+        :func:`~carom.parameters.usual_kick` of the machine.
     known : bool
         Whether to add starts next to the motions known in closed form; see :func:`~carom.attractors.known_starts`.
     patience : int
@@ -199,7 +202,7 @@ def find_attractors(
     rotor, tell = model_of(machine), Reporter.of(progress, "following disturbances")
     given: DisturbanceSet | Plan | Sequence[State | Kick]
     if disturbances is None:
-        given = DisturbanceSet(count, seed, fastest)
+        given = DisturbanceSet.of(rotor, count, seed, fastest)
     else:
         given = Sample(disturbances, count, seed) if isinstance(disturbances, Disturbance) else disturbances
     tried, starts = disturbances_of(rotor, given)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
 import numpy as np
 
@@ -19,12 +19,11 @@ from carom.models import Model, Subject, model_of
 from carom.motions.starts import Kick, State
 from carom.orbits.orbit import Orbit
 from carom.outcome import InputError
+from carom.parameters import Scales, own_size, usual_kick
 
 Kind = Literal["kick", "start", "orbit", "rub", "whirl"]
 
 DISTURBANCES = 200
-SLOWEST = 0.01
-DIRECTIONS = 12
 KICKS_SHARE = 0.6
 NUDGE, PUSH = 1e-6, 1e-3
 """Relative change of the speed of a known motion, for stable and for unstable motions.
@@ -58,22 +57,29 @@ class Start:
 
     @property
     def speed(self) -> float:
-        """Speed in the co-rotating frame in ``c_r Ω``: the largest of several coordinates; for a kick of the planar rotor its size."""
-        return float(np.max(np.abs(self.state.velocity)))
+        """Size of a kick, speed in the fixed frame of another start, in ``c_r Ω``: the largest of several coordinates."""
+        return float(np.max(np.abs(self._velocity)))
 
     @property
     def angle(self) -> float:
-        """Direction of the velocity in rad: that of the fastest of several coordinates."""
-        return cmath.phase(max(np.atleast_1d(self.state.velocity).tolist(), key=abs))
+        """Direction of this velocity in rad: that of the fastest of several coordinates."""
+        return cmath.phase(max(np.atleast_1d(self._velocity).tolist(), key=abs))
+
+    @property
+    def _velocity(self) -> Any:
+        """Change of velocity by a kick, the same in both frames; velocity in the fixed frame of another start."""
+        carried = 0.0 if self.kind == "kick" else 1j * self.state.position
+        return self.state.velocity + carried
 
 
 @dataclass(frozen=True)
 class DisturbanceSet:
     """The standard set of disturbances, used unless another is given.
 
-    Three in five are velocity kicks of the levitating rotor: sizes in geometric progression from 0.01 ``c_r Ω`` to
-    ``fastest``, each in 12 directions.  The rest start within the clearance, with positions uniform over its disc and
-    velocities uniform over a disc.  If the rotor cannot levitate, all of them are starts of this second kind.
+    Three in five are velocity kicks of the levitating rotor, uniform over the area of the disc of kick velocities up to
+    ``fastest``: each in a ring of its own among rings of equal area, at any place of it.  The rest start within the clearance,
+    with positions uniform over its disc and velocities in the fixed frame uniform over the disc up to ``fastest``.  If the
+    rotor cannot levitate, all of them are starts of this second kind.
 
     Attributes
     ----------
@@ -81,7 +87,7 @@ class DisturbanceSet:
     seed : int
         The same seed gives the same set.
     fastest : float
-        Largest kick and largest speed of the starts in the co-rotating frame, in ``c_r Ω``.
+        Largest kick and largest speed of the starts in the fixed frame, in ``c_r Ω``; :meth:`of` takes that of a machine.
     """
 
     count: int = DISTURBANCES
@@ -94,21 +100,41 @@ class DisturbanceSet:
         if not (math.isfinite(self.fastest) and self.fastest > 0.0):
             raise InputError("fastest", self.fastest, "a finite speed above 0, in c_r Omega")
 
+    @classmethod
+    def of(
+        cls, machine: Subject, count: int = DISTURBANCES, seed: int = 0, fastest: float | str | None = None
+    ) -> DisturbanceSet:
+        """Set for a machine, by default up to its :func:`~carom.parameters.usual_kick`.
+
+        Raises
+        ------
+        InputError
+            ``fastest`` is no speed above 0, or has a unit and the machine has no scales.
+        """
+        scales = model_of(machine).scales
+        largest = usual_kick(scales) if fastest is None else own_size("fastest", fastest, "velocity", scales)
+        return cls(count, seed, largest)
+
+    def rescaled(self, before: Scales | None, after: Scales | None) -> DisturbanceSet:
+        """Return the set whose speeds are the same in SI units for a machine with other scales."""
+        if before is None or after is None:
+            return self
+        return replace(self, fastest=self.fastest * (before.velocity / after.velocity))
+
     def kicks(self, rotor: Model) -> int:
         """Number of kicks in the set; they come first."""
-        levitates = rotor.system.rest_radius < 1.0
-        return DIRECTIONS * (int(KICKS_SHARE * self.count) // DIRECTIONS) if levitates else 0
+        return int(KICKS_SHARE * self.count) if rotor.system.rest_radius < 1.0 else 0
 
     def starts(self, rotor: Model) -> Starts:
         """Starts, arrays of shape (count,); kicks come first, by increasing size."""
         random, kicks = np.random.default_rng(self.seed), self.kicks(rotor)
-        sizes = np.geomspace(min(SLOWEST, self.fastest), self.fastest, kicks // DIRECTIONS)
-        angles = 2.0 * math.pi * (np.arange(DIRECTIONS) + random.random((len(sizes), 1))) / DIRECTIONS
+        rings, angles = np.arange(kicks) + random.random(kicks), 2.0 * math.pi * random.random(kicks)
+        sizes = self.fastest * np.sqrt(rings / max(kicks, 1))
         anywhere = AnyState(self.fastest)
         (radii, speeds), (places, directions) = (random.random((self.count - kicks, 2)).T for _ in range(2))
         shares = radii, places, speeds, directions
         values = (coordinate.at(share) for coordinate, share in zip(anywhere.coordinates, shares, strict=True))
-        kicked = VelocityKick(self.fastest).starts(rotor, sizes[:, None], angles)
+        kicked = VelocityKick(self.fastest).starts(rotor, sizes, angles)
         return Starts.joined([kicked, anywhere.starts(rotor, *values)])
 
     def words(self, rotor: Model, speed: Callable[[float], str] | None = None) -> str:
@@ -122,18 +148,18 @@ class DisturbanceSet:
         write, kicks = speed or _speed_of(rotor), self.kicks(rotor)
         parts = []
         if kicks:
-            smallest = write(min(SLOWEST, self.fastest))
-            parts.append(f"{kicks} velocity kicks of the levitating rotor, {smallest} to {write(self.fastest)},")
+            parts.append(f"{kicks} kicks of the levitating rotor")
         if self.count > kicks:
-            parts.append(f"{self.count - kicks} starts spread over the clearance at up to {write(self.fastest)}")
-        return f"{self.count} disturbances (seed {self.seed}): {' and '.join(parts).rstrip(',')}"
+            parts.append(f"{self.count - kicks} starts anywhere in the clearance")
+        found = f"{' and '.join(parts)}, at up to {write(self.fastest)} in the fixed frame"
+        return f"{self.count} disturbances (seed {self.seed}): {found}"
 
     @property
     def general_words(self) -> str:
         """Describe the disturbances for rotors in general, whether they can levitate or not."""
         return (
-            f"{self.count} disturbances (seed {self.seed}): velocity kicks of the levitating rotor and starts spread over the "
-            f"clearance, at up to {self.fastest:.3g} c_r Omega"
+            f"{self.count} disturbances (seed {self.seed}): kicks of the levitating rotor and starts anywhere in the clearance, "
+            f"at up to {self.fastest:.3g} c_r Omega in the fixed frame"
         )
 
 

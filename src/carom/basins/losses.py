@@ -16,7 +16,6 @@ import numpy as np
 from carom.basins.shares import CONFIDENCE
 from carom.closed_forms.thresholds import harmless_kick, harmless_shock, harmless_unbalance_step
 from carom.disturbances import (
-    FASTEST,
     BaseShock,
     BladeLoss,
     ContactRelease,
@@ -42,6 +41,8 @@ BELOW = 24
 """Sizes up to the best one so far, tried in each direction."""
 DRAWN, ROUND = 2000, 720
 """Fresh starts below the smallest loss, and directions over a full turn at the upper end of these sizes."""
+WHIRL = 2.0
+"""Largest speed along the wall searched for releases, in ``c_r Ω``: twice that of a whirl in step with the shaft."""
 MOST_CHECKS = 8
 """Number of times that fresh starts may reduce the smallest loss."""
 TURN = 2.0 * math.pi
@@ -239,7 +240,7 @@ def _family(rotor: Jeffcott, model: Disturbance) -> _Family:
             velocities.real, velocities.imag = -rate * sine, rate * cosine
             return Starts.of(positions, velocities, True)
 
-        return _Family(model.kind, FASTEST, 0.0, released, turns=2)
+        return _Family(model.kind, WHIRL, 0.0, released, turns=2)
     if not _by_size(model):
         raise InputError("disturbance", model.kind, "one with a size from 0 and a direction, or a release from contact")
     harmless = 0.0  # nothing is proven of a subclass, which may start anywhere

@@ -177,7 +177,7 @@ def find_bifurcations(
         chosen = _Chosen(impacts, virtual, lasting)
         found = _follow(model.parameters, along, limits, chosen, tell.part(0.0, followed))
         rolling = rolling_branch(model, along, limits)
-    disturbances = DisturbanceSet(attractors, seed) if attractors else None
+    disturbances = DisturbanceSet.of(model, attractors, seed) if attractors else None
     return Diagram(
         model=model,
         axis=along,

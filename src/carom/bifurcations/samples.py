@@ -91,7 +91,7 @@ def sample_attractors(
     Parameters
     ----------
     disturbances : DisturbanceSet, Grid or Sample
-        Disturbances followed at each value.  Starts next to every known motion are followed too, but do not count for
+        Disturbances of the machine, followed at each value; they keep their size in SI units.  Starts next to every known motion are followed too, but do not count for
         the shares.
 
     Returns
@@ -105,7 +105,7 @@ def sample_attractors(
     found: list[AttractorSample] = []
     for done, value in enumerate(np.linspace(*read_interval(along, interval), values).tolist()):
         rotor = along.move(model, value)
-        attractors = find_attractors(rotor, disturbances)
+        attractors = find_attractors(rotor, disturbances.rescaled(model.scales, rotor.scales))
         found += [_sample(value, rotor, each) for each in attractors if each.settled]
         found += _transient(value, attractors)
         tell((done + 1) / values)

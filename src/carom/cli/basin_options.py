@@ -42,7 +42,13 @@ Cells = Annotated[
 ]
 Starts = Annotated[int | None, typer.Option(metavar="N", help="Instead of a grid: a seeded sample of this size.")]
 Seed = Annotated[int | None, typer.Option(metavar="S", help="Seed of the sample, by default 0.")]
-Fastest = Annotated[str | None, typer.Option(metavar="SPEED", help="Largest kick or start speed, such as '50 mm/s'.")]
+Fastest = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SPEED",
+        help="Largest kick or start speed, such as '50 mm/s'; by default that of a fall through the clearance.",
+    ),
+]
 Peak = Annotated[str | None, typer.Option(metavar="ACC", help="Largest peak of a shock, such as '20 g'.")]
 Duration = Annotated[
     str | None, typer.Option(metavar="TIME", help="Duration of a shock, a half-sine pulse, such as '5 ms'.")
@@ -155,6 +161,7 @@ def read_plan(
 def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> Disturbance:
     from carom.cli.starts import read_positive, read_unbalance
     from carom.disturbances import MODELS
+    from carom.parameters import usual_kick
 
     model, given = MODELS[kind], dict[str, Any]()
     for option in _OPTIONS[kind]:
@@ -169,6 +176,8 @@ def _model(parameters: Parameters, kind: str, sizes: dict[str, str | None]) -> D
             given[name] = read_positive(f"--{option}", text, model.measured_in[name], parameters.scales)
         elif option in _NEEDED:
             raise InputError(f"--{option}", None, f"needed for a {kind}, such as {_NEEDED[option]}, or dimensionless")
+        elif option == "fastest":
+            given[name] = usual_kick(parameters.scales)
         elif option == "before":  # the unbalance whose contact-free whirl just reaches the wall
             given[name] = abs(complex(parameters.omega**2 - 1.0, parameters.gamma))
     return model(**given)

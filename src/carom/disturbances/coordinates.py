@@ -127,17 +127,21 @@ class Starts(NamedTuple):
 def displaced(rotor: Model, positions: np.ndarray, velocities: np.ndarray, exists: np.ndarray | bool = True) -> Starts:
     """Starts of a rotor that is displaced and moves as a whole.
 
-    Positions are the displacement of the contact plane that moves farthest, in its clearance; velocities, in ``c_r Ω``, are
-    those of kicks.  There is no start where ``exists`` is false.  A rotor whose translation moves no contact plane is refused.
+    Positions are the displacement of the contact plane that moves farthest, in its clearance.  Velocities, in ``c_r Ω``, are
+    those of the rotor in the fixed frame at the instant when both frames coincide: with the coordinates ``U`` and the
+    translation ``t``, ``U̇ = v t − iU``.  There is no start where ``exists`` is false.  A rotor whose translation moves no
+    contact plane is refused.
     """
     system, whole = rotor.system, Starts.of(positions, velocities, exists)
-    if system.is_planar and system.translation is None:
-        return whole
-    if not system.carried.any():
-        raise InputError("translation", system.moves.tolist(), "one that moves a contact plane")
-    moves = system.moves if len(system.rest) > 1 else complex(system.moves[0])
-    places = np.multiply.outer(whole.positions, moves / system.carried.max())
-    return whole._replace(positions=places, velocities=np.multiply.outer(whole.velocities, moves))
+    places, speeds = whole.positions, whole.velocities
+    if not (system.is_planar and system.translation is None):
+        if not system.carried.any():
+            raise InputError("translation", system.moves.tolist(), "one that moves a contact plane")
+        moves = system.moves if len(system.rest) > 1 else complex(system.moves[0])
+        places = np.multiply.outer(places, moves / system.carried.max())
+        speeds = np.multiply.outer(speeds, moves)
+    turning = complex_of(speeds.real + places.imag, speeds.imag - places.real)
+    return whole._replace(positions=places, velocities=turning)
 
 
 def within(positions: np.ndarray) -> np.ndarray:

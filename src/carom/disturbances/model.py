@@ -11,13 +11,13 @@ import numpy as np
 
 from carom.disturbances.coordinates import Coordinate, Starts
 from carom.outcome import InputError, shown
-from carom.parameters import Scales, own_size
+from carom.parameters import Scales, own_size, usual_kick
 
 if TYPE_CHECKING:
     from carom.models import Model, Subject
 
-FASTEST = 2.0
-"""Default largest speed in ``c_r Ω``: twice that of a whirl that fills the clearance."""
+FASTEST = usual_kick(None)
+"""Largest speed in ``c_r Ω`` of a disturbance that is made without a machine."""
 _SIZES = ("fastest", "peak", "duration", "largest", "eccentricity_after")
 
 
@@ -87,7 +87,7 @@ class Disturbance:
         machine : Machine, Case, Parameters or model
         *sizes : float or str
             Sizes of the fields with a unit, in the order of ``measured_in``: text with a unit, or numbers in the units of
-            the equations.
+            the equations.  Without a largest speed it is :func:`~carom.parameters.usual_kick`.
 
         Raises
         ------
@@ -100,7 +100,10 @@ class Disturbance:
 
         scales = model_of(machine).scales
         pairs = zip(cls.measured_in.items(), sizes, strict=False)
-        return cls(**{name: own_size(name, size, kind, scales) for (name, kind), size in pairs})
+        given = {name: own_size(name, size, kind, scales) for (name, kind), size in pairs}
+        if "fastest" in cls.measured_in:
+            given.setdefault("fastest", usual_kick(scales))
+        return cls(**given)
 
     def rescaled(self, before: Scales | None, after: Scales | None, names: Collection[str] | None = None) -> Self:
         """Return the disturbance that is the same in SI units for a machine with other scales.

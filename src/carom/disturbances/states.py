@@ -119,21 +119,22 @@ class ContactRelease(Disturbance):
         (angle,) = values
         cosine, sine = np.cos(angle), np.sin(angle)
         carried, drive = rotor.system.carried, rotor.system.arrays.drive
-        rate = {"fixed": -1.0, "rotating": 0.0, "rolling": -float(drive[carried.argmax()])}[self.motion]
+        rate = {"fixed": 0.0, "rotating": 1.0, "rolling": 1.0 - float(drive[carried.argmax()])}[self.motion]
         speed = rate / carried.max() if carried.any() else rate
         return displaced(rotor, complex_of(cosine, sine), complex_of(-speed * sine, speed * cosine))
 
 
 @dataclass(frozen=True)
 class StateSlice(Disturbance):
-    """Any position inside the wall, at one velocity in the co-rotating frame.
+    """Any position inside the wall, at one velocity in the fixed frame.
 
     A rotor of several coordinates or planes is displaced as a whole; the position is that of the plane that moves farthest.
 
     Attributes
     ----------
     velocity : complex
-        ``U̇`` in ``c_r Ω``.
+        Velocity ``v`` in the fixed frame, in ``c_r Ω``, at the instant when both frames coincide: ``U̇ = v − iU``.  By default
+        the rotor is released at rest.
     """
 
     velocity: complex = 0j
@@ -155,14 +156,14 @@ class StateSlice(Disturbance):
 
 @dataclass(frozen=True)
 class AnyState(Disturbance):
-    """Any position inside the wall and any velocity up to a largest speed, both uniform over their discs.
+    """Any position inside the wall and any velocity in the fixed frame up to a largest speed, both uniform over their discs.
 
     A rotor of several coordinates or planes is displaced as a whole; the position is that of the plane that moves farthest.
 
     Attributes
     ----------
     fastest : float
-        Largest speed in the co-rotating frame, in ``c_r Ω``.
+        Largest speed in the fixed frame, in ``c_r Ω``: ``|U̇ + iU|`` of the planar rotor.
     """
 
     fastest: float = FASTEST
@@ -175,12 +176,12 @@ class AnyState(Disturbance):
         return (
             length_coordinate("radius", "distance from the centre of the bearing", 0.0, 1.0, over_disc=True),
             angle_coordinate("angle", "angle of the position"),
-            speed_coordinate("speed", "speed in the co-rotating frame", 0.0, self.fastest, over_disc=True),
+            speed_coordinate("speed", "speed in the fixed frame", 0.0, self.fastest, over_disc=True),
             angle_coordinate("direction", "direction of the velocity"),
         )
 
     def starts(self, rotor: Model, *values: np.ndarray) -> Starts:
-        """The given states."""
+        """The given states, in the co-rotating frame."""
         radius, angle, speed, direction = np.broadcast_arrays(*values)
         return displaced(
             rotor,

@@ -12,7 +12,18 @@ import pydantic
 
 from carom.disturbances import MODELS, Sample
 from carom.outcome import InputError, Problems, shown, together
-from carom.parameters import DIMENSIONLESS_FIELDS, SETTABLE, TERMS, Case, Scales, Zones, load, read_size, unknown_name
+from carom.parameters import (
+    DIMENSIONLESS_FIELDS,
+    SETTABLE,
+    TERMS,
+    Case,
+    Scales,
+    Zones,
+    load,
+    read_size,
+    unknown_name,
+    usual_kick,
+)
 from carom.parameters.fields import nearest_name
 from carom.parameters.terms import check_names
 from carom.parameters.toml_reader import read_toml
@@ -261,6 +272,8 @@ def _disturbance(table: Mapping[str, Any], scales: Scales | None) -> tuple[str, 
     for name, field in fields.items():
         if name in table:
             sizes[name] = problems.attempt(_size, f"{where}.{name}", table[name], kind, field, scales)
+        elif name == "fastest":
+            sizes[name] = usual_kick(scales) * (scales.velocity if scales else 1.0), scales is not None
         elif field.default is not dataclasses.MISSING:
             sizes[name] = field.default, False
         elif name not in meant:

@@ -9,10 +9,10 @@ import numpy as np
 
 from carom.basins import Basin, map_basins
 from carom.closed_forms import find_equilibria
-from carom.disturbances import FASTEST, Coordinate, Disturbance, Grid, KickPlane, Starts, outward_from
+from carom.disturbances import Coordinate, Disturbance, Grid, KickPlane, Starts, outward_from
 from carom.models import Jeffcott
 from carom.motions import State
-from carom.parameters import Scales
+from carom.parameters import Scales, usual_kick
 from carom.plots.cells import MotionLook, motion_looks
 from carom.progress import ShowProgress
 
@@ -135,7 +135,7 @@ class KickMap:
 
 def largest_kick(scales: Scales | None) -> float:
     """Largest component of kicks: in m/s if the machine is known, so that axes stay where the speed changes."""
-    return FASTEST * (scales.velocity if scales else 1.0)
+    return usual_kick(scales) * (scales.velocity if scales else 1.0)
 
 
 def map_kicks(rotor: Jeffcott, cells: int, largest: float, progress: ShowProgress = None) -> KickMap:
