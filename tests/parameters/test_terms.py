@@ -279,6 +279,10 @@ def test_a_balance_grade_is_the_velocity_of_the_mass_centre_at_the_rated_speed()
             {**BEARING, "current_limit": "3 A", "negative_stiffness": None},
             "current_limit = 3 A: needs negative_stiffness too",
         ),
+        (
+            {**BEARING, "slew_rate_limit": "3 kA/s", "negative_stiffness": None},
+            "slew_rate_limit = 3 kA/s: needs negative_stiffness too",
+        ),
     ],
 )
 def test_entries_that_could_disagree_or_change_nothing_are_named(entries, start):

@@ -19,15 +19,18 @@ from carom.files import as_json
 from carom.models import Jeffcott
 from carom.motions import State, simulate
 from carom.orbits import orbits_within_reach
+from carom.outcome import Phase
 from carom.parameters import Case, Machine, Parameters, Scales, Zones, load
-from carom.studies.actuator import bearing_demand, largest_along, limits_of
+from carom.studies.actuator import Centre, actuator_words, bearing_demand, largest_along, largest_jumps, limits_of
+from carom.studies.wording import number
 
 KEOGH = "examples/keogh-cole.toml"
 BEARINGS = ["magnetic_bearings=2", "force_current_factor=70 N/A", "negative_stiffness=210 N/mm"]
 
 
-def limited(*settings, force="500 N", current="10 A"):
-    return load(KEOGH, [*BEARINGS, f"force_limit={force}", f"current_limit={current}", *settings])
+def limited(*settings, force="500 N", current="10 A", slew="5 A/ms"):
+    limits = [f"force_limit={force}", f"current_limit={current}", f"slew_rate_limit={slew}"]
+    return load(KEOGH, [*BEARINGS, *limits, *settings])
 
 
 def demand_of(case, found):
@@ -36,7 +39,10 @@ def demand_of(case, found):
 
 
 def by_integration(machine, place, speed, until, count=20_001):
-    """Force and current of one bearing while the rotor flies, from a state in the fixed frame at the time zero, in SI units."""
+    """Force, current and rate of the current of one bearing while the rotor flies, and its largest distance, in SI units.
+
+    From a state in the fixed frame at the time zero; the rate is that of differences.
+    """
 
     def rate(time, state):
         z, w = state
@@ -50,7 +56,8 @@ def by_integration(machine, place, speed, until, count=20_001):
     gains = machine.controller_gains
     current = gains["proportional_gain"] * z + gains["derivative_gain"] * w
     force = machine.force_current_factor * -current + machine.negative_stiffness * z
-    return np.abs(force), np.abs(current), np.abs(z).max()
+    rates = np.abs(np.gradient(current, times, edge_order=2))
+    return np.abs(force), np.abs(current), rates, np.abs(z).max()
 
 
 @pytest.mark.parametrize(("place", "kick"), [(0.05 + 0.1j, 0.1), (-0.2j, 0.05j)])
@@ -59,16 +66,19 @@ def test_force_and_current_of_a_flight_are_those_of_the_equations_in_si_units(pl
     machine, scales = case.machine, case.parameters.scales
     until = 60.0
     motion = simulate(case, State(place, kick), until)
-    forces, currents, farthest = by_integration(
+    forces, currents, rates, farthest = by_integration(
         machine, place * scales.length, (kick + 1j * place) * scales.velocity, until * scales.time
     )
     assert farthest < machine.clearance  # it does not touch
 
-    force, current = largest_along(motion, limits_of(case))
+    force, current, rate = largest_along(motion, limits_of(case))
 
     # The instants are so close that the largest value is missed by less than 0.1 %.
     assert forces.max() * (1 - 1e-3) <= force <= forces.max() * (1 + 1e-9)
     assert currents.max() * (1 - 1e-3) <= current <= currents.max() * (1 + 1e-9)
+    # Differences over 0.003 of the fastest period are wrong by the square of that times some number of order 10.
+    assert rates.max() * (1 - 1e-3) <= rate <= rates.max() * (1 + 1e-4)
+    assert largest_jumps(motion, limits_of(case)) == (0.0, 0.0, 0.0)
 
 
 def test_a_bouncing_orbit_asks_for_what_its_flight_does():
@@ -76,17 +86,46 @@ def test_a_bouncing_orbit_asks_for_what_its_flight_does():
     machine, scales = case.machine, case.parameters.scales
     (orbit,) = [orbit for orbit in orbits_within_reach(Jeffcott(case.parameters)) if orbit.admissible and orbit.stable]
     state = orbit.departure
-    forces, currents, _ = by_integration(
+    forces, currents, rates, _ = by_integration(
         machine,
         state.position * scales.length,
         (state.velocity + 1j * state.position) * scales.velocity,
         orbit.period * scales.time,
     )
 
-    force, current = largest_along(orbit.trajectory(), limits_of(case))
+    motion, limits = orbit.trajectory(), limits_of(case)
+    force, current, rate = largest_along(motion, limits)
 
     assert force == pytest.approx(forces.max(), rel=1e-3)
     assert current == pytest.approx(currents.max(), rel=1e-3)
+    assert rate == pytest.approx(rates.max(), rel=1e-3)
+    log = motion.contacts
+    impulse = float(np.hypot(log.normal_impulse, log.tangential_impulse).max()) * scales.impulse
+    *others, jump = largest_jumps(motion, limits)
+    assert others == [0.0, 0.0]
+    assert jump == pytest.approx(machine.controller_gains["derivative_gain"] * impulse / machine.mass, rel=1e-9)
+
+
+def test_accelerations_are_those_of_differences_also_in_lasting_contact():
+    """Of the velocity in the fixed frame, over an interval short against any change but long against rounding."""
+    case = load(KEOGH, ["friction=0.1", "damping=300 N s/m", "restitution=0.5", "rotor_radius=14 mm"])
+    motion = simulate(case, State(1.0, -2.5 - 1.5j), 30.0)
+    assert {stay.phase for stay in motion.lasting_contacts} >= {Phase.FORWARD_SLIP, Phase.ROLLING}
+    rng = np.random.default_rng(3)
+    step = 1e-5
+    times = rng.uniform(step, motion.time - step, 4000)
+    nearest = np.abs(times[:, None] - motion.segment_starts[None, :]).min(axis=1)
+    times = times[nearest > 2 * step]
+    phases = motion.segment_phases[np.searchsorted(motion.segment_starts, times, side="right") - 1, 0]
+    assert {Phase.FLIGHT, Phase.FORWARD_SLIP, Phase.ROLLING} <= set(phases.tolist())
+
+    centre = Centre.along(motion, times)
+
+    before, after = (Centre.along(motion, times + shift).velocity for shift in (-step, step))
+    turned = after * np.exp(1j * step) - before * np.exp(-1j * step)
+    # The centre goes round up to 20 times a turn, so fourth derivatives are at most some 400 accelerations.
+    error = np.abs(turned / (2 * step) - centre.acceleration).max()
+    assert error <= (20 * step) ** 2 * np.abs(centre.acceleration).max()
 
 
 def test_steady_motions_are_exact():
@@ -107,6 +146,10 @@ def test_steady_motions_are_exact():
     backward = machine.speed * machine.rotor_radius / machine.clearance
     current = abs(gains["proportional_gain"] - 1j * gains["derivative_gain"] * backward) * machine.clearance
     assert by_name["rolling backward whirl", "current"].largest == pytest.approx(current, rel=1e-12)
+    # In a circular whirl the rate is the current times the speed of the whirl.
+    assert by_name["rolling backward whirl", "slew rate"].largest == pytest.approx(current * backward, rel=1e-12)
+    rate = by_name["levitation", "current"].largest * machine.speed
+    assert by_name["levitation", "slew rate"].largest == pytest.approx(rate, rel=1e-12)
 
 
 def test_one_bearing_of_two_bears_half():
@@ -114,7 +157,7 @@ def test_one_bearing_of_two_bears_half():
     for count in (1, 2):
         case = load(KEOGH, [f"magnetic_bearings={count}", "force_limit=500 N"] if count > 1 else ["force_limit=500 N"])
         (limit,) = limits_of(case)
-        shares.append(float(limit.asked(1.0, 0.0)))
+        shares.append(float(limit.asked(Centre(1.0, 0.0, 0.0))))
     assert shares[0] == pytest.approx(2 * shares[1], rel=1e-15)
 
 
@@ -169,6 +212,28 @@ def test_a_study_says_what_the_bearings_cannot_give():
     assert forces.max() / 900.0 == pytest.approx(demand.disturbances[0][worst], rel=2e-3)
 
 
+@pytest.mark.jit_only
+def test_jumps_of_the_current_are_told_apart_from_its_rate():
+    machine = Machine.from_parameters(QUIET).replace(**BEARING_NUMBERS, slew_rate_limit="40 kA/s")
+    result = dataclasses.replace(study_once(QUIET), case=Case("limited", QUIET, machine, Zones()))
+    demand = result.bearing_demand
+
+    (limit,) = demand.limits
+    assert (limit.kind, limit.most) == ("slew rate", 4e4)
+    struck = np.array(
+        [len(simulate(e.rotor, e.start.state, e.time).contacts) > 0 for e in result.attractors.disturbances]
+    )
+    assert (demand.jumps[0] > 0.0).tolist() == struck.tolist()
+    assert (demand.disturbances[0] > 0.0).all()
+    text = actuator_words(result)
+    assert "one magnetic bearing gives at most 40,000 A/s of slew rate" in text
+    largest = demand.jumps[0].max()
+    assert f"At an impact the controller asks at once for a current that differs by up to {number(largest)} A." in text
+    assert f"The bearing takes {number(largest / 40)} ms for that" in text
+    document = json.loads(as_json(demand.document()))
+    assert document["disturbances"][0]["largest_jump_si"] == pytest.approx(largest)
+
+
 @pytest.mark.deep
 def test_no_instant_of_fresh_motions_asks_for_more_than_the_largest_value_found():
     rng = np.random.default_rng(20)
@@ -177,6 +242,6 @@ def test_no_instant_of_fresh_motions_asks_for_more_than_the_largest_value_found(
         case = limited("eccentricity=0.1 mm", *(f"{name}={value!r}" for name, value in numbers.items()))
         start = State(rng.uniform(0, 0.9) * np.exp(1j * rng.uniform(0, 7)), complex(*rng.normal(0.0, 0.5, 2)))
         motion = simulate(case, start, 40.0)
-        position, velocity = motion.at(np.sort(rng.uniform(0.0, motion.time, 50_000)))
+        centre = Centre.along(motion, np.sort(rng.uniform(0.0, motion.time, 50_000)))
         for limit, largest in zip(limits_of(case), largest_along(motion, limits_of(case)), strict=True):
-            assert limit.asked(position, velocity).max() <= largest * (1 + 1e-3)
+            assert limit.asked(centre).max() <= largest * (1 + 1e-3)

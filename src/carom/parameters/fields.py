@@ -233,6 +233,7 @@ _SYNONYMS = {
     "ks": "negative_stiffness",
     "max_current": "current_limit",
     "max_force": "force_limit",
+    "max_slew_rate": "slew_rate_limit",
     "number_of_bearings": "magnetic_bearings",
     "p_gain": "proportional_gain",
     "phase": "unbalance_phase",
@@ -245,6 +246,7 @@ _SYNONYMS = {
     "rotor_mass": "mass",
     "rotor_speed": "speed",
     "rpm": "speed",
+    "slew_rate": "slew_rate_limit",
     "shaft_speed": "speed",
     "zeta": "damping_ratio",
 }

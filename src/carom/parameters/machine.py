@@ -55,8 +55,8 @@ class Machine(pydantic.BaseModel):
         Number n of equal magnetic bearings; 1 by default.
     force_current_factor, negative_stiffness : float or str, optional
         Force a current ki (N/A) and size ks of the negative stiffness (N/m, not negative) of one of them.
-    force_limit, current_limit : float or str, optional
-        Largest force (N) and control current (A) of one of them.
+    force_limit, current_limit, slew_rate_limit : float or str, optional
+        Largest force (N), control current (A) and rate of this current (A/s) of one of them.
 
     Raises
     ------
@@ -87,6 +87,7 @@ class Machine(pydantic.BaseModel):
     negative_stiffness: float | None = None
     force_limit: float | None = None
     current_limit: float | None = None
+    slew_rate_limit: float | None = None
     _resolved: Resolved = pydantic.PrivateAttr()
 
     def __init__(self, /, **entries: Any) -> None:

@@ -178,11 +178,11 @@ class _Work:
             if name in self.entries and not default and present.isdisjoint(users):
                 allowed = f"has no effect without {' or '.join(users)}"
                 self.problems.errors.append(InputError(name, shown(self.entries[name]), allowed))
-        for name in _OF_CURRENT if "current_limit" in self.values else ():
-            if name not in self.values:
-                written = self.given["current_limit"]["current_limit"]
-                allowed = f"needs {name} too, which {HELPER_FIELDS[name].allowed}"
-                self.problems.errors.append(InputError("current_limit", shown(written), allowed))
+        for limit in _LIMITS_OF_CURRENT:
+            for name in _OF_CURRENT:
+                if limit in self.values and name not in self.values:
+                    allowed = f"needs {name} too, which {HELPER_FIELDS[name].allowed}"
+                    self.problems.errors.append(InputError(limit, shown(self.given[limit][limit]), allowed))
 
 
 _USERS = {
@@ -190,6 +190,7 @@ _USERS = {
     "magnetic_bearings": ("force_current_factor", "force_limit"),
     "negative_stiffness": ("force_current_factor",),
 }
+_LIMITS_OF_CURRENT = ("current_limit", "slew_rate_limit")
 _OF_CURRENT = ("force_current_factor", "negative_stiffness")
 
 

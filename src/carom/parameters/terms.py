@@ -147,6 +147,16 @@ HELPER_FIELDS: Mapping[str, Field] = by_name(
     ),
     Field("force_limit", "F_max", "largest force of a bearing", "a force", "N", 1e-12, 1e15, '"500 N"'),
     Field("current_limit", "i_max", "largest control current of a bearing", "a current", "A", 1e-12, 1e9, '"3 A"'),
+    Field(
+        "slew_rate_limit",
+        "(di/dt)_max",
+        "largest rate of the control current of a bearing: voltage over inductance",
+        "a rate of current",
+        "A/s",
+        1e-12,
+        1e15,
+        '"5000 A/s"',
+    ),
 )
 """Entries that set nothing themselves: those that formulas need, and limits."""
 

@@ -4,17 +4,26 @@ The model has linear levitation control: ``n`` equal bearings act on the rotor w
 by the control current ``i = ((k/n + ks)z + (c/n)ż)/ki`` (:mod:`carom.parameters.terms`).  A real bearing gives no more
 than its limits, so a motion that asks for more is not that of the real machine.
 
-With ``U`` and ``U̇`` of the co-rotating frame ``|kz + cż| = c_r |kU + cΩ(U̇ + iU)|``.  Its largest value is exact for
-steady motions.  Along others it is found at all events and at instants so close that an oscillation between two of them
-adds less than 0.1 %.
+With ``z = c_r U e^{iΩt}`` a velocity is ``ż = c_rΩ w e^{iΩt}``, ``w = U̇ + iU``, and an acceleration of the fixed frame is
+``z̈ = c_rΩ² b e^{iΩt}``, with the forces of lasting contact in the equation of motion::
+
+    b = ρe^{iφ} - ω²U - γw + (-N + iT)U/|U|
+
+So the rate of the current, ``di/dt = ((k/n + ks)ż + (c/n)z̈)/ki``, needs no differences.  An impact, or a kick, changes ``ż`` at
+once, and with it the current that the controller asks for: this jump is counted as such, in A, and not as a rate, which
+would be infinite.
+
+The largest values are exact for steady motions.  Along others they are found at all events and at instants so close that
+an oscillation between two of them adds less than 0.1 %.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -22,11 +31,12 @@ from carom.attractors import AttractorSet, Ending, MotionName
 from carom.attractors.names import LEVITATION, SYNCHRONOUS_RUB
 from carom.closed_forms.equilibria import Equilibrium
 from carom.closed_forms.whirl import Rolling
+from carom.models import jeffcott_of
 from carom.motions.trajectories import Trajectory, simulate
 from carom.orbits.orbit import Orbit
 from carom.outcome import Outcome
 from carom.parameters import Case
-from carom.studies.wording import number
+from carom.studies.wording import listed, number
 
 if TYPE_CHECKING:
     from carom.studies.assembly import Study
@@ -36,43 +46,81 @@ STEP = 0.05
 """Largest step of phase between two instants, in rad of the fastest oscillation."""
 MOST_INSTANTS = 200_000
 """Largest number of instants of one motion."""
-_UNITS = {"force": "N", "current": "A"}
+_UNITS = {"force": "N", "current": "A", "slew rate": "A/s"}
+
+
+class Centre(NamedTuple):
+    """Motion of the rotor centre in the fixed frame, along axes that turn with the rotor; shapes (n,) or ().
+
+    In ``c_r``, ``c_rΩ`` and ``c_rΩ²``.
+    """
+
+    position: Any
+    velocity: Any
+    acceleration: Any
+
+    @classmethod
+    def whirling(cls, radius: float, speed: float) -> Centre:
+        """Circular whirl, forward with a positive speed in units of ``Ω``."""
+        return cls(radius, 1j * speed * radius, -(speed**2) * radius)
+
+    @classmethod
+    def along(cls, motion: Trajectory, times: np.ndarray) -> Centre:
+        """At given times of a motion of the planar rotor; at an impact just after it."""
+        numbers = jeffcott_of(motion.rotor).parameters
+        position, turning = motion.at(times)
+        velocity = turning + 1j * position
+        normal, friction = motion.forces(times)
+        outward = np.where(normal != 0.0, position, 0.0)  # on the wall |U| = 1
+        acceleration = (
+            cmath.rect(numbers.rho, numbers.phi)
+            - numbers.omega**2 * position
+            - numbers.gamma * velocity
+            + (1j * friction - normal) * outward
+        )
+        return cls(position, velocity, acceleration)
 
 
 @dataclass(frozen=True)
 class BearingLimit:
-    """Largest force or control current of one magnetic bearing, and what a motion asks of it.
+    """Largest force, control current or rate of this current of one magnetic bearing, and what a motion asks of it.
 
     Attributes
     ----------
-    kind : {"force", "current"}
+    kind : {"force", "current", "slew rate"}
     most : float
-        The limit, in N or A.
-    per_displacement, per_velocity : float
-        What is asked of the bearing per clearance of displacement, and per ``c_rΩ`` of velocity, in N or A.
+        The limit, in N, A or A/s.
+    per_displacement, per_velocity, per_acceleration : float
+        What is asked of the bearing per clearance of displacement, per ``c_rΩ`` of velocity and per ``c_rΩ²`` of acceleration.
+    per_jump : float
+        For a slew rate the current, in A, by which each ``c_rΩ`` of a sudden change of velocity makes the current jump.
     """
 
-    kind: Literal["force", "current"]
+    kind: Literal["force", "current", "slew rate"]
     most: float
-    per_displacement: float
-    per_velocity: float
+    per_displacement: float = 0.0
+    per_velocity: float = 0.0
+    per_acceleration: float = 0.0
+    per_jump: float = 0.0
 
-    def asked(self, position: Any, velocity: Any) -> Any:
-        """What a state of the co-rotating frame asks of the bearing, in N or A: the size of a vector of two axes."""
-        return np.abs(self.per_displacement * position + self.per_velocity * (velocity + 1j * position))
+    def asked(self, motion: Centre) -> Any:
+        """What a motion of the rotor centre asks of the bearing, in N, A or A/s: the size of a vector of two axes."""
+        asked = self.per_displacement * motion.position + self.per_velocity * motion.velocity
+        return np.abs(asked + self.per_acceleration * motion.acceleration)
 
     def words(self, value: float) -> str:
-        """A force or current with its unit."""
+        """A force, current or slew rate with its unit."""
         return f"{number(value)} {_UNITS[self.kind]}"
 
 
 @dataclass(frozen=True)
 class Demand:
-    """What a motion asks of one magnetic bearing at most, in N or A."""
+    """What a motion asks of one magnetic bearing at most, in N, A or A/s, and its largest jump of the current, in A."""
 
     motion: str
     limit: BearingLimit
     largest: float
+    jump: float = 0.0
 
     @property
     def share(self) -> float:
@@ -91,6 +139,8 @@ class BearingDemand:
         Motions that can last.
     disturbances : tuple of ndarray
         For each limit the multiple of it that each disturbance asks for at most, until its end is known; shape (n,).
+    jumps : tuple of ndarray
+        For each limit the largest jump of the current at an impact of each disturbance, in A; 0 but for a slew rate.
     came_back : ndarray of bool, shape (n,)
         Which disturbances came back to levitation.
     """
@@ -98,6 +148,7 @@ class BearingDemand:
     limits: tuple[BearingLimit, ...]
     motions: tuple[Demand, ...]
     disturbances: tuple[np.ndarray, ...]
+    jumps: tuple[np.ndarray, ...]
     came_back: np.ndarray
 
     @property
@@ -111,7 +162,13 @@ class BearingDemand:
         return {
             "limits": [{"kind": limit.kind, "limit_si": limit.most} for limit in self.limits],
             "motions": [
-                {"motion": each.motion, "kind": each.limit.kind, "largest_si": each.largest, "share": each.share}
+                {
+                    "motion": each.motion,
+                    "kind": each.limit.kind,
+                    "largest_si": each.largest,
+                    "share": each.share,
+                    "largest_jump_si": each.jump,
+                }
                 for each in self.motions
             ],
             "disturbances": [
@@ -119,8 +176,9 @@ class BearingDemand:
                     "kind": limit.kind,
                     "largest_share": float(shares.max(initial=0.0)),
                     "beyond": int((shares > 1.0).sum()),
+                    "largest_jump_si": float(jumps.max(initial=0.0)),
                 }
-                for limit, shares in zip(self.limits, self.disturbances, strict=True)
+                for limit, shares, jumps in zip(self.limits, self.disturbances, self.jumps, strict=True)
             ],
             "came_back_beyond": self.doubtful,
         }
@@ -137,9 +195,14 @@ def limits_of(case: Case) -> tuple[BearingLimit, ...]:
     found = []
     if machine.force_limit is not None:
         found.append(BearingLimit("force", machine.force_limit, stiffness, damping))
-    if machine.current_limit is not None and machine.force_current_factor and machine.negative_stiffness is not None:
+    if machine.force_current_factor and machine.negative_stiffness is not None:
         factor, pull = machine.force_current_factor, machine.negative_stiffness * scales.length
-        found.append(BearingLimit("current", machine.current_limit, (stiffness + pull) / factor, damping / factor))
+        proportional, derivative = (stiffness + pull) / factor, damping / factor
+        if machine.current_limit is not None:
+            found.append(BearingLimit("current", machine.current_limit, proportional, derivative))
+        if machine.slew_rate_limit is not None:
+            rates = {"per_velocity": proportional * scales.speed, "per_acceleration": derivative * scales.speed}
+            found.append(BearingLimit("slew rate", machine.slew_rate_limit, **rates, per_jump=derivative))
     return tuple(found)
 
 
@@ -154,31 +217,45 @@ def bearing_demand(
     for entry in equilibria:
         if entry.status != "virtual" and entry.stable:
             name = LEVITATION if entry.kind == "contact-free" else SYNCHRONOUS_RUB
-            motions += [Demand(name.words, limit, float(limit.asked(entry.radius, 0.0))) for limit in limits]
+            whirl = Centre.whirling(entry.radius, 1.0)
+            motions += [Demand(name.words, limit, float(limit.asked(whirl))) for limit in limits]
     for orbit in orbits:
         if orbit.admissible and orbit.stable:
-            reached = largest_along(orbit.trajectory(), limits)
-            motions += [Demand(f"bouncing on {orbit.name}", *each) for each in zip(limits, reached, strict=True)]
+            motion = orbit.trajectory()
+            reached = zip(limits, largest_along(motion, limits), largest_jumps(motion, limits), strict=True)
+            motions += [Demand(f"bouncing on {orbit.name}", *each) for each in reached]
     if roll.holds:
-        velocity = -1j * (roll.speed + 1.0)  # the centre goes round backward, at ``speed`` in the fixed frame
-        motions += [Demand(ROLLING.words, limit, float(limit.asked(1.0, velocity))) for limit in limits]
+        whirl = Centre.whirling(1.0, -roll.speed)
+        motions += [Demand(ROLLING.words, limit, float(limit.asked(whirl))) for limit in limits]
     tried = found.disturbances
-    peaks = np.array([_until_known(ending, limits) for ending in tried]).reshape(len(tried), len(limits))
-    shares = tuple(peaks[:, place] / limit.most for place, limit in enumerate(limits))
-    return BearingDemand(limits, tuple(motions), shares, np.array([ending.recovered for ending in tried], bool))
+    peaks = np.array([_until_known(ending, limits) for ending in tried]).reshape(len(tried), 2, len(limits))
+    shares = tuple(peaks[:, 0, place] / limit.most for place, limit in enumerate(limits))
+    came_back = np.array([ending.recovered for ending in tried], bool)
+    return BearingDemand(limits, tuple(motions), shares, tuple(peaks[:, 1].T), came_back)
 
 
-def _until_known(ending: Ending, limits: tuple[BearingLimit, ...]) -> tuple[float, ...]:
-    """Largest values of a disturbance, which is simulated once more."""
-    return largest_along(simulate(ending.rotor, ending.start.state, ending.time), limits)
+def _until_known(ending: Ending, limits: tuple[BearingLimit, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Largest values and jumps of a disturbance, which is simulated once more."""
+    motion = simulate(ending.rotor, ending.start.state, ending.time)
+    return largest_along(motion, limits), largest_jumps(motion, limits)
 
 
 def largest_along(motion: Trajectory, limits: tuple[BearingLimit, ...]) -> tuple[float, ...]:
-    """Largest value of each limit's kind along a motion, in N or A."""
+    """Largest value of each limit's kind along a motion of the planar rotor, in N, A or A/s, but for jumps."""
     fastest = 1.0 + float(np.abs(motion.rotor.system.exponents).max(initial=0.0))
     count = min(math.ceil(motion.time * fastest / STEP) + 2, MOST_INSTANTS)
-    position, velocity = motion.at(motion.sample(count))
-    return tuple(float(limit.asked(position, velocity).max()) for limit in limits)
+    centre = Centre.along(motion, motion.sample(count))
+    return tuple(float(limit.asked(centre).max()) for limit in limits)
+
+
+def largest_jumps(motion: Trajectory, limits: tuple[BearingLimit, ...]) -> tuple[float, ...]:
+    """Largest jump of the control current at an impact of a motion, in A; 0 for a limit that is no slew rate."""
+    sudden = motion.is_impact | motion.is_landing
+    (_, before), (_, after) = (
+        motion.rotor.system.state(states[sudden]) for states in (motion.arrivals, motion.segment_amplitudes[1:])
+    )
+    largest = float(np.abs(after - before).max(initial=0.0))
+    return tuple(limit.per_jump * largest for limit in limits)
 
 
 def actuator_words(study: Study) -> str:
@@ -186,7 +263,7 @@ def actuator_words(study: Study) -> str:
     demand = study.bearing_demand
     if demand is None:
         return ""
-    most = " and ".join(f"{limit.words(limit.most)} of {limit.kind}" for limit in demand.limits)
+    most = listed([f"{limit.words(limit.most)} of {limit.kind}" for limit in demand.limits])
     sentences = [f"Levitation control is assumed linear, and one magnetic bearing gives at most {most}."]
     for motion in dict.fromkeys(each.motion for each in demand.motions):
         reached = [
@@ -194,13 +271,14 @@ def actuator_words(study: Study) -> str:
             for each in demand.motions
             if each.motion == motion
         ]
-        sentences.append(f"In {motion} {' and '.join(reached)}.")
+        sentences.append(f"In {motion} {listed(reached)}.")
     for limit, shares in zip(demand.limits, demand.disturbances, strict=True):
         if len(shares):
             sentences.append(
                 f"{int((shares > 1.0).sum()) or 'None'} of {len(shares)} disturbances ask for more {limit.kind} than that; the most "
                 f"is {number(shares.max(), 3)} times the limit."
             )
+    sentences += _words_of_jumps(demand)
     if demand.doubtful:
         sentences.append(
             f"{demand.doubtful} of the {int(demand.came_back.sum())} that came back are among them: that the real machine comes "
@@ -209,3 +287,16 @@ def actuator_words(study: Study) -> str:
     if any(each.share > 1.0 for each in demand.motions) or demand.doubtful:
         sentences.append("Beyond a limit the real machine moves otherwise than this model.")
     return " ".join(sentences)
+
+
+def _words_of_jumps(demand: BearingDemand) -> list[str]:
+    """Say how long the bearing takes for the largest jump that the controller asks for at an impact."""
+    jumps = [(each.limit, each.jump) for each in demand.motions]
+    jumps += [(limit, float(of.max(initial=0.0))) for limit, of in zip(demand.limits, demand.jumps, strict=True)]
+    limit, jump = max(jumps, key=lambda each: each[1])
+    if not jump:
+        return []
+    return [
+        f"At an impact the controller asks at once for a current that differs by up to {number(jump)} A.",
+        f"The bearing takes {number(1e3 * jump / limit.most)} ms for that; the slew rates are those between impacts.",
+    ]
