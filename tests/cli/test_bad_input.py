@@ -147,7 +147,7 @@ def test_unreadable_files(carom, tmp_path):
 )
 @pytest.mark.parametrize("command", ["study", "orbits", "simulate"])
 def test_nonsense_settings(carom, machine, command, setting):
-    more = ["--kick", "0.1"] if command == "simulate" else []
+    more = ["--kick", "13 mm/s"] if command == "simulate" else []
     assert_refused(carom(command, machine, "--set", setting, *more), setting.partition("=")[0] or "--set")
 
 
@@ -174,13 +174,13 @@ def test_settings_that_set_the_same_thing(carom, machine):
         (("--kick", "fast"), "--kick = fast"),
         (("--kick", "1,2,3"), "SPEED"),
         (("--kick", "nan"), "--kick = nan"),
-        (("--kick", "0.1", "--set", "gamma=0.01"), "--kick = 0.1"),
-        (("--kick", "1", "--until", "0"), "--until = 0"),
-        (("--kick", "1", "--until", "-1"), "--until = -1"),
-        (("--kick", "1", "--until", "nan"), "--until = nan"),
-        (("--kick", "1", "--until", "inf"), "--until = inf"),
-        (("--kick", "1", "--until", "2 m"), "--until = 2 m"),
-        (("--kick", "1", "--until", ""), "--until"),
+        (("--kick", "13 mm/s", "--set", "gamma=0.01"), "--kick = 13 mm/s"),
+        (("--kick", "1 m/s", "--until", "0"), "--until = 0"),
+        (("--kick", "1 m/s", "--until", "-1"), "--until = -1"),
+        (("--kick", "1 m/s", "--until", "nan"), "--until = nan"),
+        (("--kick", "1 m/s", "--until", "inf"), "--until = inf"),
+        (("--kick", "1 m/s", "--until", "2 m"), "--until = 2 m"),
+        (("--kick", "1 m/s", "--until", ""), "--until"),
     ],
 )
 def test_wrong_start(carom, machine, arguments, words):
@@ -188,7 +188,7 @@ def test_wrong_start(carom, machine, arguments, words):
 
 
 def test_units_need_a_machine(carom, dimensionless):
-    for arguments in (("--start", "0.1 mm,0,0,0"), ("--kick", "1 mm/s"), ("--kick", "1", "--until", "1 s")):
+    for arguments in (("--start", "0.1 mm,0,0,0"), ("--kick", "1 mm/s"), ("--kick", "1 m/s", "--until", "1 s")):
         assert_refused(carom("simulate", dimensionless, *arguments), "no scales")
 
 
@@ -234,18 +234,24 @@ def test_wrong_usage(carom, machine, arguments, words):
         (("basins", "MACHINE", "--gains", "100000x100000"), "makes 10000000000 cells; at most 5000000 are allowed"),
         (("basins", "MACHINE", "--grid", "0x5"), "must be 2 whole numbers of at least 1, such as 60x60"),
         (("basins", "MACHINE", "--gains", "1x5"), "must be 2 whole numbers of at least 2, such as 60x60"),
-        (("basins", "MACHINE", "--gains", "2x2", "--x", "3,3"), "--x = 3,3: must be two different values of stiffness"),
-        (("basins", "MACHINE", "--fastest", "1 m"), "(a number without a unit is in c_r Omega)"),
+        (
+            ("basins", "MACHINE", "--gains", "2x2", "--x", "3 N/m,3 N/m"),
+            "--x = 3 N/m,3 N/m: must be two different values of stiffness",
+        ),
+        (("basins", "MACHINE", "--fastest", "1 m"), "such as '50 mm/s'; 'm' is not a unit of velocity"),
         (("bifurcations", "MACHINE", "--along", "speed", "--from", "1 m", "--to", "2"), "--from = 1 m: speed must be"),
-        (("bifurcations", "MACHINE", "--along", "speed", "--from", "1", "--to", "1.0"), "--to = 1.0: must be another"),
+        (
+            ("bifurcations", "MACHINE", "--along", "speed", "--from", "1 rpm", "--to", "1.0 rpm"),
+            "--to = 1.0 rpm: must be another",
+        ),
         (
             ("bifurcations", "MACHINE", "--along", "mu", "--from", "0", "--to", "1", "--seed", "1"),
             "allowed only with --attractors",
         ),
         (("regions", "MACHINE", "--x", "1,1"), "--x = 1,1: must be two different values of gamma"),
         (("regions", "MACHINE", "--x", "1,2,3"), "--x = 1,2,3: must be two different values of gamma"),
-        (("simulate", "MACHINE", "--kick", "1 kg"), "(a number without a unit is in c_r Omega)"),
-        (("simulate", "MACHINE", "--kick", "1", "--until", "1 kg"), "(a number without a unit is in 1/Omega)"),
+        (("simulate", "MACHINE", "--kick", "1 kg"), "such as '50 mm/s'; 'kg' is not a unit of velocity"),
+        (("simulate", "MACHINE", "--kick", "1 m/s", "--until", "1 kg"), "(a number without a unit is in 1/Omega)"),
         (("orbits", "MACHINE", "--set", "speed=1 kg"), "(a number without a unit is in rad/s)"),
     ],
 )
@@ -282,7 +288,7 @@ EVIL = "\x1b[31m\u202e\n\x07\x9b\u2028"
         ("study", "MACHINE", "--out", f"none/{EVIL}\0"),
         ("simulate", "MACHINE", "--kick", EVIL),
         ("simulate", "MACHINE", "--start", EVIL),
-        ("simulate", "MACHINE", "--kick", "1", "--csv", f"none/{EVIL}"),
+        ("simulate", "MACHINE", "--kick", "1 m/s", "--csv", f"none/{EVIL}"),
         ("basins", "MACHINE", "--disturbance", EVIL),
         ("basins", "MACHINE", "--grid", EVIL),
         ("basins", "MACHINE", "--gains", "2x2", "--plane", EVIL),
@@ -311,7 +317,7 @@ def test_logs_that_cannot_be_written(carom, machine, option, tmp_path, monkeypat
     monkeypatch.setattr("carom.cli.simulate._follow", _raise(AssertionError("simulated in vain")))
     special = [path for path in ("/dev/null", "/proc/log") if Path(path).parent.is_dir()]
     for path in (tmp_path, tmp_path / "none" / "log", tmp_path / ("x" * 300), "", "a\0b", *special):
-        assert_refused(carom("simulate", machine, "--kick", "0.01", "--until", "1", option, path), option)
+        assert_refused(carom("simulate", machine, "--kick", "1 mm/s", "--until", "1", option, path), option)
     assert list(tmp_path.iterdir()) == []
 
 

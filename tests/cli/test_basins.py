@@ -32,7 +32,7 @@ def test_json_has_the_promised_keys(carom, machine):
 def test_the_kick_found_is_lost_and_the_json_says_how_to_see_it(carom, machine):
     _, out, _ = carom("basins", machine, "--grid", "6x6", "--fastest", "20 mm/s", "--json")
     document = json.loads(out)
-    kick = f"{document['smallest_unrecovered_kick']!r},{document['smallest_unrecovered_kick_angle']!r}"
+    kick = f"{document['smallest_unrecovered_kick_si']!r} m/s,{document['smallest_unrecovered_kick_angle']!r} rad"
     _, shown, _ = carom("simulate", machine, "--kick", kick, "--json")
     assert json.loads(shown)["outcome"] == document["smallest_unrecovered_kick_outcome"] != "levitated"
 
@@ -88,12 +88,12 @@ def test_table_and_files(carom, machine, tmp_path):
     [
         ("kick-plane", "--grid", "6x6", "--fastest", "30 mm/s"),
         ("shock", "--grid", "5x6", "--peak", "6 g", "--duration", "5 ms"),
-        pytest.param(("shock", "--starts", "20", "--peak", "60 m/s^2", "--duration", "1"), marks=pytest.mark.deep),
+        pytest.param(("shock", "--starts", "20", "--peak", "60 m/s^2", "--duration", "5.4 ms"), marks=pytest.mark.deep),
         ("unbalance-step", "--grid", "5x6", "--before", "0.1 mm"),
         pytest.param(("unbalance-step", "--grid", "5x6"), marks=pytest.mark.deep),
         ("release", "--grid", "9", "--release", "rotating"),
         pytest.param(("slice", "--grid", "8x8"), marks=pytest.mark.deep),
-        ("state", "--starts", "30", "--fastest", "0.5"),
+        ("state", "--starts", "30", "--fastest", "64 mm/s"),
     ],
 )
 def test_every_disturbance(carom, machine, tmp_path, words):
@@ -213,7 +213,7 @@ def test_a_sample_of_which_all_come_back_and_what_it_can_show(carom, machine):
         (("--gains", "1x5"), "--gains = 1x5"),
         (("--gains", "5x5", "--plane", "damping"), "--plane = damping"),
         (("--gains", "5x5", "--plane", "dampin,stiffness"), "did you mean damping"),
-        (("--gains", "5x5", "--x", "1e6,1e6"), "--x = 1e6,1e6"),
+        (("--gains", "5x5", "--x", "1e6 N/m,1e6 N/m"), "--x = 1e6 N/m,1e6 N/m"),
         (("--gains", "5x5", "--wanted", "2"), "--wanted = 2"),
         (("--out", ""), "--out"),
         (("--set", "gamma=0.05"), "disturbance = |U*|"),

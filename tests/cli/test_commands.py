@@ -130,7 +130,7 @@ def test_simulate_as_json(carom, dimensionless):
 
 
 def test_simulate_follows_a_motion_to_its_end(carom, machine):
-    value = document(carom("simulate", machine, "--kick", "0.1,2", "--json"))
+    value = document(carom("simulate", machine, "--kick", "12.894 mm/s,2 rad", "--json"))
 
     assert value["outcome"] == "forward-rub"
     assert value["contacts"][-1]["kind"] == "slide"
@@ -154,8 +154,8 @@ def test_loads_are_compared_with_stated_limits(carom, machine, tmp_path):
     path = tmp_path / "bearing.toml"
     text = Path(machine).read_text(encoding="utf-8")
     path.write_text(f'{text}\n[limits]\nimpulse = "5 N s"\nheat = "1 kJ"\n', encoding="utf-8")
-    value = document(carom("simulate", path, "--kick", "0.1,2", "--json"))
-    _, out, _ = carom("simulate", path, "--kick", "0.1,2")
+    value = document(carom("simulate", path, "--kick", "12.894 mm/s,2 rad", "--json"))
+    _, out, _ = carom("simulate", path, "--kick", "12.894 mm/s,2 rad")
 
     impulse, heat = value["limits"]
     assert (impulse["name"], impulse["limit_si"], impulse["exceeded"]) == ("impulse", 5.0, False)
@@ -166,10 +166,10 @@ def test_loads_are_compared_with_stated_limits(carom, machine, tmp_path):
     )
     assert "Heat of friction: 538 J; it goes on with 1.01 kW." in out
     assert "Normal impulse of an impact: 3.04 N s, limit 5 N s: kept." in out
-    assert "limits" not in document(carom("simulate", machine, "--kick", "0.1,2", "--json"))
+    assert "limits" not in document(carom("simulate", machine, "--kick", "12.894 mm/s,2 rad", "--json"))
 
 
-@pytest.mark.parametrize("options", [("--kick", "0.1"), ("--start", "0,0,0,0")])
+@pytest.mark.parametrize("options", [("--kick", "13 mm/s"), ("--start", "0,0,0,0")])
 def test_one_start_at_a_time(carom, machine, options):
     code, _, err = carom("simulate", machine, "--blade-loss", "0.4", *options)
 
@@ -192,7 +192,17 @@ def test_start_with_units_is_the_same_start(carom, machine):
 
 
 def test_kick_with_units_is_the_same_kick(carom, machine):
-    first = document(carom("simulate", machine, "--kick", f"0.4,{3.141592653589793 / 6!r}", "--until", "50", "--json"))
+    first = document(
+        carom(
+            "simulate",
+            machine,
+            "--kick",
+            f"{0.4 * 0.7e-3 * 184.2!r} m/s,{math.pi / 6!r} rad",
+            "--until",
+            "50",
+            "--json",
+        )
+    )
     second = document(
         carom("simulate", machine, "--kick", f"{0.4 * 0.7 * 184.2!r} mm/s,30 deg", "--until", "50", "--json")
     )
@@ -202,7 +212,7 @@ def test_kick_with_units_is_the_same_kick(carom, machine):
 
 
 def test_simulate_for_people(carom, machine):
-    code, out, err = carom("simulate", machine, "--kick", "0.1,2")
+    code, out, err = carom("simulate", machine, "--kick", "12.894 mm/s,2 rad")
 
     assert (code, err) == (0, "")
     for words in ("rubs along the touchdown bearing", "283 impacts", "forward slip", "N s", "more: --csv FILE has all"):
@@ -210,7 +220,7 @@ def test_simulate_for_people(carom, machine):
 
 
 def test_simulate_without_contact(carom, machine):
-    code, out, _ = carom("simulate", machine, "--kick", "0.001", "--until", "20")
+    code, out, _ = carom("simulate", machine, "--kick", "0.12894 mm/s", "--until", "20")
 
     assert code == 0
     assert "0 impacts" in out

@@ -312,9 +312,20 @@ LINES = (
     ("simulate", "MACHINE", "--kick", "50 mm/s,30 deg"),
     ("basins", "MACHINE", "--fastest", "50 mm/s", "--grid", "60x60"),
     ("basins", "MACHINE", "--disturbance", "shock", "--peak", "20 g", "--duration", "5 ms", "--starts", "1000"),
-    ("basins", "MACHINE", "--gains", "16x16", "--plane", "stiffness,damping", "--x", "5e5,2e6 N/m", "--wanted", "0.9"),
+    (
+        "basins",
+        "MACHINE",
+        "--gains",
+        "16x16",
+        "--plane",
+        "stiffness,damping",
+        "--x",
+        "5e5 N/m,2e6 N/m",
+        "--wanted",
+        "0.9",
+    ),
     ("bifurcations", "MACHINE", "--along", "speed", "--from", "3000 rpm", "--to", "1000 rpm"),
-    ("regions", "MACHINE", "--plane", "speed,damping", "--x", "100,300", "--y", "500 N s/m,4000 N s/m"),
+    ("regions", "MACHINE", "--plane", "speed,damping", "--x", "100 rad/s,300 rad/s", "--y", "500 N s/m,4000 N s/m"),
 )
 
 

@@ -27,7 +27,10 @@ starts = 10
 kind = "kick"
 """
 COMMANDS = {
-    "simulate": (("simulate", MACHINE, "--kick", "0.4,0.2", "--until", "60"), {"figures/motion", "figures/touchdown"}),
+    "simulate": (
+        ("simulate", MACHINE, "--kick", "51.576 mm/s,0.2 rad", "--until", "60"),
+        {"figures/motion", "figures/touchdown"},
+    ),
     "attractors": (("attractors", MACHINE, "--starts", "10"), {"figures/attractors"}),
     "basins": (("basins", MACHINE, "--grid", "6x6"), {"figures/basins"}),
     "response": (("response", MACHINE), {"figures/response"}),

@@ -13,7 +13,7 @@ from carom.progress import Reporter
 MACHINE = "examples/keogh-cole.toml"
 PAPER = "examples/source-paper.toml"
 COMMANDS = {
-    "simulate": ("simulate", MACHINE, "--kick", "0.4,0.2", "--until", "60", "--out", "OUT"),
+    "simulate": ("simulate", MACHINE, "--kick", "51.576 mm/s,0.2 rad", "--until", "60", "--out", "OUT"),
     "orbits": ("orbits", PAPER, "--impacts", "2", "--starts", "4"),
     "basins": ("basins", MACHINE, "--grid", "6x6"),
     "bifurcations": ("bifurcations", PAPER, "--along", "gamma", "--from", "0.1", "--to", "0.12"),

@@ -6,7 +6,18 @@ from pathlib import Path
 import pytest
 
 from carom.cli import main
-from carom.cli.starts import read_kick, read_range, read_start, read_time, with_requirement
+from carom.cli.starts import (
+    check_exact,
+    read_blade_loss,
+    read_kick,
+    read_positive,
+    read_range,
+    read_start,
+    read_time,
+    read_value,
+    with_requirement,
+)
+from carom.disturbances import BladeLoss
 from carom.models import axis
 from carom.motions.starts import Kick, State
 from carom.outcome import InputError
@@ -15,12 +26,80 @@ from carom.parameters import Parameters, Requirement, Scales, Shock, load
 SCALES = Scales(mass=50.0, clearance=0.7e-3, speed=184.2)
 
 
-def test_plain_numbers_are_dimensionless_with_and_without_scales():
+def test_plain_starts_and_times_are_dimensionless_with_and_without_scales():
     for scales in (SCALES, None):
         assert read_start("0.5, -0.25,1e-3,-2", scales) == State(0.5 - 0.25j, 1e-3 - 2j)
-        assert read_kick("0.4", scales) == Kick(0.4)
-        assert read_kick("0.4,0.2", scales) == Kick(0.4, 0.2)
         assert read_time("500", scales) == 500.0
+
+
+def test_plain_disturbances_are_dimensionless_without_scales():
+    assert read_kick("0.4", None) == Kick(0.4)
+    assert read_kick("0.4,0.2", None) == Kick(0.4, 0.2)
+    assert read_kick("1,2", None) == Kick(1.0, 2.0)
+    assert read_blade_loss("0.4,0.2", None) == (BladeLoss(0.4), 0.2)
+    assert read_positive("--peak", "3", "acceleration", None) == 3.0
+
+
+@pytest.mark.parametrize(
+    ("read", "text", "advice"),
+    [
+        (read_kick, "60", "such as '50 mm/s'; this has no unit: write 60 mm/s or 60 m/s"),
+        (read_kick, "50 mm/s,30", "such as '30 deg'; this has no unit: write 30 deg or 30 rad"),
+        (read_kick, "0,06", "or dimensionless as 0.4,0.2; decimals take a point, not a comma: write 0.06"),
+        (read_kick, "0,06 m/s", "decimals take a point, not a comma: write 0.06 m/s"),
+        (read_kick, "1,500 mm/s", "a comma may mark decimals or thousands: write 1.500 mm/s or 1 500 mm/s"),
+        (read_kick, "60,30", "decimals take a point, not a comma: write 60.30"),
+        (read_blade_loss, "0.4", "this has no unit: write 0.4 mm or 0.4 m"),
+        (read_blade_loss, "5,000 g mm", "write 5.000 g mm or 5 000 g mm"),
+        (read_blade_loss, "0.1 mm,30", "this has no unit: write 30 deg or 30 rad"),
+        (lambda text, scales: read_positive("--peak", text, "acceleration", scales), "20", "write 20 g or 20 m/s^2"),
+        (lambda text, scales: read_positive("--duration", text, "time", scales), "5", "write 5 ms or 5 s"),
+    ],
+)
+def test_bare_numbers_are_refused_where_units_are_known_with_what_to_write(read, text, advice):
+    with pytest.raises(InputError) as caught:
+        read(text, SCALES)
+
+    assert str(caught.value).endswith(advice)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_decimal_comma_is_no_kick_of_zero_without_scales_either():
+    with pytest.raises(InputError, match=r"--kick = 0,06: must be SPEED .* write 0\.06$"):
+        read_kick("0,06", None)
+
+
+def test_an_angle_of_zero_needs_no_unit():
+    assert read_kick("50 mm/s,0", SCALES) == Kick(0.05 / SCALES.velocity, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "advice"),
+    [
+        (
+            "speed",
+            "500",
+            "--from = 500: speed must be an angular speed in rad/s, .*; this has no unit: write 500 rpm or 500 rad/s",
+        ),
+        ("damping", "1e3", "this has no unit: write 1e3 N s/m"),
+        ("unbalance_phase", "3", "this has no unit: write 3 rad"),
+    ],
+)
+def test_values_of_physical_parameters_need_their_unit(name, text, advice):
+    parameters = Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0, SCALES)
+    with pytest.raises(InputError, match=advice):
+        read_value("--from", text, axis(parameters, name))
+    for exact in (text, f"double {text}"):
+        with pytest.raises(InputError, match="this has no unit"):
+            check_exact("--from", exact, name)
+
+
+@pytest.mark.parametrize(("name", "number"), [("friction", 0.2), ("gamma", 0.2), ("phi", 0.2), ("radius_ratio", 0.2)])
+def test_values_without_dimension_need_no_unit(name, number):
+    parameters = Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0, SCALES)
+
+    assert read_value("--from", "0.2", axis(parameters, name)) == number
+    check_exact("--from", "0.2", name)
 
 
 def test_units_may_be_mixed():
@@ -58,9 +137,12 @@ def test_a_range_may_be_given_in_either_order():
     parameters = Parameters(0.15, 0.76, 0.3, 0.21, 0.15, 0.95, 57.0, SCALES)
     damping = axis(parameters, "damping")
 
-    assert read_range("--x", "4000 N s/m, 500", damping) == (500.0, 4000.0)
-    assert read_range("--x", "500,4 kN s/m", damping) == (500.0, 4000.0)
-    with pytest.raises(InputError, match=r"--x = 1 m: damping must be a damping in N s/m, .* is in N s/m\)"):
+    assert read_range("--x", "4000 N s/m, 500 N s/m", damping) == (500.0, 4000.0)
+    assert read_range("--x", "500 N s/m,4 kN s/m", damping) == (500.0, 4000.0)
+    assert read_range("--x", "1,400 N s/m,12,500 N s/m", damping) == (1400.0, 12500.0)
+    with pytest.raises(
+        InputError, match=r"--x = 1 m: damping must be a damping in N s/m, .*; 'm' is not a unit of damping"
+    ):
         read_range("--x", "1 m,2", damping)
 
 

@@ -21,7 +21,7 @@ NAMES = re.findall(r"^\| ([^|`]+?) \|", PAGE, re.MULTILINE)[1:]
 COMMANDS = {
     "study": ("study", MACHINE),
     "orbits": ("orbits", MACHINE),
-    "simulate": ("simulate", MACHINE, "--kick", "0.4,0.2", "--until", "100"),
+    "simulate": ("simulate", MACHINE, "--kick", "51.576 mm/s,0.2 rad", "--until", "100"),
     "basins": ("basins", MACHINE, "--grid", "14x14"),
     "bifurcations": ("bifurcations", MACHINE, "--along", "speed", "--from", "1500 rpm", "--to", "2000 rpm"),
     "regions": ("regions", MACHINE, "--plane", "gamma,omega", "--x", "0.1,0.2", "--y", "0.7,0.8", "--grid", "6"),

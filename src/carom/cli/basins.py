@@ -41,9 +41,8 @@ def basins(
 ) -> None:
     """Find where disturbances go: what share comes back, the smallest that does not, and the gains that help.
 
-    Every start is followed to where it settles. Values without a unit are dimensionless: lengths in clearances, times
-    in 1/Omega; those of a parameter of the machine are in SI units. With --gains the share that comes back is mapped
-    against P and D gain, or any two parameters.
+    Every start is followed to where it settles. Values need units, such as '50 mm/s', unless the machine file is
+    dimensionless. With --gains the share that comes back is mapped against P and D gain, or any two parameters.
     """
     with progress("loading") as tell:
         from carom.parameters import load

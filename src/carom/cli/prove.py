@@ -52,6 +52,7 @@ def prove(
     reason. A certificate can be verified by itself, without any search. Needs the extra carom[proof].
     """
     with progress("loading") as tell:
+        from carom.cli.starts import check_exact
         from carom.proofs import check as verify
         from carom.proofs import prove as prove_machine
 
@@ -66,6 +67,8 @@ def prove(
             if (start is None or stop is None) and not (along is start is stop is None):
                 raise InputError("--along", shown(along), "needs --from and --to, and these need --along")
             interval = None if start is None or stop is None else (start, stop)
+            for option, end in zip(("--from", "--to"), interval or (), strict=False):
+                check_exact(option, end, str(along))
             proof = prove_machine(
                 machine,
                 settings or (),

@@ -36,7 +36,7 @@ def simulate(
         str | None,
         typer.Option(
             metavar="SPEED[,ANGLE]",
-            help="Instead of --start: a velocity kick out of levitation; in c_r Omega and rad, or with units.",
+            help="Instead of --start: a velocity kick out of levitation, such as '50 mm/s,30 deg'.",
         ),
     ] = None,
     blade_loss: Annotated[

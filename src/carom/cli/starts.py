@@ -1,5 +1,7 @@
-"""Read starts, kicks, times and ranges from text: dimensionless, or with units if the machine is known.
+"""Read starts, kicks, times and ranges from text: with units where the machine is in SI units, otherwise dimensionless.
 
+A bare number for a quantity with a dimension is refused for a machine in SI units: ``--kick 60`` may mean 60 mm/s, or 60 times
+``c_r Ω``.  Starts and times to follow a motion may be either, for they are often those of another result.
 What cannot be read raises an :class:`~carom.outcome.InputError` that names the option, the value and what is allowed.
 """
 
@@ -10,7 +12,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from carom.outcome import InputError, together
-from carom.parameters import Case, Requirement, Scales, read_quantity, read_size
+from carom.parameters import (
+    DIMENSIONLESS_FIELDS,
+    MACHINE_FIELDS,
+    Case,
+    Field,
+    Requirement,
+    Scales,
+    read_quantity,
+    read_size,
+)
+from carom.parameters.quantities import comma_advice, without_separators
 
 if TYPE_CHECKING:
     from carom.disturbances import BladeLoss
@@ -18,8 +30,8 @@ if TYPE_CHECKING:
     from carom.motions.starts import Kick, State
 
 _START = "must be four values RE,IM,VRE,VIM such as 0.5,0,0,0.1 or '0.3 mm,0 mm,5 mm/s,0 m/s'"
-_BLADE_LOSS = "must be AFTER or AFTER,PHASE such as 0.4,0.2 or '0.1 mm,30 deg' or '5000 g mm,30 deg'"
-_KICK = "must be SPEED or SPEED,ANGLE such as 0.4,0.2 or '50 mm/s,30 deg'"
+_BLADE_LOSS = "must be AFTER or AFTER,PHASE such as '0.1 mm,30 deg' or '5000 g mm,30 deg', or dimensionless as 0.4,0.2"
+_KICK = "must be SPEED or SPEED,ANGLE such as '50 mm/s,30 deg', or dimensionless as 0.4,0.2"
 
 
 def read_start(text: str, scales: Scales | None) -> State:
@@ -37,9 +49,8 @@ def read_start(text: str, scales: Scales | None) -> State:
 
 def read_kick(text: str, scales: Scales | None) -> Kick:
     """Read ``SPEED`` or ``SPEED,ANGLE``: a velocity kick out of levitation, co-rotating frame."""
-    speed, *angle = _split("--kick", text, (1, 2), _KICK)
-    size = read_size("--kick", speed, "velocity", scales).own(scales)
-    direction = read_size("--kick", angle[0], "angle", scales).own(scales) if angle else 0.0
+    speed, direction = _with_angle("--kick", text, _KICK, scales)
+    size = _size("--kick", speed, "velocity", scales)
     from carom.motions.starts import Kick
 
     return Kick(size, direction)
@@ -47,12 +58,24 @@ def read_kick(text: str, scales: Scales | None) -> Kick:
 
 def read_blade_loss(text: str, scales: Scales | None) -> tuple[BladeLoss, float]:
     """Read ``AFTER`` or ``AFTER,PHASE``: the unbalance after the loss of a blade, and its phase relative to the one before."""
-    after, *phase = _split("--blade-loss", text, (1, 2), _BLADE_LOSS)
-    size = read_unbalance("--blade-loss", after, scales)
-    turned = read_size("--blade-loss", phase[0], "angle", scales).own(scales) if phase else 0.0
+    after, turned = _with_angle("--blade-loss", text, _BLADE_LOSS, scales)
     from carom.disturbances import BladeLoss
 
-    return BladeLoss(size), turned
+    return BladeLoss(read_unbalance("--blade-loss", after, scales)), turned
+
+
+def _with_angle(option: str, text: str, allowed: str, scales: Scales | None) -> tuple[str, float]:
+    """Split a size and perhaps an angle, 0 by default; say what is meant by a comma that seems to mark decimals."""
+    size, *angle = _split(option, text, (1, 2), allowed)
+    if angle and (advice := comma_advice(text)) and (scales is not None or not size.strip("0.")):
+        raise InputError(option, text, f"{allowed}; {advice}")
+    turned = _size(option, angle[0], "angle", scales) if angle and angle[0].strip("0.") else 0.0
+    return size, turned
+
+
+def _size(option: str, text: str, kind: str, scales: Scales | None) -> float:
+    """Read a size in units of the equations; where the scales are known, it needs a unit."""
+    return read_size(option, text, kind, scales, bare=False).own(scales)
 
 
 def with_requirement(case: Case, **given: str | None) -> Case:
@@ -65,13 +88,16 @@ def with_requirement(case: Case, **given: str | None) -> Case:
 
 
 def read_time(text: str, scales: Scales | None, option: str = "--until") -> float:
-    """Read a time in ``1/Ω``, or with a unit of time."""
-    return read_positive(option, text, "time", scales)
+    """Read a time above 0, in ``1/Ω`` or with a unit of time."""
+    return _above_zero(option, text, "time", read_size(option, text, "time", scales).own(scales))
 
 
 def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> float:
     """Read a length, velocity, acceleration or time above 0, in units of the equations."""
-    size = read_size(option, text, kind, scales).own(scales)
+    return _above_zero(option, text, kind, _size(option, text, kind, scales))
+
+
+def _above_zero(option: str, text: str, kind: str, size: float) -> float:
     if not size > 0:
         article = "an" if kind[0] in "aeiou" else "a"
         raise InputError(option, text, f"must be {article} {kind} above 0")
@@ -79,27 +105,42 @@ def read_positive(option: str, text: str, kind: str, scales: Scales | None) -> f
 
 
 def read_unbalance(option: str, text: str, scales: Scales | None) -> float:
-    """Read an eccentricity, in ``c_r`` or with a unit of length, or an unbalance with a unit such as g mm; return it in ``c_r``."""
+    """Read an unbalance as an eccentricity in clearances: a length, or text with a unit of unbalance such as ``5000 g mm``."""
     try:
         return read_positive(option, text, "length", scales)
     except InputError as problem:
         if scales is None:
             raise
         try:
-            size = read_size(option, text, "unbalance", scales)
+            size = _size(option, text, "unbalance", scales)
         except InputError:
             raise problem from None
-    if not size.in_si or not size.own(scales) > 0.0:
+    if not size > 0.0:
         raise InputError(option, text, "must be an eccentricity or an unbalance above 0, such as 0.1 mm or 5000 g mm")
-    return size.own(scales)
+    return size
 
 
 def read_value(option: str, text: str, varied: Axis) -> float:
-    """Read a value of a parameter to vary."""
+    """Read a value of a parameter to vary; that of a physical one needs its unit."""
     try:
-        return read_quantity(varied.field, text)
+        return read_quantity(_of_command_line(varied.field), text)
     except InputError as problem:
         raise InputError(option, problem.value, f"{varied.name} {problem.allowed}") from None
+
+
+def check_exact(option: str, text: str, name: str) -> None:
+    """Refuse a value of a physical parameter without its unit, where it is read exactly."""
+    if name in MACHINE_FIELDS:
+        from carom.parameters.exact import read_exact
+
+        try:
+            read_exact(_of_command_line(MACHINE_FIELDS[name]), text)
+        except InputError as problem:
+            raise InputError(option, problem.value, f"{name} {problem.allowed}") from None
+
+
+def _of_command_line(field: Field) -> Field:
+    return replace(field, needs_unit=bool(field.unit) and field.name not in DIMENSIONLESS_FIELDS)
 
 
 def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
@@ -112,7 +153,16 @@ def read_range(option: str, text: str, varied: Axis) -> tuple[float, float]:
 
 
 def _split(option: str, text: str, counts: tuple[int, ...], allowed: str) -> list[str]:
-    parts = [part.strip() for part in text.split(",")]
+    """Split at commas, but not at those that separate thousands."""
+    pieces, parts = text.split(","), list[str]()
+    while pieces:
+        size = next(size for size in range(len(pieces), 0, -1) if size == 1 or _is_number(",".join(pieces[:size])))
+        parts.append(",".join(pieces[:size]).strip())
+        del pieces[:size]
     if len(parts) not in counts or not all(parts):
         raise InputError(option, text, allowed)
     return parts
+
+
+def _is_number(text: str) -> bool:
+    return "," not in without_separators(text)

@@ -8,7 +8,7 @@ from decimal import Context, Decimal, localcontext
 from fractions import Fraction
 
 from carom.parameters.fields import Field
-from carom.parameters.quantities import comma_advice, read_quantity, unit_factor, without_separators
+from carom.parameters.quantities import comma_advice, read_quantity, unit_advice, unit_factor, without_separators
 
 _NUMBER = re.compile(
     r"(?P<number>[+-]?[0-9]+ */ *[0-9]+|[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(?P<unit>.*)"
@@ -73,6 +73,8 @@ def read_exact(field: Field, text: str) -> ExactNumber:
         # Python reads digits of all scripts, with underscores between them.
         if "_" in digits or not digits.isascii():
             raise field.error(text, "this is not a number")
+        if field.needs_unit:
+            raise field.error(text, unit_advice(field, repr(number)))
         read_quantity(field, number)
         return ExactNumber(Fraction(number), Fraction(number))
     return _from_text(field, text)
@@ -95,6 +97,8 @@ def _from_text(field: Field, text: str) -> ExactNumber:
         if written and abs(written.adjusted()) > _LARGEST_EXPONENT:
             raise field.error(text, "this is out of range")
         value = Fraction(written)
+    if field.needs_unit and not unit:
+        raise field.error(text, unit_advice(field, number))
     factor, turns = _exact_factor(field, unit, text)
     value *= factor
     # 22/7 is close enough to π for a check of the range.

@@ -50,6 +50,8 @@ class Field:
         Letter that may precede the number in place of a unit: ``"G"`` of a balance quality grade.
     whole : bool
         Whether it must be a whole number.
+    needs_unit : bool
+        Whether text without a unit is refused, as on the command line of a machine in SI units.
     """
 
     name: str
@@ -67,6 +69,7 @@ class Field:
     usual_size: float = 1.0
     letter: str = ""
     whole: bool = False
+    needs_unit: bool = False
 
     @property
     def usual_unit(self) -> str:
@@ -86,7 +89,7 @@ class Field:
         elif self.lowest > 0:
             limits = f"> 0 ({limits})"
         unit = f" in {self.unit}" if self.unit else ""
-        bare = self.bare or self.unit
+        bare = "" if self.needs_unit else self.bare or self.unit
         bare = f" (a number without a unit is in {bare})" if bare else ""
         return f"must be {self.kind}{unit}, {limits}, such as {self.example}{bare}"
 

@@ -140,6 +140,8 @@ def _from_text(field: Field, text: str) -> float | Decimal:
     if not match:
         raise field.error(text, "this does not start with a number" if text.strip() else "this is empty")
     number, unit = float(match["number"]), match["unit"].strip()
+    if field.needs_unit and not unit:
+        raise field.error(text, unit_advice(field, plain))
     if lettered and unit:
         raise field.error(text, f"a number after {field.letter} has no unit")
     if number == 0 or not math.isfinite(number):  # also decimals too long for Decimal, such as 1e-999999999999
@@ -148,6 +150,12 @@ def _from_text(field: Field, text: str) -> float | Decimal:
         return number
     with decimal.localcontext(_DIGITS):
         return Decimal(match["number"]) * unit_factor(field, unit, text) if unit else Decimal(match["number"])
+
+
+def unit_advice(field: Field, number: str) -> str:
+    """Say how to write a number without a unit."""
+    written = (f"{number} {unit}" for unit in dict.fromkeys((field.usual_unit, field.unit)))
+    return f"this has no unit: write {shown(' or '.join(written))}"
 
 
 def unit_factor(field: Field, unit: str, text: str) -> Decimal:

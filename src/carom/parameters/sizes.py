@@ -18,17 +18,18 @@ _HUGE = 1e12
 class _Kind(NamedTuple):
     words: str
     unit: str
+    usual: str
     own: str
     example: str
 
 
 _KINDS: Mapping[str, _Kind] = {
-    "length": _Kind("a length", "m", "c_r", "0.3 mm"),
-    "velocity": _Kind("a velocity", "m/s", "c_r Omega", "50 mm/s"),
-    "acceleration": _Kind("an acceleration", "m/s^2", "c_r Omega^2", "20 g"),
-    "unbalance": _Kind("an unbalance", "kg m", "m c_r", "5000 g mm"),
-    "time": _Kind("a time", "s", "1/Omega", "11 ms"),
-    "angle": _Kind("an angle", "rad", "rad", "30 deg"),
+    "length": _Kind("a length", "m", "mm", "c_r", "0.3 mm"),
+    "velocity": _Kind("a velocity", "m/s", "mm/s", "c_r Omega", "50 mm/s"),
+    "acceleration": _Kind("an acceleration", "m/s^2", "g", "c_r Omega^2", "20 g"),
+    "unbalance": _Kind("an unbalance", "kg m", "g mm", "m c_r", "5000 g mm"),
+    "time": _Kind("a time", "s", "ms", "1/Omega", "11 ms"),
+    "angle": _Kind("an angle", "rad", "deg", "rad", "30 deg"),
 }
 _PLAIN = re.compile(r"\s*[+-]?(?:[0-9.]+(?:[eE][+-]?[0-9]+)?|(?i:nan|inf|infinity))\s*")
 _GRAVITIES = re.compile(r"(.*[0-9.])\s*g\s*", re.DOTALL)
@@ -55,7 +56,7 @@ class Size(NamedTuple):
         return self.value / float(getattr(scales, self.kind)) if self.in_si else self.value
 
 
-def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Size:
+def read_size(name: str, given: object, kind: str, scales: Scales | None, bare: bool = True) -> Size:
     """Read a size: a number without a unit, in quotes or not, is in units of the equations.
 
     Parameters
@@ -64,21 +65,27 @@ def read_size(name: str, given: object, kind: str, scales: Scales | None) -> Siz
         Name of the option or entry, for error messages.
     given : object
         A real number, or text; in ``"20 g"`` the unit is the standard gravity.
-    kind : {"length", "velocity", "acceleration", "time", "angle"}
+    kind : {"length", "velocity", "acceleration", "unbalance", "time", "angle"}
     scales : Scales or None
         Needed for values with units.
+    bare : bool
+        Whether text without a unit is allowed where the scales are known.
 
     Raises
     ------
     InputError
-        The value is not a size of this kind, or it has a unit and the scales are not known.
+        The value is not a size of this kind, or it has a unit and the scales are not known, or none where it needs one.
     """
-    words, unit, own, example = _KINDS[kind]
+    words, unit, usual, own, example = _KINDS[kind]
+    needs_unit = scales is not None and not bare
     field = Field(name, "", "", words, "", -_HUGE, _HUGE, f"0.5 or '{example}'", bare=own)
-    if is_plain(given):
+    if not isinstance(given, str) or (is_plain(given) and not needs_unit):
         return Size(read_quantity(field, given), False, kind)
+    in_units = replace(field, unit=unit, usual=usual, needs_unit=needs_unit)
+    if needs_unit:
+        in_units = replace(in_units, example=f"'{example}'")
     try:
-        number = read_quantity(replace(field, unit=unit), in_gravities(given) if kind == "acceleration" else given)
+        number = read_quantity(in_units, in_gravities(given) if kind == "acceleration" else given)
     except InputError as problem:
         raise InputError(name, shown(given), problem.allowed) from None
     if kind == "angle":
