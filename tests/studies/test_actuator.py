@@ -175,7 +175,7 @@ BEARING_NUMBERS = {"magnetic_bearings": 2, "force_current_factor": 70.0, "negati
 def test_a_study_says_what_the_bearings_cannot_give():
     """The study of a machine without limits, which other tests look at too, with the limits of its bearings."""
     free = study_once(QUIET)
-    machine = Machine.from_parameters(QUIET).replace(force_limit="900 N", **BEARING_NUMBERS, current_limit="1 kA")
+    machine = Machine.from_parameters(QUIET).replace(force_limit="500 N", **BEARING_NUMBERS, current_limit="1 kA")
     case = Case("limited", QUIET, machine, Zones())
     result = dataclasses.replace(free, case=case)
     demand = result.bearing_demand
@@ -185,12 +185,12 @@ def test_a_study_says_what_the_bearings_cannot_give():
     assert not (demand.disturbances[1] > 1.0).any()
     assert demand.doubtful == beyond.sum()
     text = next(finding.text for finding in result.verdict.findings if finding.topic == "Magnetic bearings")
-    assert "at most 900 N of force and 1,000 A of current" in text
+    assert "at most 500 N of force and 1,000 A of current" in text
     assert f"{beyond.sum()} of {len(beyond)} disturbances ask for more force than that" in text
     assert f"None of {len(beyond)} disturbances ask for more current than that" in text
     (levitation,) = [each for each in demand.motions if (each.motion, each.limit.kind) == ("levitation", "force")]
     assert (
-        f"In levitation the bearing force reaches {levitation.share:.3g} times its limit of 900 N and the bearing"
+        f"In levitation the bearing force reaches {levitation.share:.3g} times its limit of 500 N and the bearing"
         in text
     )
     assert f"{demand.doubtful} of the {len(beyond)} that came back are among them" in text
@@ -198,7 +198,7 @@ def test_a_study_says_what_the_bearings_cannot_give():
     document = json.loads(as_json(result.to_dict()))["bearing_demand"]
     assert document["came_back_beyond"] == demand.doubtful
     assert document["disturbances"][0]["beyond"] == beyond.sum()
-    assert math.isclose(document["motions"][0]["share"], document["motions"][0]["largest_si"] / 900.0, rel_tol=1e-12)
+    assert math.isclose(document["motions"][0]["share"], document["motions"][0]["largest_si"] / 500.0, rel_tol=1e-12)
 
     # The worst disturbance, followed again at random instants.
     rng = np.random.default_rng(1)
@@ -209,7 +209,7 @@ def test_a_study_says_what_the_bearings_cannot_give():
     machine, scales = case.machine, case.parameters.scales
     z, w = position * scales.length, (velocity + 1j * position) * scales.velocity
     forces = np.abs(machine.stiffness * z + machine.damping * w) / machine.magnetic_bearings
-    assert forces.max() / 900.0 == pytest.approx(demand.disturbances[0][worst], rel=2e-3)
+    assert forces.max() / 500.0 == pytest.approx(demand.disturbances[0][worst], rel=2e-3)
 
 
 @pytest.mark.jit_only
